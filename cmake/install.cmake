@@ -1,0 +1,18 @@
+# find_package(raymoval) gives raymoval::core, raymoval::datasets, raymoval::methods, raymoval::eval.
+include(CMakePackageConfigHelpers)
+set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/raymoval)
+
+install(TARGETS raymoval_core raymoval_datasets raymoval_methods raymoval_eval
+        EXPORT raymovalTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS raymoval_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+foreach(room core datasets methods eval)
+  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raymoval
+          FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(DIRECTORY results/published DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval)
+install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir})
+configure_package_config_file(cmake/raymovalConfig.cmake.in raymovalConfig.cmake
+                              INSTALL_DESTINATION ${config_dir})
+write_basic_package_version_file(raymovalConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfigVersion.cmake DESTINATION ${config_dir})

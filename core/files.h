@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raymoval {
+
+/// Whole file as bytes. @throws DataError naming the path and the system's reason.
+std::vector<std::byte> read_bytes(const std::filesystem::path& path);
+
+/// Whole file as text, a leading UTF-8 byte order mark removed.
+std::string read_text(const std::filesystem::path& path);
+
+/// Writes `content` so that `path` either keeps what it held or holds all of it: temporary file in
+/// the same folder, fsync, rename, fsync of the folder. @throws DataError (disk full, no rights).
+void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// JSON with // and /* */ comments. @throws ConfigurationError with line, column and reason.
+nlohmann::json read_json(const std::filesystem::path& path);
+
+/// Checks that `json` is an object whose keys are all in `allowed`.
+/// @throws ConfigurationError naming `where` and suggesting the nearest legal key.
+void check_keys(const nlohmann::json& json, const std::vector<std::string>& allowed,
+                const std::string& where);
+
+/// 128-bit content hash (XXH3) as 32 hexadecimal digits; for identity, not for security.
+std::string content_hash(std::string_view content);
+
+/// The same of data given piece by piece.
+class ContentHasher {
+ public:
+  ContentHasher();
+  ~ContentHasher();
+  ContentHasher(const ContentHasher&) = delete;
+  ContentHasher& operator=(const ContentHasher&) = delete;
+  void add(const void* data, std::size_t size);
+  void add(std::string_view text) { add(text.data(), text.size()); }
+  [[nodiscard]] std::string digest() const;
+
+ private:
+  void* state_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace raymoval {
+
+/// What a label word means for an evaluation.
+enum class LabelClass : std::uint8_t { kStatic = 0, kMoving = 1, kIgnored = 2 };
+
+/// Which semantic ids move and which are ignored; every other id is static.
+struct LabelRule {
+  std::string name = "semantickitti";
+  std::vector<std::uint16_t> moving = {252, 253, 254, 255, 256, 257, 258, 259};
+  std::vector<std::uint16_t> ignored = {};
+
+  [[nodiscard]] LabelClass classify(std::uint32_t word) const;
+};
+
+/// Reads {"moving": [ids], "ignored": [ids], "name": text}; missing keys keep `base`'s values.
+/// @throws ConfigurationError if an id is no whole number from 0 to 65535 or stands in both lists.
+LabelRule label_rule_from_json(const nlohmann::json& json, const LabelRule& base,
+                               const std::string& where);
+nlohmann::ordered_json to_json(const LabelRule& rule);
+
+}  // namespace raymoval

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "core/parallel.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace raymoval {
+
+int hardware_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+namespace {
+
+/// Keeps the exception of the lowest chunk, so that the error reported does not depend on timing.
+class FirstError {
+ public:
+  void keep(std::size_t chunk) {
+    const std::lock_guard lock(mutex_);
+    if (!error_ || chunk < chunk_) {
+      error_ = std::current_exception();
+      chunk_ = chunk;
+    }
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  std::size_t chunk_ = 0;
+};
+
+}  // namespace
+
+void parallel_chunks(int threads, std::size_t count, std::size_t grain,
+                     const std::function<void(std::size_t, std::size_t)>& body) {
+  grain = std::max<std::size_t>(grain, 1);
+  const std::size_t chunks = (count + grain - 1) / grain;
+  const auto run_chunk = [&](std::size_t chunk) {
+    body(chunk * grain, std::min(count, (chunk + 1) * grain));
+  };
+  if (threads <= 1 || chunks <= 1) {
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
+    return;
+  }
+  FirstError first_error;
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, chunks, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
+            try {
+              run_chunk(chunk);
+            } catch (...) {
+              first_error.keep(chunk);
+            }
+          }
+        },
+        tbb::simple_partitioner());
+  });
+  first_error.rethrow();
+}
+
+}  // namespace raymoval

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "core/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+using std::chrono::duration;
+
+std::string duration_text(double seconds) {
+  const long whole = std::max(0L, static_cast<long>(seconds + 0.5));
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
+}
+
+}  // namespace
+
+ProgressStyle progress_style_of_stderr() {
+  return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::kTerminal : ProgressStyle::kLog;
+}
+
+void Progress::begin(const std::string& task, std::size_t total) {
+  const std::lock_guard lock(mutex_);
+  task_ = task;
+  total_ = total;
+  done_ = 0;
+  started_ = printed_ = Clock::now();
+  if (style_ == ProgressStyle::kTerminal) print_terminal(started_);
+}
+
+void Progress::advance(std::size_t steps) {
+  const std::lock_guard lock(mutex_);
+  done_ += steps;
+  if (style_ == ProgressStyle::kQuiet) return;
+  const auto now = Clock::now();
+  const double since = duration<double>(now - printed_).count();
+  if (style_ == ProgressStyle::kTerminal && since >= 0.1) print_terminal(now);
+  if (style_ == ProgressStyle::kLog && since >= 30.0) print_log(now);
+}
+
+void Progress::end() {
+  const std::lock_guard lock(mutex_);
+  if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stderr);
+  total_ = 0;
+}
+
+void Progress::say(const std::string& line) {
+  if (style_ == ProgressStyle::kQuiet) return;
+  const std::lock_guard lock(mutex_);
+  if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stderr);
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+std::string Progress::status(Clock::time_point now) const {
+  const double elapsed = duration<double>(now - started_).count();
+  std::string text = task_ + ": " + std::to_string(done_) + " of " + std::to_string(total_);
+  if (done_ > 0 && elapsed > 0.5) {
+    const double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
+    text += ", about " + duration_text(left) + " left";
+  }
+  return text;
+}
+
+void Progress::print_terminal(Clock::time_point now) {
+  printed_ = now;
+  std::fprintf(stderr, "\r\x1b[K%s", status(now).c_str());
+  std::fflush(stderr);
+}
+
+void Progress::print_log(Clock::time_point now) {
+  printed_ = now;
+  std::fprintf(stderr, "%s\n", status(now).c_str());
+}
+
+}  // namespace raymoval

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <mutex>
+#include <string>
+
+namespace raymoval {
+
+/// How progress is told on standard error.
+enum class ProgressStyle {
+  kQuiet,     ///< Not at all.
+  kLog,       ///< A line at the start and every half minute.
+  kTerminal,  ///< One line, rewritten, with an estimate of the time left.
+};
+
+/// `kTerminal` if standard error is a terminal, else `kLog`.
+ProgressStyle progress_style_of_stderr();
+
+/// Tells how far a long task is. Thread-safe.
+class Progress {
+ public:
+  explicit Progress(ProgressStyle style = ProgressStyle::kQuiet) : style_(style) {}
+  /// Starts a task of `total` steps, such as "raymoval:online on 05".
+  void begin(const std::string& task, std::size_t total);
+  void advance(std::size_t steps = 1);
+  /// Ends the task; on a terminal its line is cleared.
+  void end();
+  /// Prints a line of its own, not mixed with a progress line.
+  void say(const std::string& line);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void print_terminal(Clock::time_point now);
+  void print_log(Clock::time_point now);
+  [[nodiscard]] std::string status(Clock::time_point now) const;
+
+  ProgressStyle style_;
+  std::mutex mutex_;
+  std::string task_;
+  std::size_t total_ = 0;
+  std::size_t done_ = 0;
+  Clock::time_point started_, printed_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raymoval {
+
+/// Shortest text that reads back as exactly `value`; never depends on the locale.
+std::string number_text(double value);
+
+/// `value` with `decimals` digits after the point, rounded to nearest; locale independent.
+std::string fixed_text(double value, int decimals);
+
+/// 1234567 -> "1,234,567".
+std::string grouped_text(std::uint64_t value);
+
+/// The whole of `text` read as a number (a leading '+' is allowed); nothing if any character is
+/// left over or the value does not fit.
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// Pieces of `text` between blanks and tabs (also carriage returns); empty pieces are dropped.
+std::vector<std::string_view> split_blanks(std::string_view text);
+
+/// Pieces of `text` between each `separator`; empty pieces are kept.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// "a, b, c".
+std::string join(const std::vector<std::string>& parts, std::string_view separator = ", ");
+
+/// The candidate with the smallest edit distance to `name`, or nothing if none is near (more than
+/// a third of the longer name would have to change, and neither contains the other).
+std::optional<std::string> closest_name(std::string_view name,
+                                        const std::vector<std::string>& candidates);
+
+/// " Did you mean 'x'?" or, with no near candidate, " Supported are: a, b.".
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
+
+}  // namespace raymoval

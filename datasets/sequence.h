@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/label_rule.h"
+#include "core/range_limits.h"
+#include "core/scan_source.h"
+
+namespace raymoval {
+
+/// `START:STOP:STRIDE` over frame numbers, ends inclusive; any part may be empty (`::2`).
+struct FrameRange {
+  std::optional<long> first;
+  std::optional<long> last;
+  long stride = 1;
+};
+
+/// @throws UsageError saying what the form is.
+FrameRange parse_frame_range(const std::string& text);
+std::string frame_range_text(const FrameRange& range);
+
+/// What a user may say about a sequence; whatever is empty comes from the folder's sequence.json,
+/// else from the data set's defaults.
+struct SequenceOptions {
+  std::optional<FrameRange> frames;
+  std::optional<std::string> poses;                 ///< Pose file, a name in the folder or a path.
+  std::optional<std::filesystem::path> label_rule;  ///< JSON file.
+  std::optional<RangeLimits> range_m;
+  std::optional<std::string> sensor;  ///< Name of a known sensor, or "estimated".
+  std::optional<std::string> name;    ///< Name in results.
+};
+
+/// An opened sequence: where its scans and labels come from and how they are to be read.
+struct Sequence {
+  std::string name;
+  std::string layout;  ///< "semantickitti", "dynamicmap", "files", "simulated".
+  std::shared_ptr<const ScanSource> scans;
+  std::shared_ptr<const LabelSource> labels;  ///< Null if the data has none.
+  LabelRule label_rule;
+  RangeLimits range_m;
+  std::string frames;      ///< Range as used, "2350:2670:2".
+  std::string poses_file;  ///< Name of the pose file, without a path.
+  std::string source;      ///< Free text on origin and licence.
+  std::optional<double> scan_period_s;
+
+  /// Path-free record for results: name, layout, frames, poses, sensor, label rule, range.
+  [[nodiscard]] nlohmann::ordered_json record() const;
+};
+
+/// Opens `path` (a sequence folder, a root with `sequences/NN` followed by `:NN` or the name of
+/// one of the paper's segments, or `street`, the built-in procedural scene).
+/// @throws DataError or UsageError saying what was found and what was expected.
+Sequence open_sequence(const std::string& path, const SequenceOptions& options);
+
+/// Hash of everything a method or protocol reads: points, poses, labels of the chosen frames.
+/// @param threads used for reading; the answer does not depend on it
+std::string fingerprint(const Sequence& sequence, int threads);
+
+}  // namespace raymoval

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/label_rule.h"
+#include "core/mask_store.h"
+#include "core/parameters.h"
+#include "core/progress.h"
+#include "core/range_limits.h"
+#include "core/scan_source.h"
+
+namespace raymoval {
+
+/// What a protocol scores against: posed scans, a label word per point, and what labels mean.
+struct EvaluationInput {
+  const ScanSource* scans = nullptr;
+  const LabelSource* labels = nullptr;
+  LabelRule label_rule;
+  RangeLimits range_m;  ///< Points outside are on neither side of the comparison.
+  int threads = 1;
+  Progress* progress = nullptr;
+};
+
+/// A rate in percent or a fraction, as its name says; without a value where it is undefined.
+struct Rate {
+  std::string name;
+  std::optional<double> value;
+  std::string undefined_reason = "";
+};
+
+/// Integer counts first, the rates that follow from them second.
+struct ProtocolResult {
+  std::string protocol;
+  std::vector<std::pair<std::string, std::int64_t>> counts;
+  std::vector<Rate> rates;
+  std::vector<std::string> warnings;
+
+  /// @throws InternalError if there is no such count.
+  [[nodiscard]] std::int64_t count(const std::string& name) const;
+  /// The rate called `name`; no value if it is undefined or not part of this protocol.
+  [[nodiscard]] std::optional<double> rate(const std::string& name) const;
+};
+
+/// What depends on scans and labels only, built once for a sequence and shared by all methods.
+class TruthMap {
+ public:
+  virtual ~TruthMap() = default;
+};
+
+/// (scans, labels, masks) -> counts -> rates. Same input, same counts, for any number of threads.
+class Protocol {
+ public:
+  virtual ~Protocol() = default;
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::string version() const = 0;  ///< Raised when counts may change.
+  [[nodiscard]] virtual Configuration options() const = 0;
+  /// @throws DataError if there is nothing to score against (no point left after cropping).
+  [[nodiscard]] virtual std::unique_ptr<TruthMap> prepare(const EvaluationInput& input) const = 0;
+  /// @param truth what `prepare` of this protocol made from the same input
+  /// @param masks one mask per scan, as long as the scan has points
+  [[nodiscard]] virtual ProtocolResult score(const EvaluationInput& input, const TruthMap& truth,
+                                             const MaskStore& masks) const = 0;
+};
+
+/// Names, options and makers of the protocols; `make_protocol("erasor", options)`.
+struct ProtocolEntry {
+  std::string name;
+  std::string sentence;
+  std::vector<ParameterSpec> parameters;
+};
+const std::vector<ProtocolEntry>& protocol_entries();
+/// Options of `name` at their defaults. @throws UsageError suggesting the nearest name.
+Configuration protocol_defaults(const std::string& name);
+std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configuration& options);
+
+}  // namespace raymoval

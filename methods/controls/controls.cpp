@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "methods/controls/controls.h"
+
+#include <utility>
+
+namespace raymoval {
+namespace {
+
+class Replay : public Remover {
+ public:
+  explicit Replay(std::function<Mask(const Scan&)> mask_of) : mask_of_(std::move(mask_of)) {}
+
+  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    context.begin_pass("masks", scans.size());
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      context.check_cancelled();
+      const Scan scan = scans.load(i);
+      const ScanScope timed(context.times, i);
+      sink.accept(i, mask_of_(scan));
+      context.advance();
+    }
+  }
+
+ private:
+  std::function<Mask(const Scan&)> mask_of_;
+};
+
+std::function<Mask(const Scan&)> constant_mask(std::uint8_t value) {
+  return [value](const Scan& scan) { return Mask(scan.size(), value); };
+}
+
+MethodEntry control(const char* name, const char* sentence) {
+  MethodEntry entry;
+  entry.name = name;
+  entry.sentence = sentence;
+  entry.source = "control of the scoring";
+  entry.variants = {{"default", sentence, true, {}}};
+  return entry;
+}
+
+}  // namespace
+
+std::unique_ptr<Remover> make_replay(std::function<Mask(const Scan&)> mask_of) {
+  return std::make_unique<Replay>(std::move(mask_of));
+}
+
+MethodEntry noop_entry() {
+  MethodEntry entry = control("noop", "Removes nothing; must score PR 100 and RR 0.");
+  entry.make = [](const Configuration&) { return make_replay(constant_mask(0)); };
+  return entry;
+}
+
+MethodEntry remove_all_entry() {
+  MethodEntry entry = control("remove-all", "Removes every point; must score PR 0 and RR 100.");
+  entry.make = [](const Configuration&) { return make_replay(constant_mask(1)); };
+  return entry;
+}
+
+MethodEntry oracle_entry() {
+  MethodEntry entry =
+      control("oracle", "Removes exactly the points labelled moving; must score RR 100.");
+  entry.needs_truth = true;
+  entry.make = [](const Configuration&) -> std::unique_ptr<Remover> {
+    throw UsageError(
+        "'oracle' answers from the labels and can only be run where they are: use "
+        "raymoval run on a sequence with labels.");
+  };
+  return entry;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/scan.h"
+#include "core/scan_source.h"
+#include "core/stage_timer.h"
+
+namespace raymoval {
+
+/// Takes a method's answer: one mask per scan, each scan exactly once, in any order, from any
+/// thread. A wrong size, an unknown scan or a second mask for a scan is a MethodError.
+class RemovalSink {
+ public:
+  virtual ~RemovalSink() = default;
+  /// @param scan position in the source
+  /// @param mask as long as the scan has points; 1 = removed, 0 = kept
+  virtual void accept(std::size_t scan, const Mask& mask) = 0;
+};
+
+/// What a run gives a method besides its data. Everything optional may be null.
+struct RunContext {
+  int threads = 1;  ///< At most this many; never changes the answer.
+  Progress* progress = nullptr;
+  StageTimes* times = nullptr;
+  const std::atomic<bool>* cancel = nullptr;
+
+  /// @throws Cancelled if the run was asked to stop. Call it once a scan.
+  void check_cancelled() const {
+    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw Cancelled();
+  }
+  void begin_pass(const char* what, std::size_t scans) const {
+    if (progress != nullptr) progress->begin(what, scans);
+  }
+  void advance() const {
+    if (progress != nullptr) progress->advance();
+  }
+};
+
+/// A way to find the points of moving objects in a sequence of posed scans.
+///
+/// The same input gives the same answer whatever the number of threads. An online method answers
+/// for scan t from scans 0 .. t; an offline one sees all of them (its registry entry says which).
+class Remover {
+ public:
+  virtual ~Remover() = default;
+  /// Flags the points to remove, scan by scan, into `sink`.
+  /// @throws MethodError or DataError; Cancelled if `context` asks to stop.
+  virtual void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) = 0;
+};
+
+}  // namespace raymoval
