@@ -59,9 +59,13 @@ void add_tests(Table& table) {
       .number("erase_percentile", &P::erase_percentile,
               {"", 0, 1, "eq. 9 ('lower quantile' in the text)",
                "Quantile of the window of first hits in the erase test."})
-      .integer("erase_neighbourhood", &P::erase_neighbourhood,
-               {"bins", 0, 10, kOurs,
-                "A voxel is erased only if no return within so many bins supports it."})
+      .integer("erase_azimuth_window", &P::erase_azimuth_window,
+               {"bins", 0, 30, kOurs,
+                "A voxel is erased only if no return within so many columns supports it."})
+      .integer("erase_elevation_window", &P::erase_elevation_window,
+               {"bins", -1, 100, kOurs,
+                "A voxel is erased only if no return within so many rows supports it; -1 reaches "
+                "the neighbouring beam."})
       .flag("permanent_erase", &P::permanent_erase,
             {.source = kOurs, .sentence = "A voxel once seen through is never filled again."});
 }
@@ -85,9 +89,10 @@ void add_no_return(Table& table) {
 
 void add_validation(Table& table) {
   table
-      .flag("validate_scans", &P::validate_scans,
+      .flag("validate", &P::validate,
             {.source = "section 3, eqs 12-15",
-             .sentence = "Validate each scan's candidates in range-adaptive clusters."})
+             .sentence = "Validate each scan's candidates in range-adaptive clusters: online when "
+                         "the scan arrives, offline against the final map."})
       .number("cluster_gap", &P::cluster_gap,
               {"m", 0.01, 5, "section 3 (no value)", "Distance that joins points at range 0."})
       .number("cluster_gap_growth", &P::cluster_gap_growth,
@@ -98,9 +103,6 @@ void add_validation(Table& table) {
            "Points a cluster needs at 10 m; falls with the square of the range, to 3 at least."})
       .number("cluster_width", &P::cluster_width,
               {"m", 0, 5, "eq. 13, d(r) (no value)", "Width a cluster needs."})
-      .flag("validate_map", &P::validate_map,
-            {.source = "section 3, eqs 14-15",
-             .sentence = "Offline: validate all removed voxels of the final map in groups."})
       .integer("group_gap", &P::group_gap,
                {"voxels", 1, 5, "section 3 (no value)", "Clusters nearer than this are one group."})
       .integer("coverage_dilation", &P::coverage_dilation,
@@ -115,9 +117,12 @@ void add_validation(Table& table) {
       .number("thin_side", &P::thin_side,
               {"m", 0, 5, "eq. 15, theta_thin (no value)", "A group this thin is thin."})
       .integer("support_dilation", &P::support_dilation,
-               {"voxels", 0, 5, "section 3 (no value)",
-                "In a dynamic group, points this near to the static map are kept after all; 0 = in "
-                "its very voxels."})
+               {"voxels", 0, 5, "section 3, 'unsupported points' (no value)",
+                "Reach of the neighbourhood in which a removed point may find static support."})
+      .number("support_share", &P::support_share,
+              {"", 0, 1, "section 3, 'unsupported points' (no value)",
+               "In a dynamic cluster a point is supported, and kept, where at least this share of "
+               "the voxels around it is static; 1: never."})
       .integer("minimum_points", &P::minimum_points,
                {"points", 0, 1000, "m_min (no value)",
                 "A cluster's remainder with fewer points is static."})

@@ -35,7 +35,8 @@ struct RaymovalParameters {
   double erase_tau0 = 0.30;
   double erase_tau1 = 0.10;
   double erase_percentile = 0.1;
-  int erase_neighbourhood = 1;
+  int erase_azimuth_window = 1;
+  int erase_elevation_window = -1;
   bool permanent_erase = true;
   // No-return evidence.
   bool no_return = false;
@@ -44,21 +45,19 @@ struct RaymovalParameters {
   double no_return_range = 20.0;
   int no_return_scans = 3;
   // Spatial consistency validation of a scan's candidates (eqs 12-15).
-  bool validate_scans = false;
+  bool validate = true;
   double cluster_gap = 0.3;
   double cluster_gap_growth = 0.02;
-  double cluster_points = 10.0;
-  double cluster_width = 0.15;
-  // Spatial consistency validation of the removed part of the final map.
-  bool validate_map = true;
+  double cluster_points = 3.0;
+  double cluster_width = 0.0;
   int group_gap = 1;
-  // Coverage and group rules, both validations (eqs 14-15).
   int coverage_dilation = 1;
   double coverage_static = 0.9;
-  double coverage_edge = 0.7;
+  double coverage_edge = 0.8;
   double thin_side = 0.4;
-  int support_dilation = 0;
-  int minimum_points = 3;
+  int support_dilation = 2;
+  double support_share = 0.95;
+  int minimum_points = 1;
   double minimum_width = 0.0;
   // Answer.
   bool offline = true;

@@ -34,12 +34,40 @@ AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parame
   return grid;
 }
 
+/// Rows of the grid from one beam to the next, so that a window of that radius holds a return
+/// wherever the surface goes on.
+int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
+                   const RaymovalParameters& parameters) {
+  if (parameters.erase_elevation_window >= 0) return parameters.erase_elevation_window;
+  constexpr double kUnknownStep = 0.5 * std::numbers::pi / 180.0;
+  const double step = sensor.elevation_step > 0.0 ? sensor.elevation_step : kUnknownStep;
+  return std::clamp(static_cast<int>(std::ceil(step / grid.elevation_step())), 1, 100);
+}
+
 /// A scan with what every step needs of it.
 struct PreparedScan {
   Scan scan;
   std::vector<VoxelIndex> voxels;  ///< Of each point, in the world lattice.
   ProjectedScan projected;
 };
+
+/// Eqs 12-15 for the candidates of a scan.
+Mask validate_scan(const Scan& scan, const std::vector<VoxelIndex>& voxels, const Mask& candidates,
+                   const OccupancyMap& static_map, const RaymovalParameters& parameters) {
+  std::vector<std::size_t> chosen;
+  ScanPoints points;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (candidates[k] == 0) continue;
+    chosen.push_back(k);
+    points.position.push_back(scan.T_world_sensor * scan.points[k].cast<double>());
+    points.voxel.push_back(voxels[k]);
+    points.range.push_back(scan.points[k].norm());
+  }
+  const Mask valid = validate_candidates(points, static_map, parameters);
+  Mask dynamic(candidates.size(), 0);
+  for (std::size_t i = 0; i < chosen.size(); ++i) dynamic[chosen[i]] = valid[i];
+  return dynamic;
+}
 
 /// One pass of the paper's section 3 over scans; owns the map that grows or shrinks with them.
 class RaymovalPass {
@@ -50,7 +78,8 @@ class RaymovalPass {
         sensor_(sensor),
         context_(context),
         grid_(grid_for(sensor, parameters)),
-        map_(parameters.voxel_size, parameters.permanent_erase) {}
+        map_(parameters.voxel_size, parameters.permanent_erase),
+        erase_rows_(rows_of_a_beam(sensor, grid_, parameters)) {}
 
   [[nodiscard]] StaticMap& map() { return map_; }
 
@@ -105,24 +134,9 @@ class RaymovalPass {
   }
 
   Mask validate(const PreparedScan& prepared, const Mask& candidates) {
-    if (!parameters_.validate_scans) return candidates;
+    if (!parameters_.validate) return candidates;
     const StageScope timed(context_.times, "validation");
-    std::vector<std::size_t> chosen;
-    WeightedPoints points;
-    std::vector<double> ranges;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (candidates[k] == 0) continue;
-      chosen.push_back(k);
-      points.position.push_back(prepared.scan.T_world_sensor *
-                                prepared.scan.points[k].cast<double>());
-      points.voxel.push_back(prepared.voxels[k]);
-      points.weight.push_back(1.0);
-      ranges.push_back(prepared.projected.range[k]);
-    }
-    const Mask valid = validate_candidates(points, ranges, map_.occupied(), parameters_);
-    Mask dynamic(candidates.size(), 0);
-    for (std::size_t i = 0; i < chosen.size(); ++i) dynamic[chosen[i]] = valid[i];
-    return dynamic;
+    return validate_scan(prepared.scan, prepared.voxels, candidates, map_.occupied(), parameters_);
   }
 
   void erase_seen_through(const PreparedScan& prepared, const FirstHitImage& first_hit) {
@@ -132,8 +146,8 @@ class RaymovalPass {
         windowed_percentile(first_hit.range, grid_, parameters_.neighbourhood,
                             parameters_.erase_percentile, context_.threads);
     const std::vector<float> nearest_return =
-        windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.erase_neighbourhood,
-                         parameters_.erase_neighbourhood, context_.threads);
+        windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.erase_azimuth_window,
+                         erase_rows_, context_.threads);
     for (const int bin : find_seen_through(prepared.projected, nearest_return, first_hit, reference,
                                            {parameters_.erase_tau0, parameters_.erase_tau1})) {
       map_.erase(voxel_index(first_hit.voxel[static_cast<std::size_t>(bin)]));
@@ -174,6 +188,7 @@ class RaymovalPass {
   const RunContext& context_;
   AngularGrid grid_;
   StaticMap map_;
+  int erase_rows_;
   VoxelMap<int> scans_without_return_;
 };
 
@@ -218,14 +233,12 @@ class RaymovalRemover : public Remover {
     if (parameters_.map_source == MapSource::kNaive) collect_naive_map(pass, scans, context);
     for_each_scan("raymoval", scans, context, false, [&](Scan scan) {
       const PreparedScan prepared = pass.prepare(std::move(scan));
-      if (parameters_.map_source == MapSource::kGrowing) pass.map().observe(prepared.voxels);
       pass.process(prepared);
     });
     if (parameters_.backward_pass) {
       for_each_scan("raymoval, backward", scans, context, true,
                     [&](Scan scan) { pass.process(pass.prepare(std::move(scan))); });
     }
-    if (parameters_.validate_map) restore_consistent_voxels(pass.map(), context);
     answer_from_map(pass.map(), scans, sink, context);
   }
 
@@ -233,19 +246,8 @@ class RaymovalRemover : public Remover {
     for_each_scan("raymoval, naive map", scans, context, false, [&](const Scan& scan) {
       const StageScope timed(context.times, "integration");
       const std::vector<VoxelIndex> voxels = voxels_of(pass.map(), scan, context.threads);
-      pass.map().observe(voxels);
       for (const VoxelIndex& voxel : voxels) pass.map().integrate(voxel);
     });
-  }
-
-  /// Spatial consistency validation (eqs 12-15) of everything the passes removed.
-  void restore_consistent_voxels(StaticMap& map, const RunContext& context) {
-    const StageScope timed(context.times, "validation");
-    const WeightedPoints removed = map.removed_voxels();
-    const Mask dynamic = validate_removed_voxels(removed, map.occupied(), parameters_);
-    for (std::size_t i = 0; i < dynamic.size(); ++i) {
-      if (dynamic[i] == 0) map.restore(removed.voxel[i]);
-    }
   }
 
   /// A point is dynamic iff its voxel is not in the final map.
@@ -257,6 +259,8 @@ class RaymovalRemover : public Remover {
       Mask removed(scan.size(), 0);
       parallel_for(context.threads, scan.size(), 8192,
                    [&](std::size_t k) { removed[k] = map.occupied().contains(voxels[k]) ? 0 : 1; });
+      if (parameters_.validate)
+        removed = validate_scan(scan, voxels, removed, map.occupied(), parameters_);
       sink.accept(scan.index, removed);
     });
   }

@@ -10,22 +10,22 @@ std::size_t at(int member) {
   return static_cast<std::size_t>(member);
 }
 
-double median_range(const std::vector<int>& members, const std::vector<double>& ranges) {
+double median_range(const std::vector<int>& members, const ScanPoints& points) {
   std::vector<double> values;
-  for (const int member : members) values.push_back(ranges[at(member)]);
+  for (const int member : members) values.push_back(points.range[at(member)]);
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-Extent extent_of(const std::vector<int>& members, const WeightedPoints& points) {
+Extent extent_of(const std::vector<int>& members, const ScanPoints& points) {
   Extent extent;
   for (const int member : members) extent.add(points.position[at(member)]);
   return extent;
 }
 
 /// Sides of the voxels' common box, so that one layer of voxels is one voxel thick.
-double thinnest_voxel_side(const std::vector<int>& members, const WeightedPoints& points,
+double thinnest_voxel_side(const std::vector<int>& members, const ScanPoints& points,
                            double voxel_size) {
   VoxelIndex low = points.voxel[at(members.front())], high = low;
   for (const int member : members) {
@@ -35,28 +35,16 @@ double thinnest_voxel_side(const std::vector<int>& members, const WeightedPoints
   return ((high - low).minCoeff() + 1) * voxel_size;
 }
 
-/// Members that stay dynamic of a cluster in a dynamic group: the unsupported ones, if enough.
-std::vector<int> unsupported_members(const std::vector<int>& cluster, const WeightedPoints& points,
-                                     const OccupancyMap& static_map,
-                                     const RaymovalParameters& parameters) {
-  std::vector<int> kept;
-  double weight = 0.0;
-  for (const int member : cluster) {
-    const bool supported =
-        static_map.contains_near(points.voxel[at(member)], parameters.support_dilation);
-    if (supported) continue;
-    kept.push_back(member);
-    weight += points.weight[at(member)];
-  }
-  const bool enough = !kept.empty() && weight >= parameters.minimum_points &&
-                      extent_of(kept, points).width() >= parameters.minimum_width;
-  return enough ? kept : std::vector<int>{};
+/// m_min and d_min: whether a cluster's remainder is large enough to be an object.
+bool is_large_enough(const std::vector<int>& cluster, const ScanPoints& points,
+                     const RaymovalParameters& parameters) {
+  return static_cast<int>(cluster.size()) >= parameters.minimum_points &&
+         extent_of(cluster, points).width() >= parameters.minimum_width;
 }
 
-/// Eqs 14-15 on each group, then the unsupported members of each of its clusters.
-Mask validate_groups(const std::vector<int>& cluster_of, const std::vector<int>& group_of,
-                     const WeightedPoints& points, const OccupancyMap& static_map,
-                     const RaymovalParameters& parameters) {
+/// Eqs 14-15: 1 for each member of a group that is dynamic.
+Mask check_groups(const std::vector<int>& group_of, const ScanPoints& points,
+                  const OccupancyMap& static_map, const RaymovalParameters& parameters) {
   Mask in_dynamic_group(points.size(), 0);
   for (const std::vector<int>& group : members_of(group_of)) {
     const double covered = coverage(group, points, static_map, parameters.coverage_dilation);
@@ -64,24 +52,16 @@ Mask validate_groups(const std::vector<int>& cluster_of, const std::vector<int>&
     if (belongs_to_static(covered, thinnest, parameters)) continue;
     for (const int member : group) in_dynamic_group[at(member)] = 1;
   }
-  Mask dynamic(points.size(), 0);
-  for (const std::vector<int>& cluster : members_of(cluster_of)) {
-    // All members of a cluster are in one group.
-    if (in_dynamic_group[at(cluster.front())] == 0) continue;
-    for (const int member : unsupported_members(cluster, points, static_map, parameters)) {
-      dynamic[at(member)] = 1;
-    }
-  }
-  return dynamic;
+  return in_dynamic_group;
 }
 
 /// The chosen elements of `points`.
-WeightedPoints subset(const WeightedPoints& points, const std::vector<int>& chosen) {
-  WeightedPoints part;
+ScanPoints subset(const ScanPoints& points, const std::vector<int>& chosen) {
+  ScanPoints part;
   for (const int i : chosen) {
     part.position.push_back(points.position[at(i)]);
     part.voxel.push_back(points.voxel[at(i)]);
-    part.weight.push_back(points.weight[at(i)]);
+    part.range.push_back(points.range[at(i)]);
   }
   return part;
 }
@@ -126,24 +106,20 @@ double cluster_width_at(double /*range*/, const RaymovalParameters& parameters) 
   return parameters.cluster_width;
 }
 
-bool passes_cluster_screen(const std::vector<int>& members, const WeightedPoints& points,
-                           const std::vector<double>& ranges,
+bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& points,
                            const RaymovalParameters& parameters) {
-  const double range = median_range(members, ranges);
+  const double range = median_range(members, points);
   return static_cast<double>(members.size()) >= cluster_points_at(range, parameters) &&
          extent_of(members, points).width() >= cluster_width_at(range, parameters);
 }
 
-double coverage(const std::vector<int>& members, const WeightedPoints& points,
+double coverage(const std::vector<int>& members, const ScanPoints& points,
                 const OccupancyMap& static_map, int dilation) {
-  double inside = 0.0, total = 0.0;
+  int inside = 0;
   for (const int member : members) {
-    total += points.weight[at(member)];
-    if (static_map.contains_near(points.voxel[at(member)], dilation)) {
-      inside += points.weight[at(member)];
-    }
+    inside += static_map.contains_near(points.voxel[at(member)], dilation) ? 1 : 0;
   }
-  return total > 0.0 ? inside / total : 0.0;
+  return members.empty() ? 0.0 : inside / static_cast<double>(members.size());
 }
 
 bool belongs_to_static(double group_coverage, double thinnest_side,
@@ -154,33 +130,64 @@ bool belongs_to_static(double group_coverage, double thinnest_side,
           thinnest_side <= parameters.thin_side + kRounding);
 }
 
-Mask validate_candidates(const WeightedPoints& candidates, const std::vector<double>& ranges,
-                         const OccupancyMap& static_map, const RaymovalParameters& parameters) {
+double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const VoxelSet& removed,
+               int dilation) {
+  int in_map = 0, in_removed = 0;
+  for (int dz = -dilation; dz <= dilation; ++dz) {
+    for (int dy = -dilation; dy <= dilation; ++dy) {
+      for (int dx = -dilation; dx <= dilation; ++dx) {
+        const VoxelIndex near = voxel + VoxelIndex(dx, dy, dz);
+        if (static_map.contains(near)) {
+          ++in_map;
+        } else if (removed.contains(voxel_key(near))) {
+          ++in_removed;
+        }
+      }
+    }
+  }
+  return in_map + in_removed == 0 ? 0.0 : static_cast<double>(in_map) / (in_map + in_removed);
+}
+
+std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
+                                     const OccupancyMap& static_map,
+                                     const RaymovalParameters& parameters) {
+  VoxelSet removed;
+  for (const int member : cluster) removed.insert(voxel_key(points.voxel[at(member)]));
+  std::vector<int> unsupported;
+  for (const int member : cluster) {
+    const double share =
+        support(points.voxel[at(member)], static_map, removed, parameters.support_dilation);
+    if (share < parameters.support_share) unsupported.push_back(member);
+  }
+  return unsupported;
+}
+
+Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& static_map,
+                         const RaymovalParameters& parameters) {
   std::vector<int> screened;
-  const std::vector<int> all_clusters = range_adaptive_clusters(
-      candidates.position, ranges, parameters.cluster_gap, parameters.cluster_gap_growth);
-  for (const std::vector<int>& cluster : members_of(all_clusters)) {
-    if (passes_cluster_screen(cluster, candidates, ranges, parameters)) {
+  const std::vector<int> cluster_numbers = range_adaptive_clusters(
+      candidates.position, candidates.range, parameters.cluster_gap, parameters.cluster_gap_growth);
+  for (const std::vector<int>& cluster : members_of(cluster_numbers)) {
+    if (passes_cluster_screen(cluster, candidates, parameters)) {
       screened.insert(screened.end(), cluster.begin(), cluster.end());
     }
   }
   std::sort(screened.begin(), screened.end());
-  const WeightedPoints points = subset(candidates, screened);
+  const ScanPoints points = subset(candidates, screened);
   std::vector<int> cluster_of;
-  for (const int i : screened) cluster_of.push_back(all_clusters[at(i)]);
+  for (const int i : screened) cluster_of.push_back(cluster_numbers[at(i)]);
   const std::vector<int> group_of =
       merge_into_groups(cluster_of, voxel_components(keys_of(points.voxel), parameters.group_gap));
-  const Mask valid = validate_groups(cluster_of, group_of, points, static_map, parameters);
+  const Mask in_dynamic_group = check_groups(group_of, points, static_map, parameters);
   Mask dynamic(candidates.size(), 0);
-  for (std::size_t i = 0; i < screened.size(); ++i) dynamic[at(screened[i])] = valid[i];
+  for (const std::vector<int>& cluster : members_of(cluster_of)) {
+    // All members of a cluster are in one group.
+    if (in_dynamic_group[at(cluster.front())] == 0) continue;
+    const std::vector<int> rest = unsupported_members(cluster, points, static_map, parameters);
+    if (!is_large_enough(rest, points, parameters)) continue;
+    for (const int member : rest) dynamic[at(screened[at(member)])] = 1;
+  }
   return dynamic;
-}
-
-Mask validate_removed_voxels(const WeightedPoints& voxels, const OccupancyMap& static_map,
-                             const RaymovalParameters& parameters) {
-  const std::vector<VoxelKey> keys = keys_of(voxels.voxel);
-  return validate_groups(voxel_components(keys, 1), voxel_components(keys, parameters.group_gap),
-                         voxels, static_map, parameters);
 }
 
 }  // namespace raymoval

@@ -11,12 +11,11 @@
 
 namespace raymoval {
 
-/// A set of points with weights: points of a scan (each of weight 1) or removed voxels of the map
-/// (each as heavy as it has points).
-struct WeightedPoints {
+/// Points of one scan that are candidates for removal, element by element.
+struct ScanPoints {
   std::vector<Eigen::Vector3d> position;  ///< World, metres.
   std::vector<VoxelIndex> voxel;
-  std::vector<double> weight;
+  std::vector<double> range;  ///< From the sensor, metres.
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
@@ -28,28 +27,34 @@ double cluster_points_at(double range, const RaymovalParameters& parameters);
 double cluster_width_at(double range, const RaymovalParameters& parameters);
 
 /// Eqs 12-13: whether a cluster is large enough to be an object.
-bool passes_cluster_screen(const std::vector<int>& members, const WeightedPoints& points,
+bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& points,
                            const std::vector<double>& ranges, const RaymovalParameters& parameters);
 
-/// Eq. 14: share of the weight of `members` that lies within `dilation` voxels of the static map.
-double coverage(const std::vector<int>& members, const WeightedPoints& points,
+/// Eq. 14: share of `members` that lie within `dilation` voxels of the static map.
+double coverage(const std::vector<int>& members, const ScanPoints& points,
                 const OccupancyMap& static_map, int dilation);
 
 /// Eq. 15: whether a group belongs to the static map after all. @param thinnest_side metres
 bool belongs_to_static(double group_coverage, double thinnest_side,
                        const RaymovalParameters& parameters);
 
-/// Spatial consistency validation of a scan's dynamic candidates (section 3 of the paper):
-/// range-adaptive clustering, screens (12-13), groups of neighbouring clusters against the static
-/// map (14-15), then in what stays dynamic only unsupported points, and no remainder smaller than
-/// minimum_points or narrower than minimum_width.
-/// @return 1 for each candidate that stays dynamic
-Mask validate_candidates(const WeightedPoints& candidates, const std::vector<double>& ranges,
-                         const OccupancyMap& static_map, const RaymovalParameters& parameters);
+/// Share of static voxels among the static and the removed ones within `dilation` cells of `voxel`
+/// (itself included); 0 where there are none.
+double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const VoxelSet& removed,
+               int dilation);
 
-/// The same for the removed voxels of the whole map, where no range applies: clusters are voxels
-/// that touch, groups are clusters within `group_gap` voxels.
-Mask validate_removed_voxels(const WeightedPoints& voxels, const OccupancyMap& static_map,
-                             const RaymovalParameters& parameters);
+/// Members of a dynamic cluster that do not stand among static voxels: their support, with the
+/// cluster's own voxels as the removed ones, is below `support_share`.
+std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
+                                     const OccupancyMap& static_map,
+                                     const RaymovalParameters& parameters);
+
+/// Spatial consistency validation of a scan's candidates (section 3 of the paper): range-adaptive
+/// clusters, screens (12-13), groups of neighbouring clusters against the static map (14-15), then
+/// the unsupported points of what stays dynamic, and no remainder smaller than minimum_points or
+/// narrower than minimum_width.
+/// @return 1 for each candidate that stays dynamic
+Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& static_map,
+                         const RaymovalParameters& parameters);
 
 }  // namespace raymoval
