@@ -198,8 +198,8 @@ void decode_line(std::string_view line, const std::string& where,
 Cloud decode_ascii(const CloudHeader& header, std::string_view body,
                    const std::filesystem::path& path) {
   const auto columns = ascii_columns(header);
-  // Each point takes at least a digit and a blank or line end a column, save at the very end.
-  const std::uint64_t possible = (body.size() + 1) / (2 * columns.back());
+  // A line takes at least a character and its end, save the very last.
+  const std::uint64_t possible = (body.size() + 1) / 2;
   Cloud cloud = sized_cloud(std::min(header.points, possible), columns.size() - 1);
   std::size_t line = header.body_line, done = 0;
   for (std::size_t at = 0; at < body.size(); ++line) {
@@ -213,10 +213,9 @@ Cloud decode_ascii(const CloudHeader& header, std::string_view body,
       throw DataError(where + ": more points than the " + grouped_text(header.points) +
                       " the header announces.");
     }
-    if (done < cloud.points.size()) decode_line(text, where, columns, done, cloud);
-    ++done;
+    decode_line(text, where, columns, done++, cloud);
   }
-  if (done != header.points || done != cloud.points.size()) {
+  if (done != header.points) {
     throw DataError(path.string() + ": the header announces " + grouped_text(header.points) +
                     " points, but the file ends after " + grouped_text(done) +
                     "; it looks truncated. Copy it again, or leave it out with --frames.");
