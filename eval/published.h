@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace raymoval {
+
+/// A line of a published table: who and where as texts ("method", "sequence", "stage", "poses",
+/// "reported_by"; empty if not given), and the numbers by name. A number printed as missing has no
+/// value.
+struct PublishedRow {
+  std::string method, sequence, stage, poses, reported_by;
+  std::map<std::string, std::optional<double>> values;
+
+  /// No value if the row does not have it.
+  [[nodiscard]] std::optional<double> value(const std::string& name) const;
+};
+
+/// A printed number that its own table contradicts.
+struct Misprint {
+  std::string method, metric;
+  double printed = 0.0;
+  double recomputed = 0.0;
+};
+
+/// A table of a paper as data; see results/published/.
+struct PublishedTable {
+  std::string table;     ///< "Raymoval paper, Table 2".
+  std::string source;    ///< Where the numbers were read.
+  std::string protocol;  ///< What was measured, on which frames.
+  std::map<std::string, std::string> units;
+  std::vector<PublishedRow> rows;
+  std::vector<PublishedRow> averages_printed;   ///< As printed, misprints included.
+  std::vector<PublishedRow> averages_computed;  ///< By a transcriber, where none is printed.
+  std::vector<PublishedRow> totals_printed;     ///< Sums over stages, as printed.
+  std::vector<Misprint> misprints;
+  std::vector<std::string> notes;
+};
+
+/// @throws ConfigurationError naming the file, the place in it and what was expected
+PublishedTable load_published_table(const std::filesystem::path& path);
+
+/// A printed number beside the one that follows from the rest of its table.
+struct ArithmeticCheck {
+  std::string method;
+  std::string place;  ///< Sequence, "average", "average (computed)" or "total".
+  std::string metric;
+  /// "harmonic_mean", "geometric_mean", "mean", "mean_F1", "F1_of_means" or "sum".
+  std::string rule;
+  double printed = 0.0;
+  double recomputed = 0.0;
+
+  [[nodiscard]] double deviation() const { return printed - recomputed; }
+};
+
+/// Recomputes every number that follows from others: F1 from PR and RR, HA and AA from SA and DA,
+/// averages of PR and RR, the average F1 by both rules (`mean_F1` and `F1_of_means`, of which a
+/// paper follows one), and totals of stages. Returns all comparisons; the caller judges the
+/// deviations by the digits that were printed.
+std::vector<ArithmeticCheck> check_arithmetic(const PublishedTable& table);
+
+}  // namespace raymoval

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "eval/averages.h"
+#include "eval/published.h"
+#include "eval/rates.h"
+
+namespace raymoval {
+namespace {
+
+AverageRates published_averages(const std::string& method) {
+  const PublishedTable table =
+      load_published_table(RAYMOVAL_SOURCE_DIR "/results/published/raymoval_table2.json");
+  std::vector<SegmentRates> segments;
+  for (const PublishedRow& row : table.rows) {
+    if (row.method != method) continue;
+    segments.push_back(
+        {row.value("PR"), row.value("RR"), f1_from_percent(*row.value("PR"), *row.value("RR"))});
+  }
+  return average_rates(segments);
+}
+
+}  // namespace
+
+TEST_CASE("the five published segments give both averages of F1", "[averages]") {
+  // Recomputed from the printed PR and RR (section 2.5 of the protocol's description).
+  struct Expected {
+    const char* method;
+    double PR, RR, mean_F1, F1_of_means;
+  };
+  for (const Expected& expected : {Expected{"OctoMap-0.2", 30.236, 99.816, 0.4599, 0.4641},
+                                   Expected{"Peopleremover", 35.235, 91.875, 0.5081, 0.5094},
+                                   Expected{"Removert RM3+RV1", 87.229, 82.310, 0.8362, 0.8470},
+                                   Expected{"ERASOR", 90.510, 97.401, 0.9381, 0.9383},
+                                   Expected{"Raymoval", 93.217, 92.566, 0.9288, 0.9289}}) {
+    CAPTURE(expected.method);
+    const AverageRates averages = published_averages(expected.method);
+    CHECK(averages.PR.value.value() == Approx(expected.PR).margin(0.00051));
+    CHECK(averages.RR.value.value() == Approx(expected.RR).margin(0.00051));
+    CHECK(averages.mean_F1.value.value() == Approx(expected.mean_F1).margin(0.00005));
+    CHECK(averages.F1_of_means.value.value() == Approx(expected.F1_of_means).margin(0.00005));
+    CHECK(averages.segments == 5);
+    CHECK(averages.mean_F1.segments == 5);
+  }
+}
+
+TEST_CASE("undefined segments are left out and counted", "[averages]") {
+  // The second segment has nothing dynamic: only its PR counts. The third has nothing static.
+  const AverageRates averages =
+      average_rates({{80.0, 40.0, f1_from_percent(80.0, 40.0)}, {100.0, {}, {}}, {{}, 100.0, {}}});
+  CHECK(averages.segments == 3);
+  CHECK(averages.PR.value.value() == Approx(90.0));
+  CHECK(averages.PR.segments == 2);
+  CHECK(averages.RR.value.value() == Approx(70.0));
+  CHECK(averages.RR.segments == 2);
+  CHECK(averages.mean_F1.segments == 1);
+  CHECK(averages.mean_F1.value.value() == Approx(2 * 0.8 * 0.4 / 1.2));
+  // Of 80 and 40 alone, and not of 90 and 70.
+  CHECK(averages.F1_of_means.segments == 1);
+  CHECK(averages.F1_of_means.value.value() == Approx(2 * 0.8 * 0.4 / 1.2));
+}
+
+TEST_CASE("without a defined segment there is no average", "[averages]") {
+  for (const auto& segments : {std::vector<SegmentRates>{}, std::vector<SegmentRates>(2)}) {
+    const AverageRates averages = average_rates(segments);
+    CHECK(averages.segments == segments.size());
+    CHECK_FALSE(averages.PR.value.has_value());
+    CHECK_FALSE(averages.mean_F1.value.has_value());
+    CHECK_FALSE(averages.F1_of_means.value.has_value());
+    CHECK(averages.F1_of_means.segments == 0);
+  }
+}
+
+TEST_CASE("the harmonic mean of two zeros is zero", "[averages]") {
+  CHECK(harmonic_mean(0.0, 0.0) == 0.0);
+  CHECK(f1_from_percent(100.0, 0.0) == 0.0);
+  CHECK(f1_from_percent(100.0, 100.0) == 1.0);
+}
+
+}  // namespace raymoval
