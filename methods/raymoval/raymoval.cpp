@@ -1,14 +1,286 @@
 // SPDX-License-Identifier: MIT
+// "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping", section 3.
+// Equation numbers are the order of the numbered equations there.
 #include "methods/raymoval/raymoval.h"
 
-#include "methods/controls/controls.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.h"
+#include "methods/raymoval/angular_grid.h"
+#include "methods/raymoval/consistency.h"
+#include "methods/raymoval/first_hit.h"
+#include "methods/raymoval/map_reference.h"
+#include "methods/raymoval/static_map.h"
+#include "methods/raymoval/validation.h"
 
 namespace raymoval {
+namespace {
 
-MethodEntry raymoval_entry() {
-  MethodEntry entry = noop_entry();
-  entry.name = "raymoval";
-  return entry;
+AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parameters) {
+  const double margin = parameters.elevation_margin * std::numbers::pi / 180.0;
+  AngularGrid grid;
+  grid.elevation_min = std::max(sensor.elevation_min - margin, -std::numbers::pi / 2.0);
+  grid.elevation_max = std::min(sensor.elevation_max + margin, std::numbers::pi / 2.0);
+  const auto bins_for = [](int wanted, double width, double step, int otherwise) {
+    if (wanted > 0) return wanted;
+    return step > 0.0 ? std::max(36, static_cast<int>(std::ceil(width / step))) : otherwise;
+  };
+  grid.azimuth_bins =
+      bins_for(parameters.azimuth_bins, 2.0 * std::numbers::pi, sensor.azimuth_step, 720);
+  grid.elevation_bins = bins_for(parameters.elevation_bins, grid.elevation_max - grid.elevation_min,
+                                 sensor.elevation_step, 450);
+  return grid;
+}
+
+/// A scan with what every step needs of it.
+struct PreparedScan {
+  Scan scan;
+  std::vector<VoxelIndex> voxels;  ///< Of each point, in the world lattice.
+  ProjectedScan projected;
+};
+
+/// One pass of the paper's section 3 over scans; owns the map that grows or shrinks with them.
+class RaymovalPass {
+ public:
+  RaymovalPass(const RaymovalParameters& parameters, const SensorModel& sensor,
+               const RunContext& context)
+      : parameters_(parameters),
+        sensor_(sensor),
+        context_(context),
+        grid_(grid_for(sensor, parameters)),
+        map_(parameters.voxel_size, parameters.permanent_erase) {}
+
+  [[nodiscard]] StaticMap& map() { return map_; }
+
+  /// Section 3 for one scan. @return 1 for each point found dynamic now (the online answer).
+  Mask process(const PreparedScan& prepared) {
+    const FirstHitImage first_hit = cast(prepared.scan.T_world_sensor);  // eqs 4-7
+    const Mask candidates = find_candidates(prepared, first_hit);        // eqs 8-9, 11
+    const Mask dynamic = validate(prepared, candidates);                 // eqs 12-15
+    erase_seen_through(prepared, first_hit);
+    erase_without_return(prepared, first_hit);
+    integrate(prepared, dynamic);
+    return dynamic;
+  }
+
+  /// Loads a scan, finds the voxel of each point and projects it (eqs 1-3, 10).
+  [[nodiscard]] PreparedScan prepare(Scan scan) const {
+    const StageScope timed(context_.times, "binning");
+    PreparedScan prepared;
+    prepared.voxels.resize(scan.size());
+    parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
+      prepared.voxels[k] = map_.voxel_of(scan.T_world_sensor * scan.points[k].cast<double>());
+    });
+    prepared.projected = project(scan, grid_, parameters_.minimum_range);
+    prepared.scan = std::move(scan);
+    return prepared;
+  }
+
+ private:
+  FirstHitImage cast(const Pose& T_world_sensor) {
+    const StageScope timed(context_.times, "raycasting");
+    return cast_first_hits(map_.occupied(), T_world_sensor, grid_, parameters_.minimum_range,
+                           parameters_.maximum_range, context_.threads);
+  }
+
+  /// Eq. 11 on the map reference of eqs 8-9; also points where the map was seen through before.
+  Mask find_candidates(const PreparedScan& prepared, const FirstHitImage& first_hit) {
+    const StageScope timed(context_.times, "classification");
+    Mask candidates(prepared.scan.size(), 0);
+    // In a map of all scans every point is its own first hit: only a growing map can be in front.
+    if (parameters_.forward_test && parameters_.map_source == MapSource::kGrowing) {
+      const std::vector<float> reference =
+          windowed_percentile(first_hit.range, grid_, parameters_.neighbourhood,
+                              parameters_.percentile, context_.threads);
+      candidates =
+          check_consistency(prepared.projected, reference, {parameters_.tau0, parameters_.tau1});
+    }
+    if (!parameters_.permanent_erase) return candidates;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (map_.was_erased(prepared.voxels[k])) candidates[k] = 1;
+    }
+    return candidates;
+  }
+
+  Mask validate(const PreparedScan& prepared, const Mask& candidates) {
+    if (!parameters_.validate_scans) return candidates;
+    const StageScope timed(context_.times, "validation");
+    std::vector<std::size_t> chosen;
+    WeightedPoints points;
+    std::vector<double> ranges;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (candidates[k] == 0) continue;
+      chosen.push_back(k);
+      points.position.push_back(prepared.scan.T_world_sensor *
+                                prepared.scan.points[k].cast<double>());
+      points.voxel.push_back(prepared.voxels[k]);
+      points.weight.push_back(1.0);
+      ranges.push_back(prepared.projected.range[k]);
+    }
+    const Mask valid = validate_candidates(points, ranges, map_.occupied(), parameters_);
+    Mask dynamic(candidates.size(), 0);
+    for (std::size_t i = 0; i < chosen.size(); ++i) dynamic[chosen[i]] = valid[i];
+    return dynamic;
+  }
+
+  void erase_seen_through(const PreparedScan& prepared, const FirstHitImage& first_hit) {
+    if (!parameters_.erase) return;
+    const StageScope timed(context_.times, "erase");
+    const std::vector<float> reference =
+        windowed_percentile(first_hit.range, grid_, parameters_.neighbourhood,
+                            parameters_.erase_percentile, context_.threads);
+    const std::vector<float> nearest_return =
+        windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.erase_neighbourhood,
+                         parameters_.erase_neighbourhood, context_.threads);
+    for (const int bin : find_seen_through(prepared.projected, nearest_return, first_hit, reference,
+                                           {parameters_.erase_tau0, parameters_.erase_tau1})) {
+      map_.erase(voxel_index(first_hit.voxel[static_cast<std::size_t>(bin)]));
+    }
+  }
+
+  void erase_without_return(const PreparedScan& prepared, const FirstHitImage& first_hit) {
+    if (!parameters_.no_return) return;
+    const StageScope timed(context_.times, "no-return evidence");
+    const std::vector<float> nearest_return = windowed_minimum(
+        prepared.projected.minimum_range, grid_, parameters_.no_return_azimuth_window,
+        parameters_.no_return_elevation_window, context_.threads);
+    std::vector<VoxelKey> voxels;
+    for (const int bin :
+         find_no_return(nearest_return, first_hit, grid_, sensor_, parameters_.no_return_range)) {
+      voxels.push_back(first_hit.voxel[static_cast<std::size_t>(bin)]);
+    }
+    // However many of its bins a scan misses, it is one witness.
+    std::sort(voxels.begin(), voxels.end());
+    voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+    for (const VoxelKey voxel : voxels) {
+      if (++scans_without_return_[voxel] >= parameters_.no_return_scans) {
+        map_.erase(voxel_index(voxel));
+      }
+    }
+  }
+
+  void integrate(const PreparedScan& prepared, const Mask& dynamic) {
+    if (parameters_.map_source == MapSource::kNaive) return;
+    const StageScope timed(context_.times, "integration");
+    for (std::size_t k = 0; k < dynamic.size(); ++k) {
+      if (dynamic[k] == 0) map_.integrate(prepared.voxels[k]);
+    }
+  }
+
+  const RaymovalParameters& parameters_;
+  const SensorModel& sensor_;
+  const RunContext& context_;
+  AngularGrid grid_;
+  StaticMap map_;
+  VoxelMap<int> scans_without_return_;
+};
+
+class RaymovalRemover : public Remover {
+ public:
+  explicit RaymovalRemover(const RaymovalParameters& parameters) : parameters_(parameters) {}
+
+  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    RaymovalPass pass(parameters_, scans.sensor(), context);
+    if (parameters_.offline) {
+      run_offline(pass, scans, sink, context);
+    } else {
+      run_online(pass, scans, sink, context);
+    }
+  }
+
+ private:
+  /// Calls `visit` with each scan, timed and cancellable.
+  template <class Visit>
+  void for_each_scan(const char* what, const ScanSource& scans, const RunContext& context,
+                     bool backward, Visit&& visit) {
+    context.begin_pass(what, scans.size());
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      context.check_cancelled();
+      Scan scan = scans.load(backward ? scans.size() - 1 - i : i);
+      const ScanScope timed(context.times, scan.index);
+      visit(std::move(scan));
+      context.advance();
+    }
+  }
+
+  void run_online(RaymovalPass& pass, const ScanSource& scans, RemovalSink& sink,
+                  const RunContext& context) {
+    for_each_scan("raymoval", scans, context, false, [&](Scan scan) {
+      const std::size_t index = scan.index;
+      sink.accept(index, pass.process(pass.prepare(std::move(scan))));
+    });
+  }
+
+  void run_offline(RaymovalPass& pass, const ScanSource& scans, RemovalSink& sink,
+                   const RunContext& context) {
+    if (parameters_.map_source == MapSource::kNaive) collect_naive_map(pass, scans, context);
+    for_each_scan("raymoval", scans, context, false, [&](Scan scan) {
+      const PreparedScan prepared = pass.prepare(std::move(scan));
+      if (parameters_.map_source == MapSource::kGrowing) pass.map().observe(prepared.voxels);
+      pass.process(prepared);
+    });
+    if (parameters_.backward_pass) {
+      for_each_scan("raymoval, backward", scans, context, true,
+                    [&](Scan scan) { pass.process(pass.prepare(std::move(scan))); });
+    }
+    if (parameters_.validate_map) restore_consistent_voxels(pass.map(), context);
+    answer_from_map(pass.map(), scans, sink, context);
+  }
+
+  void collect_naive_map(RaymovalPass& pass, const ScanSource& scans, const RunContext& context) {
+    for_each_scan("raymoval, naive map", scans, context, false, [&](const Scan& scan) {
+      const StageScope timed(context.times, "integration");
+      const std::vector<VoxelIndex> voxels = voxels_of(pass.map(), scan, context.threads);
+      pass.map().observe(voxels);
+      for (const VoxelIndex& voxel : voxels) pass.map().integrate(voxel);
+    });
+  }
+
+  /// Spatial consistency validation (eqs 12-15) of everything the passes removed.
+  void restore_consistent_voxels(StaticMap& map, const RunContext& context) {
+    const StageScope timed(context.times, "validation");
+    const WeightedPoints removed = map.removed_voxels();
+    const Mask dynamic = validate_removed_voxels(removed, map.occupied(), parameters_);
+    for (std::size_t i = 0; i < dynamic.size(); ++i) {
+      if (dynamic[i] == 0) map.restore(removed.voxel[i]);
+    }
+  }
+
+  /// A point is dynamic iff its voxel is not in the final map.
+  void answer_from_map(const StaticMap& map, const ScanSource& scans, RemovalSink& sink,
+                       const RunContext& context) {
+    for_each_scan("raymoval, answers", scans, context, false, [&](const Scan& scan) {
+      const StageScope timed(context.times, "answer");
+      const std::vector<VoxelIndex> voxels = voxels_of(map, scan, context.threads);
+      Mask removed(scan.size(), 0);
+      parallel_for(context.threads, scan.size(), 8192,
+                   [&](std::size_t k) { removed[k] = map.occupied().contains(voxels[k]) ? 0 : 1; });
+      sink.accept(scan.index, removed);
+    });
+  }
+
+  static std::vector<VoxelIndex> voxels_of(const StaticMap& map, const Scan& scan, int threads) {
+    std::vector<VoxelIndex> voxels(scan.size());
+    parallel_for(threads, scan.size(), 8192, [&](std::size_t k) {
+      voxels[k] = map.voxel_of(scan.T_world_sensor * scan.points[k].cast<double>());
+    });
+    return voxels;
+  }
+
+  RaymovalParameters parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters) {
+  if (!parameters.offline && parameters.map_source == MapSource::kNaive) {
+    throw ConfigurationError(
+        "raymoval.map_source = naive needs all scans, which an online run (offline = false) does "
+        "not have; use map_source = growing.");
+  }
+  return std::make_unique<RaymovalRemover>(parameters);
 }
 
 }  // namespace raymoval

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/scan.h"
+
+namespace raymoval {
+
+inline constexpr float kNoRange = std::numeric_limits<float>::infinity();
+
+/// Direction of a point in the sensor frame (eq. 1).
+struct Spherical {
+  double range;      ///< r = |p|, metres.
+  double azimuth;    ///< atan2(y, x), in (-pi, pi].
+  double elevation;  ///< asin(z / r), in [-pi/2, pi/2].
+};
+/// Eq. 1. A point at the origin has direction (0, 0).
+Spherical to_spherical(const Eigen::Vector3d& point);
+
+/// Azimuth-elevation grid of directions around the sensor (eqs 2-5). The azimuth covers the full
+/// circle, the elevation [elevation_min, elevation_max); bins are numbered row by row,
+/// `bin = j * azimuth_bins + i`.
+struct AngularGrid {
+  int azimuth_bins = 720;
+  int elevation_bins = 450;
+  double elevation_min = 0.0;  ///< Radians.
+  double elevation_max = 0.0;
+
+  [[nodiscard]] int size() const { return azimuth_bins * elevation_bins; }
+  [[nodiscard]] double azimuth_step() const;    ///< Delta_az, eq. 2.
+  [[nodiscard]] double elevation_step() const;  ///< Delta_el, eq. 2.
+  [[nodiscard]] int azimuth_of(int bin) const { return bin % azimuth_bins; }
+  [[nodiscard]] int elevation_of(int bin) const { return bin / azimuth_bins; }
+
+  /// Eq. 3. Nothing outside the vertical field of view: such a point is never clamped into the
+  /// border row.
+  [[nodiscard]] std::optional<int> bin_of(double azimuth, double elevation) const;
+  [[nodiscard]] double azimuth_centre(int i) const;    ///< Eq. 4.
+  [[nodiscard]] double elevation_centre(int j) const;  ///< Eq. 4.
+  /// Eq. 5: unit vector of the bin's centre in the sensor frame.
+  [[nodiscard]] Eigen::Vector3d direction(int bin) const;
+};
+
+/// A scan sorted into the bins of a grid.
+struct ProjectedScan {
+  std::vector<float> range;          ///< Of each point, metres.
+  std::vector<int> bin;              ///< Of each point; -1 = in no bin.
+  std::vector<float> minimum_range;  ///< Of each bin (d_scan, eq. 10); infinite if empty.
+};
+
+/// Eqs 1-3 and 10. Points nearer than `minimum_range` (the ego vehicle) go to no bin.
+ProjectedScan project(const Scan& scan, const AngularGrid& grid, double minimum_range);
+
+/// Columns `i + offset` of a full circle.
+inline int wrap_azimuth(int i, int azimuth_bins) {
+  return i < 0 ? i + azimuth_bins : (i >= azimuth_bins ? i - azimuth_bins : i);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/voxel_key.h"
+
+namespace raymoval {
+
+/// Axis-aligned bounding box of a set of points.
+struct Extent {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-1e300);
+  void add(const Eigen::Vector3d& point) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  /// diam(C) of eq. 12: diagonal of the box seen from above, metres.
+  [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
+  /// Shortest of the three sides, metres (eq. 15).
+  [[nodiscard]] double thinnest_side() const { return (high - low).minCoeff(); }
+};
+
+/// Cluster number of each point, from 0, in order of each cluster's first point. Two points are
+/// joined if their distance is at most gap + growth * (the smaller of their ranges).
+/// @param points metres; @param ranges distance of each point from the sensor, metres
+std::vector<int> range_adaptive_clusters(const std::vector<Eigen::Vector3d>& points,
+                                         const std::vector<double>& ranges, double gap,
+                                         double growth);
+
+/// Component number of each voxel, from 0, in order of each component's first voxel. Two voxels are
+/// joined if they lie within `gap` cells of each other (Chebyshev).
+std::vector<int> voxel_components(const std::vector<VoxelKey>& voxels, int gap);
+
+/// Members of each of the numbered sets that has any, sets and members ascending.
+std::vector<std::vector<int>> members_of(const std::vector<int>& numbers);
+
+}  // namespace raymoval

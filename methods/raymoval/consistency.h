@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "core/sensor_model.h"
+#include "methods/raymoval/angular_grid.h"
+#include "methods/raymoval/first_hit.h"
+
+namespace raymoval {
+
+/// Margin that grows with range: tau0 + tau1 * r, metres.
+struct RangeMargin {
+  double tau0 = 0.3;  ///< Metres.
+  double tau1 = 0.35;
+  [[nodiscard]] double at(double range) const { return tau0 + tau1 * range; }
+};
+
+/// Eq. 11 for every point with its own range: 1 where the map reference of its bin lies farther
+/// than the point by more than the margin at the point's range. Points in no bin, and bins without
+/// a map reference, give 0.
+Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
+                       const RangeMargin& margin);
+
+/// The opposite case, "erase" in the paper's overview: bins through which the scan sees. The
+/// nearest return of the bin's neighbourhood lies beyond the map reference by more than the margin
+/// at the map's range, and beyond the bin's own first hit by more than the margin's constant part.
+/// Only bins with a return of their own.
+/// @param nearest_return smallest range of the scan in each bin's neighbourhood
+std::vector<int> find_seen_through(const ProjectedScan& scan,
+                                   const std::vector<float>& nearest_return,
+                                   const FirstHitImage& first_hit,
+                                   const std::vector<float>& map_reference,
+                                   const RangeMargin& margin);
+
+/// No-return evidence: bins whose whole neighbourhood has no return although the sensor looks there
+/// and the map has a surface within `maximum_range`.
+/// @param nearest_return smallest range of the scan in each bin's (wide) neighbourhood
+std::vector<int> find_no_return(const std::vector<float>& nearest_return,
+                                const FirstHitImage& first_hit, const AngularGrid& grid,
+                                const SensorModel& sensor, double maximum_range);
+
+}  // namespace raymoval

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "methods/raymoval/angular_grid.h"
+
+namespace raymoval {
+
+/// The value below which the share `quantile` of the sorted values lies: the element of rank
+/// round(quantile * (n - 1)), so that the answer is always one of the values. An interpolated
+/// percentile would invent distances between a near and a far surface.
+/// @param sorted ascending, not empty
+float percentile_of_sorted(const float* sorted, int count, double quantile);
+
+/// Eqs 8-9: for each bin the `quantile` of the finite values in the (2 radius + 1)^2 window around
+/// it. The azimuth wraps around; rows beyond the grid do not count. Infinite where the window has
+/// no finite value.
+std::vector<float> windowed_percentile(const std::vector<float>& values, const AngularGrid& grid,
+                                       int radius, double quantile, int threads);
+
+/// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
+std::vector<float> windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
+                                    int azimuth_radius, int elevation_radius, int threads);
+
+}  // namespace raymoval

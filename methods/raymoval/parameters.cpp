@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/parameters.h"
+
+#include "methods/raymoval/raymoval.h"
+
+namespace raymoval {
+namespace {
+
+using Table = ParameterTable<RaymovalParameters>;
+using P = RaymovalParameters;
+constexpr const char* kOurs = "not in the paper";
+
+void add_grid(Table& table) {
+  table
+      .integer("azimuth_bins", &P::azimuth_bins,
+               {"bins", 0, 7200, "eq. 2, Table 1",
+                "Directions around the full circle; 0 takes the sensor's azimuth step."})
+      .integer("elevation_bins", &P::elevation_bins,
+               {"bins", 0, 3600, "eq. 2, Table 1",
+                "Rows over the vertical field of view; 0 takes the sensor's mean beam distance."})
+      .number(
+          "elevation_margin", &P::elevation_margin,
+          {"deg", 0, 10, kOurs,
+           "Added to both ends of the sensor's vertical field of view; points outside are in no "
+           "bin and stay static."})
+      .number("voxel_size", &P::voxel_size, {"m", 0.02, 2, "Table 1", "Edge of a map voxel."})
+      .number("maximum_range", &P::maximum_range,
+              {"m", 1, 500, "eq. 7, Table 1", "Rays end here; points beyond stay static."})
+      .number("minimum_range", &P::minimum_range,
+              {"m", 0, 20, kOurs,
+               "Ego radius: nearer points go to no bin and nearer map voxels stop no ray."})
+      .choice("map_source", &P::map_source,
+              {{"growing", MapSource::kGrowing}, {"naive", MapSource::kNaive}},
+              {.source = "section 3, 'prior map'",
+               .sentence = "The map that scans are compared with: growing from earlier scans, or "
+                           "all points of all scans (offline only)."});
+}
+
+void add_tests(Table& table) {
+  table
+      .integer("neighbourhood", &P::neighbourhood,
+               {"bins", 0, 10, "eq. 8, Table 1", "Radius r_n of the window of first hits."})
+      .number("percentile", &P::percentile,
+              {"", 0, 1, "eq. 9, Table 1", "Quantile q of the window in the forward test."})
+      .flag("forward_test", &P::forward_test,
+            {.source = "eq. 11", .sentence = "Flag points that stand in front of the map."})
+      .number("tau0", &P::tau0,
+              {"m", 0, 10, "eq. 11, Table 1", "Constant part of the forward test's margin."})
+      .number("tau1", &P::tau1,
+              {"", 0, 2, "eq. 11, Table 1 (printed in m, but a ratio)",
+               "Part of the forward test's margin that grows with the point's range."})
+      .flag("erase", &P::erase,
+            {.source = "Fig. 1 ('erase cases')",
+             .sentence = "Erase map voxels that a scan sees through."})
+      .number("erase_tau0", &P::erase_tau0,
+              {"m", 0, 10, kOurs, "Constant part of the erase test's margin."})
+      .number("erase_tau1", &P::erase_tau1,
+              {"", 0, 2, kOurs, "Part of the erase test's margin that grows with the map's range."})
+      .number("erase_percentile", &P::erase_percentile,
+              {"", 0, 1, "eq. 9 ('lower quantile' in the text)",
+               "Quantile of the window of first hits in the erase test."})
+      .integer("erase_neighbourhood", &P::erase_neighbourhood,
+               {"bins", 0, 10, kOurs,
+                "A voxel is erased only if no return within so many bins supports it."})
+      .flag("permanent_erase", &P::permanent_erase,
+            {.source = kOurs, .sentence = "A voxel once seen through is never filled again."});
+}
+
+void add_no_return(Table& table) {
+  table
+      .flag("no_return", &P::no_return,
+            {.source = "runtime table ('no-return evidence')",
+             .sentence = "Directions without return count as seeing through the first hit; needs a "
+                         "sensor whose missing returns mean something."})
+      .integer("no_return_azimuth_window", &P::no_return_azimuth_window,
+               {"bins", 0, 30, kOurs, "Half width of the neighbourhood that must be empty."})
+      .integer("no_return_elevation_window", &P::no_return_elevation_window,
+               {"bins", 0, 100, kOurs, "Half height of the neighbourhood that must be empty."})
+      .number(
+          "no_return_range", &P::no_return_range,
+          {"m", 0, 200, kOurs, "Only map voxels nearer than this are erased for want of return."})
+      .integer("no_return_scans", &P::no_return_scans,
+               {"scans", 1, 1000, kOurs, "Scans without return it takes to erase a voxel."});
+}
+
+void add_validation(Table& table) {
+  table
+      .flag("validate_scans", &P::validate_scans,
+            {.source = "section 3, eqs 12-15",
+             .sentence = "Validate each scan's candidates in range-adaptive clusters."})
+      .number("cluster_gap", &P::cluster_gap,
+              {"m", 0.01, 5, "section 3 (no value)", "Distance that joins points at range 0."})
+      .number("cluster_gap_growth", &P::cluster_gap_growth,
+              {"", 0, 0.2, "section 3 (no value)", "Growth of that distance with range."})
+      .number(
+          "cluster_points", &P::cluster_points,
+          {"points", 0, 1000, "eq. 13, m(r) (no value)",
+           "Points a cluster needs at 10 m; falls with the square of the range, to 3 at least."})
+      .number("cluster_width", &P::cluster_width,
+              {"m", 0, 5, "eq. 13, d(r) (no value)", "Width a cluster needs."})
+      .flag("validate_map", &P::validate_map,
+            {.source = "section 3, eqs 14-15",
+             .sentence = "Offline: validate all removed voxels of the final map in groups."})
+      .integer("group_gap", &P::group_gap,
+               {"voxels", 1, 5, "section 3 (no value)", "Clusters nearer than this are one group."})
+      .integer("coverage_dilation", &P::coverage_dilation,
+               {"voxels", 0, 5, "eq. 14, delta_v (no value)",
+                "A point is covered if the static map is within so many voxels."})
+      .number("coverage_static", &P::coverage_static,
+              {"", 0, 1.01, "eq. 15, theta_cov (no value)",
+               "A group covered at least this much is static; above 1: never."})
+      .number("coverage_edge", &P::coverage_edge,
+              {"", 0, 1.01, "eq. 15, theta_edge (no value)",
+               "A thin group covered at least this much is static; above 1: never."})
+      .number("thin_side", &P::thin_side,
+              {"m", 0, 5, "eq. 15, theta_thin (no value)", "A group this thin is thin."})
+      .integer("support_dilation", &P::support_dilation,
+               {"voxels", 0, 5, "section 3 (no value)",
+                "In a dynamic group, points this near to the static map are kept after all; 0 = in "
+                "its very voxels."})
+      .integer("minimum_points", &P::minimum_points,
+               {"points", 0, 1000, "m_min (no value)",
+                "A cluster's remainder with fewer points is static."})
+      .number(
+          "minimum_width", &P::minimum_width,
+          {"m", 0, 5, "d_min (no value)", "A cluster's remainder narrower than this is static."});
+}
+
+void add_answer(Table& table) {
+  table
+      .flag("offline", &P::offline,
+            {.source = kOurs,
+             .sentence = "Answer for all points from the final map instead of scan by scan."})
+      .flag("backward_pass", &P::backward_pass,
+            {.source = kOurs,
+             .sentence = "Offline: go through the scans a second time, last to first."});
+}
+
+}  // namespace
+
+const ParameterTable<RaymovalParameters>& raymoval_parameter_table() {
+  static const Table table = [] {
+    Table t;
+    add_grid(t);
+    add_tests(t);
+    add_no_return(t);
+    add_validation(t);
+    add_answer(t);
+    return t;
+  }();
+  return table;
+}
+
+MethodEntry raymoval_entry() {
+  const Configuration as_online = {{"offline", false}, {"map_source", std::string("growing")}};
+  const Configuration as_printed = {{"erase_tau1", 0.35}, {"erase_percentile", 0.9}};
+  Configuration both = as_online;
+  both.insert(both.end(), as_printed.begin(), as_printed.end());
+  MethodEntry entry;
+  entry.name = "raymoval";
+  entry.sentence =
+      "Raycasting against the map: flags what stands in front of it, erases what is "
+      "seen through, validates clusters against what remains.";
+  entry.source = "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping";
+  entry.notes = {
+      "The paper leaves the erase test's margin, the origin of its map, and all cluster and "
+      "coverage values open; the variants called table1 use every printed value in both tests.",
+      "The percentile is always one of the window's values (nearest rank).",
+      "m(r) falls with the square of the range and d(r) is constant: the paper gives no form.",
+  };
+  entry.parameters = raymoval_parameter_table().specs();
+  entry.variants = {
+      {"offline", "Every point answered from the final map.", false, {}},
+      {"online", "Each scan answered when it arrives, from a growing map.", true, as_online},
+      {"table1", "Offline with every value as printed in Table 1.", false, as_printed},
+      {"table1-online", "Online with every value as printed in Table 1.", true, both},
+  };
+  entry.make = [](const Configuration& configuration) {
+    return make_raymoval(raymoval_parameter_table().read(configuration));
+  };
+  return entry;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/parameters.h"
+
+namespace raymoval {
+
+/// Where the map that the scans are compared with comes from (the paper says "prior map").
+enum class MapSource {
+  kGrowing,  ///< From the points of earlier scans that were judged static.
+  kNaive,    ///< From all points of all scans; offline only.
+};
+
+/// Parameters of the paper's method. What the paper prints is named in the table of
+/// parameters.cpp; every other member settles something the paper leaves open.
+struct RaymovalParameters {
+  // Angular grid (eqs 2-5).
+  int azimuth_bins = 720;
+  int elevation_bins = 450;
+  double elevation_margin = 1.0;
+  // Map and rays (eqs 6-7).
+  double voxel_size = 0.2;
+  double maximum_range = 60.0;
+  double minimum_range = 2.7;
+  MapSource map_source = MapSource::kNaive;
+  // Map reference (eqs 8-9).
+  int neighbourhood = 1;
+  double percentile = 0.9;
+  // Forward test: the scan stands in front of the map (eq. 11).
+  bool forward_test = true;
+  double tau0 = 0.30;
+  double tau1 = 0.35;
+  // Erase test: the scan sees through the map.
+  bool erase = true;
+  double erase_tau0 = 0.30;
+  double erase_tau1 = 0.10;
+  double erase_percentile = 0.1;
+  int erase_neighbourhood = 1;
+  bool permanent_erase = true;
+  // No-return evidence.
+  bool no_return = false;
+  int no_return_azimuth_window = 2;
+  int no_return_elevation_window = 8;
+  double no_return_range = 20.0;
+  int no_return_scans = 3;
+  // Spatial consistency validation of a scan's candidates (eqs 12-15).
+  bool validate_scans = false;
+  double cluster_gap = 0.3;
+  double cluster_gap_growth = 0.02;
+  double cluster_points = 10.0;
+  double cluster_width = 0.15;
+  // Spatial consistency validation of the removed part of the final map.
+  bool validate_map = true;
+  int group_gap = 1;
+  // Coverage and group rules, both validations (eqs 14-15).
+  int coverage_dilation = 1;
+  double coverage_static = 0.9;
+  double coverage_edge = 0.7;
+  double thin_side = 0.4;
+  int support_dilation = 0;
+  int minimum_points = 3;
+  double minimum_width = 0.0;
+  // Answer.
+  bool offline = true;
+  bool backward_pass = false;
+};
+
+/// Names, units, legal ranges, sources and a sentence for each parameter.
+const ParameterTable<RaymovalParameters>& raymoval_parameter_table();
+
+}  // namespace raymoval
