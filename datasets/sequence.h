@@ -54,12 +54,20 @@ struct Sequence {
   [[nodiscard]] nlohmann::ordered_json record() const;
 };
 
-/// Opens `path` (a sequence folder, a root with `sequences/NN` followed by `:NN` or the name of
-/// one of the paper's segments, or `street`, the built-in procedural scene).
-/// @throws DataError or UsageError saying what was found and what was expected.
+/// Opens a sequence. `path` is one of:
+/// - a sequence folder, its layout told by what is in it: `velodyne/` (SemanticKITTI), `pcd/` (KTH
+///   DynamicMap), or `.pcd`, `.ply`, `.bin` scans beside a pose file;
+/// - `ROOT:05`, the whole sequence `ROOT/sequences/05` of a SemanticKITTI root;
+/// - `ROOT:kitti-05`, the segment of that sequence which the field compares on (kitti-00, -01, -02,
+///   -05, -07, see `paper_segments`); `options.frames` replaces its frame range;
+/// - `street`, the built-in procedural scene (write `./street` for a folder of that name).
+/// A `sequence.json` in the folder may say more, see `read_settings`; `options` stand above it.
+/// @throws DataError, UsageError or ConfigurationError saying what was found and what was expected
 Sequence open_sequence(const std::string& path, const SequenceOptions& options);
 
-/// Hash of everything a method or protocol reads: points, poses, labels of the chosen frames.
+/// Hash of everything a method or protocol reads: points, reflectance, times, poses and labels of
+/// the chosen frames, sensor model, label rule and range limits. File and sequence names are left
+/// out: a copy of the data elsewhere has the same fingerprint.
 /// @param threads used for reading; the answer does not depend on it
 std::string fingerprint(const Sequence& sequence, int threads);
 

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/semantickitti/semantickitti.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/cloud_file.h"
+#include "datasets/file_source.h"
+#include "datasets/frames.h"
+#include "datasets/poses.h"
+#include "datasets/settings.h"
+
+namespace raymoval {
+namespace {
+
+/// A surplus of rows is normal (frames absent from the disk); a lack means that file and scans do
+/// not belong together, and then no row can be trusted.
+void check_row_count(std::size_t rows, const char* what, const std::filesystem::path& path,
+                     const std::vector<NumberedFile>& files) {
+  const long highest = files.back().number;
+  if (rows > static_cast<std::size_t>(highest)) return;
+  throw DataError(path.string() + ": holds " + grouped_text(rows) + " " + what + ", but the " +
+                  grouped_text(files.size()) + " scans go up to frame " + std::to_string(highest) +
+                  "; expected a row per frame number from 0, at least " +
+                  grouped_text(static_cast<std::uint64_t>(highest) + 1) +
+                  ". Take the file that belongs to these scans.");
+}
+
+/// `Tr`, LiDAR to camera; identity if the poses are those of the LiDAR.
+Pose lidar_to_pose_frame(const std::filesystem::path& folder, const SequenceSettings& settings) {
+  if (settings.poses_are_lidar) return Pose::Identity();
+  const auto calibration = folder / "calib.txt";
+  if (!is_file(calibration)) {
+    throw DataError(calibration.string() +
+                    ": is missing; its row 'Tr:' takes camera poses to the LiDAR (T = Tr^-1 P Tr). "
+                    "Add it, or say \"poses_are_lidar\": true in sequence.json if the poses are "
+                    "those of the LiDAR.");
+  }
+  return read_calibration(calibration, "Tr");
+}
+
+/// Seconds since frame 0, by frame number.
+std::vector<double> frame_times(const std::filesystem::path& folder, double period,
+                                const std::vector<NumberedFile>& files) {
+  const auto path = folder / "times.txt";
+  std::vector<double> times;
+  if (is_file(path)) {
+    times = read_number_column(path);
+    check_row_count(times.size(), "times", path, files);
+    const double start = times.front();
+    for (double& time : times) time -= start;
+    return times;
+  }
+  for (const NumberedFile& file : files) {
+    times.resize(static_cast<std::size_t>(file.number) + 1);
+    times.back() = static_cast<double>(file.number) * period;
+  }
+  return times;
+}
+
+std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
+                                      const PoseFile& poses, const Pose& Tr,
+                                      const std::vector<double>& times) {
+  const Pose Tr_inverse = Tr.inverse();
+  std::vector<FrameEntry> frames;
+  for (const NumberedFile& file : chosen) {
+    std::error_code error;  // A file that cannot be read is reported when it is.
+    const auto bytes = std::filesystem::file_size(file.path, error);
+    if (!error) check_bin_size(file.path, bytes);
+    const auto number = static_cast<std::size_t>(file.number);
+    FrameEntry frame;
+    frame.path = file.path;
+    frame.name = file.path.stem().string();
+    frame.time_s = times[number];
+    frame.T_world_sensor = Tr_inverse * rigid_pose(poses, number) * Tr;
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+std::vector<std::string> sequences_of(const std::filesystem::path& root) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "sequences", error)) {
+    if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+const std::vector<PaperSegment>& paper_segments() {
+  static const std::vector<PaperSegment> segments = {
+      {"kitti-00", "00", {4390, 4530, 2}}, {"kitti-01", "01", {150, 250, 1}},
+      {"kitti-02", "02", {860, 950, 2}},   {"kitti-05", "05", {2350, 2670, 2}},
+      {"kitti-07", "07", {630, 820, 2}},
+  };
+  return segments;
+}
+
+Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
+                            const std::string& name, const FrameRange& frames) {
+  SequenceSettings defaults;
+  defaults.name = name;
+  defaults.frames = frames;
+  defaults.scan_period_s = kUsualScanPeriod;  // KITTI's HDL-64E turns at 10 Hz.
+  const SequenceSettings settings = read_settings(folder, options, defaults);
+
+  const auto files = list_numbered_files(folder / "velodyne", ".bin");
+  const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
+  const auto pose_path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
+  const PoseFile poses = read_pose_file(pose_path);
+  check_row_count(poses.rows.size(), "poses", pose_path, files);
+  auto entries = frame_entries(chosen.files, poses, lidar_to_pose_frame(folder, settings),
+                               frame_times(folder, *settings.scan_period_s, files));
+
+  Sequence sequence = make_sequence(settings, "semantickitti", chosen.range);
+  if (find_label_files(folder / "labels", entries)) {
+    sequence.labels = std::make_shared<LabelFileSource>(entries);
+  }
+  sequence.scans = std::make_shared<FileScanSource>(std::move(entries), FileScanSource::Traits{},
+                                                    settings.sensor);
+  sequence.poses_file = pose_path.filename().string();
+  return sequence;
+}
+
+Sequence open_semantickitti_root(const std::filesystem::path& root, const std::string& selection,
+                                 const SequenceOptions& options) {
+  std::vector<std::string> choices = sequences_of(root);
+  if (std::find(choices.begin(), choices.end(), selection) != choices.end()) {
+    return open_semantickitti(root / "sequences" / selection, options);
+  }
+  for (const PaperSegment& segment : paper_segments()) {
+    choices.push_back(segment.name);
+    if (segment.name != selection) continue;
+    const auto folder = root / "sequences" / segment.sequence;
+    if (!is_folder(folder)) {
+      throw DataError(folder.string() + ": no such folder; segment " + selection +
+                      " is part of sequence " + segment.sequence + " of SemanticKITTI.");
+    }
+    return open_semantickitti(folder, options, segment.name, segment.frames);
+  }
+  throw UsageError(root.string() + ": has no sequence '" + selection + "'." +
+                   suggestion(selection, choices) +
+                   " A root holds sequences/NN; known here: " + join(choices) + ".");
+}
+
+}  // namespace raymoval

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "datasets/sequence.h"
+
+namespace raymoval {
+
+/// A part of a SemanticKITTI sequence that papers compare on.
+struct PaperSegment {
+  std::string name;      ///< "kitti-05".
+  std::string sequence;  ///< "05".
+  FrameRange frames;
+};
+
+/// The five segments of the ERASOR protocol (evaluation protocol, section 2.1).
+const std::vector<PaperSegment>& paper_segments();
+
+/// Opens a SemanticKITTI sequence folder: `velodyne/NNNNNN.bin`, `poses.txt` with one row per frame
+/// number from 0, `calib.txt` with the row `Tr:` (T_world_sensor = Tr^-1 P Tr), and perhaps
+/// `labels/NNNNNN.label`, `times.txt` and `sequence.json`.
+///
+/// Without calib.txt the poses count as those of the LiDAR only if sequence.json says
+/// `"poses_are_lidar": true`. Frames may be absent from the disk (a partial copy), but each frame
+/// number there has to have a row in the pose file. Labels: 252-259 move, nothing is ignored.
+/// @param name name of the sequence where no option gives one; empty: that of sequence.json, else
+///   of the folder
+/// @param frames the frames where no option gives any
+Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
+                            const std::string& name = "", const FrameRange& frames = {});
+
+/// Opens `selection` of a root folder: a sequence such as "05", or the name of a paper's segment.
+/// @throws UsageError listing the sequences there are and the segments known
+Sequence open_semantickitti_root(const std::filesystem::path& root, const std::string& selection,
+                                 const SequenceOptions& options);
+
+}  // namespace raymoval

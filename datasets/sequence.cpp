@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/sequence.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "datasets/cloud_file.h"
+#include "datasets/dynamicmap/dynamicmap.h"
+#include "datasets/files/files.h"
+#include "datasets/frames.h"
+#include "datasets/semantickitti/semantickitti.h"
+#include "datasets/simulated/street.h"
+
+namespace raymoval {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kKnownLayouts =
+    "Known are: a SemanticKITTI sequence (velodyne/*.bin, poses.txt, calib.txt), a SemanticKITTI "
+    "root as ROOT:05 or ROOT:kitti-05 (sequences/NN), a DynamicMap sequence (pcd/*.pcd), a folder "
+    "of .pcd, .ply or .bin scans with poses.txt, and 'street', the built-in scene.";
+
+/// Up to eight names in `folder`, for messages.
+std::string content_text(const fs::path& folder) {
+  constexpr std::size_t kMost = 8;
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    names.push_back(entry.path().filename().string() + (entry.is_directory(error) ? "/" : ""));
+  }
+  if (names.empty()) return "nothing";
+  std::sort(names.begin(), names.end());
+  const std::size_t more = names.size() - std::min(names.size(), kMost);
+  names.resize(std::min(names.size(), kMost));
+  return join(names) + (more > 0 ? " and " + grouped_text(more) + " more" : "");
+}
+
+Sequence open_folder(const fs::path& folder, const SequenceOptions& options) {
+  if (is_folder(folder / "velodyne")) return open_semantickitti(folder, options);
+  if (is_folder(folder / "pcd")) return open_dynamicmap(folder, options);
+  if (!list_files(folder, cloud_extensions()).empty()) return open_files(folder, options);
+  if (is_folder(folder / "sequences")) {
+    throw UsageError(folder.string() + ": is a root with " + content_text(folder / "sequences") +
+                     " in sequences/; say which one, such as " + folder.string() + ":05.");
+  }
+  throw DataError(folder.string() + ": no known layout; found " + content_text(folder) + ". " +
+                  kKnownLayouts);
+}
+
+/// Adds plain numbers as bytes.
+template <class Number>
+void add_number(ContentHasher& hasher, Number value) {
+  hasher.add(&value, sizeof value);
+}
+
+template <class Value>
+void add_vector(ContentHasher& hasher, const std::vector<Value>& values) {
+  add_number(hasher, std::uint64_t{values.size()});
+  hasher.add(values.data(), values.size() * sizeof(Value));
+}
+
+std::string scan_hash(const Sequence& sequence, std::size_t index) {
+  const Scan scan = sequence.scans->load(index);
+  ContentHasher hasher;
+  add_number(hasher, scan.time_s);
+  const Eigen::Matrix4d pose = scan.T_world_sensor.matrix();
+  hasher.add(pose.data(), sizeof(double) * 16);
+  add_vector(hasher, scan.points);
+  add_vector(hasher, scan.reflectance);
+  if (sequence.labels) add_vector(hasher, sequence.labels->labels(scan));
+  return hasher.digest();
+}
+
+void add_settings(ContentHasher& hasher, const Sequence& sequence) {
+  const SensorModel& sensor = sequence.scans->sensor();
+  for (const double value :
+       {sensor.azimuth_min, sensor.azimuth_max, sensor.elevation_min, sensor.elevation_max,
+        sensor.azimuth_step, sensor.elevation_step, sensor.range_min, sensor.range_max,
+        sensor.missing_return_is_meaningful ? 1.0 : 0.0, sequence.range_m.min, sequence.range_m.max,
+        sequence.labels ? 1.0 : 0.0}) {
+    add_number(hasher, value);
+  }
+  add_vector(hasher, sequence.label_rule.moving);
+  add_vector(hasher, sequence.label_rule.ignored);
+}
+
+}  // namespace
+
+nlohmann::ordered_json Sequence::record() const {
+  nlohmann::ordered_json record;
+  record["name"] = name;
+  record["layout"] = layout;
+  record["source"] = source;
+  record["frames"] = frames;
+  record["scans"] = scans->size();
+  record["poses"] = poses_file;
+  record["sensor"] = scans->sensor().name;
+  record["scan_period_s"] = nullptr;
+  if (scan_period_s) record["scan_period_s"] = *scan_period_s;
+  record["range_m"] = {{"min", range_m.min}, {"max", nullptr}};
+  if (range_m.max < RangeLimits{}.max) record["range_m"]["max"] = range_m.max;
+  record["label_rule"] = nullptr;
+  if (labels) record["label_rule"] = to_json(label_rule);
+  return record;
+}
+
+Sequence open_sequence(const std::string& path, const SequenceOptions& options) {
+  if (path == "street") return open_street(options);
+  if (is_folder(path)) return open_folder(path, options);
+  std::error_code error;
+  if (fs::exists(path, error)) {
+    throw DataError(path + ": is a file, expected a folder. " + kKnownLayouts);
+  }
+  const std::size_t colon = path.rfind(':');
+  const std::string root = path.substr(0, colon);
+  if (colon == std::string::npos || !is_folder(root)) {
+    throw DataError(root + ": no such folder. " + kKnownLayouts);
+  }
+  return open_semantickitti_root(root, path.substr(colon + 1), options);
+}
+
+std::string fingerprint(const Sequence& sequence, int threads) {
+  const std::size_t count = sequence.scans->size();
+  std::vector<std::string> digests(count);
+  parallel_for(threads, count, 1, [&](std::size_t i) { digests[i] = scan_hash(sequence, i); });
+  ContentHasher hasher;
+  add_settings(hasher, sequence);
+  for (const std::string& digest : digests) hasher.add(digest);
+  return hasher.digest();
+}
+
+}  // namespace raymoval

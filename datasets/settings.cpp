@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/sensor_model.h"
+#include "core/text.h"
+#include "datasets/frames.h"
+
+namespace raymoval {
+namespace {
+
+using nlohmann::json;
+
+std::string text_value(const json& value, const std::string& where) {
+  if (!value.is_string()) throw ConfigurationError(where + ": expected a text in quotes.");
+  return value.get<std::string>();
+}
+
+double positive_value(const json& value, const std::string& where, bool zero_allowed) {
+  const double number = value.is_number() ? value.get<double>() : -1.0;
+  if (!std::isfinite(number) || number < 0.0 || (number == 0.0 && !zero_allowed)) {
+    throw ConfigurationError(where + ": " + value.dump() + " is not a number " +
+                             (zero_allowed ? "from 0 on." : "above 0."));
+  }
+  return number;
+}
+
+RangeLimits range_value(const json& value, const std::string& where) {
+  check_keys(value, {"min", "max"}, where);
+  RangeLimits range;
+  if (value.contains("min")) range.min = positive_value(value["min"], where + ".min", true);
+  if (value.contains("max")) range.max = positive_value(value["max"], where + ".max", false);
+  return range;
+}
+
+void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
+  const std::string where = path.string();
+  const json file = read_json(path);
+  check_keys(file,
+             {"name", "source", "sensor", "scan_period_s", "poses", "poses_are_lidar", "range_m",
+              "labels"},
+             where);
+  const auto at = [&where](const char* key) { return where + ": " + key; };
+  if (file.contains("name")) settings.name = text_value(file["name"], at("name"));
+  if (file.contains("source")) settings.source = text_value(file["source"], at("source"));
+  if (file.contains("sensor")) settings.sensor = text_value(file["sensor"], at("sensor"));
+  if (file.contains("poses")) settings.poses = text_value(file["poses"], at("poses"));
+  if (file.contains("scan_period_s")) {
+    settings.scan_period_s = positive_value(file["scan_period_s"], at("scan_period_s"), false);
+  }
+  if (file.contains("poses_are_lidar")) {
+    if (!file["poses_are_lidar"].is_boolean()) {
+      throw ConfigurationError(at("poses_are_lidar") + ": expected true or false.");
+    }
+    settings.poses_are_lidar = file["poses_are_lidar"].get<bool>();
+  }
+  if (file.contains("range_m")) settings.range_m = range_value(file["range_m"], at("range_m"));
+  if (file.contains("labels")) {
+    LabelRule base = settings.label_rule;
+    if (!settings.name.empty()) base.name = settings.name;
+    settings.label_rule = label_rule_from_json(file["labels"], base, at("labels"));
+    settings.label_rule_given = true;
+  }
+}
+
+/// The name becomes part of file names and table rows.
+void check_name(const std::string& name) {
+  const bool plain =
+      !name.empty() && name.front() != '.' && name.find_first_of("/\\\n\r\t") == std::string::npos;
+  if (!plain) {
+    throw ConfigurationError("sequence name '" + name +
+                             "': expected a name without slashes that does not start with a dot; "
+                             "give one with --name or \"name\" in sequence.json.");
+  }
+}
+
+void check_settings(const SequenceSettings& settings) {
+  check_name(settings.name);
+  const RangeLimits& range = settings.range_m;
+  if (!(range.min >= 0.0 && range.min < range.max)) {
+    throw ConfigurationError("range_m of sequence " + settings.name + ": min " +
+                             number_text(range.min) + " and max " + number_text(range.max) +
+                             "; expected 0 <= min < max in metres.");
+  }
+  if (settings.sensor && *settings.sensor != "estimated") {
+    const auto known = sensor_model_names();
+    if (std::find(known.begin(), known.end(), *settings.sensor) == known.end()) {
+      auto choices = known;
+      choices.emplace_back("estimated");
+      throw ConfigurationError("sensor '" + *settings.sensor + "' of sequence " + settings.name +
+                               " is unknown." + suggestion(*settings.sensor, choices) +
+                               " Known are: " + join(choices) + ".");
+    }
+  }
+}
+
+std::string folder_name(const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto whole = std::filesystem::weakly_canonical(folder, error);
+  const auto name = error ? folder.filename() : whole.filename();
+  return name.empty() ? "sequence" : name.string();
+}
+
+}  // namespace
+
+SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings settings) {
+  if (options.frames) settings.frames = *options.frames;
+  if (options.poses) settings.poses = options.poses;
+  if (options.range_m) settings.range_m = *options.range_m;
+  if (options.sensor) settings.sensor = options.sensor;
+  if (options.name) settings.name = *options.name;
+  if (options.label_rule) {
+    LabelRule base;
+    base.name = options.label_rule->stem().string();
+    settings.label_rule =
+        label_rule_from_json(read_json(*options.label_rule), base, options.label_rule->string());
+    settings.label_rule_given = true;
+  }
+  check_settings(settings);
+  return settings;
+}
+
+SequenceSettings read_settings(const std::filesystem::path& folder, const SequenceOptions& options,
+                               const SequenceSettings& defaults) {
+  SequenceSettings settings = defaults;
+  const auto file = folder / "sequence.json";
+  if (is_file(file)) apply_file(file, settings);
+  if (!defaults.name.empty()) settings.name = defaults.name;
+  if (settings.name.empty()) settings.name = folder_name(folder);
+  return apply_options(options, settings);
+}
+
+Sequence make_sequence(const SequenceSettings& settings, const std::string& layout,
+                       const FrameRange& range) {
+  Sequence sequence;
+  sequence.name = settings.name;
+  sequence.layout = layout;
+  sequence.label_rule = settings.label_rule;
+  sequence.range_m = settings.range_m;
+  sequence.frames = frame_range_text(range);
+  sequence.source = settings.source;
+  sequence.scan_period_s = settings.scan_period_s;
+  return sequence;
+}
+
+std::filesystem::path find_pose_file(const std::filesystem::path& folder, const std::string& name) {
+  if (is_file(folder / name)) return folder / name;
+  if (is_file(name)) return name;
+  std::vector<std::string> there;
+  for (const auto& path : list_files(folder, {".txt"})) there.push_back(path.filename().string());
+  throw DataError(folder.string() + ": there is no pose file '" + name + "'; found " +
+                  (there.empty() ? "no .txt file" : join(there)) +
+                  ". Name one with --poses or \"poses\" in sequence.json.");
+}
+
+}  // namespace raymoval
