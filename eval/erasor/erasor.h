@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "eval/protocol.h"
+
+namespace raymoval {
+
+/// The protocol of the ERASOR paper (PR, RR, F1 over voxels of the map), which most papers of the
+/// field use.
+///
+/// Truth: all points, cropped, lifted, posed, voxelised scan by scan and once more as a whole, one
+/// label per voxel. Estimate: the same of the points that a method kept. Each truth voxel looks for
+/// its nearest estimate voxel within half a voxel's diagonal; a static one is preserved if that is
+/// static, a moving one remains if that moves. PR = preserved / static, RR = 1 - remaining /
+/// moving (percent), F1 their harmonic mean (fraction).
+///
+/// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic; estimate_voxels;
+/// estimate_voxels_without_partner (no truth voxel within the same reach; never penalised);
+/// mixed_label_ties and estimate_mixed_label_ties (voxels whose class hung on input order);
+/// unlabelled_voxels (truth voxels labelled 0 or 1); evaluated_points and removed_points
+/// (those of them that were flagged); out_of_range_points, ignored_points, cropped_points. If
+/// moving trucks (id 258) occur and move, the first four and the rates come again as `..._no_truck`
+/// with trucks counted as static, as in the scripts behind early published tables.
+ProtocolEntry erasor_protocol_entry();
+std::unique_ptr<Protocol> make_erasor_protocol(const Configuration& options);
+
+}  // namespace raymoval

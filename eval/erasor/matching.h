@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "eval/erasor/options.h"
+#include "eval/labelled_voxels.h"
+
+namespace raymoval::erasor {
+
+inline constexpr std::uint32_t kNoPartner = std::numeric_limits<std::uint32_t>::max();
+
+/// Squared distance below which voxels match: half the diagonal of a voxel, squared, which is
+/// 3 s^2 / 4 (0.03 m^2 for 0.2 m). The comparison is strict.
+double matching_bound(double voxel_size);
+
+/// For each voxel of `from` the voxel of `to` that stands for it, or `kNoPartner`: the nearest one
+/// (exact, in double; the lowest index on equal squared distance) if its squared distance is below
+/// `matching_bound`, or the one of the same cell.
+std::vector<std::uint32_t> find_partners(const LabelledVoxels& from, const LabelledVoxels& to,
+                                         double voxel_size, MatchingOption matching, int threads);
+
+/// S, D, Ps and Rd.
+struct MatchCounts {
+  std::int64_t static_voxels = 0;
+  std::int64_t dynamic_voxels = 0;
+  std::int64_t preserved_static = 0;
+  std::int64_t remaining_dynamic = 0;
+
+  bool operator==(const MatchCounts&) const = default;
+};
+
+/// Counts the voxels of the truth by their class and their partners. With both-side labels a
+/// static voxel is preserved if its partner is static, and a moving one remains if its partner
+/// moves; by geometry any partner will do.
+/// @param partners of each truth voxel in the estimate
+MatchCounts count_matches(const LabelledVoxels& truth, const LabelledVoxels& estimate,
+                          const std::vector<std::uint32_t>& partners, const LabelClasses& classes,
+                          const Options& options);
+
+}  // namespace raymoval::erasor
