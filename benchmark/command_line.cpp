@@ -175,15 +175,15 @@ int run_command_line(int argc, const char* const* argv) {
   try {
     code = run_program(argc, argv);
   } catch (const InternalError& error) {
-    code = tell(std::string("internal error, please report it: ") + error.what(),
-                error.exit_code());
+    code =
+        tell(std::string("internal error, please report it: ") + error.what(), error.exit_code());
   } catch (const Error& error) {
     code = tell(error.what(), error.exit_code());
   } catch (const std::bad_alloc&) {
     code = tell("there was not enough memory. Choose fewer --frames.", ExitCode::kCannotDo);
   } catch (const std::exception& error) {
-    code = tell(std::string("internal error, please report it: ") + error.what(),
-                ExitCode::kInternal);
+    code =
+        tell(std::string("internal error, please report it: ") + error.what(), ExitCode::kInternal);
   }
   return static_cast<int>(code);
 }

@@ -5,6 +5,7 @@
 #include "benchmark/commands.h"
 #include "core/sensor_model.h"
 #include "core/text.h"
+#include "datasets/semantickitti/semantickitti.h"
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -42,10 +43,15 @@ Lines sensor_lines() {
 }
 
 Lines sequence_lines() {
-  return {{"street", "built-in procedural scene, needs no data"},
-          {"FOLDER", "a folder in SemanticKITTI or DynamicMap layout, or one of scan files"},
-          {"ROOT:NN", "sequence NN below ROOT/sequences, NN one of 00 01 02 05 07: the paper's "
-                      "segment unless --frames says otherwise"}};
+  Lines lines = {{"street", "built-in procedural scene, needs no data"},
+                 {"FOLDER", "a folder in SemanticKITTI or DynamicMap layout, or one of scan files"},
+                 {"ROOT:05", "a whole sequence of a SemanticKITTI root folder"}};
+  for (const PaperSegment& segment : paper_segments()) {
+    lines.emplace_back("ROOT:" + segment.name, "sequence " + segment.sequence + ", frames " +
+                                                   frame_range_text(segment.frames) +
+                                                   ", as papers compare on");
+  }
+  return lines;
 }
 
 void print_lines(const std::string& heading, const Lines& lines) {

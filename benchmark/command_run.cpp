@@ -34,8 +34,9 @@ Suite suite_from_flags(const RunFlags& flags, const MethodRegistry& registry) {
     throw UsageError("nothing to run on: name a suite file, or a folder with --sequence PATH.");
   }
   if (flags.methods.empty()) {
-    throw UsageError("nothing to run: name a method with --method NAME[:variant] "
-                     "(see `raymoval list methods`).");
+    throw UsageError(
+        "nothing to run: name a method with --method NAME[:variant] "
+        "(see `raymoval list methods`).");
   }
   if (flags.sequences.size() > 1 && !flags.sequence.name.empty()) {
     throw UsageError("--name names one sequence, but there are " +
@@ -52,8 +53,8 @@ Suite suite_from_flags(const RunFlags& flags, const MethodRegistry& registry) {
 Suite resolved_suite(const RunFlags& flags) {
   const MethodRegistry& registry = MethodRegistry::built_in();
   if (!flags.suite.empty()) check_suite_alone(flags);
-  Suite suite = flags.suite.empty() ? suite_from_flags(flags, registry)
-                                    : read_suite(flags.suite, registry);
+  Suite suite =
+      flags.suite.empty() ? suite_from_flags(flags, registry) : read_suite(flags.suite, registry);
   std::vector<Setting> settings;
   for (const std::string& text : flags.settings) settings.push_back(parse_setting(text));
   apply_settings(suite, settings);
@@ -84,8 +85,10 @@ ExitCode run(const RunFlags& flags) {
     summary = run_suite(suite, options);
   } catch (const Cancelled&) {
     progress.end();
-    std::fputs("raymoval: cancelled. Finished cells are kept; the same command goes on with the "
-               "rest.\n", stderr);
+    std::fputs(
+        "raymoval: cancelled. Finished cells are kept; the same command goes on with the "
+        "rest.\n",
+        stderr);
     return ExitCode::kWorse;
   } catch (...) {
     progress.end();
@@ -123,7 +126,8 @@ Command add_run_command(CLI::App& program) {
   app->add_flag("--keep-removals", flags->keep_removals, "Keep what each method removed, per scan");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
-      "The controls noop, remove-all and oracle are added and checked. A cell that is there already "
+      "The controls noop, remove-all and oracle are added and checked. A cell that is there "
+      "already "
       "is not run again.\nExamples:\n"
       "  raymoval run --sequence street --method raymoval:online --out out/street\n"
       "  raymoval run --sequence data/05 --frames 0:100 --method raymoval --set raymoval.tau0=0.2 "

@@ -27,9 +27,10 @@ std::string result_text(const std::string& name, const ProtocolResult& result) {
     text += "  " + count + " " + std::to_string(value) + "\n";
   }
   for (const Rate& rate : result.rates) {
-    text += "  " + rate.name + " " +
-            (rate.value ? rate_text(rate.name, *rate.value)
-                        : "n/a (" + rate.undefined_reason + ")") + "\n";
+    text +=
+        "  " + rate.name + " " +
+        (rate.value ? rate_text(rate.name, *rate.value) : "n/a (" + rate.undefined_reason + ")") +
+        "\n";
   }
   for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
   return text;

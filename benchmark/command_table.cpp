@@ -22,7 +22,8 @@ std::filesystem::path results_file(const std::string& run) {
     throw UsageError(run + ": no such run folder; expected what `raymoval run --out` made.");
   }
   if (!std::filesystem::exists(given / "results.json")) {
-    throw UsageError(run + ": has no results.json; the run did not reach its end. Start it again "
+    throw UsageError(run +
+                     ": has no results.json; the run did not reach its end. Start it again "
                      "with the same --out to go on.");
   }
   return given / "results.json";

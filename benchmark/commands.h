@@ -42,7 +42,8 @@ struct SequenceFlags {
 /// `--threads N`: 0 if it was not given. @throws UsageError unless a whole number from 1 to 4096.
 int parse_threads(const std::string& text);
 
-/// @throws UsageError unless `text` is a decimal number greater than 0; `option` is for the message.
+/// @throws UsageError unless `text` is a decimal number greater than 0; `option` is for the
+/// message.
 double parse_positive(const std::string& option, const std::string& text);
 
 /// Set to true by the first Ctrl-C; a second one ends the program at once.

@@ -27,7 +27,8 @@ std::string range_text(const ParameterSpec& spec) {
 }
 
 TextTable parameter_table(const Description& description) {
-  TextTable table{"", "name", {{"", {"default", "unit", "range", "source", "what it does"}}}, {}, {}};
+  TextTable table{
+      "", "name", {{"", {"default", "unit", "range", "source", "what it does"}}}, {}, {}};
   for (const ParameterSpec& spec : description.parameters) {
     const ParameterNotes& notes = spec.notes;
     table.rows.push_back({"`" + spec.name + "`",
@@ -98,8 +99,8 @@ Description describe_protocol(const ProtocolEntry& entry) {
 }
 
 std::string description_text(const Description& description) {
-  std::string text = description.name + " (version " + description.version + ")\n" +
-                     description.sentence + "\n";
+  std::string text =
+      description.name + " (version " + description.version + ")\n" + description.sentence + "\n";
   if (!description.source.empty()) text += "Source: " + description.source + "\n";
   if (!description.variants.empty()) text += "Variants:\n";
   for (const MethodVariant& variant : description.variants) {

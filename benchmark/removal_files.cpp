@@ -20,7 +20,8 @@ std::filesystem::path label_file(const std::filesystem::path& folder, const Scan
 
 Mask read_mask(const std::filesystem::path& path, const Scan& scan) {
   if (!std::filesystem::exists(path)) {
-    throw DataError(path.string() + ": missing; expected a label file for each of the sequence's "
+    throw DataError(path.string() +
+                    ": missing; expected a label file for each of the sequence's "
                     "scans. Choose the frames that were predicted with --frames.");
   }
   const std::vector<std::byte> bytes = read_bytes(path);
@@ -66,7 +67,8 @@ void write_removals(const std::filesystem::path& folder, const ScanSource& scans
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
                         const std::function<void()>& after_scan) {
   if (!std::filesystem::is_directory(folder)) {
-    throw DataError(folder.string() + ": no such folder; expected one with a NNNNNN.label file "
+    throw DataError(folder.string() +
+                    ": no such folder; expected one with a NNNNNN.label file "
                     "for each scan.");
   }
   MaskStore masks(scans.size());

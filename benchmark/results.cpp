@@ -94,8 +94,7 @@ RunResults parse(const ordered_json& json) {
     add_rows(cell, results);
     add_times(cell, results);
   }
-  results.control_problems =
-      json.at("controls").at("problems").get<std::vector<std::string>>();
+  results.control_problems = json.at("controls").at("problems").get<std::vector<std::string>>();
   return results;
 }
 

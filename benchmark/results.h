@@ -30,9 +30,9 @@ struct ResultRow {
 struct MethodTimes {
   std::string cell;
   std::size_t scans = 0;
-  double seconds = 0.0;                                   ///< Without waiting for scans.
-  double load_seconds = 0.0;                              ///< Waiting for scans.
-  std::vector<std::pair<std::string, double>> stages;     ///< Seconds of each stage.
+  double seconds = 0.0;                                ///< Without waiting for scans.
+  double load_seconds = 0.0;                           ///< Waiting for scans.
+  std::vector<std::pair<std::string, double>> stages;  ///< Seconds of each stage.
 };
 
 /// What tables are made of, read from results.json.

@@ -156,8 +156,7 @@ class Runner {
       ordered_json cell = read_sealed(folder / "cell.json");
       if (cell.value("status", "") != "ok" || cell.value("key", "") != cell_key(task)) return {};
       if (!task.removals.empty()) {
-        const MaskStore masks =
-            read_removals(task.removals, *task.bench->sequence().scans, [] {});
+        const MaskStore masks = read_removals(task.removals, *task.bench->sequence().scans, [] {});
         if (mask_digest(masks) != cell.at("masks").at("digest")) return {};
       }
       return cell;

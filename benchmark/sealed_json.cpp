@@ -32,14 +32,18 @@ ordered_json read_sealed(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   ordered_json json = ordered_json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object() || !json.contains("checksum") || !json["checksum"].is_string()) {
-    throw DataError(path.string() + ": not a whole result file of raymoval (JSON object with a "
-                    "\"checksum\")." + remedy);
+    throw DataError(path.string() +
+                    ": not a whole result file of raymoval (JSON object with a "
+                    "\"checksum\")." +
+                    remedy);
   }
   const std::string stored = json["checksum"].get<std::string>();
   json.erase("checksum");
   if (stored != checksum_of(json)) {
-    throw DataError(path.string() + ": the content does not fit its checksum; it was changed or "
-                    "damaged after it was written." + remedy);
+    throw DataError(path.string() +
+                    ": the content does not fit its checksum; it was changed or "
+                    "damaged after it was written." +
+                    remedy);
   }
   return json;
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/text.h"
+#include "eval/averages.h"
 
 namespace raymoval {
 namespace {
@@ -73,24 +74,13 @@ std::optional<double> rate_at(const Column& column, std::size_t sequence, const 
   return found == column.by_sequence[sequence]->end() ? std::nullopt : found->second;
 }
 
-struct Average {
-  double sum = 0.0;
-  std::size_t defined = 0;
-  [[nodiscard]] std::optional<double> mean() const {
-    if (defined == 0) return std::nullopt;
-    return sum / static_cast<double>(defined);
-  }
-};
-
-Average average(const Column& column, const std::string& rate) {
-  Average result;
+/// The values of `rate` over the sequences.
+std::vector<std::optional<double>> values_of(const Column& column, const std::string& rate) {
+  std::vector<std::optional<double>> values;
   for (std::size_t i = 0; i < column.by_sequence.size(); ++i) {
-    const auto value = rate_at(column, i, rate);
-    if (!value) continue;
-    result.sum += *value;
-    ++result.defined;
+    values.push_back(rate_at(column, i, rate));
   }
-  return result;
+  return values;
 }
 
 /// Marks the largest and second largest of the values at `place` of each group, as displayed: what
@@ -129,12 +119,11 @@ TableRow sequence_row(const std::string& sequence, std::size_t index,
 }
 
 /// "98.123", or "98.123 (4/5)" where sequences without a value are left out.
-std::string average_text(const std::string& rate, const Average& average, std::size_t of) {
-  const auto mean = average.mean();
-  if (!mean) return "n/a";
-  const std::string text = rate_text(rate, *mean);
-  if (average.defined == of) return text;
-  return text + " (" + std::to_string(average.defined) + "/" + std::to_string(of) + ")";
+std::string mean_text(const std::string& rate, const Mean& mean, std::size_t of) {
+  if (!mean.value) return "n/a";
+  const std::string text = rate_text(rate, *mean.value);
+  if (mean.segments == of) return text;
+  return text + " (" + std::to_string(mean.segments) + "/" + std::to_string(of) + ")";
 }
 
 TableRow mean_row(const std::vector<Column>& columns, const std::vector<std::string>& rates) {
@@ -143,8 +132,8 @@ TableRow mean_row(const std::vector<Column>& columns, const std::vector<std::str
   TableRow row{join(names), {}, true};
   for (const Column& column : columns) {
     for (const std::string& rate : rates) {
-      row.cells.push_back(
-          {average_text(rate, average(column, rate), column.by_sequence.size())});
+      const Mean mean = mean_of(values_of(column, rate));
+      row.cells.push_back({mean_text(rate, mean, column.by_sequence.size())});
     }
   }
   return row;
@@ -154,18 +143,15 @@ TableRow f1_of_means_row(const std::vector<Column>& columns,
                          const std::vector<std::string>& rates) {
   TableRow row{"F1_of_means", {}, true};
   for (const Column& column : columns) {
-    const auto pr = average(column, "PR").mean();
-    const auto rr = average(column, "RR").mean();
+    std::vector<SegmentRates> segments;
+    for (std::size_t i = 0; i < column.by_sequence.size(); ++i) {
+      segments.push_back(
+          {rate_at(column, i, "PR"), rate_at(column, i, "RR"), rate_at(column, i, "F1")});
+    }
+    const AverageRates averages = average_rates(segments);
     for (const std::string& rate : rates) {
-      if (rate != "F1") {
-        row.cells.push_back({""});
-      } else if (!pr || !rr) {
-        row.cells.push_back({"n/a"});
-      } else {
-        const double sum = *pr + *rr;
-        const double f1 = sum > 0.0 ? 2.0 * *pr * *rr / sum / 100.0 : 0.0;
-        row.cells.push_back({rate_text("F1", f1)});
-      }
+      row.cells.push_back(
+          {rate == "F1" ? mean_text("F1", averages.F1_of_means, averages.segments) : ""});
     }
   }
   return row;
@@ -200,8 +186,7 @@ TextTable method_table(const RunResults& results, const std::string& protocol,
   const std::vector<std::string> rates = rates_of(results, protocol);
   std::vector<Column> columns = run_columns(results, protocol, false);
   if (has(rates, "PR") && has(rates, "RR")) add_outside(results, outside, columns);
-  TextTable table =
-      rate_table(results, "Accuracy by protocol " + protocol, columns, rates, true);
+  TextTable table = rate_table(results, "Accuracy by protocol " + protocol, columns, rates, true);
   table.notes.push_back(
       "Rates in percent, F1 as a fraction. mean_F1 is the mean of the F1 values; F1_of_means is "
       "the F1 of mean PR and mean RR. n/a: undefined or not run; (4/5): the mean is over the 4 of "
@@ -225,9 +210,8 @@ TextTable stage_table(const MethodTimes& times) {
   double named = 0.0;
   const auto add = [&](const std::string& name, double seconds, bool summary) {
     const double share = times.seconds > 0.0 ? 100.0 * seconds / times.seconds : 0.0;
-    table.rows.push_back({name,
-                          {{fixed_text(1000.0 * seconds / scans, 3)}, {fixed_text(share, 1)}},
-                          summary});
+    table.rows.push_back(
+        {name, {{fixed_text(1000.0 * seconds / scans, 3)}, {fixed_text(share, 1)}}, summary});
   };
   for (const auto& [name, seconds] : times.stages) {
     add(name, seconds, false);
