@@ -1,2 +1,6 @@
 // SPDX-License-Identifier: MIT
-int main() { return 0; }
+#include "benchmark/command_line.h"
+
+int main(int argc, char** argv) {
+  return raymoval::run_command_line(argc, argv);
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/command_line.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "benchmark/commands.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+
+void on_interrupt(int) {
+  interrupted.store(true);
+  std::signal(SIGINT, SIG_DFL);
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// Options and words that no command knows are kept by the parser; here they become an error that
+/// names the nearest one known.
+void check_nothing_left(const CLI::App& app, const std::string& help) {
+  const std::vector<std::string> left = app.remaining();
+  if (left.empty()) return;
+  std::string unknown = left.front();
+  for (const std::string& word : left) {
+    if (word.starts_with("-")) {
+      unknown = word;
+      break;
+    }
+  }
+  const std::string name = unknown.substr(0, unknown.find('='));
+  if (!name.starts_with("-")) {
+    throw UsageError("'" + name + "' was not expected here. See `" + help + " --help`.");
+  }
+  throw UsageError("unknown option '" + name + "'." + suggestion(name, option_names(app)) +
+                   " See `" + help + " --help`.");
+}
+
+const Command& chosen_command(const CLI::App& program, const std::vector<Command>& commands) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) {
+    if (command.app->parsed()) {
+      check_nothing_left(*command.app, "raymoval " + command.app->get_name());
+      check_nothing_left(program, "raymoval");
+      return command;
+    }
+    names.push_back(command.app->get_name());
+  }
+  const std::vector<std::string> left = program.remaining();
+  if (left.empty()) throw UsageError("a command is missing: " + join(names) + ".");
+  if (left.front().starts_with("-")) check_nothing_left(program, "raymoval");
+  throw UsageError("'" + left.front() + "' is no command." + suggestion(left.front(), names) +
+                   " See `raymoval --help`.");
+}
+
+ExitCode run_program(int argc, const char* const* argv) {
+  CLI::App program("raymoval: evaluates the removal of moving objects from LiDAR maps.",
+                   "raymoval");
+  program.set_version_flag("--version", "raymoval " RAYMOVAL_VERSION);
+  program.allow_extras();
+  program.footer(
+      "Examples:\n"
+      "  raymoval run --sequence street --method raymoval:online --out out/street\n"
+      "  raymoval table out/street\n"
+      "  raymoval describe raymoval\n"
+      "  raymoval clean data/05 -o static.pcd\n"
+      "`raymoval COMMAND --help` says more. Exit codes: 0 done, 1 a cell or a check failed,\n"
+      "2 cannot be done as asked, 3 internal error.");
+  const std::vector<Command> commands = {add_run_command(program),   add_table_command(program),
+                                         add_list_command(program),  add_describe_command(program),
+                                         add_score_command(program), add_clean_command(program)};
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      program.exit(error);
+      return ExitCode::kDone;
+    }
+    throw UsageError(error.what() + std::string(" See `raymoval --help`."));
+  }
+  return chosen_command(program, commands).run();
+}
+
+ExitCode tell(const std::string& message, ExitCode code) {
+  std::fprintf(stderr, "raymoval: %s\n", message.c_str());
+  return code;
+}
+
+}  // namespace
+
+const std::atomic<bool>& interrupt_flag() {
+  std::signal(SIGINT, on_interrupt);
+  return interrupted;
+}
+
+void SequenceFlags::add_to(CLI::App& app) {
+  app.add_option("--frames", frames, "Frames FIRST:LAST:STRIDE, ends included; parts may be empty");
+  app.add_option("--poses", poses, "Pose file: a name in the sequence folder, or a path");
+  app.add_option("--label-rule", label_rule, "JSON file that says which labels move");
+  app.add_option("--range", range, "MIN:MAX in metres; points beyond are not evaluated");
+  app.add_option("--sensor", sensor, "Name of a known sensor (see `raymoval list sensors`)");
+  app.add_option("--name", name, "Name of the sequence in results");
+}
+
+std::string SequenceFlags::first_given() const {
+  const std::pair<const char*, const std::string*> all[] = {
+      {"--frames", &frames}, {"--poses", &poses},   {"--label-rule", &label_rule},
+      {"--range", &range},   {"--sensor", &sensor}, {"--name", &name}};
+  for (const auto& [option, text] : all) {
+    if (!text->empty()) return option;
+  }
+  return "";
+}
+
+SequenceOptions SequenceFlags::options() const {
+  SequenceOptions options;
+  if (!frames.empty()) options.frames = parse_frame_range(frames);
+  if (!poses.empty()) options.poses = poses;
+  if (!label_rule.empty()) options.label_rule = label_rule;
+  if (!sensor.empty()) options.sensor = sensor;
+  if (!name.empty()) options.name = name;
+  if (range.empty()) return options;
+  const auto parts = split(range, ':');
+  RangeLimits limits;
+  bool good = parts.size() == 2;
+  for (std::size_t i = 0; good && i < 2; ++i) {
+    if (parts[i].empty()) continue;
+    const auto value = parse_number<double>(parts[i]);
+    good = value.has_value();
+    if (good) (i == 0 ? limits.min : limits.max) = *value;
+  }
+  if (!good || !(limits.min >= 0.0 && limits.max > limits.min)) {
+    throw UsageError("--range " + range + ": expected MIN:MAX in metres, such as 2.7:50.");
+  }
+  options.range_m = limits;
+  return options;
+}
+
+int parse_threads(const std::string& text) {
+  if (text.empty()) return 0;
+  const auto value = parse_number<int>(text);
+  if (value && *value >= 1 && *value <= 4096) return *value;
+  throw UsageError("--threads " + text + ": expected a whole number from 1 to 4096.");
+}
+
+double parse_positive(const std::string& option, const std::string& text) {
+  const auto value = parse_number<double>(text);
+  if (value && *value > 0.0 && *value < 1e6) return *value;
+  throw UsageError(option + " " + text + ": expected a number greater than 0.");
+}
+
+void print(const std::string& text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0) {
+    throw DataError("standard output cannot be written (a full disk or a closed pipe?).");
+  }
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  ExitCode code = ExitCode::kInternal;
+  try {
+    code = run_program(argc, argv);
+  } catch (const InternalError& error) {
+    code =
+        tell(std::string("internal error, please report it: ") + error.what(), error.exit_code());
+  } catch (const Error& error) {
+    code = tell(error.what(), error.exit_code());
+  } catch (const std::bad_alloc&) {
+    code = tell("there was not enough memory. Choose fewer --frames.", ExitCode::kCannotDo);
+  } catch (const std::exception& error) {
+    code =
+        tell(std::string("internal error, please report it: ") + error.what(), ExitCode::kInternal);
+  }
+  return static_cast<int>(code);
+}
+
+}  // namespace raymoval

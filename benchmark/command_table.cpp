@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/commands.h"
+#include "benchmark/published_columns.h"
+#include "benchmark/sealed_json.h"
+#include "benchmark/tables.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+struct TableFlags {
+  std::string run, format = "md";
+  bool with_published = false;
+};
+
+std::filesystem::path results_file(const std::string& run) {
+  const std::filesystem::path given(run);
+  if (!std::filesystem::is_directory(given)) {
+    throw UsageError(run + ": no such run folder; expected what `raymoval run --out` made.");
+  }
+  if (!std::filesystem::exists(given / "results.json")) {
+    throw UsageError(run +
+                     ": has no results.json; the run did not reach its end. Start it again "
+                     "with the same --out to go on.");
+  }
+  return given / "results.json";
+}
+
+ExitCode show(const TableFlags& flags) {
+  const std::vector<std::string> formats = {"md", "csv", "tex", "json"};
+  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval table RUN`.");
+  if (std::find(formats.begin(), formats.end(), flags.format) == formats.end()) {
+    throw UsageError("--format " + flags.format + " is unknown." +
+                     suggestion(flags.format, formats));
+  }
+  const bool plain = flags.format == "md" || flags.format == "tex";
+  if (flags.with_published && !plain) {
+    throw UsageError("--with-published goes with --format md or tex.");
+  }
+  const std::filesystem::path file = results_file(flags.run);
+  const nlohmann::ordered_json json = read_sealed(file);
+  const RunResults results = parse_results(json, file.string());
+  std::vector<OutsideColumn> outside;
+  if (flags.with_published) outside = published_columns();
+  if (flags.format == "json") {
+    print(json_text(json));
+  } else if (flags.format == "csv") {
+    print(results_csv(results));
+  } else {
+    const auto tables = make_tables(results, outside);
+    print(flags.format == "md" ? tables_markdown(results, tables) : tables_latex(tables));
+  }
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Command add_table_command(CLI::App& program) {
+  auto flags = std::make_shared<TableFlags>();
+  CLI::App* app = program.add_subcommand("table", "Prints the tables of a run");
+  app->allow_extras();
+  app->add_option("run", flags->run, "Run folder")->type_name("RUN");
+  app->add_option("--format", flags->format, "md (default), csv, tex or json");
+  app->add_flag("--with-published", flags->with_published, "Set papers' rows beside the run's");
+  app->footer(
+      "Examples:\n"
+      "  raymoval table out/street\n"
+      "  raymoval table out/kitti --with-published --format tex");
+  return {app, [flags] { return show(*flags); }};
+}
+
+}  // namespace raymoval

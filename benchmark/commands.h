@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmark/suite.h"
+#include "core/error.h"
+#include "datasets/sequence.h"
+#include "methods/registry.h"
+
+namespace raymoval {
+
+/// A command of the program: its options, and what it does once they are read.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<ExitCode()> run;
+};
+
+/// One function per command, each in its own file command_<name>.cpp.
+Command add_run_command(CLI::App& program);
+Command add_table_command(CLI::App& program);
+Command add_list_command(CLI::App& program);
+Command add_describe_command(CLI::App& program);
+Command add_score_command(CLI::App& program);
+Command add_clean_command(CLI::App& program);
+
+/// Options that say how sequences are read, as texts of the command line.
+struct SequenceFlags {
+  std::string frames, poses, label_rule, range, sensor, name;
+
+  void add_to(CLI::App& app);
+  /// @throws UsageError for an ill-formed value
+  [[nodiscard]] SequenceOptions options() const;
+  /// The first of these options that was given, such as "--frames"; empty if none was.
+  [[nodiscard]] std::string first_given() const;
+};
+
+/// `--threads N`: 0 if it was not given. @throws UsageError unless a whole number from 1 to 4096.
+int parse_threads(const std::string& text);
+
+/// @throws UsageError unless `text` is a decimal number greater than 0; `option` is for the
+/// message.
+double parse_positive(const std::string& option, const std::string& text);
+
+/// Set to true by the first Ctrl-C; a second one ends the program at once.
+const std::atomic<bool>& interrupt_flag();
+
+/// Prints to standard output. @throws DataError if nobody can read it (a full disk, a closed pipe).
+void print(const std::string& text);
+
+}  // namespace raymoval

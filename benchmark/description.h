@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "eval/protocol.h"
+#include "methods/registry.h"
+
+namespace raymoval {
+
+/// What `raymoval describe` says, independent of how it is written.
+struct Description {
+  std::string name;
+  std::string sentence;
+  std::string source;
+  std::string version;
+  std::vector<std::string> notes;
+  std::vector<MethodVariant> variants;
+  std::vector<ParameterSpec> parameters;  ///< Defaults are those of the variant described.
+};
+
+/// A method; with a variant ("raymoval:online") its values stand as defaults.
+Description describe_method(const MethodRegistry& registry, const std::string& name_and_variant);
+Description describe_protocol(const ProtocolEntry& entry);
+
+std::string description_text(const Description& description);
+std::string description_markdown(const Description& description);
+nlohmann::ordered_json to_json(const Description& description);
+
+}  // namespace raymoval

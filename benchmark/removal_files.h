@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "core/mask_store.h"
+#include "core/scan_source.h"
+
+namespace raymoval {
+
+/// Semantic ids of a prediction: `kRemovedLabel` to `kLastRemovedLabel` mean removed, others kept.
+inline constexpr std::uint16_t kRemovedLabel = 251;
+inline constexpr std::uint16_t kLastRemovedLabel = 259;
+inline constexpr std::uint16_t kKeptLabel = 9;
+
+/// Writes a file `<scan name>.label` per scan into `folder` (made if missing): one 32-bit
+/// little-endian word per point of the scan's file, non-finite ones included; 251 = removed, 9 =
+/// kept.
+/// @param after_scan called once a scan is written; may throw to stop
+void write_removals(const std::filesystem::path& folder, const ScanSource& scans,
+                    const MaskStore& masks, const std::function<void()>& after_scan);
+
+/// Reads what `write_removals` or another program wrote: 251 to 259 = removed.
+/// @throws DataError naming the file that is missing or has another count than its scan
+MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
+                        const std::function<void()>& after_scan);
+
+}  // namespace raymoval

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/results.h"
+
+#include <nlohmann/json.hpp>
+
+#include "benchmark/cell.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::optional<double> number_or_nothing(const ordered_json& json) {
+  if (json.is_null()) return std::nullopt;
+  return json.get<double>();
+}
+
+ResultRow row_head(const ordered_json& cell) {
+  ResultRow row;
+  row.sequence = cell.at("sequence").get<std::string>();
+  row.cell = cell.at("name").get<std::string>();
+  row.method = cell.at("method").at("name").get<std::string>();
+  row.variant = cell.at("method").at("variant").get<std::string>();
+  row.control = cell.at("method").at("control").get<bool>();
+  row.status = cell.at("status").get<std::string>();
+  const ordered_json& measured = cell.at("measured");
+  if (!measured.is_null()) {
+    row.seconds_per_scan = number_or_nothing(measured.at("seconds_per_scan").at("mean"));
+    row.peak_memory_mib = number_or_nothing(measured.at("peak_memory_mib"));
+  }
+  return row;
+}
+
+/// One row for each protocol of the suite, also where the cell failed.
+void add_rows(const ordered_json& cell, RunResults& results) {
+  for (const std::string& protocol : results.protocols) {
+    ResultRow row = row_head(cell);
+    row.protocol = protocol;
+    for (const ordered_json& scored : cell.at("protocols")) {
+      if (scored.at("name") != protocol) continue;
+      for (const auto& [name, value] : scored.at("rates").items()) {
+        row.rates[name] = number_or_nothing(value);
+      }
+    }
+    results.rows.push_back(std::move(row));
+  }
+}
+
+void add_stage(MethodTimes& times, const std::string& name, double seconds) {
+  for (auto& [known, sum] : times.stages) {
+    if (known == name) {
+      sum += seconds;
+      return;
+    }
+  }
+  times.stages.emplace_back(name, seconds);
+}
+
+void add_times(const ordered_json& cell, RunResults& results) {
+  const ordered_json& measured = cell.at("measured");
+  if (cell.at("status") != "ok" || measured.is_null() || cell.at("method").at("control")) return;
+  const auto name = cell.at("name").get<std::string>();
+  MethodTimes* times = nullptr;
+  for (MethodTimes& known : results.times) {
+    if (known.cell == name) times = &known;
+  }
+  if (times == nullptr) {
+    results.times.push_back({name, 0, 0.0, 0.0, {}});
+    times = &results.times.back();
+  }
+  times->scans += cell.at("data").at("scans").get<std::size_t>();
+  times->seconds += measured.at("seconds_total").get<double>();
+  times->load_seconds += measured.at("seconds_load").get<double>();
+  for (const ordered_json& stage : measured.at("stages")) {
+    add_stage(*times, stage.at("name").get<std::string>(), stage.at("seconds").get<double>());
+  }
+}
+
+RunResults parse(const ordered_json& json) {
+  RunResults results;
+  const ordered_json& suite = json.at("run").at("suite");
+  results.name = suite.at("name").get<std::string>();
+  for (const ordered_json& item : suite.at("sequences")) {
+    results.sequences.push_back(item.at("name").get<std::string>());
+  }
+  for (const ordered_json& item : suite.at("methods")) {
+    results.cells.push_back(item.at("name").get<std::string>());
+  }
+  for (const ordered_json& item : suite.at("protocols")) {
+    results.protocols.push_back(item.at("name").get<std::string>());
+  }
+  for (const ordered_json& cell : json.at("cells")) {
+    add_rows(cell, results);
+    add_times(cell, results);
+  }
+  results.control_problems = json.at("controls").at("problems").get<std::vector<std::string>>();
+  return results;
+}
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+}  // namespace
+
+const ResultRow* RunResults::find(const std::string& sequence, const std::string& cell,
+                                  const std::string& protocol) const {
+  for (const ResultRow& row : rows) {
+    if (row.sequence == sequence && row.cell == cell && row.protocol == protocol) return &row;
+  }
+  return nullptr;
+}
+
+RunResults parse_results(const ordered_json& results, const std::string& where) {
+  try {
+    if (results.at("schema_version") != kSchemaVersion) {
+      throw DataError(where + ": schema version " + results.at("schema_version").dump() +
+                      ", expected " + std::to_string(kSchemaVersion) +
+                      ". Run `raymoval run` again with this version.");
+    }
+    return parse(results);
+  } catch (const ordered_json::exception& error) {
+    throw DataError(where + ": not the results of a run (" + error.what() +
+                    "). Run `raymoval run` again with the same --out.");
+  }
+}
+
+std::string rate_text(const std::string& rate, double value) {
+  return fixed_text(value, rate == "F1" ? 4 : 3);
+}
+
+std::string results_csv(const RunResults& results) {
+  const std::vector<std::string> rates = {"PR", "RR", "F1", "SA", "DA", "AA", "HA"};
+  std::string csv = "sequence,method,variant,protocol,status," + join(rates, ",") +
+                    ",seconds_per_scan,peak_memory_mib,name\n";
+  for (const ResultRow& row : results.rows) {
+    csv += csv_text(row.sequence) + "," + csv_text(row.method) + "," + csv_text(row.variant) + "," +
+           csv_text(row.protocol) + "," + csv_text(row.status);
+    for (const std::string& rate : rates) {
+      const auto found = row.rates.find(rate);
+      csv += ",";
+      if (found != row.rates.end() && found->second) csv += rate_text(rate, *found->second);
+    }
+    csv += "," + (row.seconds_per_scan ? fixed_text(*row.seconds_per_scan, 6) : "");
+    csv += "," + (row.peak_memory_mib ? fixed_text(*row.peak_memory_mib, 1) : "");
+    csv += "," + csv_text(row.cell) + "\n";
+  }
+  return csv;
+}
+
+}  // namespace raymoval

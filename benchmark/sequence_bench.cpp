@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/sequence_bench.h"
+
+#include <utility>
+
+namespace raymoval {
+
+void check_has_labels(const Sequence& sequence) {
+  if (sequence.labels != nullptr) return;
+  throw DataError("sequence '" + sequence.name +
+                  "' has no labels, so nothing can be scored on it; expected a folder labels/ "
+                  "beside the scans. To clean a map without labels use `raymoval clean`.");
+}
+
+SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolRequest>& requests,
+                             int threads, Progress* progress)
+    : sequence_(std::move(sequence)), threads_(threads), progress_(progress) {
+  check_has_labels(sequence_);
+  if (sequence_.scans->size() == 0) {
+    throw DataError("sequence '" + sequence_.name + "' has no scan in the chosen frames (" +
+                    sequence_.frames + "). Choose others with --frames.");
+  }
+  for (const ProtocolRequest& request : requests) {
+    scorers_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
+  }
+}
+
+const std::string& SequenceBench::data_fingerprint() {
+  if (fingerprint_.empty()) fingerprint_ = fingerprint(sequence_, threads_);
+  return fingerprint_;
+}
+
+EvaluationInput SequenceBench::input() const {
+  EvaluationInput input;
+  input.scans = sequence_.scans.get();
+  input.labels = sequence_.labels.get();
+  input.label_rule = sequence_.label_rule;
+  input.range_m = sequence_.range_m;
+  input.threads = threads_;
+  input.progress = progress_;
+  return input;
+}
+
+ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
+  Scorer& scorer = scorers_[i];
+  if (scorer.truth == nullptr) scorer.truth = scorer.protocol->prepare(input());
+  return scorer.protocol->score(input(), *scorer.truth, masks);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmark/suite.h"
+#include "core/progress.h"
+#include "datasets/sequence.h"
+#include "eval/protocol.h"
+
+namespace raymoval {
+
+/// An opened sequence with the protocols that score on it. What a protocol derives from scans and
+/// labels is built when first needed, then shared by all methods.
+class SequenceBench {
+ public:
+  /// @throws DataError if the sequence has no labels, ConfigurationError for bad options
+  SequenceBench(Sequence sequence, const std::vector<ProtocolRequest>& requests, int threads,
+                Progress* progress);
+
+  [[nodiscard]] const Sequence& sequence() const { return sequence_; }
+  [[nodiscard]] int threads() const { return threads_; }
+  [[nodiscard]] Progress* progress() const { return progress_; }
+  [[nodiscard]] std::size_t protocol_count() const { return scorers_.size(); }
+  [[nodiscard]] const std::string& protocol_name(std::size_t i) const { return scorers_[i].name; }
+  [[nodiscard]] const Protocol& protocol(std::size_t i) const { return *scorers_[i].protocol; }
+
+  /// Hash of all that methods and protocols read; computed once. @throws DataError
+  const std::string& data_fingerprint();
+
+  /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
+  ProtocolResult score(std::size_t i, const MaskStore& masks);
+
+ private:
+  struct Scorer {
+    std::string name;
+    std::unique_ptr<Protocol> protocol;
+    std::unique_ptr<TruthMap> truth;
+  };
+  [[nodiscard]] EvaluationInput input() const;
+
+  Sequence sequence_;
+  int threads_;
+  Progress* progress_;
+  std::string fingerprint_;
+  std::vector<Scorer> scorers_;
+};
+
+/// @throws DataError pointing to `raymoval clean` if `sequence` has no labels.
+void check_has_labels(const Sequence& sequence);
+
+}  // namespace raymoval

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/parameters.h"
+#include "datasets/sequence.h"
+#include "methods/registry.h"
+
+namespace raymoval {
+
+/// A sequence that a suite asks for.
+struct SequenceRequest {
+  std::string path;
+  SequenceOptions options;
+};
+
+/// A method of a suite: the rows of cells it fills are called `name`.
+struct MethodRequest {
+  std::string name;  ///< Unique in the suite: "raymoval:online", or what "as" says.
+  ConfiguredMethod method;
+};
+
+/// A protocol of a suite with its effective options.
+struct ProtocolRequest {
+  std::string name;      ///< Unique in the suite: "erasor", or what "as" says.
+  std::string protocol;  ///< Name for `make_protocol`.
+  Configuration options;
+};
+
+/// What one run does: every sequence with every method, scored by every protocol.
+struct Suite {
+  std::string name = "run";
+  std::vector<SequenceRequest> sequences;
+  std::vector<MethodRequest> methods;
+  std::vector<ProtocolRequest> protocols;
+  bool controls = true;  ///< Whether the controls are added and checked.
+  int threads = 0;       ///< 0: as many as the machine has.
+};
+
+/// `--set raymoval:online.tau0=0.2`, taken apart.
+struct Setting {
+  std::string target;  ///< Method ("raymoval"), method and variant, or cell name.
+  std::string key;
+  std::string value;
+};
+
+/// @throws UsageError saying what the form is.
+Setting parse_setting(const std::string& text);
+
+/// Reads a suite file (JSON with comments). Relative paths are looked up beside the suite file
+/// first, then from the working folder.
+/// @throws ConfigurationError naming the file, the key and the nearest legal one.
+Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry);
+
+/// Adds "raymoval:online" under its own name, or under `as` if that is not empty.
+/// @throws UsageError if the name is taken or unknown.
+MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
+                          const MethodRegistry& registry);
+
+/// Adds a protocol with its default options. @throws UsageError if the name is taken or unknown.
+ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as);
+
+/// Applies settings: those for a method to all its variants, then those that name a cell.
+/// @throws UsageError if one names no method of the suite, or the same value is set twice.
+void apply_settings(Suite& suite, const std::vector<Setting>& settings);
+
+/// Puts `noop`, `remove-all` and `oracle` in front, unless listed already.
+void add_controls(Suite& suite, const MethodRegistry& registry);
+
+/// Names of the controls that `add_controls` knows.
+const std::vector<std::string>& control_names();
+bool is_control(const std::string& method);
+
+/// Folder name of a cell: ':' becomes '-', and what a file system may not like becomes '_'.
+std::string folder_name(const std::string& name);
+
+}  // namespace raymoval

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/tables.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "core/text.h"
+#include "eval/averages.h"
+
+namespace raymoval {
+namespace {
+
+/// A method's rates by sequence, from the run or from elsewhere.
+struct Column {
+  std::string heading;
+  std::vector<const RateValues*> by_sequence;  ///< Null: not known there.
+  std::vector<std::string> status;             ///< Shown where there are no rates.
+};
+
+const std::vector<std::string>& shown_rates() {
+  static const std::vector<std::string> rates = {"PR", "RR", "F1", "SA", "DA", "AA", "HA"};
+  return rates;
+}
+
+std::vector<std::string> rates_of(const RunResults& results, const std::string& protocol) {
+  std::vector<std::string> rates;
+  for (const std::string& rate : shown_rates()) {
+    const bool there = std::any_of(results.rows.begin(), results.rows.end(), [&](const auto& row) {
+      return row.protocol == protocol && row.rates.count(rate) > 0;
+    });
+    if (there) rates.push_back(rate);
+  }
+  return rates;
+}
+
+std::vector<Column> run_columns(const RunResults& results, const std::string& protocol,
+                                bool controls) {
+  std::vector<Column> columns;
+  for (const std::string& cell : results.cells) {
+    Column column{cell, {}, {}};
+    bool wanted = false;
+    for (const std::string& sequence : results.sequences) {
+      const ResultRow* row = results.find(sequence, cell, protocol);
+      const bool scored = row != nullptr && row->status == "ok";
+      column.by_sequence.push_back(scored ? &row->rates : nullptr);
+      column.status.push_back(row != nullptr ? row->status : "");
+      if (row != nullptr && row->control == controls) wanted = true;
+    }
+    if (wanted) columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+void add_outside(const RunResults& results, const std::vector<OutsideColumn>& outside,
+                 std::vector<Column>& columns) {
+  for (const OutsideColumn& given : outside) {
+    Column column{given.heading, {}, {}};
+    for (const std::string& sequence : results.sequences) {
+      const RateValues* rates = nullptr;
+      for (const auto& [name, values] : given.sequences) {
+        if (name == sequence) rates = &values;
+      }
+      column.by_sequence.push_back(rates);
+      column.status.push_back("");
+    }
+    columns.push_back(std::move(column));
+  }
+}
+
+std::optional<double> rate_at(const Column& column, std::size_t sequence, const std::string& rate) {
+  if (column.by_sequence[sequence] == nullptr) return std::nullopt;
+  const auto found = column.by_sequence[sequence]->find(rate);
+  return found == column.by_sequence[sequence]->end() ? std::nullopt : found->second;
+}
+
+/// The values of `rate` over the sequences.
+std::vector<std::optional<double>> values_of(const Column& column, const std::string& rate) {
+  std::vector<std::optional<double>> values;
+  for (std::size_t i = 0; i < column.by_sequence.size(); ++i) {
+    values.push_back(rate_at(column, i, rate));
+  }
+  return values;
+}
+
+/// Marks the largest and second largest of the values at `place` of each group, as displayed: what
+/// looks equal is marked alike.
+void mark_best(TableRow& row, std::size_t place, std::size_t group_size) {
+  std::set<double, std::greater<>> values;
+  const auto value_of = [](const TableCell& cell) {
+    return parse_number<double>(std::string_view(cell.text).substr(0, cell.text.find(' ')));
+  };
+  for (std::size_t i = place; i < row.cells.size(); i += group_size) {
+    if (const auto value = value_of(row.cells[i])) values.insert(*value);
+  }
+  if (row.cells.size() / group_size < 2 || values.empty()) return;
+  for (std::size_t i = place; i < row.cells.size(); i += group_size) {
+    const auto value = value_of(row.cells[i]);
+    if (!value) continue;
+    if (*value == *values.begin()) row.cells[i].mark = Mark::kBest;
+    if (values.size() > 1 && *value == *std::next(values.begin())) {
+      row.cells[i].mark = Mark::kSecond;
+    }
+  }
+}
+
+TableRow sequence_row(const std::string& sequence, std::size_t index,
+                      const std::vector<Column>& columns, const std::vector<std::string>& rates) {
+  TableRow row{sequence, {}, false};
+  for (const Column& column : columns) {
+    for (const std::string& rate : rates) {
+      const auto value = rate_at(column, index, rate);
+      const std::string& status = column.status[index];
+      const bool failed = !status.empty() && status != "ok";
+      row.cells.push_back({value ? rate_text(rate, *value) : (failed ? status : "n/a")});
+    }
+  }
+  return row;
+}
+
+/// "98.123", or "98.123 (4/5)" where sequences without a value are left out.
+std::string mean_text(const std::string& rate, const Mean& mean, std::size_t of) {
+  if (!mean.value) return "n/a";
+  const std::string text = rate_text(rate, *mean.value);
+  if (mean.segments == of) return text;
+  return text + " (" + std::to_string(mean.segments) + "/" + std::to_string(of) + ")";
+}
+
+TableRow mean_row(const std::vector<Column>& columns, const std::vector<std::string>& rates) {
+  std::vector<std::string> names;
+  for (const std::string& rate : rates) names.push_back("mean_" + rate);
+  TableRow row{join(names), {}, true};
+  for (const Column& column : columns) {
+    for (const std::string& rate : rates) {
+      const Mean mean = mean_of(values_of(column, rate));
+      row.cells.push_back({mean_text(rate, mean, column.by_sequence.size())});
+    }
+  }
+  return row;
+}
+
+TableRow f1_of_means_row(const std::vector<Column>& columns,
+                         const std::vector<std::string>& rates) {
+  TableRow row{"F1_of_means", {}, true};
+  for (const Column& column : columns) {
+    std::vector<SegmentRates> segments;
+    for (std::size_t i = 0; i < column.by_sequence.size(); ++i) {
+      segments.push_back(
+          {rate_at(column, i, "PR"), rate_at(column, i, "RR"), rate_at(column, i, "F1")});
+    }
+    const AverageRates averages = average_rates(segments);
+    for (const std::string& rate : rates) {
+      row.cells.push_back(
+          {rate == "F1" ? mean_text("F1", averages.F1_of_means, averages.segments) : ""});
+    }
+  }
+  return row;
+}
+
+bool has(const std::vector<std::string>& rates, const std::string& rate) {
+  return std::find(rates.begin(), rates.end(), rate) != rates.end();
+}
+
+TextTable rate_table(const RunResults& results, const std::string& title,
+                     const std::vector<Column>& columns, const std::vector<std::string>& rates,
+                     bool ranked) {
+  TextTable table{title, "sequence", {}, {}, {}};
+  for (const Column& column : columns) table.groups.push_back({column.heading, rates});
+  for (std::size_t i = 0; i < results.sequences.size(); ++i) {
+    table.rows.push_back(sequence_row(results.sequences[i], i, columns, rates));
+  }
+  if (ranked) {
+    table.rows.push_back(mean_row(columns, rates));
+    if (has(rates, "F1")) table.rows.push_back(f1_of_means_row(columns, rates));
+    for (TableRow& row : table.rows) {
+      for (std::size_t place = 0; place < rates.size(); ++place) {
+        mark_best(row, place, rates.size());
+      }
+    }
+  }
+  return table;
+}
+
+TextTable method_table(const RunResults& results, const std::string& protocol,
+                       const std::vector<OutsideColumn>& outside) {
+  const std::vector<std::string> rates = rates_of(results, protocol);
+  std::vector<Column> columns = run_columns(results, protocol, false);
+  if (has(rates, "PR") && has(rates, "RR")) add_outside(results, outside, columns);
+  TextTable table = rate_table(results, "Accuracy by protocol " + protocol, columns, rates, true);
+  table.notes.push_back(
+      "Rates in percent, F1 as a fraction. mean_F1 is the mean of the F1 values; F1_of_means is "
+      "the F1 of mean PR and mean RR. n/a: undefined or not run; (4/5): the mean is over the 4 of "
+      "5 sequences that have a value.");
+  return table;
+}
+
+TextTable control_table(const RunResults& results, const std::string& protocol) {
+  const std::vector<std::string> rates = rates_of(results, protocol);
+  TextTable table = rate_table(results, "Controls by protocol " + protocol,
+                               run_columns(results, protocol, true), rates, false);
+  table.notes.push_back(results.control_problems.empty()
+                            ? "All controls are as they must be."
+                            : "CONTROLS ARE OFF: " + join(results.control_problems, "; ") + ".");
+  return table;
+}
+
+TextTable stage_table(const MethodTimes& times) {
+  TextTable table{"Time of " + times.cell, "stage", {{"", {"ms per scan", "share in %"}}}, {}, {}};
+  const double scans = static_cast<double>(std::max<std::size_t>(times.scans, 1));
+  double named = 0.0;
+  const auto add = [&](const std::string& name, double seconds, bool summary) {
+    const double share = times.seconds > 0.0 ? 100.0 * seconds / times.seconds : 0.0;
+    table.rows.push_back(
+        {name, {{fixed_text(1000.0 * seconds / scans, 3)}, {fixed_text(share, 1)}}, summary});
+  };
+  for (const auto& [name, seconds] : times.stages) {
+    add(name, seconds, false);
+    named += seconds;
+  }
+  if (named < times.seconds) add("other", times.seconds - named, false);
+  add("total", times.seconds, true);
+  table.notes.push_back("Mean over " + grouped_text(times.scans) +
+                        " scans. Reading scans (load) took another " +
+                        fixed_text(1000.0 * times.load_seconds / scans, 3) + " ms per scan.");
+  return table;
+}
+
+}  // namespace
+
+std::vector<TextTable> make_tables(const RunResults& results,
+                                   const std::vector<OutsideColumn>& outside) {
+  std::vector<TextTable> tables;
+  for (const std::string& protocol : results.protocols) {
+    TextTable methods = method_table(results, protocol, outside);
+    if (!methods.groups.empty()) tables.push_back(std::move(methods));
+  }
+  for (const std::string& protocol : results.protocols) {
+    TextTable controls = control_table(results, protocol);
+    if (!controls.groups.empty()) tables.push_back(std::move(controls));
+  }
+  for (const MethodTimes& times : results.times) tables.push_back(stage_table(times));
+  return tables;
+}
+
+std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables) {
+  std::string text = "# " + results.name + "\n";
+  for (const TextTable& table : tables) text += "\n" + to_markdown(table);
+  return text;
+}
+
+std::string tables_latex(const std::vector<TextTable>& tables) {
+  std::string text;
+  for (const TextTable& table : tables) text += (text.empty() ? "" : "\n") + to_latex(table);
+  return text;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmark/results.h"
+#include "benchmark/text_table.h"
+
+namespace raymoval {
+
+/// A column of rates that does not come from the run, such as a row of a paper.
+struct OutsideColumn {
+  std::string heading;
+  std::vector<std::pair<std::string, RateValues>> sequences;
+};
+
+/// The tables of a run in the order in which they are shown: for each protocol sequence x method
+/// (the paper's Table 2: best bold, second underlined, averages), the controls, then the time of
+/// each stage (the paper's Table 3).
+/// @param outside columns set beside those of the run where the protocol has PR and RR
+std::vector<TextTable> make_tables(const RunResults& results,
+                                   const std::vector<OutsideColumn>& outside = {});
+
+std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables);
+std::string tables_latex(const std::vector<TextTable>& tables);
+
+}  // namespace raymoval

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs the Debian 12 packages that raymoval is built with. Only what is missing is installed; a
+# second run changes nothing.
+set -euo pipefail
+
+packages=(
+  cmake ninja-build g++ pkg-config libeigen3-dev libpcl-dev liboctomap-dev nlohmann-json3-dev
+  catch2 libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
+  libembree-dev libpng-dev librapidcheck-dev libxxhash-dev
+)
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "install_dependencies.sh: this needs Debian 12 or a relative of it (apt-get, dpkg-query)." >&2
+  echo "Elsewhere install the equivalents of: ${packages[*]}" >&2
+  exit 2
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $status == installed ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  echo "install_dependencies.sh: all ${#packages[@]} packages are there."
+  exit 0
+fi
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "install_dependencies.sh: missing: ${missing[*]}" >&2
+    echo "Installing them needs root, and there is no sudo. Run as root:" >&2
+    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 2
+  fi
+  as_root=(sudo)
+fi
+
+echo "install_dependencies.sh: installing ${missing[*]}"
+install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes
+         --no-install-recommends "${missing[@]}")
+# The package lists are fetched only if apt does not know the packages from earlier.
+if ! apt-cache show "${missing[@]}" >/dev/null 2>&1 || ! "${install[@]}"; then
+  echo "install_dependencies.sh: fetching the package lists"
+  "${as_root[@]}" apt-get update
+  "${install[@]}"
+fi
+echo "install_dependencies.sh: done."

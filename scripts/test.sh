@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Everything that has to hold before a change is merged. Goes on after a failure; the last line is
+# "N passed, N failed", and the exit code is 1 if anything failed.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+
+passed=0
+failed=0
+failures=()
+
+# step NAME COMMAND...: one check that counts as one.
+step() {
+  local name=$1
+  shift
+  echo "== $name"
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    failures+=("$name")
+  fi
+}
+
+# run_tests PRESET: counts every test of ctest.
+run_tests() {
+  local log=build/$1/ctest.log
+  echo "== tests, $1"
+  ctest --preset "$1" 2>&1 | tee "$log"
+  local status=${PIPESTATUS[0]} summary total bad
+  # "97% tests passed, 1 tests failed out of 40"
+  summary=$(grep -E 'tests passed, [0-9]+ tests failed out of [0-9]+' "$log" | tail -1)
+  total=$(sed -nE 's/.*out of ([0-9]+).*/\1/p' <<<"$summary")
+  bad=$(sed -nE 's/.*, ([0-9]+) tests failed.*/\1/p' <<<"$summary")
+  if [[ -z $total || $total -eq 0 || ( $status -ne 0 && $bad -eq 0 ) ]]; then
+    total=1
+    bad=1
+  fi
+  passed=$((passed + total - bad))
+  failed=$((failed + bad))
+  [[ $bad -eq 0 ]] || failures+=("tests, $1")
+}
+
+build() {
+  cmake --preset "$1" "${@:2}" && cmake --build --preset "$1"
+}
+
+check_format() {
+  if ! command -v clang-format >/dev/null; then
+    echo "clang-format is not there; formatting is not checked."
+    return 0
+  fi
+  git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+}
+
+check_consumer() {
+  local prefix
+  prefix=$(mktemp -d)
+  cmake --install build/release --prefix "$prefix/installed" >/dev/null &&
+    cmake -G Ninja -S tests/consumer -B "$prefix/build" -DCMAKE_BUILD_TYPE=Release \
+      -DCMAKE_PREFIX_PATH="$prefix/installed" &&
+    cmake --build "$prefix/build" &&
+    "$prefix/build/consumer" &&
+    "$prefix/installed/bin/raymoval" list methods >/dev/null
+  local status=$?
+  rm -rf "$prefix"
+  return $status
+}
+
+step "dependencies" scripts/install_dependencies.sh
+step "includes" scripts/check_includes.sh
+step "format" check_format
+step "release build" build release -DRAYMOVAL_WERROR=ON
+run_tests release
+step "installed library" check_consumer
+step "sanitizer build" build asan-ubsan
+run_tests asan-ubsan
+
+[[ ${#failures[@]} -eq 0 ]] || printf 'failed: %s\n' "${failures[@]}"
+echo "$passed passed, $failed failed"
+[[ $failed -eq 0 ]]
