@@ -59,7 +59,17 @@ struct Return {
 class StreetScene {
  public:
   StreetScene(const StreetParameters& parameters, std::vector<StreetBox> boxes)
-      : parameters_(parameters), boxes_(std::move(boxes)) {}
+      : parameters_(parameters), boxes_(std::move(boxes)) {
+    const SensorModel model = sensor();
+    for (int beam = 0; beam < parameters_.beams; ++beam) {
+      const double elevation = model.elevation_min + beam * model.elevation_step;
+      for (int column = 0; column < parameters_.columns; ++column) {
+        const double azimuth = -std::numbers::pi + column * model.azimuth_step;
+        directions_.emplace_back(std::cos(elevation) * std::cos(azimuth),
+                                 std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      }
+    }
+  }
 
   [[nodiscard]] double time(std::size_t frame) const {
     return static_cast<double>(frame) * parameters_.scan_period_s;
@@ -74,13 +84,10 @@ class StreetScene {
     const Vector3d origin = position(frame);
     const auto boxes = boxes_at(time(frame));
     std::vector<Return> returns;
-    for (int beam = 0; beam < parameters_.beams; ++beam) {
-      for (int column = 0; column < parameters_.columns; ++column) {
-        const Vector3d direction = direction_of(beam, column);
-        const auto [range, label] = first_hit(origin, direction, boxes);
-        if (range > parameters_.range_max) continue;
-        returns.push_back({(range * direction).cast<float>(), label});
-      }
+    for (const Vector3d& direction : directions_) {
+      const auto [range, label] = first_hit(origin, direction, boxes);
+      if (range > parameters_.range_max) continue;
+      returns.push_back({(range * direction).cast<float>(), label});
     }
     return returns;
   }
@@ -109,14 +116,6 @@ class StreetScene {
     return boxes;
   }
 
-  [[nodiscard]] Vector3d direction_of(int beam, int column) const {
-    const SensorModel model = sensor();
-    const double elevation = model.elevation_min + beam * model.elevation_step;
-    const double azimuth = -std::numbers::pi + column * model.azimuth_step;
-    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-            std::sin(elevation)};
-  }
-
   static std::pair<double, std::uint32_t> first_hit(const Vector3d& origin,
                                                     const Vector3d& direction,
                                                     const std::vector<StreetBox>& boxes) {
@@ -130,6 +129,7 @@ class StreetScene {
 
   StreetParameters parameters_;
   std::vector<StreetBox> boxes_;
+  std::vector<Vector3d> directions_;  ///< Unit vectors, beam by beam.
 };
 
 class StreetScans : public ScanSource {

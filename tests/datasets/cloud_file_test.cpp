@@ -234,22 +234,27 @@ TEST_CASE("counts far beyond the file are refused without being allocated", "[cl
 
 TEST_CASE("any cut and any flipped byte gives points or a DataError", "[cloud]") {
   const TemporaryFolder folder;
+  const std::string ply =
+      "element vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   const std::vector<std::string> whole = {
+      "ply\nformat ascii 1.0\n" + ply + "1 2 3\n4 5 6\n",
+      "ply\nformat binary_little_endian 1.0\n" + ply + floats({1, 2, 3, 4, 5, 6}),
       pcd_head(2, "ascii") + "1 2 3 0\n4 5 6 1\n",
       pcd_head(2, "binary") + floats({1, 2, 3, 0, 4, 5, 6, 1}),
       pcd_head(8, "binary_compressed") + kCompressedByPcl,
   };
   std::mt19937 random(11);
   for (const std::string& content : whole) {
+    const std::string name = content.starts_with("ply") ? "x.ply" : "x.pcd";
     for (std::size_t i = 0; i < content.size(); ++i) {
       std::string flipped = content;
       flipped[i] = static_cast<char>(random() & 0xFFU);
       for (const std::string& damaged : {content.substr(0, i), flipped}) {
         try {
-          const Cloud cloud = read_cloud(folder.write("x.pcd", damaged));
+          const Cloud cloud = read_cloud(folder.write(name, damaged));
           CHECK(cloud.points.size() <= 99);  // A flipped digit of POINTS and WIDTH at most.
         } catch (const DataError& error) {
-          CHECK_THAT(error.what(), Catch::Contains("x.pcd"));
+          CHECK_THAT(error.what(), Catch::Contains(name));
         }
       }
     }
