@@ -319,6 +319,24 @@ TEST_CASE("a nearer point of a neighbour cell gives its label", "[erasor][edge]"
   CHECK(result.count("static_voxels") == 0);
 }
 
+TEST_CASE("an estimate beside its truth gives a warning", "[erasor][edge]") {
+  // The truth comes from the same scan, moved by 0.15 m: every voxel has a partner (0.15 < 0.173)
+  // and none is as near as half an edge, 0.1 m.
+  LabelledScan scan = row_of({{40, false}, {40, false}, {252, false}});
+  const MemorySequence here({scan});
+  for (const double shift : {0.05, 0.15, 0.30}) {
+    CAPTURE(shift);
+    scan.pose.translation().y() = shift;
+    const MemorySequence there({scan});
+    const auto protocol = erasor_protocol();
+    const auto truth = protocol->prepare(there.input());
+    const ProtocolResult result = protocol->score(here.input(), *truth, here.masks());
+    CHECK(result.warnings.size() == (shift > 0.1 ? 1 : 0));
+    CHECK(result.count("estimate_voxels_without_partner") == (shift > 0.2 ? 3 : 0));
+    CHECK(result.rate("PR") == (shift > 0.2 ? 0.0 : 100.0));
+  }
+}
+
 TEST_CASE("options come back as given, unknown ones are refused", "[erasor][edge]") {
   CHECK(erasor_protocol()->options() == protocol_defaults("erasor"));
   CHECK_THROWS_AS(make_protocol("erasor", {{"voxel_sice", 0.2}}), ConfigurationError);
