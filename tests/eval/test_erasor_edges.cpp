@@ -180,6 +180,23 @@ TEST_CASE("a voxel at exactly half a diagonal does not match", "[erasor][edge]")
   CHECK(below.count("preserved_static") == 2);
 }
 
+TEST_CASE("of two equally near partners the first in cell order counts", "[erasor][edge]") {
+  // Cells of 0.25 m. The flagged static point in the middle has one kept point 0.15625 m below it
+  // in y and one as far above it in x. Cells run along x first, so the one lower in y comes first.
+  for (const bool moving_below : {true, false}) {
+    LabelledScan scan;
+    scan.add(5.125f, 0.125f, 0.125f, 40, true);
+    scan.add(5.125f, -0.03125f, 0.125f, moving_below ? 252 : 40, false);
+    scan.add(5.28125f, 0.125f, 0.125f, moving_below ? 40 : 252, false);
+    const MemorySequence sequence({scan});
+    const ProtocolResult result =
+        score_erasor(sequence.input(), sequence.masks(), {{"voxel_size", 0.25}, {"lift", 0.0}});
+    CHECK(result.count("static_voxels") == 2);
+    CHECK(result.count("preserved_static") == (moving_below ? 1 : 2));
+    CHECK(result.count("remaining_dynamic") == 1);
+  }
+}
+
 TEST_CASE("the crop is strict and looks at x and y only", "[erasor][edge]") {
   // (1.5, 2.0) lies exactly 2.5 m from the axis and stays; a step nearer it goes; z is no help.
   LabelledScan scan;
