@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+// Edge cases of the ERASOR protocol, one scene each.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "tests/eval/memory_sequence.h"
+
+namespace raymoval::test {
+namespace {
+
+using Catch::Contains;
+
+/// A scan of single points two metres apart from x = 5 on, each its own voxel.
+LabelledScan row_of(const std::vector<std::pair<std::uint32_t, bool>>& points) {
+  LabelledScan scan;
+  float x = 5.05f;
+  for (const auto& [label, flagged] : points) {
+    scan.add(x, 0.05f, -1.63f, label, flagged);
+    x += 2.0f;
+  }
+  return scan;
+}
+
+ProtocolResult score_row(const std::vector<std::pair<std::uint32_t, bool>>& points,
+                         const Settings& settings = {}) {
+  const MemorySequence sequence({row_of(points)});
+  return score_erasor(sequence.input(), sequence.masks(), settings);
+}
+
+const Rate& rate_named(const ProtocolResult& result, const std::string& name) {
+  for (const Rate& rate : result.rates) {
+    if (rate.name == name) return rate;
+  }
+  throw InternalError("no rate " + name);
+}
+
+template <class Exception, class Call>
+std::string message_of(Call&& call) {
+  try {
+    call();
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+/// A point that stays at (x, y, z) in the world with a lift of 0, for exact distances.
+MemorySequence pair_at_distance(const Eigen::Vector3f& offset) {
+  // Voxels of 0.5 m; the static point (5.25, 0.25, 0.25) is flagged, its neighbour is kept. The
+  // offset goes to another cell, so that the two are voxels of their own.
+  LabelledScan scan;
+  scan.add(5.25f, 0.25f, 0.25f, 40, true);
+  scan.add(5.25f + offset.x(), 0.25f + offset.y(), 0.25f + offset.z(), 40, false);
+  return MemorySequence({scan});
+}
+
+}  // namespace
+
+TEST_CASE("nothing dynamic: RR and F1 are undefined, PR is not", "[erasor][edge]") {
+  const ProtocolResult result = score_row({{40, false}, {40, true}, {50, false}});
+  CHECK(result.rate("PR").value() == Approx(200.0 / 3));
+  CHECK_FALSE(result.rate("RR").has_value());
+  CHECK_FALSE(result.rate("F1").has_value());
+  CHECK_THAT(rate_named(result, "RR").undefined_reason, Contains("no dynamic voxel"));
+  CHECK_THAT(rate_named(result, "F1").undefined_reason, Contains("no dynamic voxel"));
+  CHECK(rate_named(result, "PR").undefined_reason.empty());
+}
+
+TEST_CASE("nothing static: PR and F1 are undefined, RR is not", "[erasor][edge]") {
+  const ProtocolResult result = score_row({{252, false}, {254, true}});
+  CHECK_FALSE(result.rate("PR").has_value());
+  CHECK(result.rate("RR") == 50.0);
+  CHECK_FALSE(result.rate("F1").has_value());
+  CHECK_THAT(rate_named(result, "F1").undefined_reason, Contains("no static voxel"));
+}
+
+TEST_CASE("an empty estimate scores 0, 100, 0 with a warning", "[erasor][edge]") {
+  for (const char* mode : {"index", "nearest"}) {
+    const ProtocolResult result =
+        score_row({{40, true}, {252, true}}, {{"label_mode", std::string(mode)}});
+    CHECK(result.rate("PR") == 0.0);
+    CHECK(result.rate("RR") == 100.0);
+    CHECK(result.rate("F1") == 0.0);
+    REQUIRE(result.warnings.size() == 1);
+    CHECK_THAT(result.warnings[0], Contains("empty"));
+  }
+}
+
+TEST_CASE("PR + RR = 0 gives F1 = 0", "[erasor][edge]") {
+  // The static voxel is lost and the moving one stays.
+  const ProtocolResult result = score_row({{40, true}, {252, false}});
+  CHECK(result.rate("PR") == 0.0);
+  CHECK(result.rate("RR") == 0.0);
+  CHECK(result.rate("F1") == 0.0);
+}
+
+TEST_CASE("no truth is an error that says where the points went", "[erasor][edge]") {
+  LabelledScan scan;
+  scan.add(1.0f, 0.0f, 0.0f, 40);   // Cropped.
+  scan.add(10.0f, 0.0f, 0.0f, 99);  // Ignored.
+  scan.add(60.0f, 0.0f, 0.0f, 40);  // Out of range.
+  scan.add(61.0f, 0.0f, 0.0f, 99);  // Out of range first.
+  const MemorySequence sequence({scan});
+  EvaluationInput input = sequence.input();
+  input.range_m = {0.0, 50.0};
+  input.label_rule.ignored = {99};
+  const std::string message = message_of<DataError>([&] { score_erasor(input, sequence.masks()); });
+  CHECK_THAT(message, Contains("2 are out of range") && Contains("1 have ignored labels") &&
+                          Contains("1 lie too near"));
+  const MemorySequence empty(std::vector<LabelledScan>{});
+  CHECK_THROWS_AS(score_erasor(empty.input(), empty.masks()), DataError);
+}
+
+TEST_CASE("dropped points count on neither side", "[erasor][edge]") {
+  // Flags on dropped points change nothing.
+  LabelledScan scan = row_of({{40, false}, {252, true}});
+  scan.add(1.0f, 0.0f, 0.0f, 252, false);
+  scan.add(10.0f, 3.0f, 0.0f, 99, false);
+  scan.add(60.0f, 0.0f, 0.0f, 40, true);
+  const MemorySequence sequence({scan});
+  EvaluationInput input = sequence.input();
+  input.range_m = {0.0, 50.0};
+  input.label_rule.ignored = {99};
+  const ProtocolResult result = score_erasor(input, sequence.masks());
+  CHECK(result.rate("PR") == 100.0);
+  CHECK(result.rate("RR") == 100.0);
+  CHECK(result.count("evaluated_points") == 2);
+  CHECK(result.count("removed_points") == 1);
+  CHECK(result.count("cropped_points") == 1);
+  CHECK(result.count("ignored_points") == 1);
+  CHECK(result.count("out_of_range_points") == 1);
+}
+
+TEST_CASE("a mask that does not fit its scan is the method's error", "[erasor][edge]") {
+  const MemorySequence sequence({row_of({{40, false}, {252, true}, {40, false}})});
+  MaskStore wrong(1);
+  wrong.set(0, Mask(5, 0));
+  const std::string message =
+      message_of<MethodError>([&] { score_erasor(sequence.input(), wrong); });
+  CHECK_THAT(message, Contains("5 values") && Contains("3 points") && Contains("frame 0"));
+  CHECK_THROWS_AS(score_erasor(sequence.input(), MaskStore(1)), MethodError);
+  CHECK_THROWS_AS(score_erasor(sequence.input(), MaskStore(2)), MethodError);
+}
+
+TEST_CASE("labels that do not fit their scan are a data error", "[erasor][edge]") {
+  LabelledScan scan = row_of({{40, false}, {252, true}});
+  scan.labels.pop_back();
+  const MemorySequence sequence({scan});
+  const std::string message =
+      message_of<DataError>([&] { (void)erasor_protocol()->prepare(sequence.input()); });
+  CHECK_THAT(message, Contains("1 labels") && Contains("2 points"));
+  EvaluationInput unlabelled = sequence.input();
+  unlabelled.labels = nullptr;
+  CHECK_THROWS_AS(erasor_protocol()->prepare(unlabelled), DataError);
+}
+
+TEST_CASE("a truth map of another protocol or label mode is refused", "[erasor][edge]") {
+  const MemorySequence sequence({row_of({{40, false}})});
+  const auto truth = erasor_protocol()->prepare(sequence.input());
+  const auto nearest = erasor_protocol({{"label_mode", std::string("nearest")}});
+  CHECK_THROWS_AS(nearest->score(sequence.input(), *truth, sequence.masks()), InternalError);
+  CHECK_THROWS_AS(nearest->score(sequence.input(), TruthMap{}, sequence.masks()), InternalError);
+}
+
+TEST_CASE("a voxel at exactly half a diagonal does not match", "[erasor][edge]") {
+  // Cells of 0.5 m: t^2 = 3/16, the square of (0.25, 0.25, 0.25), all exact in binary. Both points
+  // are voxels of their own, as 5.25 + 0.25 lies on a wall, which belongs to the upper cell.
+  const Settings settings = {{"voxel_size", 0.5}, {"lift", 0.0}};
+  const MemorySequence at = pair_at_distance({0.25f, 0.25f, 0.25f});
+  const ProtocolResult exact = score_erasor(at.input(), at.masks(), settings);
+  CHECK(exact.count("static_voxels") == 2);
+  CHECK(exact.count("preserved_static") == 1);
+  CHECK(exact.count("estimate_voxels_without_partner") == 0);
+  const float inside = 0.25f - 0x1p-25f;  // The sum with 0.25 is exact, too.
+  const MemorySequence within = pair_at_distance({0.25f, 0.25f, inside});
+  const ProtocolResult below = score_erasor(within.input(), within.masks(), settings);
+  CHECK(below.count("static_voxels") == 2);
+  CHECK(below.count("preserved_static") == 2);
+}
+
+TEST_CASE("the crop is strict and looks at x and y only", "[erasor][edge]") {
+  // (1.5, 2.0) lies exactly 2.5 m from the axis and stays; a step nearer it goes; z is no help.
+  LabelledScan scan;
+  scan.add(1.5f, 2.0f, 0.0f, 40);
+  scan.add(std::nextafter(1.5f, 0.0f), 2.0f, 9.0f, 40);
+  const MemorySequence sequence({scan});
+  const ProtocolResult result =
+      score_erasor(sequence.input(), sequence.masks(), {{"minimum_horizontal_range", 2.5}});
+  CHECK(result.count("evaluated_points") == 1);
+  CHECK(result.count("cropped_points") == 1);
+  // At the default of 2.7 m: the float below 2.7 is cropped, the one above stays.
+  LabelledScan edge;
+  edge.add(std::nextafter(2.7f, 0.0f), 0.0f, 0.0f, 40);
+  edge.add(2.7f, 0.0f, 0.0f, 40);  // 2.7000000477.
+  const MemorySequence edges({edge});
+  CHECK(score_erasor(edges.input(), edges.masks()).count("cropped_points") == 1);
+}
+
+TEST_CASE("range limits include both ends", "[erasor][edge]") {
+  LabelledScan scan;
+  for (const float x : {3.0f, 5.0f, std::nextafter(3.0f, 0.0f), std::nextafter(5.0f, 9.0f)}) {
+    scan.add(x, 0.0f, 0.0f, 40);
+  }
+  const MemorySequence sequence({scan});
+  EvaluationInput input = sequence.input();
+  input.range_m = {3.0, 5.0};
+  const ProtocolResult result = score_erasor(input, sequence.masks());
+  CHECK(result.count("evaluated_points") == 2);
+  CHECK(result.count("out_of_range_points") == 2);
+}
+
+TEST_CASE("the lift is applied in the sensor frame, before the pose", "[erasor][edge]") {
+  // The sensor lies on its side: its z axis is the world's y axis. (5, 0, 0) lifted by 1 m is
+  // (5, 1, 0) in the world. Lifted after the pose the two scans would not meet.
+  LabelledScan tilted, level;
+  tilted.pose.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  tilted.add(5.05f, 0.05f, 0.05f, 40, true);   // World: 5.05, 1.05, -0.05.
+  level.add(5.05f, 1.05f, -1.05f, 40, false);  // World: 5.05, 1.05, -0.05.
+  const MemorySequence sequence({tilted, level});
+  const ProtocolResult result = score_erasor(sequence.input(), sequence.masks(), {{"lift", 1.0}});
+  CHECK(result.count("static_voxels") == 1);
+  CHECK(result.count("preserved_static") == 1);
+}
+
+TEST_CASE("trucks are counted both ways when they occur", "[erasor][edge]") {
+  // Static kept; truck kept; truck removed; car removed.
+  const std::vector<std::pair<std::uint32_t, bool>> points = {
+      {40, false}, {258, false}, {258, true}, {252, true}};
+  const ProtocolResult with = score_row(points);
+  CHECK(with.count("static_voxels") == 1);
+  CHECK(with.count("dynamic_voxels") == 3);
+  CHECK(with.count("remaining_dynamic") == 1);
+  // Without 258 both truck voxels are static, and one of them is lost.
+  CHECK(with.count("static_voxels_no_truck") == 3);
+  CHECK(with.count("dynamic_voxels_no_truck") == 1);
+  CHECK(with.count("preserved_static_no_truck") == 2);
+  CHECK(with.count("remaining_dynamic_no_truck") == 0);
+  CHECK(with.rate("PR_no_truck").value() == Approx(200.0 / 3));
+  CHECK(with.rate("RR_no_truck") == 100.0);
+  const ProtocolResult without = score_row(points, {{"truck_is_moving", false}});
+  CHECK(without.count("static_voxels") == 3);
+  CHECK(without.count("preserved_static") == 2);
+  CHECK_THROWS_AS(without.count("static_voxels_no_truck"), InternalError);
+  // No trucks, nothing to tell apart.
+  CHECK_THROWS_AS(score_row({{40, false}, {252, true}}).count("static_voxels_no_truck"),
+                  InternalError);
+}
+
+TEST_CASE("labels 0, 1 and 251 are static; 0 and 1 can be left out of PR", "[erasor][edge]") {
+  const std::vector<std::pair<std::uint32_t, bool>> points = {
+      {0, true}, {1, false}, {251, false}, {40, false}, {252, true}};
+  const ProtocolResult kept = score_row(points);
+  CHECK(kept.count("static_voxels") == 4);
+  CHECK(kept.count("dynamic_voxels") == 1);
+  CHECK(kept.count("unlabelled_voxels") == 2);
+  CHECK(kept.rate("PR") == 75.0);
+  const ProtocolResult left_out = score_row(points, {{"ignore_0_1", true}});
+  CHECK(left_out.count("static_voxels") == 2);
+  CHECK(left_out.rate("PR") == 100.0);
+  CHECK(left_out.count("dynamic_voxels") == 1);
+}
+
+TEST_CASE("instance ids do not change a class", "[erasor][edge]") {
+  // 259 of instance 300 becomes 260, static, where labels travel through a 32-bit float.
+  const ProtocolResult result = score_row({{(300U << 16) | 259U, true}, {(9U << 16) | 40U, false}});
+  CHECK(result.count("dynamic_voxels") == 1);
+  CHECK(result.count("static_voxels") == 1);
+}
+
+TEST_CASE("a scan whose points are all flagged contributes nothing", "[erasor][edge]") {
+  const MemorySequence one({row_of({{40, false}, {252, true}})});
+  const LabelledScan gone = row_of({{40, true}, {252, true}});
+  const MemorySequence two({one.scans()[0], gone});
+  const ProtocolResult single = score_erasor(one.input(), one.masks());
+  const ProtocolResult both = score_erasor(two.input(), two.masks());
+  CHECK(both.count("estimate_voxels") == single.count("estimate_voxels"));
+  CHECK(both.rates[0].value == single.rates[0].value);
+  CHECK(both.count("evaluated_points") == 4);
+}
+
+TEST_CASE("a two-point cell takes the first label and is counted as a tie", "[erasor][edge]") {
+  // 5.0625 and 5.1875 lie in the cell [5, 5.25) and are equally far from their mean 5.125.
+  const Settings settings = {{"voxel_size", 0.25}, {"lift", 0.0}};
+  for (const bool moving_first : {true, false}) {
+    LabelledScan scan;
+    scan.add(moving_first ? 5.0625f : 5.1875f, 0.125f, 0.125f, 252);
+    scan.add(moving_first ? 5.1875f : 5.0625f, 0.125f, 0.125f, 40);
+    if (!moving_first) {
+      std::swap(scan.points[0], scan.points[1]);
+      std::swap(scan.labels[0], scan.labels[1]);
+    }
+    const MemorySequence sequence({scan});
+    const ProtocolResult result = score_erasor(sequence.input(), sequence.masks(), settings);
+    CHECK(result.count("dynamic_voxels") == (moving_first ? 1 : 0));
+    CHECK(result.count("static_voxels") == (moving_first ? 0 : 1));
+    CHECK(result.count("mixed_label_ties") == 1);
+  }
+  // Two labels of one class tie without a consequence.
+  LabelledScan same;
+  same.add(5.0625f, 0.125f, 0.125f, 48);
+  same.add(5.1875f, 0.125f, 0.125f, 40);
+  const MemorySequence sequence({same});
+  CHECK(score_erasor(sequence.input(), sequence.masks(), settings).count("mixed_label_ties") == 0);
+}
+
+TEST_CASE("a nearer point of a neighbour cell gives its label", "[erasor][edge]") {
+  // Cell [5, 5.25): mean of 5.015625 and 5.234375 is 5.125 in x, and y 0.234375 near the wall at
+  // 0.25. The moving point beyond the wall is 0.03125 away, the cell's own ones 0.109.
+  LabelledScan scan;
+  scan.add(5.015625f, 0.234375f, 0.125f, 40);
+  scan.add(5.234375f, 0.234375f, 0.125f, 40);
+  scan.add(5.125f, 0.265625f, 0.125f, 252);
+  const MemorySequence sequence({scan});
+  const ProtocolResult result =
+      score_erasor(sequence.input(), sequence.masks(), {{"voxel_size", 0.25}, {"lift", 0.0}});
+  CHECK(result.count("dynamic_voxels") == 2);
+  CHECK(result.count("static_voxels") == 0);
+}
+
+TEST_CASE("options come back as given, unknown ones are refused", "[erasor][edge]") {
+  CHECK(erasor_protocol()->options() == protocol_defaults("erasor"));
+  CHECK_THROWS_AS(make_protocol("erasor", {{"voxel_sice", 0.2}}), ConfigurationError);
+  CHECK_THAT(message_of<UsageError>([] { (void)make_protocol("erasr", {}); }), Contains("erasor"));
+}
+
+}  // namespace raymoval::test
