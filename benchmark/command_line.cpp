@@ -72,6 +72,7 @@ ExitCode run_program(int argc, const char* const* argv) {
                    "raymoval");
   program.set_version_flag("--version", "raymoval " RAYMOVAL_VERSION);
   program.allow_extras();
+  program.require_subcommand(0, 1);  // So that a run folder may be called "run".
   program.footer(
       "Examples:\n"
       "  raymoval run --sequence street --method raymoval:online --out out/street\n"

@@ -35,9 +35,7 @@ OutsideColumn& column_of(const std::string& method, std::vector<OutsideColumn>& 
 std::vector<OutsideColumn> published_columns() {
   std::vector<OutsideColumn> columns;
   for (const PublishedRow& row : load_published_table(published_file()).rows) {
-    OutsideColumn& column = column_of(row.method, columns);
-    column.sequences.emplace_back(row.sequence, row.values);
-    column.sequences.emplace_back("kitti-" + row.sequence, row.values);
+    column_of(row.method, columns).sequences.emplace_back(row.sequence, row.values);
   }
   return columns;
 }

@@ -7,9 +7,8 @@
 
 namespace raymoval {
 
-/// The methods of the paper's Table 2, as columns to set beside a run, the segment "05" under the
-/// names "05" and "kitti-05". The table is looked up in the source folder, else where it was
-/// installed.
+/// The methods of the paper's Table 2, as columns to set beside a run. The table is looked up in
+/// the source folder, else where it was installed.
 /// @throws DataError if it is in neither place
 std::vector<OutsideColumn> published_columns();
 

@@ -51,10 +51,10 @@ RangeLimits range_of(const json& object, const std::string& where) {
 }
 
 /// A path of a suite file: beside the file if it is there, else as it stands. `ROOT:05` names a
-/// part of ROOT, so what follows the last colon does not count.
+/// part of ROOT, so what follows the last colon does not count; `street` is the built-in scene.
 std::string located(const std::string& path, const std::filesystem::path& folder) {
   const std::filesystem::path given(path);
-  if (given.is_absolute()) return path;
+  if (given.is_absolute() || path == "street") return path;
   const std::filesystem::path beside = folder / given;
   const std::string text = beside.string();
   const std::size_t colon = text.rfind(':');

@@ -16,6 +16,7 @@ struct Column {
   std::string heading;
   std::vector<const RateValues*> by_sequence;  ///< Null: not known there.
   std::vector<std::string> status;             ///< Shown where there are no rates.
+  bool published = false;                      ///< F1 was printed with 3 decimals only.
 };
 
 const std::vector<std::string>& shown_rates() {
@@ -38,7 +39,7 @@ std::vector<Column> run_columns(const RunResults& results, const std::string& pr
                                 bool controls) {
   std::vector<Column> columns;
   for (const std::string& cell : results.cells) {
-    Column column{cell, {}, {}};
+    Column column{cell, {}, {}, false};
     bool wanted = false;
     for (const std::string& sequence : results.sequences) {
       const ResultRow* row = results.find(sequence, cell, protocol);
@@ -52,20 +53,27 @@ std::vector<Column> run_columns(const RunResults& results, const std::string& pr
   return columns;
 }
 
+Column outside_column(const std::vector<std::string>& sequences, const OutsideColumn& given) {
+  Column column{given.heading, {}, {}, true};
+  for (const std::string& sequence : sequences) {
+    column.by_sequence.push_back(given.find(sequence));
+    column.status.push_back("-");
+  }
+  return column;
+}
+
 void add_outside(const RunResults& results, const std::vector<OutsideColumn>& outside,
                  std::vector<Column>& columns) {
   for (const OutsideColumn& given : outside) {
-    Column column{given.heading, {}, {}};
-    for (const std::string& sequence : results.sequences) {
-      const RateValues* rates = nullptr;
-      for (const auto& [name, values] : given.sequences) {
-        if (name == sequence) rates = &values;
-      }
-      column.by_sequence.push_back(rates);
-      column.status.push_back("");
-    }
-    columns.push_back(std::move(column));
+    Column column = outside_column(results.sequences, given);
+    const bool shared = std::any_of(column.by_sequence.begin(), column.by_sequence.end(),
+                                    [](const RateValues* rates) { return rates != nullptr; });
+    if (shared) columns.push_back(std::move(column));
   }
+}
+
+std::string column_text(const Column& column, const std::string& rate, double value) {
+  return column.published ? fixed_text(value, 3) : rate_text(rate, value);
 }
 
 std::optional<double> rate_at(const Column& column, std::size_t sequence, const std::string& rate) {
@@ -111,17 +119,18 @@ TableRow sequence_row(const std::string& sequence, std::size_t index,
     for (const std::string& rate : rates) {
       const auto value = rate_at(column, index, rate);
       const std::string& status = column.status[index];
-      const bool failed = !status.empty() && status != "ok";
-      row.cells.push_back({value ? rate_text(rate, *value) : (failed ? status : "n/a")});
+      const std::string missing = status.empty() || status == "ok" ? "n/a" : status;
+      row.cells.push_back({value ? column_text(column, rate, *value) : missing});
     }
   }
   return row;
 }
 
 /// "98.123", or "98.123 (4/5)" where sequences without a value are left out.
-std::string mean_text(const std::string& rate, const Mean& mean, std::size_t of) {
+std::string mean_text(const Column& column, const std::string& rate, const Mean& mean) {
   if (!mean.value) return "n/a";
-  const std::string text = rate_text(rate, *mean.value);
+  const std::string text = column_text(column, rate, *mean.value);
+  const std::size_t of = column.by_sequence.size();
   if (mean.segments == of) return text;
   return text + " (" + std::to_string(mean.segments) + "/" + std::to_string(of) + ")";
 }
@@ -133,7 +142,7 @@ TableRow mean_row(const std::vector<Column>& columns, const std::vector<std::str
   for (const Column& column : columns) {
     for (const std::string& rate : rates) {
       const Mean mean = mean_of(values_of(column, rate));
-      row.cells.push_back({mean_text(rate, mean, column.by_sequence.size())});
+      row.cells.push_back({mean_text(column, rate, mean)});
     }
   }
   return row;
@@ -150,8 +159,7 @@ TableRow f1_of_means_row(const std::vector<Column>& columns,
     }
     const AverageRates averages = average_rates(segments);
     for (const std::string& rate : rates) {
-      row.cells.push_back(
-          {rate == "F1" ? mean_text("F1", averages.F1_of_means, averages.segments) : ""});
+      row.cells.push_back({rate == "F1" ? mean_text(column, "F1", averages.F1_of_means) : ""});
     }
   }
   return row;
@@ -161,13 +169,13 @@ bool has(const std::vector<std::string>& rates, const std::string& rate) {
   return std::find(rates.begin(), rates.end(), rate) != rates.end();
 }
 
-TextTable rate_table(const RunResults& results, const std::string& title,
+TextTable rate_table(const std::vector<std::string>& sequences, const std::string& title,
                      const std::vector<Column>& columns, const std::vector<std::string>& rates,
                      bool ranked) {
   TextTable table{title, "sequence", {}, {}, {}};
   for (const Column& column : columns) table.groups.push_back({column.heading, rates});
-  for (std::size_t i = 0; i < results.sequences.size(); ++i) {
-    table.rows.push_back(sequence_row(results.sequences[i], i, columns, rates));
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    table.rows.push_back(sequence_row(sequences[i], i, columns, rates));
   }
   if (ranked) {
     table.rows.push_back(mean_row(columns, rates));
@@ -186,7 +194,8 @@ TextTable method_table(const RunResults& results, const std::string& protocol,
   const std::vector<std::string> rates = rates_of(results, protocol);
   std::vector<Column> columns = run_columns(results, protocol, false);
   if (has(rates, "PR") && has(rates, "RR")) add_outside(results, outside, columns);
-  TextTable table = rate_table(results, "Accuracy by protocol " + protocol, columns, rates, true);
+  TextTable table =
+      rate_table(results.sequences, "Accuracy by protocol " + protocol, columns, rates, true);
   table.notes.push_back(
       "Rates in percent, F1 as a fraction. mean_F1 is the mean of the F1 values; F1_of_means is "
       "the F1 of mean PR and mean RR. n/a: undefined or not run; (4/5): the mean is over the 4 of "
@@ -196,11 +205,23 @@ TextTable method_table(const RunResults& results, const std::string& protocol,
 
 TextTable control_table(const RunResults& results, const std::string& protocol) {
   const std::vector<std::string> rates = rates_of(results, protocol);
-  TextTable table = rate_table(results, "Controls by protocol " + protocol,
+  TextTable table = rate_table(results.sequences, "Controls by protocol " + protocol,
                                run_columns(results, protocol, true), rates, false);
   table.notes.push_back(results.control_problems.empty()
                             ? "All controls are as they must be."
                             : "CONTROLS ARE OFF: " + join(results.control_problems, "; ") + ".");
+  return table;
+}
+
+TextTable published_table(const std::vector<OutsideColumn>& outside) {
+  std::vector<std::string> sequences;
+  for (const auto& [name, rates] : outside.front().sequences) sequences.push_back(name);
+  std::vector<Column> columns;
+  for (const OutsideColumn& given : outside) columns.push_back(outside_column(sequences, given));
+  TextTable table = rate_table(sequences, "Published", columns, {"PR", "RR", "F1"}, true);
+  table.notes.push_back(
+      "Values as printed (Raymoval paper, Table 2); the means are computed from them, since two of "
+      "the printed means are misprints.");
   return table;
 }
 
@@ -227,6 +248,13 @@ TextTable stage_table(const MethodTimes& times) {
 
 }  // namespace
 
+const RateValues* OutsideColumn::find(const std::string& name) const {
+  for (const auto& [sequence, values] : sequences) {
+    if (sequence == name || "kitti-" + sequence == name) return &values;
+  }
+  return nullptr;
+}
+
 std::vector<TextTable> make_tables(const RunResults& results,
                                    const std::vector<OutsideColumn>& outside) {
   std::vector<TextTable> tables;
@@ -234,6 +262,7 @@ std::vector<TextTable> make_tables(const RunResults& results,
     TextTable methods = method_table(results, protocol, outside);
     if (!methods.groups.empty()) tables.push_back(std::move(methods));
   }
+  if (!outside.empty()) tables.push_back(published_table(outside));
   for (const std::string& protocol : results.protocols) {
     TextTable controls = control_table(results, protocol);
     if (!controls.groups.empty()) tables.push_back(std::move(controls));

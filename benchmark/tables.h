@@ -13,12 +13,16 @@ namespace raymoval {
 struct OutsideColumn {
   std::string heading;
   std::vector<std::pair<std::string, RateValues>> sequences;
+
+  /// Rates of the sequence called `name`, or `kitti-name` in a run; null if there are none.
+  [[nodiscard]] const RateValues* find(const std::string& name) const;
 };
 
 /// The tables of a run in the order in which they are shown: for each protocol sequence x method
 /// (the paper's Table 2: best bold, second underlined, averages), the controls, then the time of
 /// each stage (the paper's Table 3).
-/// @param outside columns set beside those of the run where the protocol has PR and RR
+/// @param outside columns set beside those of the run where the protocol has PR and RR and a
+///   sequence is in both; a table of all of them follows
 std::vector<TextTable> make_tables(const RunResults& results,
                                    const std::vector<OutsideColumn>& outside = {});
 

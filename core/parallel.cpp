@@ -2,6 +2,7 @@
 #include "core/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -52,7 +53,8 @@ void parallel_chunks(int threads, std::size_t count, std::size_t grain,
     return;
   }
   FirstError first_error;
-  tbb::task_arena arena(threads);
+  // TBB never runs more than this, and warns on standard error where it is asked to.
+  tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/checked_sink.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+
+TEST_CASE("The sink holds a method to one mask of the right size per scan") {
+  const test::TwoScans world;
+  const TimedSource scans(world);
+  CheckedSink sink("mine", scans);
+
+  CHECK_THROWS_AS(sink.accept(2, {1}), MethodError);
+  CHECK_THROWS_WITH(sink.accept(0, {1, 0}), Contains("scan 0") && Contains("2 values"));
+  CHECK_THROWS_AS(sink.accept(0, {1, 0, 2}), MethodError);
+
+  sink.accept(0, {1, 0, 1});
+  CHECK_THROWS_WITH(sink.accept(0, {1, 0, 1}), Contains("second time"));
+  CHECK_THROWS_WITH(sink.finish(), Contains("no mask for scan 1"));
+
+  sink.accept(1, {0});
+  CHECK(sink.finish().get(0) == Mask{1, 0, 1});
+  CHECK(sink.finish().removed_count() == 2);
+}
+
+TEST_CASE("The digest tells masks apart, also where only the scans' borders differ") {
+  const auto digest = [](const std::vector<Mask>& masks) {
+    MaskStore store(masks.size());
+    for (std::size_t i = 0; i < masks.size(); ++i) store.set(i, masks[i]);
+    return mask_digest(store);
+  };
+  CHECK(digest({{1, 0}, {0}}) == digest({{1, 0}, {0}}));
+  CHECK(digest({{1, 0}, {0}}) != digest({{1}, {0, 0}}));
+  CHECK(digest({{1, 0}, {0}}) != digest({{0, 1}, {0}}));
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/scan_source.h"
+
+namespace raymoval::test {
+
+/// A folder of its own, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "raymoval-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Two scans: "000007" has three points, of five stored (positions 0, 2 and 4); "000008" has one.
+class TwoScans : public ScanSource {
+ public:
+  [[nodiscard]] std::size_t size() const override { return 2; }
+  [[nodiscard]] Scan load(std::size_t index) const override {
+    Scan scan;
+    scan.index = index;
+    if (index == 0) {
+      scan.name = "000007";
+      scan.points = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+      scan.stored_point_count = 5;
+      scan.stored_index = {0, 2, 4};
+    } else {
+      scan.name = "000008";
+      scan.points = {{1, 0, 0}};
+      scan.stored_point_count = 1;
+    }
+    return scan;
+  }
+  [[nodiscard]] Pose pose(std::size_t) const override { return Pose::Identity(); }
+  [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
+
+ private:
+  SensorModel sensor_;
+};
+
+}  // namespace raymoval::test

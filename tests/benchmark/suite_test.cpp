@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/suite.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "methods/controls/controls.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// The controls, and "toy" with variants a and b and the parameters size (1) and gap (2).
+const MethodRegistry& toys() {
+  static const MethodRegistry registry = [] {
+    MethodRegistry methods;
+    methods.add(noop_entry());
+    methods.add(remove_all_entry());
+    methods.add(oracle_entry());
+    MethodEntry toy = noop_entry();
+    toy.name = "toy";
+    toy.parameters = {{"size", 1.0, {.minimum = 0.0, .maximum = 10.0}, {}}, {"gap", 2.0, {}, {}}};
+    toy.variants = {{"a", "", false, {}}, {"b", "", false, {{"gap", 3.0}}}};
+    methods.add(toy);
+    return methods;
+  }();
+  return registry;
+}
+
+double value(const Suite& suite, std::size_t method, const std::string& name) {
+  for (const auto& [key, held] : suite.methods[method].method.configuration) {
+    if (key == name) return std::get<double>(held);
+  }
+  return -1.0;
+}
+
+Suite suite_of(const std::string& json) {
+  const test::TemporaryFolder folder;
+  write_atomically(folder.path() / "suite.json", json);
+  return read_suite(folder.path() / "suite.json", toys());
+}
+
+}  // namespace
+
+TEST_CASE("A setting is METHOD.key=value") {
+  const Setting setting = parse_setting("toy:a.size=1.5");
+  CHECK(setting.target == "toy:a");
+  CHECK(setting.key == "size");
+  CHECK(setting.value == "1.5");
+  for (const char* bad : {"", "toy", "toy.size", "toy=1", ".size=1", "toy.=1", "=1.5"}) {
+    CHECK_THROWS_AS(parse_setting(bad), UsageError);
+  }
+}
+
+TEST_CASE("A setting of a method reaches all variants; one of a variant wins in any order") {
+  for (const bool method_first : {true, false}) {
+    Suite suite;
+    add_method(suite, "toy:a", "", toys());
+    add_method(suite, "toy:b", "", toys());
+    std::vector<Setting> settings = {{"toy", "size", "5"}, {"toy:b", "size", "6"}};
+    if (!method_first) std::swap(settings[0], settings[1]);
+    apply_settings(suite, settings);
+    CHECK(value(suite, 0, "size") == 5.0);
+    CHECK(value(suite, 1, "size") == 6.0);
+    CHECK(value(suite, 1, "gap") == 3.0);  // The variant's own value stays.
+  }
+}
+
+TEST_CASE("Settings that reach nothing, clash, or are illegal are errors") {
+  Suite suite;
+  add_method(suite, "toy:a", "", toys());
+  CHECK_THROWS_WITH(apply_settings(suite, {{"tow", "size", "1"}}), Contains("Did you mean 'toy'"));
+  CHECK_THROWS_WITH(apply_settings(suite, {{"toy", "sise", "1"}}), Contains("'size'"));
+  CHECK_THROWS_WITH(apply_settings(suite, {{"toy", "size", "11"}}), Contains("out of range"));
+  CHECK_THROWS_WITH(apply_settings(suite, {{"toy", "size", "1"}, {"toy", "size", "1"}}),
+                    Contains("twice"));
+}
+
+TEST_CASE("Two cells of one name clash; controls come first and only once") {
+  Suite suite;
+  add_method(suite, "toy", "", toys());
+  CHECK_THROWS_AS(add_method(suite, "toy:a", "", toys()), UsageError);
+  CHECK_THROWS_AS(add_method(suite, "toy:b", "toy-a", toys()), UsageError);  // The same folder.
+  add_method(suite, "oracle", "", toys());
+  add_controls(suite, toys());
+  std::vector<std::string> names;
+  for (const MethodRequest& request : suite.methods) names.push_back(request.name);
+  CHECK(names ==
+        std::vector<std::string>{"noop:default", "remove-all:default", "toy:a", "oracle:default"});
+}
+
+TEST_CASE("A suite file says sequences, methods with values, protocols") {
+  const Suite suite = suite_of(R"({
+    // Comments are allowed.
+    "name": "mine",
+    "sequences": ["street", {"path": "street", "name": "short", "frames": "0:3",
+                             "range_m": {"min": 1, "max": 50}}],
+    "methods": ["toy:a", {"method": "toy:a", "set": {"size": 4}, "as": "big"}],
+    "protocols": ["erasor", {"protocol": "erasor", "set": {"voxel_size": 0.4}, "as": "coarse"}],
+    "controls": false, "threads": 3 })");
+  CHECK(suite.name == "mine");
+  REQUIRE(suite.sequences.size() == 2);
+  CHECK(suite.sequences[0].path == "street");
+  CHECK(suite.sequences[1].options.range_m->max == 50.0);
+  REQUIRE(suite.methods.size() == 2);
+  CHECK(suite.methods[1].name == "big");
+  CHECK(value(suite, 1, "size") == 4.0);
+  REQUIRE(suite.protocols.size() == 2);
+  CHECK(suite.protocols[1].name == "coarse");
+  CHECK_FALSE(suite.controls);
+  CHECK(suite.threads == 3);
+}
+
+TEST_CASE("Every slip in a suite file is named with its place and the nearest legal word") {
+  const auto with = [](const std::string& more) {
+    return R"({"sequences": ["street"], "methods": ["toy:a"])" + more + "}";
+  };
+  CHECK_NOTHROW(suite_of(with("")));
+  CHECK_THROWS_WITH(suite_of(with(R"(, "thread": 1)")), Contains("Did you mean 'threads'"));
+  CHECK_THROWS_WITH(suite_of(with(R"(, "threads": 0)")), Contains("threads"));
+  CHECK_THROWS_WITH(suite_of(with(R"(, "controls": 1)")), Contains("controls"));
+  CHECK_THROWS_WITH(suite_of(with(R"(, "protocols": ["erasr"])")), Contains("erasor"));
+  CHECK_THROWS_AS(suite_of("{}"), ConfigurationError);
+  CHECK_THROWS_AS(suite_of("[]"), ConfigurationError);
+  CHECK_THROWS_WITH(suite_of("{\n  \"name\": }"), Contains("line 2"));
+  CHECK_THROWS_WITH(suite_of(R"({"sequences": [{"frames": "1:2"}], "methods": ["toy"]})"),
+                    Contains("sequences[0]") && Contains("'path' is missing"));
+  CHECK_THROWS_WITH(
+      suite_of(R"({"sequences": ["street"], "methods": [{"method": "toy", "set": {"gab": 1}}]})"),
+      Contains("methods[0]") && Contains("'gap'"));
+  CHECK_THROWS_WITH(suite_of(R"({"sequences": ["street"], "methods": ["toy:c"]})"),
+                    Contains("no variant 'c'"));
+  CHECK_THROWS_AS(suite_of(R"({"sequences": ["street"], "methods": [7]})"), ConfigurationError);
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/tables.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/files.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+
+namespace {
+
+ResultRow row(const std::string& sequence, const std::string& cell, std::optional<double> pr,
+              std::optional<double> rr, std::optional<double> f1) {
+  ResultRow result;
+  result.sequence = sequence;
+  result.cell = cell;
+  result.method = cell;
+  result.variant = "v";
+  result.protocol = "erasor";
+  result.status = "ok";
+  result.rates = {{"PR", pr}, {"RR", rr}, {"F1", f1}};
+  return result;
+}
+
+/// Methods x and y_1 on s1 and s2; nothing moves in s2 for y_1, so its RR and F1 are undefined.
+RunResults two_by_two() {
+  RunResults results;
+  results.name = "test";
+  results.sequences = {"s1", "s2"};
+  results.cells = {"x", "y_1"};
+  results.protocols = {"erasor"};
+  results.rows = {row("s1", "x", 90.0, 60.0, 0.72), row("s2", "x", 70.0, 100.0, 14.0 / 17.0),
+                  row("s1", "y_1", 80.0, 80.0, 0.8), row("s2", "y_1", 50.0, {}, {})};
+  return results;
+}
+
+}  // namespace
+
+TEST_CASE("The table marks best and second and names both averages of F1") {
+  const std::vector<TextTable> tables = make_tables(two_by_two());
+  REQUIRE(tables.size() == 1);
+  const std::vector<TableRow>& rows = tables[0].rows;
+  REQUIRE(rows.size() == 4);
+  // s1: PR 90 beats 80, RR 80 beats 60, F1 0.80 beats 0.72.
+  CHECK(rows[0].cells[0].text == "90.000");
+  CHECK(rows[0].cells[0].mark == Mark::kBest);
+  CHECK(rows[0].cells[3].mark == Mark::kSecond);
+  CHECK(rows[0].cells[1].mark == Mark::kSecond);
+  CHECK(rows[0].cells[4].mark == Mark::kBest);
+  CHECK(rows[1].cells[4].text == "n/a");
+  CHECK(rows[1].cells[4].mark == Mark::kNone);
+  // x: PR (90 + 70) / 2, RR (60 + 100) / 2, F1 (0.72 + 0.823529) / 2 = 0.771765.
+  CHECK(rows[2].cells[0].text == "80.000");
+  CHECK(rows[2].cells[1].text == "80.000");
+  CHECK(rows[2].cells[2].text == "0.7718");
+  // F1 of 80 and 80 is 0.8.
+  CHECK(rows[3].label == "F1_of_means");
+  CHECK(rows[3].cells[2].text == "0.8000");
+  // y_1: RR and F1 are over one of two sequences, and say so.
+  CHECK(rows[2].cells[3].text == "65.000");
+  CHECK(rows[2].cells[4].text == "80.000 (1/2)");
+  CHECK(rows[2].cells[5].text == "0.8000 (1/2)");
+}
+
+TEST_CASE("What is displayed alike is marked alike") {
+  RunResults results = two_by_two();
+  results.rows[2].rates["PR"] = 90.0001;
+  const std::vector<TextTable> tables = make_tables(results);
+  CHECK(tables[0].rows[0].cells[0].mark == Mark::kBest);
+  CHECK(tables[0].rows[0].cells[3].mark == Mark::kBest);
+}
+
+TEST_CASE("Markdown columns are aligned, LaTeX is escaped") {
+  const RunResults results = two_by_two();
+  const std::string markdown = tables_markdown(results, make_tables(results));
+  CHECK_THAT(markdown, Contains("**90.000**") && Contains("<u>80.000</u>"));
+  std::size_t width = 0;
+  for (std::size_t at = markdown.find("\n|"); at != std::string::npos;
+       at = markdown.find("\n|", at + 1)) {
+    const std::size_t length = markdown.find('\n', at + 1) - at;
+    if (width == 0) width = length;
+    CHECK(length == width);
+  }
+  const std::string latex = tables_latex(make_tables(results));
+  CHECK_THAT(latex, Contains("\\multicolumn{3}{c}{y\\_1}") && Contains("\\toprule") &&
+                        Contains("\\textbf{90.000}") && Contains("\\underline{80.000}"));
+}
+
+TEST_CASE("The CSV has rates to 3 decimals, F1 to 4, and nothing where undefined") {
+  RunResults results = two_by_two();
+  results.rows[0].seconds_per_scan = 0.25;
+  results.rows[0].peak_memory_mib = 12.34;
+  const std::string csv = results_csv(results);
+  CHECK_THAT(csv, Contains("\ns1,x,v,erasor,ok,90.000,60.000,0.7200,,,,,0.250000,12.3,x\n"));
+  CHECK_THAT(csv, Contains("\ns2,y_1,v,erasor,ok,50.000,,,,,,,,,y_1\n"));
+}
+
+TEST_CASE("Outside columns stand beside the run where a sequence is in both") {
+  RunResults results = two_by_two();
+  results.sequences[0] = results.rows[0].sequence = results.rows[2].sequence = "kitti-05";
+  const OutsideColumn paper{"paper", {{"05", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
+  const std::vector<TextTable> tables = make_tables(results, {paper});
+  REQUIRE(tables.size() == 2);
+  REQUIRE(tables[0].groups.size() == 3);
+  CHECK(tables[0].rows[0].cells[6].text == "88.000");
+  CHECK(tables[0].rows[0].cells[8].text == "0.890");
+  CHECK(tables[0].rows[1].cells[6].text == "-");
+  CHECK(tables[1].title == "Published");
+  CHECK(make_tables(two_by_two(), {paper})[0].groups.size() == 2);
+}
+
+TEST_CASE("Stage times are means per scan with the rest named") {
+  RunResults results;
+  results.times = {{"x", 4, 2.0, 0.4, {{"cast", 1.5}}}};
+  const std::vector<TextTable> tables = make_tables(results);
+  REQUIRE(tables.size() == 1);
+  // 1.5 s over 4 scans is 375 ms of 500 ms.
+  CHECK(tables[0].rows[0].cells[0].text == "375.000");
+  CHECK(tables[0].rows[0].cells[1].text == "75.0");
+  CHECK(tables[0].rows[1].label == "other");
+  CHECK(tables[0].rows[1].cells[0].text == "125.000");
+  CHECK(tables[0].rows[2].cells[0].text == "500.000");
+}

@@ -1,0 +1,190 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Drives the program as its users do: command x data x configuration, bad input, exit codes.
+# Usage: cli_test.sh PATH/TO/raymoval
+set -uo pipefail
+raymoval=$(readlink -f "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+checks=0
+failures=0
+
+complain() {
+  failures=$((failures + 1))
+  echo "FAILED: $1"
+  sed 's/^/  out: /' out.txt | head -5
+  sed 's/^/  err: /' err.txt | head -5
+}
+
+# expect CODE TEXT ARGUMENTS...: the exit code, and TEXT somewhere in what was printed.
+expect() {
+  local code=$1 text=$2 got
+  shift 2
+  checks=$((checks + 1))
+  "$raymoval" "$@" >out.txt 2>err.txt
+  got=$?
+  if [[ $got -ne $code ]]; then
+    complain "raymoval $*: exit code $got, expected $code"
+  elif ! cat out.txt err.txt | grep -qF -- "$text"; then
+    complain "raymoval $*: does not say '$text'"
+  elif [[ $code -ne 0 ]] && ! grep -q '^raymoval: ' err.txt; then
+    complain "raymoval $*: no 'raymoval: message' on standard error"
+  fi
+}
+
+# holds NAME COMMAND...: any other condition.
+holds() {
+  checks=$((checks + 1))
+  "${@:2}" >out.txt 2>err.txt || complain "$1"
+}
+
+short=(--sequence street --frames 0:2 --quiet)
+
+# Help and listings.
+expect 0 "Examples" --help
+for command in run table list describe score clean; do expect 0 "Examples" "$command" --help; done
+expect 0 "raymoval 0" --version
+expect 0 "oracle" list
+for what in methods variants protocols sensors sequences; do expect 0 "" list "$what"; done
+for name in raymoval raymoval:online noop erasor; do
+  for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
+done
+expect 0 "tau0" describe raymoval:offline --markdown
+
+# Slips of the command line name what is near.
+expect 2 "a command is missing"
+expect 2 "'run'" runn
+expect 2 "'--frames'" run --fames 0:2
+expect 2 "'--version'" --versoin
+expect 2 "was not expected" list methods more
+expect 2 "Did you mean 'methods'" list method
+expect 2 "Did you mean 'erasor'" describe erasr
+expect 2 "no variant 'onlin'" describe raymoval:onlin
+expect 2 "--out" run "${short[@]}" --method noop
+expect 2 "--method" run "${short[@]}" --out o
+expect 2 "--sequence" run --method noop --out o
+expect 2 "Did you mean 'raymoval'" run "${short[@]}" --method raymovl --out o
+expect 2 "two methods" run "${short[@]}" --method noop --method noop:default --out o
+expect 2 "METHOD.key=value" run "${short[@]}" --method raymoval --set tau0=1 --out o
+expect 2 "'tau0'" run "${short[@]}" --method raymoval --set raymoval.tau=1 --out o
+expect 2 "out of range" run "${short[@]}" --method raymoval --set raymoval.tau0=-1 --out o
+expect 2 "not in this run" run "${short[@]}" --method raymoval --set noop.tau0=1 --out o
+expect 2 "Did you mean 'erasor'" run "${short[@]}" --method noop --protocol erasr --out o
+expect 2 "--threads" run "${short[@]}" --method noop --threads 0 --out o
+expect 2 "--threads" run "${short[@]}" --method noop --threads two --out o
+expect 2 "--range" run "${short[@]}" --method noop --range 5 --out o
+expect 2 "--range" run "${short[@]}" --method noop --range 9:5 --out o
+expect 2 "" run --sequence street --frames nine --method noop --out o
+expect 2 "" run --sequence street --sensor nose --method noop --out o
+expect 2 "nowhere" run --sequence nowhere --method noop --out o
+expect 2 "nowhere" run nowhere.json --out o
+expect 2 "no such run folder" table nowhere
+expect 2 "which run" table
+holds "no bad command line made a folder" test ! -e o
+
+# A run, its files, and what reads them.
+expect 0 "All controls are as they must be" run "${short[@]}" --method raymoval:online \
+  --set raymoval.tau0=0.2 --keep-removals --out run
+for file in run.json results.json results.csv table.md table.tex; do
+  holds "the run has $file" test -s run/$file
+done
+cell=run/cells/street/raymoval-online
+holds "the cell is there" test -s $cell/cell.json
+holds "the setting is recorded" grep -q '"tau0": 0.2' $cell/cell.json
+holds "removals are kept" test -s $cell/removals/000002.label
+holds "no part file is left" test -z "$(find run -name '*.part')"
+holds "no path is told" test -z "$(grep -rlF "$work" run)"
+cp $cell/cell.json before.json
+expect 0 "" run "${short[@]}" --method raymoval:online --set raymoval.tau0=0.2 --keep-removals \
+  --out run
+holds "a cell that is there is not run again" cmp before.json $cell/cell.json
+for format in md csv tex json; do expect 0 "raymoval" table run --format $format; done
+"$raymoval" table run --format csv >again.csv
+holds "the table prints what the run wrote" cmp again.csv run/results.csv
+expect 0 "Published" table run --with-published
+expect 2 "'md'" table run --format mdx
+expect 2 "--with-published" table run --format csv --with-published
+
+# Scores of kept removals are those of the run.
+expect 0 "PR" score "${short[@]}" --predictions $cell/removals --json score.json
+counts() { sed -n '/"counts"/,/}/p' "$1"; }
+holds "score gives the counts of the run" diff <(counts score.json | tr -d ' ') \
+  <(counts $cell/cell.json | tr -d ' ')
+expect 2 "--predictions" score "${short[@]}"
+expect 2 "no such folder" score "${short[@]}" --predictions nowhere
+expect 2 "missing" score --sequence street --frames 0:3 --quiet --predictions $cell/removals
+truncate -s -4 $cell/removals/000001.label
+expect 2 "000001.label" score "${short[@]}" --predictions $cell/removals
+
+# Damaged results are noticed.
+sed 's/"ok"/"OK"/' run/results.json >changed.json
+cp -r run damaged
+cp changed.json damaged/results.json
+expect 2 "checksum" table damaged
+head -c 1000 run/results.json >damaged/results.json
+expect 2 "not a whole result file" table damaged
+rm damaged/results.json
+expect 2 "did not reach its end" table damaged
+mkdir other
+echo "mine" >other/notes.txt
+expect 2 "holds other files" run "${short[@]}" --method noop --out other
+
+# Suite files.
+cat >suite.json <<'JSON'
+{
+  // Comments are fine.
+  "name": "two",
+  "sequences": [{"path": "street", "name": "a", "frames": "0:1"},
+                {"path": "street", "name": "b", "frames": "2:3"}],
+  "methods": ["noop", {"method": "raymoval:online", "set": {"tau0": 0.5}, "as": "high"}],
+  "protocols": ["erasor"],
+  "threads": 2
+}
+JSON
+expect 0 "high" run suite.json --quiet --out suite
+holds "both sequences have cells" test -s suite/cells/a/high/cell.json -a -s suite/cells/b/high/cell.json
+expect 2 "--method" run suite.json --method noop --out suite2
+echo '{"sequences": ["street"], "methods": ["noop"], "protocol": []}' >bad.json
+expect 2 "Did you mean 'protocols'" run bad.json --out suite2
+echo '{"sequences": ["street",], "methods": ["noop"]}' >bad.json
+expect 2 "line 1" run bad.json --out suite2
+echo '{"sequences": ["street", "street"], "methods": ["noop"]}' >bad.json
+expect 2 "two sequences" run bad.json --out suite2
+
+# Threads never change what is stored outside "measured".
+for threads in 1 2; do
+  "$raymoval" run "${short[@]}" --method raymoval:online --threads $threads --out t$threads >/dev/null
+  sed '/"measured": {/,/^  }/d; /"checksum"/d' t$threads/cells/street/raymoval-online/cell.json \
+    >t$threads.json
+done
+holds "one thread and two give the same cell" cmp t1.json t2.json
+
+# Cleaning.
+for extension in pcd ply bin; do
+  expect 0 "removed" clean street --frames 0:2 --quiet --method raymoval:online -o map.$extension
+  holds "map.$extension is there" test -s map.$extension
+done
+expect 0 "removed" clean street --frames 0:2 --quiet --method remove-all --voxel 0.5 \
+  -o none.pcd --dynamic all.pcd --labels labels
+holds "labels are written" test -s labels/000002.label
+expect 2 "-o FILE" clean street
+expect 2 "there is no folder" clean street -o nowhere/map.pcd
+expect 2 ".pcd" clean street -o map.xyz
+expect 2 "--voxel" clean street -o map2.pcd --voxel 0
+expect 2 "same file" clean street -o map2.pcd --dynamic map2.pcd
+holds "no refused map was written" test ! -e map2.pcd
+
+# An interrupted run ends by itself and goes on later.
+"$raymoval" run --sequence street --quiet --method raymoval:online --out stopped >out.txt 2>err.txt &
+process=$!
+for _ in $(seq 100); do [[ -e stopped/cells/street/oracle-default/cell.json ]] && break; sleep 0.1; done
+# A shell's background jobs ignore SIGINT unless they ask for it, as the program does.
+kill -INT $process
+wait $process
+holds "an interrupted run exits with 1" test $? -eq 1
+holds "finished cells stay" test -s stopped/cells/street/oracle-default/cell.json
+holds "nothing claims to be complete" test ! -e stopped/results.json
+
+echo "cli: $((checks - failures)) of $checks checks hold"
+[[ $failures -eq 0 ]]
