@@ -52,8 +52,8 @@ struct RaymovalParameters {
   double cluster_width = 0.0;
   int group_gap = 1;
   int coverage_dilation = 1;
-  double coverage_static = 0.9;
-  double coverage_edge = 0.8;
+  double coverage_static = 0.95;
+  double coverage_edge = 0.9;
   double thin_side = 0.4;
   int support_dilation = 2;
   double support_share = 0.95;

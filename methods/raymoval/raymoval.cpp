@@ -48,6 +48,7 @@ int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
 struct PreparedScan {
   Scan scan;
   std::vector<VoxelIndex> voxels;  ///< Of each point, in the world lattice.
+  VoxelSet own_voxels;             ///< Voxels in which the scan itself has a point.
   ProjectedScan projected;
 };
 
@@ -102,6 +103,8 @@ class RaymovalPass {
     parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
       prepared.voxels[k] = map_.voxel_of(scan.T_world_sensor * scan.points[k].cast<double>());
     });
+    prepared.own_voxels.reserve(scan.size() / 2);
+    for (const VoxelIndex& voxel : prepared.voxels) prepared.own_voxels.insert(voxel_key(voxel));
     prepared.projected = project(scan, grid_, parameters_.minimum_range);
     prepared.scan = std::move(scan);
     return prepared;
@@ -139,6 +142,8 @@ class RaymovalPass {
     return validate_scan(prepared.scan, prepared.voxels, candidates, map_.occupied(), parameters_);
   }
 
+  /// A ray may pass through the empty part of a voxel: one in which the scan itself has a point is
+  /// not seen through.
   void erase_seen_through(const PreparedScan& prepared, const FirstHitImage& first_hit) {
     if (!parameters_.erase) return;
     const StageScope timed(context_.times, "erase");
@@ -150,7 +155,8 @@ class RaymovalPass {
                          erase_rows_, context_.threads);
     for (const int bin : find_seen_through(prepared.projected, nearest_return, first_hit, reference,
                                            {parameters_.erase_tau0, parameters_.erase_tau1})) {
-      map_.erase(voxel_index(first_hit.voxel[static_cast<std::size_t>(bin)]));
+      const VoxelKey voxel = first_hit.voxel[static_cast<std::size_t>(bin)];
+      if (!prepared.own_voxels.contains(voxel)) map_.erase(voxel_index(voxel));
     }
   }
 

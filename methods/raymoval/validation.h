@@ -28,7 +28,7 @@ double cluster_width_at(double range, const RaymovalParameters& parameters);
 
 /// Eqs 12-13: whether a cluster is large enough to be an object.
 bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& points,
-                           const std::vector<double>& ranges, const RaymovalParameters& parameters);
+                           const RaymovalParameters& parameters);
 
 /// Eq. 14: share of `members` that lie within `dilation` voxels of the static map.
 double coverage(const std::vector<int>& members, const ScanPoints& points,

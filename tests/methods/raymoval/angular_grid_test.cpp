@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/angular_grid.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace raymoval;
+using std::numbers::pi;
+
+namespace {
+
+/// Four columns of 90 degrees, two rows of 45 degrees.
+AngularGrid coarse_grid() {
+  return {4, 2, -pi / 4, pi / 4};
+}
+
+}  // namespace
+
+TEST_CASE("eq. 1: range, azimuth and elevation of a point") {
+  const Spherical ahead = to_spherical({3.0, 0.0, 4.0});
+  CHECK(ahead.range == Approx(5.0));
+  CHECK(ahead.azimuth == Approx(0.0));
+  CHECK(ahead.elevation == Approx(std::asin(0.8)));
+  // Straight behind is +pi, the closed end of (-pi, pi].
+  CHECK(to_spherical({-2.0, 0.0, 0.0}).azimuth == Approx(pi));
+  CHECK(to_spherical({0.0, 0.0, -1.0}).elevation == Approx(-pi / 2));
+  CHECK(to_spherical({0.0, 0.0, 0.0}).range == 0.0);
+}
+
+TEST_CASE("eqs 2-3: steps and bins") {
+  const AngularGrid grid = coarse_grid();
+  CHECK(grid.azimuth_step() == Approx(pi / 2));
+  CHECK(grid.elevation_step() == Approx(pi / 4));
+  // Azimuth 0.1 is 3.24 from -pi, two steps of 1.57 and a bit: column 2. Elevation 0.1: row 1.
+  CHECK(grid.bin_of(0.1, 0.1) == 1 * 4 + 2);
+  CHECK(grid.bin_of(-0.1, -0.1) == 0 * 4 + 1);
+  // pi and -pi are one direction.
+  CHECK(grid.bin_of(pi, -0.1) == 0);
+  CHECK(grid.bin_of(-pi, -0.1) == 0);
+}
+
+TEST_CASE("directions outside the vertical field of view have no bin") {
+  const AngularGrid grid = coarse_grid();
+  CHECK_FALSE(grid.bin_of(0.0, pi / 4));  // The upper end is open.
+  CHECK(grid.bin_of(0.0, -pi / 4) == 2);  // The lower end is closed.
+  CHECK_FALSE(grid.bin_of(0.0, 1.0));
+  CHECK_FALSE(grid.bin_of(0.0, -1.0));
+}
+
+TEST_CASE("eqs 4-5: the centre of a bin lies in that bin") {
+  const AngularGrid grid{36, 9, -0.4, 0.1};
+  CHECK(grid.azimuth_centre(0) == Approx(-pi + pi / 36));
+  CHECK(grid.elevation_centre(0) == Approx(-0.4 + 0.25 / 9));
+  for (int bin = 0; bin < grid.size(); ++bin) {
+    const Eigen::Vector3d direction = grid.direction(bin);
+    CHECK(direction.norm() == Approx(1.0));
+    const Spherical at = to_spherical(direction);
+    CHECK(grid.bin_of(at.azimuth, at.elevation) == bin);
+  }
+}
+
+TEST_CASE("eq. 10: a bin keeps its nearest range, the ego vehicle is in no bin") {
+  const AngularGrid grid = coarse_grid();
+  Scan scan;
+  scan.points = {{5, 1, 0.5F}, {3, 1, 0.5F}, {1, 0.1F, 0.1F}, {0, 0, 9}};
+  const ProjectedScan projected = project(scan, grid, 2.0);
+  CHECK(projected.bin == std::vector<int>{6, 6, -1, -1});
+  CHECK(projected.minimum_range[6] == Approx(std::sqrt(9 + 1 + 0.25)));
+  CHECK(projected.range[0] == Approx(std::sqrt(25 + 1 + 0.25)));
+  CHECK(projected.minimum_range[5] == kNoRange);
+}

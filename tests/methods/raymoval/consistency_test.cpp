@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/consistency.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace raymoval;
+
+TEST_CASE("eq. 11: a point is dynamic if the map lies farther by more than the margin") {
+  // The map is a wall at 10 m. Margin 0.3 + 0.35 r: a point at 7 m would need 2.75 m of distance
+  // and has 3; at 8 m it would need 3.1 and has 2.
+  ProjectedScan scan;
+  scan.range = {7.0F, 8.0F, 12.0F, 5.0F, 5.0F};
+  scan.bin = {0, 0, 0, 1, -1};
+  const Mask dynamic = check_consistency(scan, {10.0F, kNoRange}, {0.3, 0.35});
+  // Behind the map, without a map reference, in no bin: not dynamic.
+  CHECK(dynamic == Mask{1, 0, 0, 0, 0});
+}
+
+TEST_CASE("eq. 11 is strict: a difference equal to the margin is static") {
+  ProjectedScan scan;
+  scan.range = {8.0F};
+  scan.bin = {0};
+  CHECK(check_consistency(scan, {10.0F}, {2.0, 0.0}) == Mask{0});
+  CHECK(check_consistency(scan, {10.0F}, {1.999, 0.0}) == Mask{1});
+}
+
+TEST_CASE("a bin is seen through if its scan lies beyond the map by the margin at the map") {
+  ProjectedScan scan;
+  FirstHitImage hits;
+  // Margin at a map range of 10 m: 0.3 + 0.1 * 10 = 1.3 m.
+  scan.minimum_range = {11.2F, 11.4F, kNoRange, 20.0F, 20.0F, 20.0F};
+  const std::vector<float> nearest = {11.2F, 11.4F, 20.0F, 10.1F, 20.0F, 20.0F};
+  hits.range = {10, 10, 10, 10, kNoRange, 19.8F};
+  const std::vector<float> reference = {10, 10, 10, 10, 10, 10};
+  // Bin 2 has no return of its own, bin 3 a neighbour on the surface, bin 4 no first hit, and the
+  // first hit of bin 5 is the surface that the scan sees.
+  CHECK(find_seen_through(scan, nearest, hits, reference, {0.3, 0.1}) == std::vector<int>{1});
+}
+
+TEST_CASE("no return counts only within the sensor's view and the range asked for") {
+  const AngularGrid grid{4, 1, -0.1, 0.1};  // Columns at -135, -45, 45 and 135 degrees.
+  SensorModel sensor;
+  sensor.azimuth_min = -std::numbers::pi / 2;
+  sensor.azimuth_max = std::numbers::pi / 2;
+  FirstHitImage hits;
+  hits.range = {5, 5, 5, 5};
+  const std::vector<float> silent(4, kNoRange);
+  CHECK(find_no_return(silent, hits, grid, sensor, 20.0) == std::vector<int>{1, 2});
+  CHECK(find_no_return({kNoRange, 6, kNoRange, kNoRange}, hits, grid, sensor, 20.0) ==
+        std::vector<int>{2});
+  CHECK(find_no_return(silent, hits, grid, sensor, 4.0).empty());
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/first_hit.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <random>
+
+#include "tests/methods/toy_world.h"
+
+using namespace raymoval;
+
+TEST_CASE("eq. 7: a ray meets the near face of the first voxel") {
+  OccupancyMap map(0.2);
+  map.insert({10, 0, 0});  // x from 2.0 to 2.2
+  map.insert({20, 0, 0});
+  const auto hit = cast_ray(map, {{0.1, 0.1, 0.1}, {1, 0, 0}}, 0.0, 60.0);
+  REQUIRE(hit);
+  CHECK(hit->range == Approx(1.9));
+  CHECK(hit->voxel == VoxelIndex(10, 0, 0));
+  // From the other side the far voxel comes first; its face is at 4.2.
+  const auto back = cast_ray(map, {{9.1, 0.1, 0.1}, {-1, 0, 0}}, 0.0, 60.0);
+  REQUIRE(back);
+  CHECK(back->range == Approx(9.1 - 4.2));
+  CHECK(back->voxel == VoxelIndex(20, 0, 0));
+}
+
+TEST_CASE("a ray ends at the maximum range and starts at the ego radius") {
+  OccupancyMap map(0.2);
+  map.insert({0, 0, 0});
+  map.insert({10, 0, 0});
+  const Ray ray{{0.1, 0.1, 0.1}, {1, 0, 0}};
+  CHECK(cast_ray(map, ray, 0.0, 60.0)->voxel == VoxelIndex(0, 0, 0));  // It starts inside.
+  CHECK(cast_ray(map, ray, 0.5, 60.0)->voxel == VoxelIndex(10, 0, 0));
+  CHECK_FALSE(cast_ray(map, ray, 0.5, 1.8));
+  CHECK(cast_ray(map, ray, 0.5, 1.95));
+  CHECK_FALSE(cast_ray(map, {{0.1, 0.1, 0.1}, {0, 0, 1}}, 0.5, 60.0));
+}
+
+TEST_CASE("voxels are erased and negative ones are distinct") {
+  OccupancyMap map(0.2);
+  CHECK(map.insert({-1, -8, -9}));
+  CHECK_FALSE(map.insert({-1, -8, -9}));
+  CHECK(map.contains({-1, -8, -9}));
+  CHECK_FALSE(map.contains({1, 8, 9}));
+  CHECK(map.contains_near({0, -7, -8}, 1));
+  CHECK_FALSE(map.contains_near({1, -7, -8}, 1));
+  CHECK(map.erase({-1, -8, -9}));
+  CHECK_FALSE(map.erase({-1, -8, -9}));
+  CHECK(map.size() == 0);
+}
+
+namespace {
+
+/// Slow exact answer: every voxel of the map as a box.
+std::optional<FirstHit> brute_force(const std::vector<VoxelIndex>& voxels, double size,
+                                    const Ray& ray, double nearest, double farthest) {
+  std::optional<FirstHit> best;
+  for (const VoxelIndex& voxel : voxels) {
+    const Eigen::Vector3d low = voxel.cast<double>() * size;
+    const toy::Box box{low, low.array() + size};
+    const double range = toy::enter_distance(box, ray.origin, ray.direction);
+    if (range >= nearest && range <= farthest && (!best || range < best->range)) {
+      best = FirstHit{range, voxel};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("first hits equal those of a test of every voxel") {
+  std::mt19937 random(7);
+  const auto pick = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  for (int round = 0; round < 30; ++round) {
+    // Far from the origin as well as around it, sparse and dense.
+    const VoxelIndex centre =
+        round % 3 == 0 ? VoxelIndex(400000, -300000, 77) : VoxelIndex(0, 0, 0);
+    OccupancyMap map(0.2);
+    std::vector<VoxelIndex> voxels;
+    for (int k = 0; k < (round % 2 == 0 ? 20 : 400); ++k) {
+      const VoxelIndex voxel =
+          centre + VoxelIndex(static_cast<int>(pick(-20, 20)), static_cast<int>(pick(-20, 20)),
+                              static_cast<int>(pick(-20, 20)));
+      if (map.insert(voxel)) voxels.push_back(voxel);
+    }
+    for (int k = 0; k < 200; ++k) {
+      Ray ray;
+      ray.origin =
+          centre.cast<double>() * 0.2 + Eigen::Vector3d(pick(-3, 3), pick(-3, 3), pick(-3, 3));
+      ray.direction = Eigen::Vector3d(pick(-1, 1), pick(-1, 1), pick(-1, 1)).normalized();
+      const auto expected = brute_force(voxels, 0.2, ray, 0.5, 6.0);
+      const auto found = cast_ray(map, ray, 0.5, 6.0);
+      REQUIRE(found.has_value() == expected.has_value());
+      if (!found) continue;
+      CHECK(found->range == Approx(expected->range).margin(1e-6));
+      CHECK(found->voxel == expected->voxel);
+    }
+  }
+}
+
+TEST_CASE("eqs 4-7: the image of a wall, for any number of threads") {
+  // A wall of voxels at x = 4.0 .. 4.2, seen from a sensor that hangs upside down.
+  OccupancyMap map(0.2);
+  for (int y = -40; y < 40; ++y) {
+    for (int z = -40; z < 40; ++z) map.insert({20, y, z});
+  }
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(0.05, 0.03, 0.07);
+  pose.linear() = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()).matrix();
+  const AngularGrid grid{360, 20, -0.2, 0.2};
+  const FirstHitImage image = cast_first_hits(map, pose, grid, 0.0, 60.0, 1);
+  for (int bin = 0; bin < grid.size(); ++bin) {
+    const Eigen::Vector3d direction = pose.linear() * grid.direction(bin);
+    const auto at = static_cast<std::size_t>(bin);
+    const double range = (4.0 - 0.05) / direction.x();
+    const bool meets = direction.x() > 0 && std::abs(range * direction.y()) < 7.9;
+    if (meets) CHECK(image.range[at] == Approx(range).epsilon(1e-6));
+    if (direction.x() <= 0) CHECK(image.range[at] == kNoRange);
+  }
+  const FirstHitImage parallel = cast_first_hits(map, pose, grid, 0.0, 60.0, 8);
+  CHECK(parallel.range == image.range);
+  CHECK(parallel.voxel == image.voxel);
+}

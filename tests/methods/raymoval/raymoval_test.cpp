@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/raymoval.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "core/text.h"
+#include "tests/methods/toy_world.h"
+
+using namespace raymoval;
+using toy::Box;
+using toy::World;
+
+namespace {
+
+// A wall 12 m ahead and a box of car size 6 m ahead. The sensor stands off the lattice.
+const Box kWall{{12.03, -9, -3}, {12.5, 9, 3}};
+const Box kCar{{6.03, -1, -1}, {8, 1, 0.6}};
+const Box kPole{{7.03, -0.05, -3}, {7.13, 0.05, 3}};
+constexpr int kWallOwner = 0;
+constexpr int kOtherOwner = 1;
+
+Pose pose_at(double x, double y, double z) {
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(x, y, z);
+  return pose;
+}
+
+/// Five scans of the wall with the box, then five without (or the other way round).
+World box_that(bool leaves, const toy::Scanner& scanner = {}, const Pose& move = Pose::Identity(),
+               const Pose& sensor_turn = Pose::Identity()) {
+  World world(scanner);
+  const auto moved = [&](const Box& box) {
+    return Box{box.low + move.translation(), box.high + move.translation()};
+  };
+  for (int i = 0; i < 10; ++i) {
+    std::vector<Box> boxes = {moved(kWall)};
+    if ((i < 5) == leaves) boxes.push_back(moved(kCar));
+    world.scan(boxes, move * pose_at(0.013 * i + 0.01, 0.02, 0.03) * sensor_turn);
+  }
+  return world;
+}
+
+MaskStore run(const std::string& variant, const World& world, int threads = 1) {
+  return toy::masks_of(*MethodRegistry::built_in().configure("raymoval:" + variant).make(), world,
+                       threads);
+}
+
+}  // namespace
+
+TEST_CASE("a box that leaves is removed from every scan, the wall behind it stays") {
+  const World world = box_that(true);
+  const MaskStore masks = run("offline", world);
+  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) > 0.95);
+  CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
+}
+
+TEST_CASE("a box that arrives stands in front of the map and is flagged at once") {
+  const World world = box_that(false);
+  const MaskStore masks = run("online", world);
+  // The front is at 6 m: 12 - 6 is more than 0.3 + 0.35 * 6.
+  CHECK(toy::removed_share(world, masks, kOtherOwner, 5, 9) > 0.95);
+  CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
+}
+
+TEST_CASE("online knows nothing of later scans") {
+  const World world = box_that(true);
+  const MaskStore masks = run("online", world);
+  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) == 0.0);
+}
+
+TEST_CASE("a box that stays is static") {
+  World world{toy::Scanner{}};
+  for (int i = 0; i < 8; ++i) world.scan({kWall, kCar}, pose_at(0.013 * i + 0.01, 0.02, 0.03));
+  for (const char* variant : {"offline", "online", "table1"}) {
+    INFO(variant);
+    const MaskStore masks = run(variant, world);
+    CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 7) < 0.01);
+    CHECK(toy::removed_share(world, masks, kWallOwner, 0, 7) < 0.01);
+  }
+}
+
+TEST_CASE("a thin pole before a wall is not seen through by its neighbours") {
+  // The pole is half as wide as a voxel: most rays into its voxels go past it to the wall.
+  World world{toy::Scanner{}};
+  for (int i = 0; i < 8; ++i) world.scan({kWall, kPole}, pose_at(0.05 * i + 0.01, 0.02, 0.03));
+  const MaskStore masks = run("offline", world);
+  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 7) < 0.05);
+}
+
+TEST_CASE("a sensor that sees only ahead judges only what it sees") {
+  toy::Scanner scanner;
+  scanner.azimuth_from = -30;
+  scanner.azimuth_to = 30;
+  const World world = box_that(true, scanner);
+  const MaskStore masks = run("offline", world);
+  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) > 0.95);
+  CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
+}
+
+TEST_CASE("an upside-down sensor gives the same verdicts") {
+  Pose turn = Pose::Identity();
+  turn.linear() = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()).matrix();
+  const World world = box_that(true, {}, Pose::Identity(), turn);
+  const MaskStore masks = run("offline", world);
+  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) > 0.95);
+  CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
+}
+
+TEST_CASE("far from the origin nothing changes") {
+  // A shift by whole voxels moves the lattice onto itself.
+  const World near = box_that(true);
+  const World far = box_that(true, {}, pose_at(400000 * 0.2, -250000 * 0.2, 500 * 0.2));
+  const MaskStore near_masks = run("offline", near);
+  const MaskStore far_masks = run("offline", far);
+  std::size_t points = 0, different = 0;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const Mask a = near_masks.get(i), b = far_masks.get(i);
+    REQUIRE(a.size() == b.size());
+    points += a.size();
+    for (std::size_t k = 0; k < a.size(); ++k) different += a[k] != b[k] ? 1 : 0;
+  }
+  // Points within float rounding of a voxel wall may change sides.
+  CHECK(different * 1000 < points);
+}
+
+TEST_CASE("empty directions erase only where they are asked to, and not at the first time") {
+  // The box stands before nothing at all; when it leaves, its directions fall silent.
+  World world{toy::Scanner{}};
+  const Box side{{-9, 6.03, -3}, {9, 6.5, 3}};
+  for (int i = 0; i < 10; ++i) {
+    std::vector<Box> boxes = {side};
+    if (i < 4) boxes.push_back(kCar);
+    world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
+  }
+  CHECK(toy::removed_share(world, run("offline", world), kOtherOwner, 0, 3) == 0.0);
+  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:offline");
+  set_parameter(method.configuration, "no_return", true);
+  set_parameter(method.configuration, "no_return_scans", std::int64_t{3});
+  const auto share = [&] {
+    const MaskStore masks = toy::masks_of(*method.make(), world);
+    CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
+    return toy::removed_share(world, masks, kOtherOwner, 0, 3);
+  };
+  CHECK(share() > 0.8);
+  set_parameter(method.configuration, "no_return_scans", std::int64_t{7});  // Only six are silent.
+  CHECK(share() == 0.0);
+}
+
+TEST_CASE("an erased voxel stays erased, or may be filled again") {
+  // The box comes back after the map was seen through where it stood.
+  World world{toy::Scanner{}};
+  for (int i = 0; i < 12; ++i) {
+    std::vector<Box> boxes = {kWall};
+    if (i < 4 || i >= 8) boxes.push_back(kCar);
+    world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
+  }
+  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:offline");
+  set_parameter(method.configuration, "map_source", std::string("growing"));
+  set_parameter(method.configuration, "forward_test", false);
+  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11) > 0.95);
+  set_parameter(method.configuration, "permanent_erase", false);
+  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11) < 0.05);
+}
+
+TEST_CASE("a backward pass sees what arrives as something that leaves") {
+  // Growing map without the forward test: the box that arrives is never seen through forwards.
+  const World world = box_that(false);
+  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:offline");
+  set_parameter(method.configuration, "map_source", std::string("growing"));
+  set_parameter(method.configuration, "forward_test", false);
+  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 5, 9) == 0.0);
+  set_parameter(method.configuration, "backward_pass", true);
+  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 5, 9) > 0.95);
+}
+
+TEST_CASE("the answer is the same for any number of threads") {
+  const World world = box_that(true);
+  for (const char* variant : {"offline", "online", "table1", "table1-online"}) {
+    INFO(variant);
+    const MaskStore one = run(variant, world, 1);
+    for (const int threads : {2, 8}) {
+      const MaskStore many = run(variant, world, threads);
+      for (std::size_t i = 0; i < world.size(); ++i) REQUIRE(many.get(i) == one.get(i));
+    }
+  }
+}
+
+TEST_CASE("an online run cannot have a map of all scans") {
+  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:online");
+  set_parameter(method.configuration, "map_source", std::string("naive"));
+  CHECK_THROWS_WITH(method.make(), Catch::Contains("growing"));
+}
+
+TEST_CASE("table1 uses every printed value in both tests") {
+  const auto method = MethodRegistry::built_in().configure("raymoval:table1");
+  const RaymovalParameters p = raymoval_parameter_table().read(method.configuration);
+  CHECK(p.azimuth_bins == 720);
+  CHECK(p.elevation_bins == 450);
+  CHECK(p.maximum_range == 60.0);
+  CHECK(p.voxel_size == 0.2);
+  CHECK(p.neighbourhood == 1);
+  CHECK(p.percentile == 0.9);
+  CHECK(p.tau0 == 0.3);
+  CHECK(p.tau1 == 0.35);
+  CHECK(p.erase_tau0 == 0.3);
+  CHECK(p.erase_tau1 == 0.35);
+  CHECK(p.erase_percentile == 0.9);
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/mask_store.h"
+#include "methods/remover.h"
+
+namespace raymoval::toy {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Axis-aligned solid in world coordinates, metres.
+struct Box {
+  Eigen::Vector3d low, high;
+};
+
+/// Distance at which a ray enters `box`; infinite if it misses it.
+inline double enter_distance(const Box& box, const Eigen::Vector3d& origin,
+                             const Eigen::Vector3d& direction) {
+  double near = 0.0, far = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 0.0) {
+      if (origin[k] < box.low[k] || origin[k] > box.high[k]) return far;
+      continue;
+    }
+    const double a = (box.low[k] - origin[k]) / direction[k];
+    const double b = (box.high[k] - origin[k]) / direction[k];
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return near <= far ? near : std::numeric_limits<double>::infinity();
+}
+
+/// Half-degree scanner, 41 rows from -10 to +10 degrees.
+struct Scanner {
+  double azimuth_from = -180.0;  ///< Degrees.
+  double azimuth_to = 180.0;
+  double range = 50.0;
+
+  [[nodiscard]] SensorModel model() const {
+    SensorModel sensor;
+    sensor.azimuth_min = azimuth_from * kDegree;
+    sensor.azimuth_max = azimuth_to * kDegree;
+    sensor.elevation_min = -10.0 * kDegree;
+    sensor.elevation_max = 10.0 * kDegree;
+    sensor.azimuth_step = sensor.elevation_step = 0.5 * kDegree;
+    sensor.range_max = range;
+    sensor.missing_return_is_meaningful = true;
+    return sensor;
+  }
+};
+
+/// Scans held in memory; `owner[scan][point]` is the number of the box that was hit.
+class World : public ScanSource {
+ public:
+  explicit World(const Scanner& scanner) : scanner_(scanner), model_(scanner.model()) {}
+
+  /// Scans `boxes` from `T_world_sensor` and appends the scan.
+  void scan(const std::vector<Box>& boxes, const Pose& T_world_sensor) {
+    Scan scan;
+    std::vector<int> hit;
+    scan.index = scans_.size();
+    scan.T_world_sensor = T_world_sensor;
+    for (double azimuth = scanner_.azimuth_from + 0.25; azimuth < scanner_.azimuth_to;
+         azimuth += 0.5) {
+      for (int row = -20; row <= 20; ++row) {
+        add_return(boxes, azimuth * kDegree, row * 0.5 * kDegree, scan, hit);
+      }
+    }
+    scan.stored_point_count = scan.size();
+    scans_.push_back(scan);
+    owner.push_back(hit);
+  }
+
+  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
+  [[nodiscard]] Scan load(std::size_t i) const override { return scans_.at(i); }
+  [[nodiscard]] Pose pose(std::size_t i) const override { return scans_.at(i).T_world_sensor; }
+  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
+
+  std::vector<std::vector<int>> owner;
+
+ private:
+  void add_return(const std::vector<Box>& boxes, double azimuth, double elevation, Scan& scan,
+                  std::vector<int>& hit) const {
+    const Eigen::Vector3d u(std::cos(azimuth) * std::cos(elevation),
+                            std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
+    double nearest = scanner_.range;
+    int box_hit = -1;
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+      const double distance = enter_distance(boxes[b], scan.T_world_sensor.translation(),
+                                             scan.T_world_sensor.linear() * u);
+      if (distance < nearest) {
+        nearest = distance;
+        box_hit = static_cast<int>(b);
+      }
+    }
+    if (box_hit < 0) return;
+    scan.points.emplace_back((nearest * u).cast<float>());
+    hit.push_back(box_hit);
+  }
+
+  Scanner scanner_;
+  SensorModel model_;
+  std::vector<Scan> scans_;
+};
+
+/// Keeps the masks of a run.
+class Masks : public RemovalSink {
+ public:
+  explicit Masks(std::size_t scans) : store(scans) {}
+  void accept(std::size_t scan, const Mask& mask) override { store.set(scan, mask); }
+  MaskStore store;
+};
+
+/// Runs a method over a world.
+inline MaskStore masks_of(Remover& remover, const ScanSource& scans, int threads = 1) {
+  Masks masks(scans.size());
+  RunContext context;
+  context.threads = threads;
+  remover.run(scans, masks, context);
+  return masks.store;
+}
+
+/// Share of the points on box `owner` that are removed, over scans [first, last].
+inline double removed_share(const World& world, const MaskStore& masks, int owner,
+                            std::size_t first, std::size_t last) {
+  int points = 0, removed = 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const Mask mask = masks.get(i);
+    for (std::size_t k = 0; k < mask.size(); ++k) {
+      if (world.owner[i][k] != owner) continue;
+      ++points;
+      removed += mask[k];
+    }
+  }
+  return points == 0 ? -1.0 : static_cast<double>(removed) / points;
+}
+
+}  // namespace raymoval::toy
