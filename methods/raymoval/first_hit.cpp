@@ -78,31 +78,80 @@ class Walk {
 
 }  // namespace
 
-std::optional<FirstHit> cast_ray(const OccupancyMap& map, const Ray& ray, double minimum_range,
-                                 double maximum_range) {
-  const double scale = 1.0 / map.voxel_size();
+namespace {
+
+/// Eq. 7 with `find_brick(brick coordinates)` as the way to the map.
+template <class FindBrick>
+std::optional<FirstHit> walk_to_first_hit(const FindBrick& find_brick, double voxel_size,
+                                          const Ray& ray, double minimum_range,
+                                          double maximum_range) {
+  const double scale = 1.0 / voxel_size;
   const double nearest = minimum_range * scale;
   const double farthest = maximum_range * scale;
   Walk walk(ray.origin * scale, ray.direction);
-  Eigen::Vector3i brick_at(1 << 30, 0, 0);
-  const OccupancyMap::Brick* brick = nullptr;
   while (walk.distance() <= farthest) {
-    const auto& [x, y, z] = walk.cell();
-    const Eigen::Vector3i here = OccupancyMap::brick_of({x, y, z});
-    if (here != brick_at) {
-      brick = map.find_brick(here);
-      brick_at = here;
-    }
+    const VoxelIndex entry(walk.cell()[0], walk.cell()[1], walk.cell()[2]);
+    const Eigen::Vector3i brick_at = OccupancyMap::brick_of(entry);
+    const OccupancyMap::Brick* brick = find_brick(brick_at);
     if (brick == nullptr) {
       walk.leave_brick();
       continue;
     }
-    if (walk.distance() >= nearest && brick->contains(x, y, z)) {
-      return FirstHit{walk.distance() * map.voxel_size(), {x, y, z}};
+    while (walk.distance() <= farthest) {
+      const auto& [x, y, z] = walk.cell();
+      if (OccupancyMap::brick_of({x, y, z}) != brick_at) break;
+      if (walk.distance() >= nearest && brick->contains(x, y, z)) {
+        return FirstHit{walk.distance() * voxel_size, {x, y, z}};
+      }
+      walk.step_voxel();
     }
-    walk.step_voxel();
   }
   return std::nullopt;
+}
+
+/// The bricks within reach of a sensor in a dense block, so that rays find them without hashing.
+/// Filled by look-ups around the sensor: its cost depends on the range and not on the map.
+class LocalBricks {
+ public:
+  static constexpr std::int64_t kLargest = 8'000'000;
+
+  LocalBricks(const OccupancyMap& map, const Eigen::Vector3d& position, double range) : map_(map) {
+    const double side = map.voxel_size() * OccupancyMap::kBrickSide;
+    const int reach = static_cast<int>(std::min(std::ceil(range / side) + 1.0, 1e6));
+    low_ = OccupancyMap::brick_of(map.voxel_of(position)).array() - reach;
+    high_ = low_.array() + 2 * reach;
+    low_ = low_.cwiseMax(map.lowest_brick());
+    high_ = high_.cwiseMin(map.highest_brick());
+    size_ = (high_ - low_).array() + 1;
+    if ((size_.array() <= 0).any()) return;
+    if (size_.cast<std::int64_t>().prod() > kLargest) return;
+    bricks_.reserve(static_cast<std::size_t>(size_.prod()));
+    for (int z = low_.z(); z <= high_.z(); ++z) {
+      for (int y = low_.y(); y <= high_.y(); ++y) {
+        for (int x = low_.x(); x <= high_.x(); ++x) bricks_.push_back(map.find_brick({x, y, z}));
+      }
+    }
+  }
+
+  [[nodiscard]] const OccupancyMap::Brick* operator()(const Eigen::Vector3i& brick) const {
+    const Eigen::Vector3i at = brick - low_;
+    if ((at.array() < 0).any() || (at.array() >= size_.array()).any()) return nullptr;
+    if (bricks_.empty()) return map_.find_brick(brick);
+    return bricks_[static_cast<std::size_t>((at.z() * size_.y() + at.y()) * size_.x() + at.x())];
+  }
+
+ private:
+  const OccupancyMap& map_;
+  Eigen::Vector3i low_, high_, size_;
+  std::vector<const OccupancyMap::Brick*> bricks_;
+};
+
+}  // namespace
+
+std::optional<FirstHit> cast_ray(const OccupancyMap& map, const Ray& ray, double minimum_range,
+                                 double maximum_range) {
+  const auto find_brick = [&](const Eigen::Vector3i& brick) { return map.find_brick(brick); };
+  return walk_to_first_hit(find_brick, map.voxel_size(), ray, minimum_range, maximum_range);
 }
 
 FirstHitImage cast_first_hits(const OccupancyMap& map, const Pose& T_world_sensor,
@@ -112,12 +161,20 @@ FirstHitImage cast_first_hits(const OccupancyMap& map, const Pose& T_world_senso
   const auto bins = static_cast<std::size_t>(grid.size());
   image.range.assign(bins, kNoRange);
   image.voxel.assign(bins, 0);
-  parallel_for(threads, bins, 4096, [&](std::size_t bin) {
-    const Ray ray{T_world_sensor.translation(),
-                  T_world_sensor.linear() * grid.direction(static_cast<int>(bin))};
-    if (const auto hit = cast_ray(map, ray, minimum_range, maximum_range)) {
-      image.range[bin] = static_cast<float>(hit->range);
-      image.voxel[bin] = voxel_key(hit->voxel);
+  if (map.size() == 0) return image;
+  const Eigen::Vector3d origin = T_world_sensor.translation();
+  const LocalBricks bricks(map, origin, maximum_range);
+  const DirectionTable directions(grid);
+  const auto rows = static_cast<std::size_t>(grid.elevation_bins);
+  const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
+  parallel_for(threads, rows, 8, [&](std::size_t row) {
+    for (std::size_t i = 0; i < columns; ++i) {
+      const Ray ray{origin, T_world_sensor.linear() * directions.at(i, row)};
+      const auto hit =
+          walk_to_first_hit(bricks, map.voxel_size(), ray, minimum_range, maximum_range);
+      if (!hit) continue;
+      image.range[row * columns + i] = static_cast<float>(hit->range);
+      image.voxel[row * columns + i] = voxel_key(hit->voxel);
     }
   });
   return image;

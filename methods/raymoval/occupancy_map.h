@@ -49,6 +49,9 @@ class OccupancyMap {
   [[nodiscard]] static Eigen::Vector3i brick_of(const VoxelIndex& voxel) {
     return {voxel.x() >> kBrickBits, voxel.y() >> kBrickBits, voxel.z() >> kBrickBits};
   }
+  /// Bounds of all bricks that ever held a voxel; meaningless in an empty map.
+  [[nodiscard]] const Eigen::Vector3i& lowest_brick() const { return lowest_brick_; }
+  [[nodiscard]] const Eigen::Vector3i& highest_brick() const { return highest_brick_; }
   /// The brick with these brick coordinates (voxel coordinates / 8, rounded down), or null.
   [[nodiscard]] const Brick* find_brick(const Eigen::Vector3i& brick) const {
     const auto found = index_.find(voxel_key(brick));
@@ -59,6 +62,8 @@ class OccupancyMap {
   double voxel_size_;
   double inverse_voxel_size_;
   std::size_t size_ = 0;
+  Eigen::Vector3i lowest_brick_ = Eigen::Vector3i::Constant(kVoxelLimit);
+  Eigen::Vector3i highest_brick_ = Eigen::Vector3i::Constant(-kVoxelLimit);
   VoxelMap<std::uint32_t> index_;
   std::vector<Brick> bricks_;
 };

@@ -121,8 +121,9 @@ class RaymovalPass {
   Mask find_candidates(const PreparedScan& prepared, const FirstHitImage& first_hit) {
     const StageScope timed(context_.times, "classification");
     Mask candidates(prepared.scan.size(), 0);
-    // In a map of all scans every point is its own first hit: only a growing map can be in front.
-    if (parameters_.forward_test && parameters_.map_source == MapSource::kGrowing) {
+    // In a map of all scans every point is its own first hit, and the answer comes at the end.
+    if (parameters_.map_source == MapSource::kNaive) return candidates;
+    if (parameters_.forward_test) {
       const std::vector<float> reference =
           windowed_percentile(first_hit.range, grid_, parameters_.neighbourhood,
                               parameters_.percentile, context_.threads);
@@ -137,7 +138,7 @@ class RaymovalPass {
   }
 
   Mask validate(const PreparedScan& prepared, const Mask& candidates) {
-    if (!parameters_.validate) return candidates;
+    if (!parameters_.validate || parameters_.map_source == MapSource::kNaive) return candidates;
     const StageScope timed(context_.times, "validation");
     return validate_scan(prepared.scan, prepared.voxels, candidates, map_.occupied(), parameters_);
   }
@@ -256,19 +257,27 @@ class RaymovalRemover : public Remover {
     });
   }
 
-  /// A point is dynamic iff its voxel is not in the final map.
+  /// A point is dynamic iff its voxel is not in the final map and validation finds it to be one.
   void answer_from_map(const StaticMap& map, const ScanSource& scans, RemovalSink& sink,
                        const RunContext& context) {
     for_each_scan("raymoval, answers", scans, context, false, [&](const Scan& scan) {
-      const StageScope timed(context.times, "answer");
       const std::vector<VoxelIndex> voxels = voxels_of(map, scan, context.threads);
-      Mask removed(scan.size(), 0);
-      parallel_for(context.threads, scan.size(), 8192,
-                   [&](std::size_t k) { removed[k] = map.occupied().contains(voxels[k]) ? 0 : 1; });
-      if (parameters_.validate)
+      Mask removed = points_off_the_map(map, voxels, context);
+      if (parameters_.validate) {
+        const StageScope timed(context.times, "validation");
         removed = validate_scan(scan, voxels, removed, map.occupied(), parameters_);
+      }
       sink.accept(scan.index, removed);
     });
+  }
+
+  static Mask points_off_the_map(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
+                                 const RunContext& context) {
+    const StageScope timed(context.times, "answer");
+    Mask off(voxels.size(), 0);
+    parallel_for(context.threads, voxels.size(), 8192,
+                 [&](std::size_t k) { off[k] = map.occupied().contains(voxels[k]) ? 0 : 1; });
+    return off;
   }
 
   static std::vector<VoxelIndex> voxels_of(const StaticMap& map, const Scan& scan, int threads) {

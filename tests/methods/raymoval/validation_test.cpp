@@ -134,8 +134,13 @@ TEST_CASE("neighbouring clusters are judged as one group") {
   // neighbouring cells of the group rule.
   OccupancyMap map(0.2);
   for (int x = 0; x < 5; ++x) map.insert({x, 0, 0});
-  const ScanPoints points = points_at(
-      {{0.1, 0.1, 0.3}, {0.3, 0.1, 0.3}, {0.5, 0.1, 0.3}, {0.5, 0.1, 0.79}, {0.5, 0.1, 1.05}}, 1.0);
+  const ScanPoints points = points_at({{0.1, 0.1, 0.3},
+                                       {0.3, 0.1, 0.3},
+                                       {0.5, 0.1, 0.3},
+                                       {0.5, 0.1, 0.79},
+                                       {0.5, 0.1, 1.05},
+                                       {0.5, 0.1, 1.3}},
+                                      1.0);
   RaymovalParameters parameters = lenient();
   parameters.cluster_gap = 0.3;
   parameters.cluster_gap_growth = 0.0;
