@@ -4,6 +4,7 @@
 
 #include "benchmark/commands.h"
 #include "benchmark/published_columns.h"
+#include "benchmark/result_sets.h"
 #include "benchmark/sealed_json.h"
 #include "benchmark/tables.h"
 #include "core/text.h"
@@ -16,19 +17,6 @@ struct TableFlags {
   bool with_published = false;
 };
 
-std::filesystem::path results_file(const std::string& run) {
-  const std::filesystem::path given(run);
-  if (!std::filesystem::is_directory(given)) {
-    throw UsageError(run + ": no such run folder; expected what `raymoval run --out` made.");
-  }
-  if (!std::filesystem::exists(given / "results.json")) {
-    throw UsageError(run +
-                     ": has no results.json; the run did not reach its end. Start it again "
-                     "with the same --out to go on.");
-  }
-  return given / "results.json";
-}
-
 ExitCode show(const TableFlags& flags) {
   const std::vector<std::string> formats = {"md", "csv", "tex", "json"};
   if (flags.run.empty()) throw UsageError("which run? Expected `raymoval table RUN`.");
@@ -40,7 +28,7 @@ ExitCode show(const TableFlags& flags) {
   if (flags.with_published && !plain) {
     throw UsageError("--with-published goes with --format md or tex.");
   }
-  const std::filesystem::path file = results_file(flags.run);
+  const std::filesystem::path file = find_results(flags.run);
   const nlohmann::ordered_json json = read_sealed(file);
   const RunResults results = parse_results(json, file.string());
   std::vector<OutsideColumn> outside;

@@ -23,6 +23,7 @@ struct Command {
 /// One function per command, each in its own file command_<name>.cpp.
 Command add_run_command(CLI::App& program);
 Command add_table_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
 Command add_list_command(CLI::App& program);
 Command add_describe_command(CLI::App& program);
 Command add_score_command(CLI::App& program);

@@ -72,6 +72,7 @@ step "includes" scripts/check_includes.sh
 step "format" check_format
 step "release build" build release -DRAYMOVAL_WERROR=ON
 run_tests release
+step "reference results" scripts/check_reference.sh
 step "installed library" check_consumer
 step "sanitizer build" build asan-ubsan
 run_tests asan-ubsan

@@ -43,7 +43,7 @@ short=(--sequence street --frames 0:2 --quiet)
 
 # Help and listings.
 expect 0 "Examples" --help
-for command in run table list describe score clean; do expect 0 "Examples" "$command" --help; done
+for command in run table compare list describe score clean; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
 for what in methods variants protocols sensors sequences; do expect 0 "" list "$what"; done
@@ -105,6 +105,25 @@ holds "the table prints what the run wrote" cmp again.csv run/results.csv
 expect 0 "Published" table run --with-published
 expect 2 "'md'" table run --format mdx
 expect 2 "--with-published" table run --format csv --with-published
+
+# A reference has no times and no machine; a run is compared with it by counts.
+expect 0 "wrote" compare run reference --update
+holds "a reference has no times" test -z "$(grep -F seconds reference/results.json)"
+expect 0 "no regression" compare run reference
+expect 0 "no regression" compare run/results.json reference/results.json --tolerance F1=0.002
+expect 0 "1.00 times" compare run run --time-band 3
+expect 2 "--time-band" compare run reference --time-band 3
+expect 2 "two results" compare run
+expect 2 "no such run folder" compare run nowhere
+for wrong in F1 =1 F1=x F1=-1; do expect 2 "METRIC=NUMBER" compare run reference --tolerance $wrong; done
+expect 2 "Did you mean 'F1'" compare run reference --tolerance F2=1
+expect 2 "at least 1" compare run reference --time-band 0.5
+"$raymoval" run "${short[@]}" --method raymoval:online --set raymoval.tau0=0.4 --out other_tau \
+  >out.txt 2>err.txt
+expect 2 "parameter tau0 is 0.4, the reference has 0.2" compare other_tau reference
+"$raymoval" run --sequence street --frames 0:1 --quiet --method raymoval:online \
+  --set raymoval.tau0=0.2 --out other_frames >out.txt 2>err.txt
+expect 2 "data fingerprint" compare other_frames reference
 
 # Scores of kept removals are those of the run.
 expect 0 "PR" score "${short[@]}" --predictions $cell/removals --json score.json

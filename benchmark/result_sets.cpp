@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/result_sets.h"
+
+#include <nlohmann/json.hpp>
+
+#include "benchmark/results.h"
+#include "benchmark/sealed_json.h"
+
+namespace raymoval {
+namespace {
+
+using nlohmann::ordered_json;
+
+Facts facts_of(const std::string& prefix, const ordered_json& object) {
+  Facts facts;
+  for (const auto& [key, value] : object.items()) facts[prefix + key] = value.dump();
+  return facts;
+}
+
+Facts cell_identity(const ordered_json& cell) {
+  const ordered_json& method = cell.at("method");
+  Facts facts = facts_of("parameter ", method.at("parameters"));
+  facts["method"] = method.at("name").dump();
+  facts["variant"] = method.at("variant").dump();
+  if (!cell.contains("data")) return facts;  // A sequence that could not be read.
+  // Frames, poses and sensor are part of the fingerprint; here they tell why it differs.
+  for (const char* key :
+       {"fingerprint", "scans", "frames", "poses", "sensor", "range_m", "label_rule"}) {
+    if (cell.at("data").contains(key)) facts[std::string("data ") + key] = cell["data"][key].dump();
+  }
+  return facts;
+}
+
+ComparedScore score_of(const ordered_json& scored) {
+  ComparedScore score;
+  score.protocol = scored.at("name").get<std::string>();
+  score.identity = facts_of("option ", scored.at("options"));
+  score.identity["protocol"] = scored.at("protocol").dump();
+  score.identity["protocol version"] = scored.at("version").dump();
+  for (const auto& [name, count] : scored.at("counts").items()) {
+    score.counts.emplace_back(name, count.get<std::int64_t>());
+  }
+  for (const auto& [name, rate] : scored.at("rates").items()) {
+    score.rates.push_back({name, {}, ""});
+    if (!rate.is_null()) score.rates.back().value = rate.get<double>();
+  }
+  return score;
+}
+
+ComparedCell cell_of(const ordered_json& cell) {
+  ComparedCell compared;
+  compared.sequence = cell.at("sequence").get<std::string>();
+  compared.name = cell.at("name").get<std::string>();
+  compared.control = cell.at("method").at("control").get<bool>();
+  compared.status = cell.at("status").get<std::string>();
+  compared.reason = cell.at("reason").get<std::string>();
+  compared.method_version = cell.at("method").at("version").get<std::string>();
+  compared.identity = cell_identity(cell);
+  for (const ordered_json& scored : cell.at("protocols")) {
+    compared.scores.push_back(score_of(scored));
+  }
+  if (const ordered_json& measured = cell.at("measured"); !measured.is_null()) {
+    const ordered_json& mean = measured.at("seconds_per_scan").at("mean");
+    if (!mean.is_null()) compared.seconds_per_scan = mean.get<double>();
+  }
+  return compared;
+}
+
+}  // namespace
+
+std::filesystem::path find_results(const std::string& given) {
+  const std::filesystem::path path(given);
+  if (std::filesystem::is_regular_file(path)) return path;
+  if (!std::filesystem::is_directory(path)) {
+    throw UsageError(given + ": no such run folder; expected what `raymoval run --out` made.");
+  }
+  if (!std::filesystem::exists(path / "results.json")) {
+    throw UsageError(given +
+                     ": has no results.json; the run did not reach its end. Start it again "
+                     "with the same --out to go on.");
+  }
+  return path / "results.json";
+}
+
+ResultSet read_result_set(const std::filesystem::path& results) {
+  const ordered_json json = read_sealed(results);
+  ResultSet set;
+  set.control_problems = parse_results(json, results.string()).control_problems;
+  try {
+    for (const ordered_json& cell : json.at("cells")) set.cells.push_back(cell_of(cell));
+  } catch (const ordered_json::exception& error) {
+    throw DataError(results.string() + ": not the results of a run (" + error.what() +
+                    "). Run `raymoval run` again with the same --out.");
+  }
+  return set;
+}
+
+void write_reference(const std::filesystem::path& results, const std::filesystem::path& reference) {
+  const ResultSet set = read_result_set(results);
+  if (!set.control_problems.empty()) {
+    throw UsageError(results.string() + ": no reference is made of a run whose controls are off (" +
+                     set.control_problems.front() + ").");
+  }
+  for (const ComparedCell& cell : set.cells) {
+    if (cell.status == "ok") continue;
+    throw UsageError(results.string() + ": no reference is made of a run with failed cells (" +
+                     cell.sequence + " / " + cell.name + ": " + cell.reason + ").");
+  }
+  ordered_json json = read_sealed(results);
+  json["run"]["build"] = nullptr;
+  json["run"]["machine"] = nullptr;
+  for (ordered_json& cell : json["cells"]) {
+    cell["measured"] = nullptr;
+    cell["output_tail"] = "";
+  }
+  write_sealed(reference, std::move(json));
+}
+
+}  // namespace raymoval
