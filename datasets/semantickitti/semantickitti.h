@@ -16,7 +16,7 @@ struct PaperSegment {
   FrameRange frames;
 };
 
-/// The five segments of the ERASOR protocol (evaluation protocol, section 2.1).
+/// The five segments of the ERASOR protocol, with the strides of its published data.
 const std::vector<PaperSegment>& paper_segments();
 
 /// Opens a SemanticKITTI sequence folder: `velodyne/NNNNNN.bin`, `poses.txt` with one row per frame

@@ -23,7 +23,7 @@ AverageRates published_averages(const std::string& method) {
 }  // namespace
 
 TEST_CASE("the five published segments give both averages of F1", "[averages]") {
-  // Recomputed from the printed PR and RR (section 2.5 of the protocol's description).
+  // Recomputed from the printed PR and RR.
   struct Expected {
     const char* method;
     double PR, RR, mean_F1, F1_of_means;
