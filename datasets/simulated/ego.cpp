@@ -21,16 +21,16 @@ constexpr std::uint32_t kArmInstance = 0xFFFE;
 
 Mesh make_hull(const std::string& body) {
   Mesh mesh;
-  const Paint dark{Material::kDarkPaint, kLabelOutlier};
-  if (body == "car") {  // an estate car, the sensor on a rack above its roof
+  // Polished: near KITTI's car hardly a point comes back from it, it only hides the road.
+  const Paint dark{Material::kPolish, kLabelOutlier};
+  if (body == "car") {
     add_extrusion(mesh, dark,
-                  {Vector2d(-2.0, 0.3), Vector2d(2.4, 0.3), Vector2d(2.4, 0.75),
-                   Vector2d(1.35, 0.95), Vector2d(-2.0, 1.0)},
-                  1.78);
+                  {Vector2d(-2.1, 0.3), Vector2d(2.4, 0.3), Vector2d(2.4, 0.72),
+                   Vector2d(1.35, 0.90), Vector2d(-2.1, 0.98)},
+                  1.7);
     add_extrusion(
         mesh, dark,
-        {Vector2d(-1.95, 0.95), Vector2d(1.3, 0.95), Vector2d(0.65, 1.40), Vector2d(-1.7, 1.42)},
-        1.5);
+        {Vector2d(-1.4, 0.9), Vector2d(1.0, 0.9), Vector2d(0.4, 1.28), Vector2d(-0.85, 1.3)}, 1.2);
   } else if (body == "excavator") {
     add_box(mesh, dark, {-1.9, -1.25, 1.0}, {0.9, 1.25, 1.75});
     add_box(mesh, dark, {-1.9, -1.2, 1.75}, {-0.8, 1.2, 2.1});

@@ -5,7 +5,7 @@ namespace raymoval::simulated {
 
 const MaterialProperties& properties(Material material) {
   // Order of magnitude of diffuse reflectivity at 905 nm; vegetation is bright in near infrared.
-  static const std::array<MaterialProperties, 18> table = {{
+  static const std::array<MaterialProperties, 19> table = {{
       {0.20, 0.00},  // asphalt
       {0.35, 0.00},  // concrete
       {0.40, 0.00},  // grass
@@ -14,15 +14,16 @@ const MaterialProperties& properties(Material material) {
       {0.30, 0.00},  // brick
       {0.20, 0.02},  // roof
       {0.15, 0.65},  // glass
-      {0.45, 0.10},  // bright paint
-      {0.10, 0.30},  // dark paint
+      {0.45, 0.03},  // bright paint
+      {0.10, 0.12},  // dark paint
       {0.06, 0.05},  // rubber
-      {0.35, 0.15},  // metal
+      {0.35, 0.06},  // metal
       {0.30, 0.00},  // wood
       {0.45, 0.00},  // leaf
       {0.35, 0.00},  // cloth
       {0.45, 0.00},  // skin
       {1.00, 0.00},  // sign
+      {0.10, 0.98},  // polish
       {1.00, 0.00},  // perfect
   }};
   return table[static_cast<std::size_t>(material)];

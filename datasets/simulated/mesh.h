@@ -29,6 +29,7 @@ enum class Material : std::uint8_t {
   kCloth,
   kSkin,
   kSign,
+  kPolish,   ///< Of the car that carries the sensor.
   kPerfect,  ///< Always returns, whatever the range: for tests.
 };
 
