@@ -1,5 +1,5 @@
 # The ray tracer and the data files of the simulator.
-target_link_libraries(raymoval_datasets PRIVATE embree)
+target_link_libraries(raymoval_datasets PRIVATE embree TBB::tbb)
 file(GLOB simulated_data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/datasets/simulated/worlds/*.json
      ${PROJECT_SOURCE_DIR}/datasets/simulated/sensors/*.json)
 set(simulated_source ${PROJECT_BINARY_DIR}/generated/simulated_data.cpp)

@@ -2,6 +2,7 @@
 #include "datasets/simulated/ray_tracer.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -21,6 +22,13 @@ constexpr double kNearest = 0.01;  // metres; nothing is nearer to a sensor
 
 [[noreturn]] void fail(const char* what) {
   throw InternalError(std::string("the ray tracer (Embree) cannot ") + what + ".");
+}
+
+/// Builds the search tree on the calling thread alone: it comes out the same every time, and scans
+/// are traced side by side anyway. (Embree's own option for one thread would bind the whole process.)
+void commit(RTCScene scene) {
+  tbb::task_arena alone(1, 1);
+  alone.execute([&] { rtcCommitScene(scene); });
 }
 
 /// A committed scene of one mesh. Buffers are shared with the mesh, which must outlive it.
@@ -44,7 +52,7 @@ RTCScene build_scene(RTCDevice device, const Mesh& mesh) {
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
   }
-  rtcCommitScene(scene);
+  commit(scene);
   return scene;
 }
 
@@ -81,8 +89,7 @@ RayTracer::RayTracer(const World& world, double reach, int threads)
     : state_(std::make_unique<State>()) {
   state_->world = &world;
   state_->reach = reach;
-  // One thread a commit: the trees come out the same every time, and scans run side by side.
-  state_->device = rtcNewDevice("threads=1,set_affinity=0");
+  state_->device = rtcNewDevice("set_affinity=0");
   if (state_->device == nullptr) fail("start");
   state_->tiles.resize(world.tiles().size(), nullptr);
   parallel_for(threads, world.tiles().size(), 1, [&](std::size_t i) {
@@ -188,7 +195,7 @@ RayTracer::Moment::Moment(const RayTracer& tracer, const Vector3d& centre,
     if (scene == world.parts.end()) fail("place a part that is not of its world");
     state_->add(world.device, scene->second, motions, *part.mesh, part.label);
   }
-  rtcCommitScene(state_->scene);
+  commit(state_->scene);
 }
 
 RayTracer::Moment::~Moment() = default;

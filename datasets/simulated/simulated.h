@@ -47,8 +47,8 @@ struct MoverTruth {
   double speed_mps = 0.0;
 };
 
-/// A simulated sequence, traced when a scan is asked for. Its world frame is that of the sensor at
-/// scan 0 (x forward, y left, z up), as SemanticKITTI has it. Thread-safe.
+/// A simulated sequence, traced when a scan is asked for. Its world frame is at the sensor of scan 0
+/// (x forward, y left), as SemanticKITTI has it, but levelled: z is up. Thread-safe.
 class SimulatedSequence : public ScanSource, public LabelSource {
  public:
   virtual ~SimulatedSequence() = default;
@@ -60,7 +60,9 @@ class SimulatedSequence : public ScanSource, public LabelSource {
   [[nodiscard]] virtual double scan_period_s() const = 0;
   [[nodiscard]] virtual RangeLimits range_m() const = 0;
   [[nodiscard]] virtual const std::string& sensor_name() const = 0;
+  /// The world in its own frame, and how it lies in the frame of the sequence.
   [[nodiscard]] virtual const simulated::World& world() const = 0;
+  [[nodiscard]] virtual Pose T_sequence_world() const = 0;
 };
 
 /// @param threads used to prepare the scene

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cmath>
 #include <mutex>
 
 #include "core/error.h"
@@ -23,6 +24,16 @@ using simulated::WorldFile;
 std::string six_digits(std::size_t number) {
   std::string text = std::to_string(number);
   return text.size() < 6 ? std::string(6 - text.size(), '0') + text : text;
+}
+
+/// `pose` without pitch and roll, so that z of a world frame anchored to it is up.
+Pose level(const Pose& pose) {
+  const Eigen::Vector3d x = pose.linear().col(0);
+  const double yaw = std::atan2(x.y(), x.x());
+  Pose result = Pose::Identity();
+  result.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  result.translation() = pose.translation();
+  return result;
 }
 
 /// The last labels that were traced, so that asking for a scan and then its labels traces once.
@@ -66,7 +77,7 @@ class Simulation final : public SimulatedSequence {
         scanner_(
             world_, sensor_, [this](double t) { return world_.ego()->sensor_pose(t); },
             {options.seed, options.rolling, options.noise_free}, threads),
-        anchor_(world_.ego()->sensor_pose(0.0).inverse()),
+        anchor_(level(world_.ego()->sensor_pose(0.0)).inverse()),
         errors_(simulated::pose_errors({}, options.pose_noise, count_, sensor_.period_s,
                                        options.seed)) {}
 
@@ -79,6 +90,7 @@ class Simulation final : public SimulatedSequence {
     return {file_.range_m.low, file_.range_m.high};
   }
   [[nodiscard]] const World& world() const override { return world_; }
+  [[nodiscard]] Pose T_sequence_world() const override { return anchor_; }
 
   [[nodiscard]] Pose true_pose(std::size_t scan) const override {
     return anchor_ * world_.ego()->sensor_pose(time(scan));

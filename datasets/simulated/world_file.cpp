@@ -157,13 +157,14 @@ FlowSpec read_flow(const nlohmann::json& json, const std::string& where) {
 EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
   const Fields f(
       json, where,
-      with_route_keys({"speed", "body", "sensor_height_m", "sensor_forward_m", "sensor_pitch_deg",
+      with_route_keys({"speed", "body", "sensor_height_m", "sensor_forward_m", "sensor_left_m", "sensor_pitch_deg",
                        "vibration_m", "vibration_deg", "dig_period_s"}));
   EgoSpec ego;
   ego.route = read_route(f, "speed");
   ego.body = f.choice("body", "car", {"car", "excavator", "none"});
   ego.sensor_height_m = f.number("sensor_height_m", ego.sensor_height_m, 0.05, 50.0);
   ego.sensor_forward_m = f.number("sensor_forward_m", 0.0, -20.0, 20.0);
+  ego.sensor_left_m = f.number("sensor_left_m", 0.0, -20.0, 20.0);
   ego.sensor_pitch_rad = f.number("sensor_pitch_deg", 0.0, -90.0, 90.0) * kDegree;
   ego.vibration_m = f.number("vibration_m", 0.0, 0.0, 0.5);
   ego.vibration_rad = f.number("vibration_deg", 0.0, 0.0, 10.0) * kDegree;

@@ -66,6 +66,7 @@ struct EgoSpec {
   std::string body = "car";  ///< car, excavator or none.
   double sensor_height_m = 1.73;
   double sensor_forward_m = 0.0;
+  double sensor_left_m = 0.0;
   double sensor_pitch_rad = 0.0;  ///< Positive = looking down.
   double vibration_m = 0.0;
   double vibration_rad = 0.0;
