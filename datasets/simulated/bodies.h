@@ -46,6 +46,8 @@ Body make_body(const std::string& kind, Random& random);
 /// All parts at rest in one mesh, each triangle labelled `label`: for a parked car.
 Mesh resting_mesh(const Body& body, std::uint32_t label);
 
+/// A bicycle without its rider.
+void add_bicycle(Mesh& mesh);
 Body make_person(Random& random);
 Body make_cyclist(Random& random);
 Body make_motorcyclist(Random& random);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <chrono>
 #include <cstdlib>
+#include <system_error>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -35,6 +37,16 @@ std::string identity(const SimulationOptions& options, const simulated::NamedTex
   return hasher.digest();
 }
 
+/// Removes what killed runs left more than a day ago.
+void sweep_leftovers(const fs::path& folder) {
+  const auto yesterday = fs::file_time_type::clock::now() - std::chrono::hours(24);
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".part") continue;
+    if (entry.last_write_time(error) < yesterday && !error) fs::remove_all(entry.path(), error);
+  }
+}
+
 const char* set_variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value != '\0' ? value : nullptr;
@@ -63,6 +75,7 @@ fs::path cached_simulation(const SimulationOptions& options, const fs::path& cac
       (world.name + "-" + identity(options, world, sensor, scans).substr(0, 16));
   // A folder of this name is whole: it only ever gets its name by being renamed when finished.
   if (fs::is_directory(folder)) return folder;
+  sweep_leftovers(folder.parent_path());
   try {
     write_simulated(options, folder, threads, progress);
   } catch (const DataError&) {

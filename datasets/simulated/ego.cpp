@@ -138,7 +138,8 @@ Isometry3d Ego::base(double time) const {
 
 Isometry3d Ego::sensor_pose(double time) const {
   Isometry3d mount = Isometry3d::Identity();
-  mount.translation() = Vector3d(spec_.sensor_forward_m, spec_.sensor_left_m, spec_.sensor_height_m);
+  mount.translation() =
+      Vector3d(spec_.sensor_forward_m, spec_.sensor_left_m, spec_.sensor_height_m);
   mount.linear() = Eigen::AngleAxisd(spec_.sensor_pitch_rad, Vector3d::UnitY()).toRotationMatrix();
   return base(time) * mount;
 }

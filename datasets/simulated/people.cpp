@@ -57,6 +57,21 @@ void add_rider(Body& body, double hip, double lean, double shoulder) {
 
 }  // namespace
 
+void add_bicycle(Mesh& mesh) {
+  add_spoked_wheel(mesh, -0.52, 0.34);
+  add_spoked_wheel(mesh, 0.52, 0.34);
+  const Paint frame = of(Material::kBrightPaint);
+  const auto bar = [&](const Vector3d& a, const Vector3d& b) {
+    add_tube(mesh, frame, a, b, 0.02, 0.02, 5);
+  };
+  bar({-0.52, 0, 0.34}, {-0.05, 0, 0.3});
+  bar({-0.05, 0, 0.3}, {-0.18, 0, 0.92});
+  bar({-0.05, 0, 0.3}, {0.38, 0, 0.8});
+  bar({-0.16, 0, 0.82}, {0.38, 0, 0.85});
+  bar({0.52, 0, 0.34}, {0.36, 0, 1.0});
+  bar({0.40, -0.28, 1.03}, {0.40, 0.28, 1.03});
+}
+
 Body make_person(Random& random) {
   const double scale = random.between(0.88, 1.08);  // of 1.75 m
   Body body;
@@ -95,18 +110,7 @@ Body make_cyclist(Random& random) {
   body.pace_mps = 3.0;
   body.parts.emplace_back();
   Mesh& mesh = body.parts[0].mesh;
-  add_spoked_wheel(mesh, -0.52, 0.34);
-  add_spoked_wheel(mesh, 0.52, 0.34);
-  const Paint frame = of(Material::kBrightPaint);
-  const auto bar = [&](const Vector3d& a, const Vector3d& b) {
-    add_tube(mesh, frame, a, b, 0.02, 0.02, 5);
-  };
-  bar({-0.52, 0, 0.34}, {-0.05, 0, 0.3});
-  bar({-0.05, 0, 0.3}, {-0.18, 0, 0.92});
-  bar({-0.05, 0, 0.3}, {0.38, 0, 0.8});
-  bar({-0.16, 0, 0.82}, {0.38, 0, 0.85});
-  bar({0.52, 0, 0.34}, {0.36, 0, 1.0});
-  bar({0.40, -0.28, 1.03}, {0.40, 0.28, 1.03});
+  add_bicycle(mesh);
   add_rider(body, 0.93, random.between(0.2, 0.45), 0.55);
   for (const double side : {-1.0, 1.0}) {
     body.parts.push_back(limb({-0.15, 0.1 * side, 0.93}, {0.12, 0.1 * side, 0.2}, 0.09, 0.055, 0.35,

@@ -25,7 +25,8 @@ constexpr double kNearest = 0.01;  // metres; nothing is nearer to a sensor
 }
 
 /// Builds the search tree on the calling thread alone: it comes out the same every time, and scans
-/// are traced side by side anyway. (Embree's own option for one thread would bind the whole process.)
+/// are traced side by side anyway. (Embree's own option for one thread would bind the whole
+/// process.)
 void commit(RTCScene scene) {
   tbb::task_arena alone(1, 1);
   alone.execute([&] { rtcCommitScene(scene); });

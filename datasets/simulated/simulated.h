@@ -47,8 +47,8 @@ struct MoverTruth {
   double speed_mps = 0.0;
 };
 
-/// A simulated sequence, traced when a scan is asked for. Its world frame is at the sensor of scan 0
-/// (x forward, y left), as SemanticKITTI has it, but levelled: z is up. Thread-safe.
+/// A simulated sequence, traced when a scan is asked for. Its world frame is at the sensor of scan
+/// 0 (x forward, y left), as SemanticKITTI has it, but levelled: z is up. Thread-safe.
 class SimulatedSequence : public ScanSource, public LabelSource {
  public:
   virtual ~SimulatedSequence() = default;
@@ -66,7 +66,8 @@ class SimulatedSequence : public ScanSource, public LabelSource {
 };
 
 /// @param threads used to prepare the scene
-/// @throws ConfigurationError for an unknown or damaged scene or sensor; DataError if unreadable.
+/// @throws UsageError for an unknown scene or sensor; ConfigurationError for a damaged file of one;
+/// DataError for a file that cannot be read.
 std::shared_ptr<const SimulatedSequence> make_simulated(const SimulationOptions& options,
                                                         int threads = 1);
 

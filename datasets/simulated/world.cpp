@@ -133,7 +133,8 @@ void World::add_flow(const FlowSpec& flow, std::uint64_t seed, std::uint64_t num
   const double mean = 0.5 * (flow.speed_mps.low + flow.speed_mps.high);
   // Those that will come in during the sequence start before the beginning of an open route.
   const double end = flow.to_m < 0.0 ? whole.length() : flow.to_m;
-  const double begin = flow.from_m - (whole.closed() ? 0.0 : flow.speed_mps.high * duration);
+  const double fed = whole.closed() ? 0.0 : -flow.speed_mps.high * duration;
+  const double begin = flow.from_m.value_or(fed);
   std::uint64_t place = 0;
   for (double s = end; s > begin;) {
     Random random(seed, Purpose::kFlow, number, ++place);

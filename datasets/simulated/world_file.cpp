@@ -143,7 +143,7 @@ FlowSpec read_flow(const nlohmann::json& json, const std::string& where) {
   flow.gap_m = f.interval("gap_m", {20.0, 60.0});
   if (flow.gap_m.low < 1.0) f.fail("gap_m", "at least 1");
   flow.group = f.integer("group", 1, 1, 20);
-  flow.from_m = f.number("from_m", 0.0, -1e5, 1e5);
+  if (f.has("from_m")) flow.from_m = f.number("from_m", 0.0, -1e5, 1e5);
   flow.to_m = f.number("to_m", -1.0, -1.0, 1e5);
   const nlohmann::json& kinds = f.member("kinds");
   const Fields weights(kinds, f.place("kinds"), body_kinds());
@@ -157,8 +157,8 @@ FlowSpec read_flow(const nlohmann::json& json, const std::string& where) {
 EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
   const Fields f(
       json, where,
-      with_route_keys({"speed", "body", "sensor_height_m", "sensor_forward_m", "sensor_left_m", "sensor_pitch_deg",
-                       "vibration_m", "vibration_deg", "dig_period_s"}));
+      with_route_keys({"speed", "body", "sensor_height_m", "sensor_forward_m", "sensor_left_m",
+                       "sensor_pitch_deg", "vibration_m", "vibration_deg", "dig_period_s"}));
   EgoSpec ego;
   ego.route = read_route(f, "speed");
   ego.body = f.choice("body", "car", {"car", "excavator", "none"});

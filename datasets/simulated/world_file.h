@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +39,10 @@ struct FlowSpec {
   Interval gap_m;                                     ///< Between one and the next.
   std::vector<std::pair<std::string, double>> kinds;  ///< With weights.
   int group = 1;                                      ///< At most so many together.
-  double from_m = 0.0, to_m = -1.0;                   ///< Start positions at time 0.
+  /// Start positions at time 0. Without `from_m` an open route is fed from its beginning for as
+  /// long as the sequence lasts; without `to_m` (-1) it is filled to its end.
+  std::optional<double> from_m;
+  double to_m = -1.0;
 };
 
 /// Parts along a road, at equal or random distances.

@@ -98,6 +98,25 @@ Mesh bin(const PartSpec&, Random& random) {
   return mesh;
 }
 
+/// Two to four bicycles side by side, across the row.
+Mesh bicycles(const PartSpec&, Random& random) {
+  Mesh mesh;
+  Mesh bicycle;
+  add_bicycle(bicycle);
+  for (Paint& paint : bicycle.paints) paint.label = kLabelBicycle;
+  const int count = 2 + random.below(3);
+  for (int i = 0; i < count; ++i) {
+    mesh.append(bicycle, placed(0.55 * i, 0.0, 0.0, 1.5708 + 0.15 * random.normal()));
+  }
+  return mesh;
+}
+
+Mesh bollard(const PartSpec&, Random&) {
+  Mesh mesh;
+  add_tube(mesh, {Material::kMetal, kLabelPole}, {0, 0, -0.2}, {0, 0, 0.9}, 0.06, 0.05, 8);
+  return mesh;
+}
+
 Mesh container(const PartSpec& spec, Random& random) {
   Mesh mesh;
   const double l = chosen(spec.length_m, random, 5.8, 6.2);
@@ -194,6 +213,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"sign", plain(sign)},
       {"traffic_light", plain(traffic_light)},
       {"bin", plain(bin)},
+      {"bicycles", plain(bicycles)},
+      {"bollard", plain(bollard)},
       {"container", plain(container)},
       {"heap", plain(heap)},
       {"bridge", plain(bridge)},

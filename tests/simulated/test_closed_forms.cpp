@@ -20,8 +20,8 @@ using ClosedForm = std::function<std::optional<double>(const Vector3d& from, con
 /// says at what distance a ray hits, or that it does not. Returns how many hits were compared.
 std::size_t compare(const World& world, const Isometry3d& pose, const ClosedForm& truth) {
   const SensorFile sensor = plain_sensor();
-  const Scanner scanner(world, sensor, [&](double) { return pose; },
-                        {1, Rolling::kNone, /*noise_free=*/true}, 1);
+  const Scanner scanner(
+      world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, /*noise_free=*/true}, 1);
   const Sweep sweep = scanner.sweep(0);
   std::size_t next = 0;
   std::size_t compared = 0;
@@ -112,7 +112,8 @@ TEST_CASE("a sphere is met at the root of its quadratic") {
   const Vector3d centre(906.0, 0.5, 0.3);
   const SensorFile sensor = plain_sensor();
   const Isometry3d pose = tilted({900.0, 0.0, 0.0}, 0.0, 0.05, 0.3);
-  const Scanner scanner(world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, true}, 1);
+  const Scanner scanner(
+      world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, true}, 1);
   std::size_t count = 0;
   for (const Eigen::Vector3f& point : scanner.sweep(0).points) {
     const Vector3d to = pose.linear() * point.cast<double>().normalized();
@@ -134,12 +135,12 @@ TEST_CASE("a cylinder is met at the root of its quadratic") {
   world.finish();
   const Isometry3d pose = tilted({1.0, 0.5, 0.0}, 0.4, -0.08, 0.02);
   const SensorFile sensor = plain_sensor();
-  const Scanner scanner(world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, true}, 1);
+  const Scanner scanner(
+      world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, true}, 1);
   std::size_t count = 0;
   for (const Eigen::Vector3f& point : scanner.sweep(0).points) {
     const Vector3d to = pose.linear() * point.cast<double>().normalized();
-    const auto range =
-        round_range(pose.translation() - Vector3d(-3.0, 4.0, 0.0), to, 0.5, true);
+    const auto range = round_range(pose.translation() - Vector3d(-3.0, 4.0, 0.0), to, 0.5, true);
     REQUIRE(range);
     const Vector3d hit = pose.translation() + *range * to - Vector3d(-3.0, 4.0, 0.0);
     if (Vector3d(hit.x(), hit.y(), 0).normalized().dot(to) > -0.3) continue;
@@ -150,15 +151,16 @@ TEST_CASE("a cylinder is met at the root of its quadratic") {
 }
 
 TEST_CASE("a moving box is where its speed has brought it") {
-  // The box starts with its middle at x = 30 m and goes 8 m/s; at scan 15 (1.5 s) its back stands at
-  // 30 + 12 - 1 = 41 m. A sensor at x = 20 m, 1 m high, sees the back 21 m ahead.
+  // The box starts with its middle at x = 30 m and goes 8 m/s; at scan 15 (1.5 s) its back stands
+  // at 30 + 12 - 1 = 41 m. A sensor at x = 20 m, 1 m high, sees the back 21 m ahead.
   const Ground ground = flat_ground();
   World world;
   world.add_mover(box_mover(ground, 30.0, 8.0));
   world.finish();
   const SensorFile sensor = plain_sensor();
   const Isometry3d pose(Eigen::Translation3d(20.0, 0.0, 1.0));
-  const Scanner scanner(world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, true}, 1);
+  const Scanner scanner(
+      world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, true}, 1);
   const Sweep sweep = scanner.sweep(15);
   REQUIRE(sweep.points.size() > 10);
   for (const Eigen::Vector3f& point : sweep.points) {
@@ -208,7 +210,8 @@ TEST_CASE("a box that moves during a rolling scan is met where it then is") {
   world.finish();
   const SensorFile sensor = plain_sensor();
   const Isometry3d pose(Eigen::Translation3d(0.0, 0.0, 1.0));
-  const Scanner scanner(world, sensor, [&](double) { return pose; }, {1, Rolling::kSkewed, true}, 1);
+  const Scanner scanner(
+      world, sensor, [&](double) { return pose; }, {1, Rolling::kSkewed, true}, 1);
   const Sweep sweep = scanner.sweep(0);
   REQUIRE(sweep.points.size() > 10);
   bool slanted = false;

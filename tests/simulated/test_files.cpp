@@ -48,7 +48,9 @@ std::string hash_of(const SimulatedSequence& sequence, std::size_t index) {
   return hasher.digest();
 }
 
-std::string text_of(const fs::path& path) { return read_text(path); }
+std::string text_of(const fs::path& path) {
+  return read_text(path);
+}
 
 std::size_t entries(const fs::path& folder) {
   std::size_t count = 0;
@@ -132,17 +134,21 @@ TEST_CASE("written files hold what the source gives, in SemanticKITTI's layout")
 TEST_CASE("the cache makes a sequence once, whoever asks at once") {
   const ScratchFolder scratch;
   // What a killed run leaves: a half-written folder under a temporary name.
-  fs::create_directories(scratch.path() / "simulated" / "town-0123456789abcdef.1.0.part");
+  const fs::path cache = scratch.path() / "simulated";
+  fs::create_directories(cache / "town-0123456789abcdef.1.0.part");
+  // Another, of two days ago, is cleared away.
+  fs::create_directories(cache / "town-0123456789abcdef.2.0.part");
+  fs::last_write_time(cache / "town-0123456789abcdef.2.0.part",
+                      fs::file_time_type::clock::now() - std::chrono::hours(48));
   std::array<fs::path, 4> found;
   std::vector<std::thread> askers;
   for (auto& path : found) {
-    askers.emplace_back(
-        [&] { path = cached_simulation(small(), scratch.path(), 1, nullptr); });
+    askers.emplace_back([&] { path = cached_simulation(small(), scratch.path(), 1, nullptr); });
   }
   for (auto& asker : askers) asker.join();
   for (const auto& path : found) CHECK(path == found[0]);
   CHECK(entries(found[0] / "velodyne") == 4);
-  CHECK(entries(scratch.path() / "simulated") == 2);  // the sequence and the leftover
+  CHECK(entries(cache) == 2);  // the sequence and the fresh leftover
   // A second request does not write again.
   const auto written = fs::last_write_time(found[0] / "poses.txt");
   CHECK(cached_simulation(small(), scratch.path(), 1, nullptr) == found[0]);
@@ -219,8 +225,8 @@ TEST_CASE("pose errors scale with the severity, wander slowly and stay small") {
   }
   // 400 s are 40 independent drifts or so: the deviation is known to about 15 %.
   CHECK(std::sqrt(squares / 4000.0) == Approx(0.03).epsilon(0.35));
-  // A step is the fresh part of the drift, 0.03 sqrt(2 (1 - exp(-0.02))) = 0.006, and two jitters of
-  // 0.005: sqrt(0.006^2 + 2 * 0.005^2) = 0.0093.
+  // A step is the fresh part of the drift, 0.03 sqrt(2 (1 - exp(-0.02))) = 0.006, and two jitters
+  // of 0.005: sqrt(0.006^2 + 2 * 0.005^2) = 0.0093.
   CHECK(std::sqrt(steps / 4000.0) == Approx(0.0093).epsilon(0.1));
 }
 

@@ -15,10 +15,12 @@ namespace {
 Sweep sweep_of_wall(const SensorFile& sensor, double range, Material material) {
   World world;
   Mesh mesh;
-  add_quad(mesh, {material, kLabelBuilding}, {0, -90, -90}, {0, 90, -90}, {0, 90, 90}, {0, -90, 90});
+  add_quad(mesh, {material, kLabelBuilding}, {0, -90, -90}, {0, 90, -90}, {0, 90, 90},
+           {0, -90, 90});
   world.add_standing(mesh, placed(range, 0, 0));
   world.finish();
-  const Scanner scanner(world, sensor, [](double) { return Isometry3d::Identity(); }, {7}, 1);
+  const Scanner scanner(
+      world, sensor, [](double) { return Isometry3d::Identity(); }, {7}, 1);
   return scanner.sweep(0);
 }
 
@@ -77,9 +79,10 @@ TEST_CASE("a wide beam at an edge returns ranges between near surfaces, a thin o
   world.add_standing(mesh, Isometry3d::Identity());
   world.finish();
   const auto between = [&](const std::string& divergence) {
-    const SensorFile sensor = window(R"(, "noise_m": 0, "pulse_m": 0.75, "divergence_mrad": )" +
-                                     divergence);
-    const Scanner scanner(world, sensor, [](double) { return Isometry3d::Identity(); }, {3}, 1);
+    const SensorFile sensor =
+        window(R"(, "noise_m": 0, "pulse_m": 0.75, "divergence_mrad": )" + divergence);
+    const Scanner scanner(
+        world, sensor, [](double) { return Isometry3d::Identity(); }, {3}, 1);
     int count = 0;
     for (const auto& p : scanner.sweep(0).points) count += p.x() > 10.05F && p.x() < 10.35F;
     return count;

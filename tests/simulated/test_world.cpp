@@ -41,7 +41,9 @@ double part_distance(const Vector3d& world, const PlacedPart& part) {
   return best;
 }
 
-bool is_moving(std::uint32_t word) { return semantic_id(word) >= 252; }
+bool is_moving(std::uint32_t word) {
+  return semantic_id(word) >= 252;
+}
 
 }  // namespace
 
@@ -59,8 +61,8 @@ TEST_CASE("every point labelled moving lies on a part of that mover") {
       const Pose T_world_sensor =
           sequence->T_sequence_world().inverse() * sequence->true_pose(index);
       std::multimap<std::uint32_t, PlacedPart> parts;
-      const auto placed = sequence->world().parts({scan.time_s}, scan.time_s,
-                                                  T_world_sensor.translation(), 200.0);
+      const auto placed =
+          sequence->world().parts({scan.time_s}, scan.time_s, T_world_sensor.translation(), 200.0);
       for (const auto& part : placed[0]) parts.emplace(part.label, part);
       for (std::size_t i = 0; i < scan.size(); ++i) {
         if (!is_moving(labels[i])) continue;
@@ -173,7 +175,8 @@ TEST_CASE("every built-in world gives a scan with ground, standing things and mo
 TEST_CASE("a world file with a mistake is refused by name") {
   const auto message = [](const std::string& part) {
     const std::string text = R"({"roads": [{"name": "a", "points": [[0, 0], [99, 0]]}],
-      "ego": {"road": "a", "speed": 5}, )" + part + "}";
+      "ego": {"road": "a", "speed": 5}, )" +
+                             part + "}";
     try {
       const WorldFile file = world_from_json(nlohmann::json::parse(text), "w");
       const World world(file, 1, 1.0);
