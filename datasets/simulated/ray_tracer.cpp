@@ -37,6 +37,7 @@ RTCScene build_scene(RTCDevice device, const Mesh& mesh) {
   const RTCScene scene = rtcNewScene(device);
   if (scene == nullptr) fail("make a scene");
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
   if (!mesh.empty()) {
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree reads whole 16-byte words: copying adds the padding that a vector lacks.
