@@ -18,6 +18,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+constexpr std::size_t kPacket = 8;
 constexpr double kNearest = 0.01;  // metres; nothing is nearer to a sensor
 
 [[noreturn]] void fail(const char* what) {
@@ -56,6 +57,29 @@ RTCScene build_scene(RTCDevice device, const Mesh& mesh) {
   }
   commit(scene);
   return scene;
+}
+
+/// What Embree says of one ray.
+struct Found {
+  bool any;
+  unsigned instance;
+  unsigned triangle;
+  float range;
+};
+
+void enter(RTCRayHit8& packet, std::size_t k, const Ray& ray, double reach) {
+  packet.ray.org_x[k] = static_cast<float>(ray.origin.x());
+  packet.ray.org_y[k] = static_cast<float>(ray.origin.y());
+  packet.ray.org_z[k] = static_cast<float>(ray.origin.z());
+  packet.ray.dir_x[k] = static_cast<float>(ray.direction.x());
+  packet.ray.dir_y[k] = static_cast<float>(ray.direction.y());
+  packet.ray.dir_z[k] = static_cast<float>(ray.direction.z());
+  packet.ray.tnear[k] = static_cast<float>(kNearest);
+  packet.ray.tfar[k] = static_cast<float>(reach);
+  packet.ray.time[k] = ray.time;
+  packet.ray.mask[k] = ~0U;
+  packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+  packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
 }
 
 std::array<float, 12> column_major(const Isometry3d& motion) {
@@ -126,7 +150,7 @@ struct RayTracer::Moment::State {
   }
   void add(RTCDevice device, RTCScene what, const std::vector<Isometry3d>& motions,
            const Mesh& mesh, std::uint32_t label);
-  [[nodiscard]] Hit examine(const Ray& ray, const RTCRayHit& found) const;
+  [[nodiscard]] Hit examine(const Ray& ray, const Found& found) const;
 };
 
 void RayTracer::Moment::State::add(RTCDevice device, RTCScene what,
@@ -145,15 +169,15 @@ void RayTracer::Moment::State::add(RTCDevice device, RTCScene what,
   instances.push_back({&mesh, motions.front(), label, motions.size() > 1});
 }
 
-Hit RayTracer::Moment::State::examine(const Ray& ray, const RTCRayHit& found) const {
+Hit RayTracer::Moment::State::examine(const Ray& ray, const Found& found) const {
   Hit hit;
-  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-  const Instance& instance = instances[found.hit.instID[0]];
-  const auto& triangle = instance.mesh->triangles[found.hit.primID];
-  const Paint& paint = instance.mesh->paints[found.hit.primID];
+  if (!found.any) return hit;
+  const Instance& instance = instances[found.instance];
+  const auto& triangle = instance.mesh->triangles[found.triangle];
+  const Paint& paint = instance.mesh->paints[found.triangle];
   hit.material = paint.material;
   hit.label = instance.label != 0 ? instance.label : paint.label;
-  hit.range = static_cast<double>(found.ray.tfar);
+  hit.range = static_cast<double>(found.range);
   const auto corner = [&](int i) {
     return Vector3d(instance.mesh->vertices[triangle[static_cast<std::size_t>(i)]].cast<double>());
   };
@@ -206,25 +230,21 @@ void RayTracer::Moment::trace(std::span<const Ray> rays, std::span<Hit> hits) co
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Ray& ray = rays[i];
-    RTCRayHit found;
-    found.ray.org_x = static_cast<float>(ray.origin.x());
-    found.ray.org_y = static_cast<float>(ray.origin.y());
-    found.ray.org_z = static_cast<float>(ray.origin.z());
-    found.ray.dir_x = static_cast<float>(ray.direction.x());
-    found.ray.dir_y = static_cast<float>(ray.direction.y());
-    found.ray.dir_z = static_cast<float>(ray.direction.z());
-    found.ray.tnear = static_cast<float>(kNearest);
-    found.ray.tfar = static_cast<float>(state_->reach);
-    found.ray.time = ray.time;
-    found.ray.mask = ~0U;
-    found.ray.id = 0;
-    found.ray.flags = 0;
-    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(state_->scene, &context, &found);
-    hits[i] = state_->examine(ray, found);
+  // Neighbouring shots walk the search tree together.
+  for (std::size_t begin = 0; begin < rays.size(); begin += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - begin);
+    alignas(32) std::array<int, kPacket> valid{};
+    alignas(32) RTCRayHit8 packet{};
+    for (std::size_t k = 0; k < count; ++k) {
+      valid[k] = -1;
+      enter(packet, k, rays[begin + k], state_->reach);
+    }
+    rtcIntersect8(valid.data(), state_->scene, &context, &packet);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Found found{packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID, packet.hit.instID[0][k],
+                        packet.hit.primID[k], packet.ray.tfar[k]};
+      hits[begin + k] = state_->examine(rays[begin + k], found);
+    }
   }
 }
 
