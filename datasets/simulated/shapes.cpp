@@ -137,12 +137,16 @@ void add_leaf(Mesh& mesh, Paint paint, const Vector3d& centre, double leaf, Rand
 
 void add_leaves(Mesh& mesh, Paint paint, const Vector3d& centre, const Vector3d& radii, double leaf,
                 int count, Random& random) {
+  constexpr int kCluster = 6;  // leaves grow at twigs, so there are gaps between
   for (int i = 0; i < count;) {
     const Vector3d unit(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
     const double norm = unit.norm();
     if (norm > 1.0 || !random.chance(0.15 + 0.85 * norm)) continue;
-    add_leaf(mesh, paint, centre + radii.cwiseProduct(unit), leaf, random);
-    ++i;
+    const Vector3d twig = centre + radii.cwiseProduct(unit);
+    for (int k = 0; k < kCluster && i < count; ++k, ++i) {
+      const Vector3d off(random.normal(), random.normal(), random.normal());
+      add_leaf(mesh, paint, twig + 0.75 * leaf * off, leaf, random);
+    }
   }
 }
 

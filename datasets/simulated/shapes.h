@@ -33,8 +33,8 @@ void add_ellipsoid(Mesh& mesh, Paint paint, const Eigen::Vector3d& centre,
 /// A convex outline in the x-z plane, extruded over y from -width / 2 to width / 2.
 void add_extrusion(Mesh& mesh, Paint paint, const std::vector<Eigen::Vector2d>& outline,
                    double width);
-/// `count` leaf clusters, squares of random turn and of `leaf` metres, in an ellipsoid; more of
-/// them near its skin, where a crown has its leaves.
+/// `count` leaf clusters, squares of random turn and of `leaf` metres at twigs in an ellipsoid;
+/// more of them near its skin, where a crown has its leaves.
 void add_leaves(Mesh& mesh, Paint paint, const Eigen::Vector3d& centre,
                 const Eigen::Vector3d& radii, double leaf, int count, Random& random);
 /// One square of random turn at `centre`.
