@@ -29,6 +29,8 @@ class Ego {
   [[nodiscard]] Eigen::Isometry3d sensor_pose(double time) const;
   /// The vehicle's own surfaces (label 1) and, of an excavator, its moving arm (label 259).
   void place(double time, std::vector<PlacedPart>& parts) const;
+  /// Is there road (or path) under the vehicle at `time`?
+  [[nodiscard]] bool on_route(double time) const { return track_.reaches(track_.along(time)); }
   [[nodiscard]] bool has_arm() const { return spec_.body == "excavator"; }
 
  private:

@@ -66,8 +66,8 @@ class SimulatedSequence : public ScanSource, public LabelSource {
 };
 
 /// @param threads used to prepare the scene
-/// @throws UsageError for an unknown scene or sensor; ConfigurationError for a damaged file of one;
-/// DataError for a file that cannot be read.
+/// @throws UsageError for an unknown scene or sensor or more scans than its route has room for;
+/// ConfigurationError for a damaged file of one; DataError for a file that cannot be read.
 std::shared_ptr<const SimulatedSequence> make_simulated(const SimulationOptions& options,
                                                         int threads = 1);
 

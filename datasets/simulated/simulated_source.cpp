@@ -79,7 +79,15 @@ class Simulation final : public SimulatedSequence {
             {options.seed, options.rolling, options.noise_free}, threads),
         anchor_(level(world_.ego()->sensor_pose(0.0)).inverse()),
         errors_(simulated::pose_errors({}, options.pose_noise, count_, sensor_.period_s,
-                                       options.seed)) {}
+                                       options.seed)) {
+    std::size_t whole = 0;
+    while (whole < count_ && world_.ego()->on_route(time(whole))) ++whole;
+    if (whole < count_) {
+      throw UsageError(file_.name + ": the sensor's route ends after " + std::to_string(whole) +
+                       " scans, but " + std::to_string(count_) +
+                       " were asked for. Ask for fewer, or make the route longer or closed.");
+    }
+  }
 
   [[nodiscard]] std::size_t size() const override { return count_; }
   [[nodiscard]] const SensorModel& sensor() const override { return model_; }

@@ -239,6 +239,14 @@ TEST_CASE("perfect poses are the true ones") {
   CHECK_THROWS_AS(make_simulated(options), UsageError);
 }
 
+TEST_CASE("a sequence longer than its route is refused, one on a closed route is not") {
+  SimulationOptions options = small(5000);  // town: 380 m at 5 to 7 m/s are some 600 scans
+  CHECK_THROWS_AS(make_simulated(options), UsageError);
+  options.scene = "long";
+  options.scans = 6000;
+  CHECK(make_simulated(options)->size() == 6000);
+}
+
 TEST_CASE("labels are refused for a scan that was changed") {
   const auto sequence = make_simulated(small(2));
   Scan scan = sequence->load(1);
