@@ -94,7 +94,8 @@ std::optional<std::string> closest_name(std::string_view name,
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(name, candidate);
     const std::size_t longer = std::max(name.size(), candidate.size());
-    const bool near = distance * 3 <= longer || contains_either_way(name, candidate);
+    const bool near = (longer > 1 && distance <= std::max<std::size_t>(1, longer / 3)) ||
+                      contains_either_way(name, candidate);
     if (near && distance < best_distance) {
       best = candidate;
       best_distance = distance;

@@ -39,8 +39,9 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// "a, b, c".
 std::string join(const std::vector<std::string>& parts, std::string_view separator = ", ");
 
-/// The candidate with the smallest edit distance to `name`, or nothing if none is near (more than
-/// a third of the longer name would have to change, and neither contains the other).
+/// The candidate with the smallest edit distance to `name`, or nothing if none is near: more than
+/// one letter and more than a third of the longer name would have to change, and neither contains
+/// the other.
 std::optional<std::string> closest_name(std::string_view name,
                                         const std::vector<std::string>& candidates);
 

@@ -41,9 +41,16 @@ World box_that(bool leaves, const toy::Scanner& scanner = {}, const Pose& move =
   return world;
 }
 
+/// One bin per beam and two beams per bin along a row: the toy scanner needs no more.
+ConfiguredMethod configured(const std::string& variant) {
+  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:" + variant);
+  set_parameter(method.configuration, "azimuth_bins", std::int64_t{360});
+  set_parameter(method.configuration, "elevation_bins", std::int64_t{44});
+  return method;
+}
+
 MaskStore run(const std::string& variant, const World& world, int threads = 1) {
-  return toy::masks_of(*MethodRegistry::built_in().configure("raymoval:" + variant).make(), world,
-                       threads);
+  return toy::masks_of(*configured(variant).make(), world, threads);
 }
 
 }  // namespace
@@ -134,7 +141,7 @@ TEST_CASE("empty directions erase only where they are asked to, and not at the f
     world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
   }
   CHECK(toy::removed_share(world, run("offline", world), kOtherOwner, 0, 3) == 0.0);
-  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:offline");
+  ConfiguredMethod method = configured("offline");
   set_parameter(method.configuration, "no_return", true);
   set_parameter(method.configuration, "no_return_scans", std::int64_t{3});
   const auto share = [&] {
@@ -155,7 +162,7 @@ TEST_CASE("an erased voxel stays erased, or may be filled again") {
     if (i < 4 || i >= 8) boxes.push_back(kCar);
     world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
   }
-  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:offline");
+  ConfiguredMethod method = configured("offline");
   set_parameter(method.configuration, "map_source", std::string("growing"));
   set_parameter(method.configuration, "forward_test", false);
   CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11) > 0.95);
@@ -166,7 +173,7 @@ TEST_CASE("an erased voxel stays erased, or may be filled again") {
 TEST_CASE("a backward pass sees what arrives as something that leaves") {
   // Growing map without the forward test: the box that arrives is never seen through forwards.
   const World world = box_that(false);
-  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:offline");
+  ConfiguredMethod method = configured("offline");
   set_parameter(method.configuration, "map_source", std::string("growing"));
   set_parameter(method.configuration, "forward_test", false);
   CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 5, 9) == 0.0);
