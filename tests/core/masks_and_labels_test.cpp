@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <random>
+
+#include "core/error.h"
+#include "core/label_rule.h"
+#include "core/mask_store.h"
+#include "core/range_limits.h"
+#include "core/scan_source.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+TEST_CASE("Masks of any size come back as they were") {
+  std::mt19937 random(5);
+  const std::vector<std::size_t> sizes = {0, 1, 63, 64, 65, 128, 1000};
+  MaskStore store(sizes.size() + 1);
+  std::vector<Mask> masks;
+  std::size_t removed = 0;
+  for (std::size_t scan = 0; scan < sizes.size(); ++scan) {
+    Mask mask(sizes[scan]);
+    for (auto& value : mask) value = random() % 2;
+    if (!mask.empty()) mask.back() = 1;
+    CHECK_FALSE(store.has(scan));
+    store.set(scan, mask);
+    removed += std::accumulate(mask.begin(), mask.end(), std::size_t{0});
+    masks.push_back(std::move(mask));
+  }
+  for (std::size_t scan = 0; scan < sizes.size(); ++scan) {
+    CAPTURE(sizes[scan]);
+    CHECK(store.has(scan));
+    CHECK(store.point_count(scan) == sizes[scan]);
+    CHECK(store.get(scan) == masks[scan]);
+  }
+  CHECK(store.size() == sizes.size() + 1);
+  CHECK_FALSE(store.has(sizes.size()));  // An empty mask is set, a missing one is not.
+  CHECK(store.get(sizes.size()).empty());
+  CHECK(store.removed_count() == removed);
+}
+
+TEST_CASE("A mask set again replaces the first") {
+  MaskStore store(1);
+  store.set(0, Mask(100, 1));
+  store.set(0, {0, 1, 0});
+  CHECK(store.get(0) == Mask{0, 1, 0});
+  CHECK(store.removed_count() == 1);
+}
+
+TEST_CASE("The semantic id is the lower half of a label word") {
+  CHECK(semantic_id(0x00050000U + 252U) == 252);
+  CHECK(semantic_id(0xFFFFFFFFU) == 0xFFFF);
+  const LabelRule rule;
+  CHECK(rule.classify(0xABCD0000U + 252U) == LabelClass::kMoving);
+  CHECK(rule.classify(259) == LabelClass::kMoving);
+  CHECK(rule.classify(251) == LabelClass::kStatic);
+  CHECK(rule.classify(260) == LabelClass::kStatic);
+  CHECK(rule.classify(0) == LabelClass::kStatic);
+}
+
+TEST_CASE("A label rule is read over another") {
+  const LabelRule rule = label_rule_from_json(
+      {{"name", "mine"}, {"moving", {7, 5, 7}}, {"ignored", {0, 65535}}}, {}, "rule.json");
+  CHECK(rule.name == "mine");
+  CHECK(rule.moving == std::vector<std::uint16_t>{5, 7});
+  CHECK(rule.classify(65535) == LabelClass::kIgnored);
+  CHECK(rule.classify(252) == LabelClass::kStatic);
+  const LabelRule again = label_rule_from_json({{"ignored", {1}}}, rule, "rule.json");
+  CHECK(again.moving == rule.moving);
+  CHECK(again.ignored == std::vector<std::uint16_t>{1});
+  const LabelRule back = label_rule_from_json(json::parse(to_json(rule).dump()), {}, "rule.json");
+  CHECK(back.moving == rule.moving);
+  CHECK(back.ignored == rule.ignored);
+}
+
+TEST_CASE("A wrong label rule is an error that says where") {
+  const auto read = [](const json& rule) { return label_rule_from_json(rule, {}, "rule.json"); };
+  CHECK_THROWS_WITH(read({{"moving", {1, 2}}, {"ignored", {2}}}),
+                    Contains("rule.json: label id 2 is both moving and ignored"));
+  CHECK_THROWS_AS(read({{"ignored", {252}}}), ConfigurationError);  // Moves by default.
+  CHECK_THROWS_WITH(read({{"movin", {1}}}), Contains("Did you mean 'moving'?"));
+  CHECK_THROWS_WITH(read({{"moving", 252}}), Contains("rule.json.moving: expected a list"));
+  CHECK_THROWS_WITH(read({{"name", 5}}), Contains("rule.json.name"));
+  for (const json& id : {json(-1), json(65536), json(1.5), json("car"), json(nullptr),
+                         json(std::numeric_limits<std::uint64_t>::max())}) {
+    CHECK_THROWS_AS(read({{"moving", json::array({id})}}), ConfigurationError);
+  }
+}
+
+TEST_CASE("Both ends of a range belong to it, and NaN does not") {
+  const RangeLimits limits{2.0, 5.0};
+  CHECK((limits.contains(2.0) && limits.contains(5.0)));
+  CHECK_FALSE((limits.contains(1.999) || limits.contains(5.001)));
+  CHECK_FALSE(limits.contains(std::numeric_limits<double>::quiet_NaN()));
+  CHECK(RangeLimits{}.contains(0.0));
+}
+
+TEST_CASE("A scan knows where its points stand in its file") {
+  Scan scan;
+  scan.points.resize(2);
+  scan.stored_point_count = 5;
+  CHECK(scan.non_finite_count() == 3);
+  CHECK(scan.stored_position(1) == 1);
+  scan.stored_index = {0, 4};
+  CHECK(scan.stored_position(1) == 4);
+}
+
+TEST_CASE("Each error has the exit code of its kind") {
+  CHECK(Error("x").exit_code() == ExitCode::kCannotDo);
+  CHECK(UsageError("x").exit_code() == ExitCode::kCannotDo);
+  CHECK(DataError("x").exit_code() == ExitCode::kCannotDo);
+  CHECK(ConfigurationError("x").exit_code() == ExitCode::kCannotDo);
+  CHECK(MethodError("x").exit_code() == ExitCode::kWorse);
+  CHECK(Cancelled().exit_code() == ExitCode::kWorse);
+  CHECK(InternalError("x").exit_code() == ExitCode::kInternal);
+  CHECK(static_cast<int>(ExitCode::kDone) == 0);
+  CHECK(static_cast<int>(ExitCode::kWorse) == 1);
+  CHECK(static_cast<int>(ExitCode::kCannotDo) == 2);
+  CHECK(static_cast<int>(ExitCode::kInternal) == 3);
+  CHECK(std::string(DataError("a.bin: torn").what()) == "a.bin: torn");
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "core/parallel.h"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace raymoval;
+
+TEST_CASE("Chunks are cut by count and grain only") {
+  using Cuts = std::set<std::pair<std::size_t, std::size_t>>;
+  const auto cuts = [](int threads, std::size_t count, std::size_t grain) {
+    Cuts seen;
+    std::mutex mutex;
+    parallel_chunks(threads, count, grain, [&](std::size_t begin, std::size_t end) {
+      const std::lock_guard lock(mutex);
+      seen.emplace(begin, end);
+    });
+    return seen;
+  };
+  for (const int threads : {-1, 0, 1, 2, 8}) {
+    CHECK(cuts(threads, 10, 4) == Cuts{{0, 4}, {4, 8}, {8, 10}});
+    CHECK(cuts(threads, 8, 4) == Cuts{{0, 4}, {4, 8}});
+    CHECK(cuts(threads, 3, 100) == Cuts{{0, 3}});
+    CHECK(cuts(threads, 2, 0) == Cuts{{0, 1}, {1, 2}});  // A grain of 0 is one of 1.
+    CHECK(cuts(threads, 0, 4).empty());
+  }
+}
+
+TEST_CASE("Each index is visited exactly once") {
+  for (const int threads : {1, 2, 8}) {
+    std::vector<std::atomic<int>> visits(10007);
+    parallel_for(threads, visits.size(), 13, [&](std::size_t i) { ++visits[i]; });
+    int wrong = 0;
+    for (const auto& count : visits) wrong += count == 1 ? 0 : 1;
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("Sums in chunk order have the same bits for any number of threads") {
+  const auto sum = [](int threads) {
+    std::vector<double> parts(101, 0.0);
+    parallel_chunks(threads, 1001, 10, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) parts[begin / 10] += 1.0 / (1.0 + double(i));
+    });
+    double total = 0.0;
+    for (const double part : parts) total += part;
+    return total;
+  };
+  CHECK(sum(2) == sum(1));
+  CHECK(sum(8) == sum(1));
+}
+
+TEST_CASE("The exception of the lowest chunk is thrown") {
+  for (const int threads : {1, 2, 8}) {
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      try {
+        parallel_for(threads, 100, 1, [](std::size_t i) {
+          if (i >= 17) throw std::runtime_error(std::to_string(i));
+        });
+        FAIL("nothing was thrown");
+      } catch (const std::runtime_error& error) {
+        REQUIRE(std::string(error.what()) == "17");
+      }
+    }
+  }
+}
+
+TEST_CASE("There is at least one hardware thread") {
+  CHECK(hardware_threads() >= 1);
+}

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "eval/compare.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+
+namespace {
+
+double f1_of(double pr, double rr) {
+  return pr + rr > 0.0 ? 2.0 * pr * rr / (pr + rr) / 100.0 : 0.0;
+}
+
+/// 1,000 static and 200 dynamic voxels: PR = kept / 10, RR = 100 - left / 2, both in percent.
+ComparedCell cell_with(std::int64_t kept, std::int64_t left, const std::string& name = "m:v") {
+  const double pr = static_cast<double>(kept) / 10.0;
+  const double rr = 100.0 - static_cast<double>(left) / 2.0;
+  ComparedScore score;
+  score.protocol = "erasor";
+  score.identity = {{"protocol version", "1"}, {"option voxel_size", "0.2"}};
+  score.counts = {{"static_voxels", 1000},
+                  {"dynamic_voxels", 200},
+                  {"preserved_static", kept},
+                  {"remaining_dynamic", left},
+                  {"removed_points", 5000}};
+  score.rates = {{"PR", pr, ""}, {"RR", rr, ""}, {"F1", f1_of(pr, rr), ""}};
+  ComparedCell cell;
+  cell.sequence = "s";
+  cell.name = name;
+  cell.identity = {{"data fingerprint", "abc"}, {"parameter tau0", "0.3"}};
+  cell.method_version = "1";
+  cell.scores = {score};
+  cell.seconds_per_scan = 0.1;
+  return cell;
+}
+
+ComparedCell failed_cell() {
+  ComparedCell cell = cell_with(0, 0);
+  cell.status = "failed";
+  cell.reason = "no idea";
+  cell.scores.clear();
+  cell.seconds_per_scan.reset();
+  return cell;
+}
+
+Comparison compared(const ComparedCell& run, const ComparedCell& reference,
+                    const ComparisonOptions& options = {}) {
+  return compare_results({{run}, {}}, {{reference}, {}}, options);
+}
+
+const ComparedCell kReference = cell_with(990, 20);
+
+}  // namespace
+
+TEST_CASE("Equal cells are the same") {
+  const Comparison result = compared(kReference, kReference);
+  CHECK(result.verdict() == ExitCode::kDone);
+  CHECK(result.same_cells == 1);
+  CHECK(result.cells == 1);
+  CHECK((result.worse.empty() && result.better.empty() && result.moved.empty()));
+  CHECK_THAT(comparison_text(result), Contains("1 of 1 cells") && Contains("no regression"));
+}
+
+TEST_CASE("A method that keeps one static voxel less is worse") {
+  // 989 of 1,000 kept: PR 98.9 instead of 99.0.
+  const Comparison result = compared(cell_with(989, 20), kReference);
+  CHECK(result.verdict() == ExitCode::kWorse);
+  REQUIRE(result.worse.size() == 1);
+  CHECK_THAT(result.worse[0], Contains("s / m:v, erasor") &&
+                                  Contains("PR 99.0000 -> 98.9000 (-0.1000)") &&
+                                  Contains("preserved_static 990 -> 989 (-1)"));
+  CHECK(result.same_cells == 0);
+}
+
+TEST_CASE("Better is told and no error; better in one rate and worse in another is worse") {
+  const Comparison better = compared(cell_with(990, 10), kReference);
+  CHECK(better.verdict() == ExitCode::kDone);
+  REQUIRE(better.better.size() == 1);
+  CHECK_THAT(better.better[0], Contains("RR 90.0000 -> 95.0000 (+5.0000)"));
+  // F1 rises (RR +5, PR -0.1), yet a static voxel is lost.
+  CHECK(compared(cell_with(989, 10), kReference).verdict() == ExitCode::kWorse);
+}
+
+TEST_CASE("A count that moves no rate is worse, for nothing says that it is better") {
+  ComparedCell run = kReference;
+  run.scores[0].counts[4].second = 4999;
+  const Comparison result = compared(run, kReference);
+  CHECK(result.verdict() == ExitCode::kWorse);
+  CHECK_THAT(result.worse.at(0), Contains("removed_points 5000 -> 4999"));
+}
+
+TEST_CASE("Counts of the truth must not move, however good the rates") {
+  ComparedCell run = cell_with(990, 10);
+  run.scores[0].counts[0].second = 991;
+  CHECK(compared(run, kReference).verdict() == ExitCode::kWorse);
+  CHECK(compared(run, kReference, {{{"F1", 1.0}}, {}}).verdict() == ExitCode::kWorse);
+}
+
+TEST_CASE("A count that is missing or new is worse") {
+  ComparedCell less = kReference;
+  less.scores[0].counts.pop_back();
+  CHECK_THAT(compared(less, kReference).worse.at(0), Contains("removed_points is missing"));
+  CHECK_THAT(compared(kReference, less).worse.at(0), Contains("removed_points is new"));
+}
+
+TEST_CASE("A control may not move at all") {
+  ComparedCell run = cell_with(990, 10), reference = kReference;
+  run.control = reference.control = true;
+  CHECK(compared(run, reference).verdict() == ExitCode::kWorse);
+  CHECK(compared(reference, reference).verdict() == ExitCode::kDone);
+}
+
+TEST_CASE("A tolerance judges its rate only, and up to its end") {
+  // PR 99.0 -> 98.9 with RR 90: F1 = 2 PR RR / (PR + RR) falls from 0.942857 to 0.942403.
+  const ComparedCell run = cell_with(989, 20);
+  CHECK(compared(run, kReference, {{{"F1", 0.0004}}, {}}).verdict() == ExitCode::kWorse);
+  const Comparison within = compared(run, kReference, {{{"F1", 0.0005}}, {}});
+  CHECK(within.verdict() == ExitCode::kDone);
+  CHECK_THAT(within.moved.at(0), Contains("F1"));
+  CHECK(compared(run, kReference, {{{"PR", 0.1}}, {}}).verdict() == ExitCode::kDone);
+  CHECK(compared(run, kReference, {{{"PR", 0.099}}, {}}).verdict() == ExitCode::kWorse);
+  CHECK(compared(run, kReference, {{{"RR", 0.0}}, {}}).verdict() == ExitCode::kDone);
+  CHECK(compared(run, kReference, {{{"PR", 0.099}, {"F1", 1.0}}, {}}).verdict() ==
+        ExitCode::kWorse);
+  CHECK_THROWS_AS(compared(run, kReference, {{{"F9", 1.0}}, {}}), UsageError);
+}
+
+TEST_CASE("A rate that is no longer defined is worse") {
+  ComparedCell run = kReference;
+  run.scores[0].rates[1].value.reset();
+  CHECK_THAT(compared(run, kReference).worse.at(0), Contains("RR 90.0000 -> undefined"));
+  CHECK(compared(run, kReference, {{{"RR", 100.0}}, {}}).verdict() == ExitCode::kWorse);
+}
+
+TEST_CASE("Other data, parameters or protocols are not comparable, and it is said which") {
+  const auto reason = [](const ComparedCell& run) {
+    const Comparison result = compared(run, kReference);
+    CHECK(result.verdict() == ExitCode::kCannotDo);
+    return result.incomparable.at(0);
+  };
+  ComparedCell run = kReference;
+  run.identity["data fingerprint"] = "xyz";
+  CHECK_THAT(reason(run), Contains("data fingerprint is xyz, the reference has abc"));
+  run = kReference;
+  run.identity["parameter tau0"] = "0.4";
+  CHECK_THAT(reason(run), Contains("s / m:v: parameter tau0 is 0.4, the reference has 0.3"));
+  run.identity.erase("parameter tau0");
+  CHECK_THAT(reason(run), Contains("parameter tau0 is missing"));
+  run = kReference;
+  run.identity["parameter new"] = "1";
+  CHECK_THAT(reason(run), Contains("parameter new is 1, the reference has none"));
+  run = kReference;
+  run.scores[0].identity["protocol version"] = "2";
+  CHECK_THAT(reason(run), Contains("erasor: protocol version is 2, the reference has 1"));
+  run = kReference;
+  run.scores[0].identity["option voxel_size"] = "0.1";
+  CHECK_THAT(reason(run), Contains("option voxel_size"));
+  run = kReference;
+  run.scores.clear();
+  CHECK_THAT(reason(run), Contains("erasor: not scored in the run"));
+}
+
+TEST_CASE("A cell that is missing is not comparable, one that is new is only told") {
+  const ComparedCell other = cell_with(500, 100, "other:v");
+  const ResultSet one{{kReference}, {}}, two{{kReference, other}, {}}, none;
+  const Comparison missing = compare_results(one, two, {});
+  CHECK(missing.verdict() == ExitCode::kCannotDo);
+  CHECK(missing.incomparable.at(0) == "s / other:v: missing in the run");
+  const Comparison fresh = compare_results(two, one, {});
+  CHECK(fresh.verdict() == ExitCode::kDone);
+  CHECK_THAT(fresh.moved.at(0), Contains("s / other:v"));
+  CHECK(compare_results(one, none, {}).verdict() == ExitCode::kCannotDo);
+}
+
+TEST_CASE("What is not comparable outweighs what is worse, and both are told") {
+  const ResultSet reference{{kReference, cell_with(500, 100, "other:v")}, {}};
+  const Comparison result = compare_results({{cell_with(980, 20)}, {}}, reference, {});
+  CHECK(result.verdict() == ExitCode::kCannotDo);
+  CHECK(result.worse.size() == 1);
+  CHECK_THAT(comparison_text(result), Contains("Not comparable:") && Contains("Worse:"));
+}
+
+TEST_CASE("A cell that fails is worse, one that no longer fails better") {
+  const Comparison worse = compared(failed_cell(), kReference);
+  CHECK(worse.verdict() == ExitCode::kWorse);
+  CHECK_THAT(worse.worse.at(0), Contains("ok -> failed (no idea)"));
+  const Comparison better = compared(kReference, failed_cell());
+  CHECK(better.verdict() == ExitCode::kDone);
+  CHECK_THAT(better.better.at(0), Contains("failed -> ok"));
+  CHECK(compared(failed_cell(), failed_cell()).verdict() == ExitCode::kDone);
+  // A sequence that cannot be read has no fingerprint; that is a failure, and no other data.
+  ComparedCell unread = failed_cell();
+  unread.identity.erase("data fingerprint");
+  CHECK(compared(unread, kReference).verdict() == ExitCode::kWorse);
+}
+
+TEST_CASE("Controls that are off make a run worse and a reference useless") {
+  const ResultSet sound{{kReference}, {}}, off{{kReference}, {"control 'noop' is off"}};
+  CHECK(compare_results(off, sound, {}).verdict() == ExitCode::kWorse);
+  CHECK(compare_results(sound, off, {}).verdict() == ExitCode::kCannotDo);
+}
+
+TEST_CASE("Time is told, and judged only beyond a band") {
+  ComparedCell slow = kReference;
+  slow.seconds_per_scan = 0.4;
+  const Comparison told = compared(slow, kReference);
+  CHECK(told.verdict() == ExitCode::kDone);
+  CHECK_THAT(told.times.at(0), Contains("4.00 times the reference (400.0 ms per scan, was 100.0)"));
+  CHECK(compared(slow, kReference, {{}, 3.0}).verdict() == ExitCode::kWorse);
+  CHECK(compared(slow, kReference, {{}, 5.0}).verdict() == ExitCode::kDone);
+  CHECK(compared(kReference, slow, {{}, 3.0}).verdict() == ExitCode::kDone);
+  ComparedCell timeless = kReference;
+  timeless.seconds_per_scan.reset();
+  CHECK(compared(slow, timeless).verdict() == ExitCode::kDone);
+  CHECK(compared(slow, timeless, {{}, 3.0}).verdict() == ExitCode::kCannotDo);
+}
