@@ -1,0 +1,18 @@
+# The ray tracer and the data files of the simulator.
+target_link_libraries(raymoval_datasets PRIVATE embree TBB::tbb)
+file(GLOB simulated_data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/datasets/simulated/worlds/*.json
+     ${PROJECT_SOURCE_DIR}/datasets/simulated/sensors/*.json)
+set(simulated_source ${PROJECT_BINARY_DIR}/generated/simulated_data.cpp)
+add_custom_command(OUTPUT ${simulated_source}
+  COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}/datasets/simulated
+          -DOUTPUT=${simulated_source} -P ${PROJECT_SOURCE_DIR}/cmake/embed_simulated.cmake
+  DEPENDS ${simulated_data} ${PROJECT_SOURCE_DIR}/cmake/embed_simulated.cmake
+  COMMENT "Embedding simulated worlds and sensors" VERBATIM)
+target_sources(raymoval_datasets PRIVATE ${simulated_source})
+
+# Compares a simulated sequence with a real drive: cmake --build ... --target realism
+find_package(PNG)
+if(PNG_FOUND)
+  add_executable(realism EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/scripts/realism.cpp)
+  target_link_libraries(realism PRIVATE raymoval_core raymoval_options PNG::PNG)
+endif()

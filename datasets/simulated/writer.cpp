@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "core/sensor_model.h"
+#include "core/text.h"
+#include "datasets/simulated/simulated.h"
+
+static_assert(std::endian::native == std::endian::little, "files hold little-endian numbers");
+
+namespace raymoval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// T_camera_lidar of a car like KITTI's: the camera looks ahead, 27 cm before and 8 cm below the
+/// sensor, and is not mounted quite straight.
+Pose camera_from_lidar() {
+  Pose Tr = Pose::Identity();
+  Eigen::Matrix3d axes;
+  axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  const Eigen::Vector3d small(0.0075, -0.0148, 0.0021);  // radians
+  const Eigen::AngleAxisd tilt(small.norm(), small.normalized());
+  Tr.linear() = tilt.toRotationMatrix() * axes;
+  Tr.translation() = Eigen::Vector3d(-0.004, -0.076, -0.272);
+  return Tr;
+}
+
+std::string row_text(const Pose& pose) {
+  std::string text;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 4; ++c) text += (text.empty() ? "" : " ") + number_text(pose(r, c));
+  }
+  return text;
+}
+
+/// Plain write: the folder as a whole is what appears atomically.
+void write_file(const fs::path& path, const void* data, std::size_t size) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+  file.close();
+  if (!file) {
+    throw DataError(path.string() +
+                    ": cannot be written; the disk may be full or the folder read-only.");
+  }
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  write_file(path, text.data(), text.size());
+}
+
+void write_scan(const SimulatedSequence& sequence, std::size_t index, const fs::path& folder) {
+  const Scan scan = sequence.load(index);
+  const std::vector<std::uint32_t> labels = sequence.labels(scan);
+  std::vector<float> values(4 * scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    std::memcpy(values.data() + 4 * i, scan.points[i].data(), 3 * sizeof(float));
+    values[4 * i + 3] = scan.reflectance[i];
+  }
+  write_file(folder / "velodyne" / (scan.name + ".bin"), values.data(),
+             values.size() * sizeof(float));
+  write_file(folder / "labels" / (scan.name + ".label"), labels.data(),
+             labels.size() * sizeof(std::uint32_t));
+}
+
+void write_tables(const SimulatedSequence& sequence, const fs::path& folder) {
+  const Pose Tr = camera_from_lidar();
+  std::string poses;
+  std::string times;
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    poses += row_text(Tr * sequence.pose(i) * Tr.inverse()) + "\n";
+    times += number_text(static_cast<double>(i) * sequence.scan_period_s()) + "\n";
+  }
+  const std::string projection = "718.856 0 607.1928 0 0 718.856 185.2157 0 0 0 1 0";
+  std::string calib;
+  for (const char* camera : {"P0", "P1", "P2", "P3"}) {
+    calib += std::string(camera) + ": " + projection + "\n";
+  }
+  write_file(folder / "poses.txt", poses);
+  write_file(folder / "times.txt", times);
+  write_file(folder / "calib.txt", calib + "Tr: " + row_text(Tr) + "\n");
+}
+
+const char* rolling_name(Rolling rolling) {
+  switch (rolling) {
+    case Rolling::kNone:
+      return "none";
+    case Rolling::kSkewed:
+      return "skewed";
+    case Rolling::kCorrected:
+      return "corrected";
+  }
+  throw InternalError("unknown rolling");
+}
+
+void write_description(const SimulationOptions& options, const SimulatedSequence& sequence,
+                       const fs::path& folder) {
+  const auto known = sensor_model_names();
+  const bool named = std::find(known.begin(), known.end(), sequence.sensor_name()) != known.end();
+  nlohmann::ordered_json json;
+  json["name"] = sequence.name();
+  json["source"] = "simulated by raymoval: scene " + sequence.name() + ", sensor " +
+                   sequence.sensor_name() + ", seed " + std::to_string(options.seed) +
+                   ", pose noise " + number_text(options.pose_noise) + ", rolling " +
+                   rolling_name(options.rolling) + (options.noise_free ? ", noise-free" : "");
+  json["sensor"] = named ? sequence.sensor_name() : "estimated";
+  json["scan_period_s"] = sequence.scan_period_s();
+  json["poses"] = "poses.txt";
+  json["range_m"] = {{"min", sequence.range_m().min}, {"max", sequence.range_m().max}};
+  json["labels"] = {{"ignored", {0, 1}}, {"moving", {252, 253, 254, 255, 256, 257, 258, 259}}};
+  write_file(folder / "sequence.json", json.dump(2) + "\n");
+}
+
+/// Times (seconds) from which a mover moves or stands, for the whole sequence.
+nlohmann::ordered_json moves_of(const SimulatedSequence& sequence, std::size_t mover,
+                                const std::vector<std::vector<MoverTruth>>& states) {
+  nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+  std::string last;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const MoverTruth& truth = states[i][mover];
+    const std::string state =
+        !truth.present ? "away" : (truth.speed_mps > 0.01 ? "moves" : "stands");
+    if (state == last) continue;
+    last = state;
+    const Eigen::Vector3d at = truth.T_world_mover.translation();
+    changes.push_back({{"scan", i},
+                       {"time_s", static_cast<double>(i) * sequence.scan_period_s()},
+                       {"state", state},
+                       {"at", {at.x(), at.y(), at.z()}}});
+  }
+  return changes;
+}
+
+void write_movers(const SimulatedSequence& sequence, const fs::path& folder) {
+  std::vector<std::vector<MoverTruth>> states;
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    states.push_back(sequence.movers(static_cast<double>(i) * sequence.scan_period_s()));
+  }
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (std::size_t m = 0; m < states.front().size(); ++m) {
+    const MoverTruth& truth = states.front()[m];
+    json.push_back({{"instance", truth.instance},
+                    {"label", truth.semantic},
+                    {"kind", truth.kind},
+                    {"moves", truth.moves},
+                    {"when", moves_of(sequence, m, states)}});
+  }
+  write_file(folder / "movers.json", json.dump(1) + "\n");
+}
+
+/// A new empty folder beside `folder`, removed again unless it is kept.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const fs::path& folder) {
+    static std::atomic<unsigned> counter{0};
+    path_ = folder.string() + "." + std::to_string(::getpid()) + "." +
+            std::to_string(counter.fetch_add(1)) + ".part";
+    std::error_code error;
+    fs::remove_all(path_, error);  // left by a killed process that had our number
+    fs::create_directories(path_ / "velodyne", error);
+    if (!error) fs::create_directories(path_ / "labels", error);
+    if (error) {
+      throw DataError(path_.string() + ": cannot be made (" + error.message() +
+                      "). Choose a folder you may write to.");
+    }
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  void keep() { path_.clear(); }
+
+ private:
+  fs::path path_;
+};
+
+void write_all(const SimulationOptions& options, const SimulatedSequence& sequence,
+               const fs::path& folder, int threads, Progress* progress) {
+  if (progress != nullptr) progress->begin("simulating " + sequence.name(), sequence.size());
+  parallel_for(threads, sequence.size(), 1, [&](std::size_t i) {
+    write_scan(sequence, i, folder);
+    if (progress != nullptr) progress->advance();
+  });
+  if (progress != nullptr) progress->end();
+  write_tables(sequence, folder);
+  write_description(options, sequence, folder);
+  write_movers(sequence, folder);
+}
+
+}  // namespace
+
+void write_simulated(const SimulationOptions& options, const fs::path& folder, int threads,
+                     Progress* progress) {
+  if (fs::exists(folder)) {
+    throw DataError(folder.string() + ": exists already; remove it or choose another folder.");
+  }
+  const auto sequence = make_simulated(options, threads);
+  if (folder.has_parent_path()) {
+    std::error_code error;
+    fs::create_directories(folder.parent_path(), error);
+  }
+  TemporaryFolder temporary(folder);
+  write_all(options, *sequence, temporary.path(), threads, progress);
+  std::error_code error;
+  fs::rename(temporary.path(), folder, error);
+  if (error) {
+    throw DataError(folder.string() + ": cannot take its place (" + error.message() +
+                    "); something else may have made it meanwhile.");
+  }
+  temporary.keep();
+}
+
+}  // namespace raymoval

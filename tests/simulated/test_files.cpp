@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "datasets/simulated/pose_noise.h"
+#include "datasets/simulated/simulated.h"
+#include "tests/simulated/scenes.h"
+
+using namespace raymoval;
+using raymoval::simulated::ScratchFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+SimulationOptions small(std::size_t scans = 4) {
+  SimulationOptions options;
+  options.scene = "town";
+  options.sensor = "vlp16";
+  options.scans = scans;
+  return options;
+}
+
+std::string bytes_of(const Scan& scan) {
+  std::string bytes;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    bytes.append(reinterpret_cast<const char*>(scan.points[i].data()), 12);
+    bytes.append(reinterpret_cast<const char*>(&scan.reflectance[i]), 4);
+  }
+  return bytes;
+}
+
+std::string hash_of(const SimulatedSequence& sequence, std::size_t index) {
+  const Scan scan = sequence.load(index);
+  const auto labels = sequence.labels(scan);
+  ContentHasher hasher;
+  hasher.add(bytes_of(scan));
+  hasher.add(labels.data(), labels.size() * 4);
+  hasher.add(scan.T_world_sensor.matrix().data(), 16 * sizeof(double));
+  return hasher.digest();
+}
+
+std::string text_of(const fs::path& path) {
+  return read_text(path);
+}
+
+std::size_t entries(const fs::path& folder) {
+  std::size_t count = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("the same seed gives the same bytes for any threads and any order") {
+  for (const std::string sensor : {"vlp16", "solid-state", "rosette"}) {
+    SimulationOptions options = small(8);
+    options.sensor = sensor;
+    std::vector<std::string> expected;
+    const auto first = make_simulated(options, 1);
+    for (std::size_t i = 0; i < first->size(); ++i) expected.push_back(hash_of(*first, i));
+    for (const int threads : {1, 2, 8}) {
+      const auto other = make_simulated(options, threads);
+      std::vector<std::string> found(expected.size());
+      parallel_for(threads, found.size(), 1, [&](std::size_t i) {
+        const std::size_t backwards = found.size() - 1 - i;
+        found[backwards] = hash_of(*other, backwards);
+      });
+      CHECK(found == expected);
+    }
+  }
+}
+
+TEST_CASE("another seed gives other movers, noise and poses") {
+  SimulationOptions options = small(2);
+  const auto a = make_simulated(options);
+  options.seed = 2;
+  const auto b = make_simulated(options);
+  CHECK(hash_of(*a, 0) != hash_of(*b, 0));
+  CHECK(a->pose(1).translation() != b->pose(1).translation());
+  CHECK(a->true_pose(1).translation() == b->true_pose(1).translation());
+}
+
+TEST_CASE("written files hold what the source gives, in SemanticKITTI's layout") {
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "out";
+  write_simulated(small(), folder, 2, nullptr);
+  const auto sequence = make_simulated(small());
+  const std::string calib = text_of(folder / "calib.txt");
+  const auto row = [](std::string_view line, std::size_t skip) {
+    const auto fields = split_blanks(line);
+    Pose pose = Pose::Identity();
+    for (std::size_t i = 0; i < 12; ++i) {
+      pose(static_cast<int>(i / 4), static_cast<int>(i % 4)) =
+          parse_number<double>(fields.at(i + skip)).value();
+    }
+    return pose;
+  };
+  const Pose Tr = row(std::string_view(calib).substr(calib.find("Tr:")), 1);
+  CHECK((Tr.linear() * Tr.linear().transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
+  // The camera's z axis looks along the sensor's x: the transform is not the identity.
+  CHECK(Tr(2, 0) > 0.99);
+  const std::string poses = text_of(folder / "poses.txt");
+  const auto lines = split(poses, '\n');
+  REQUIRE(lines.size() == sequence->size() + 1);
+  for (std::size_t i = 0; i < sequence->size(); ++i) {
+    const Scan scan = sequence->load(i);
+    CHECK(text_of(folder / "velodyne" / (scan.name + ".bin")) == bytes_of(scan));
+    const auto labels = sequence->labels(scan);
+    const std::string words = text_of(folder / "labels" / (scan.name + ".label"));
+    REQUIRE(words.size() == 4 * labels.size());
+    CHECK(std::memcmp(words.data(), labels.data(), words.size()) == 0);
+    const Pose pose = Tr.inverse() * row(lines[i], 0) * Tr;
+    CHECK((pose.matrix() - scan.T_world_sensor.matrix()).norm() < 1e-9);
+  }
+  CHECK(text_of(folder / "times.txt").starts_with("0\n0.1\n0.2"));
+  const auto json = read_json(folder / "sequence.json");
+  CHECK(json.at("name") == "town");
+  CHECK(json.at("sensor") == "vlp16");
+  CHECK(json.at("scan_period_s") == 0.1);
+  CHECK(read_json(folder / "movers.json").size() == sequence->movers(0).size());
+  CHECK(entries(scratch.path()) == 1);  // no temporary folder is left
+  CHECK_THROWS_AS(write_simulated(small(), folder, 1, nullptr), DataError);
+}
+
+TEST_CASE("the cache makes a sequence once, whoever asks at once") {
+  const ScratchFolder scratch;
+  // What a killed run leaves: a half-written folder under a temporary name.
+  const fs::path cache = scratch.path() / "simulated";
+  fs::create_directories(cache / "town-0123456789abcdef.1.0.part");
+  // Another, of two days ago, is cleared away.
+  fs::create_directories(cache / "town-0123456789abcdef.2.0.part");
+  fs::last_write_time(cache / "town-0123456789abcdef.2.0.part",
+                      fs::file_time_type::clock::now() - std::chrono::hours(48));
+  std::array<fs::path, 4> found;
+  std::vector<std::thread> askers;
+  for (auto& path : found) {
+    askers.emplace_back([&] { path = cached_simulation(small(), scratch.path(), 1, nullptr); });
+  }
+  for (auto& asker : askers) asker.join();
+  for (const auto& path : found) CHECK(path == found[0]);
+  CHECK(entries(found[0] / "velodyne") == 4);
+  CHECK(entries(cache) == 2);  // the sequence and the fresh leftover
+  // A second request does not write again.
+  const auto written = fs::last_write_time(found[0] / "poses.txt");
+  CHECK(cached_simulation(small(), scratch.path(), 1, nullptr) == found[0]);
+  CHECK(fs::last_write_time(found[0] / "poses.txt") == written);
+}
+
+TEST_CASE("the cache tells apart whatever changes the bytes") {
+  const ScratchFolder scratch;
+  const auto folder = [&](const SimulationOptions& options) {
+    return cached_simulation(options, scratch.path(), 2, nullptr);
+  };
+  SimulationOptions other = small(2);
+  std::vector<fs::path> folders = {folder(other)};
+  other.seed = 9;
+  folders.push_back(folder(other));
+  other.pose_noise = 0.0;
+  folders.push_back(folder(other));
+  other.rolling = Rolling::kSkewed;
+  folders.push_back(folder(other));
+  other.sensor = "solid-state";
+  folders.push_back(folder(other));
+  other.scans = 3;
+  folders.push_back(folder(other));
+  std::sort(folders.begin(), folders.end());
+  CHECK(std::unique(folders.begin(), folders.end()) == folders.end());
+}
+
+TEST_CASE("the cache lies where the environment says") {
+  setenv("RAYMOVAL_CACHE", "/somewhere/own", 1);
+  CHECK(default_cache_root() == "/somewhere/own");
+  unsetenv("RAYMOVAL_CACHE");
+  setenv("XDG_CACHE_HOME", "/somewhere/cache", 1);
+  CHECK(default_cache_root() == "/somewhere/cache/raymoval");
+  unsetenv("XDG_CACHE_HOME");
+}
+
+TEST_CASE("scenes and sensors are found by name or path, and names are suggested") {
+  const auto message = [](const std::string& scene) {
+    SimulationOptions options;
+    options.scene = scene;
+    try {
+      make_simulated(options);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(message("toown").find("'town'") != std::string::npos);
+  CHECK(message("/nowhere/w.json").find("/nowhere/w.json") != std::string::npos);
+  const ScratchFolder scratch;
+  const fs::path own = scratch.path() / "mine.json";
+  std::ofstream(own) << simulated_scene_text("town");
+  SimulationOptions options = small(1);
+  options.scene = own.string();
+  const auto sequence = make_simulated(options);
+  CHECK(sequence->name() == "mine");
+  CHECK(hash_of(*sequence, 0) == hash_of(*make_simulated(small(1)), 0));
+  std::ofstream(own) << "{ \"scans\": 3,\n }";
+  CHECK(message(own.string()).find("line 2") != std::string::npos);
+}
+
+TEST_CASE("pose errors scale with the severity, wander slowly and stay small") {
+  const simulated::PoseNoise noise;
+  const auto once = simulated::pose_errors(noise, 1.0, 4000, 0.1, 5);
+  const auto twice = simulated::pose_errors(noise, 2.0, 4000, 0.1, 5);
+  const auto none = simulated::pose_errors(noise, 0.0, 10, 0.1, 5);
+  CHECK(none[7].matrix() == Eigen::Matrix4d::Identity());
+  double squares = 0.0;
+  double steps = 0.0;
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    CHECK((twice[i].translation() - 2.0 * once[i].translation()).norm() < 1e-12);
+    squares += std::pow(once[i].translation().x(), 2);
+    if (i > 0) steps += std::pow(once[i].translation().x() - once[i - 1].translation().x(), 2);
+  }
+  // 400 s are 40 independent drifts or so: the deviation is known to about 15 %.
+  CHECK(std::sqrt(squares / 4000.0) == Approx(0.03).epsilon(0.35));
+  // A step is the fresh part of the drift, 0.03 sqrt(2 (1 - exp(-0.02))) = 0.006, and two jitters
+  // of 0.005: sqrt(0.006^2 + 2 * 0.005^2) = 0.0093.
+  CHECK(std::sqrt(steps / 4000.0) == Approx(0.0093).epsilon(0.1));
+}
+
+TEST_CASE("perfect poses are the true ones") {
+  SimulationOptions options = small(3);
+  options.pose_noise = 0.0;
+  const auto sequence = make_simulated(options);
+  CHECK(sequence->pose(2).matrix() == sequence->true_pose(2).matrix());
+  options.pose_noise = -1.0;
+  CHECK_THROWS_AS(make_simulated(options), UsageError);
+}
+
+TEST_CASE("a sequence longer than its route is refused, one on a closed route is not") {
+  SimulationOptions options = small(5000);  // town: 380 m at 5 to 7 m/s are some 600 scans
+  CHECK_THROWS_AS(make_simulated(options), UsageError);
+  options.scene = "long";
+  options.scans = 6000;
+  CHECK(make_simulated(options)->size() == 6000);
+}
+
+TEST_CASE("labels are refused for a scan that was changed") {
+  const auto sequence = make_simulated(small(2));
+  Scan scan = sequence->load(1);
+  scan.points.pop_back();
+  CHECK_THROWS_AS(sequence->labels(scan), DataError);
+  CHECK_THROWS_AS(sequence->load(2), UsageError);
+}
+
+TEST_CASE("the suites name scenes that exist") {
+  for (const SimulationSuite& suite : simulation_suites()) {
+    CHECK(&simulation_suite(suite.name) == &suite);
+    for (const SimulationOptions& options : suite.sequences) {
+      CHECK_FALSE(simulated_scene_text(options.scene).empty());
+    }
+  }
+  CHECK_THROWS_AS(simulation_suite("simulated-qick"), UsageError);
+}
