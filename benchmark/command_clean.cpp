@@ -95,14 +95,16 @@ ExitCode clean(const CleanFlags& flags) {
   if (!flags.dynamic.empty()) check_cloud_path(flags.dynamic);
   if (flags.output == flags.dynamic) throw UsageError("-o and --dynamic name the same file.");
   if (!flags.voxel.empty()) (void)parse_positive("--voxel", flags.voxel);
-  (void)parse_threads(flags.threads);
   const ConfiguredMethod method = configured(flags);
-  const Sequence sequence = open_sequence(flags.path, flags.reading.options());
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  const int given = parse_threads(flags.threads);
+  const Sequence sequence =
+      open_sequence(flags.path, flags.reading.options(),
+                    {given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()});
   if (sequence.scans->size() == 0) {
     throw DataError("sequence '" + sequence.name + "' has no scan in the chosen frames (" +
                     sequence.frames + ").");
   }
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   const MaskStore masks = find_removals(flags, method, sequence, progress);
   write_outputs(flags, sequence, masks, progress);
   std::size_t points = 0;
@@ -118,7 +120,8 @@ Command add_clean_command(CLI::App& program) {
   auto flags = std::make_shared<CleanFlags>();
   CLI::App* app = program.add_subcommand("clean", "Writes a map without moving objects");
   app->allow_extras();
-  app->add_option("path", flags->path, "Sequence folder, ROOT:05, or `street`")->type_name("PATH");
+  app->add_option("path", flags->path, "Sequence folder, ROOT:05, `street`, or a scene")
+      ->type_name("PATH");
   app->add_option("-o,--output", flags->output, "Cleaned map in the world frame: .pcd, .ply, .bin")
       ->type_name("FILE");
   app->add_option("--dynamic", flags->dynamic, "What was removed, as a map")->type_name("FILE");

@@ -76,17 +76,19 @@ ExitCode run_program(int argc, const char* const* argv) {
   program.footer(
       "Examples:\n"
       "  raymoval run --sequence street --method raymoval:online --out out/street\n"
+      "  raymoval run simulated --out out/simulated\n"
       "  raymoval table out/street\n"
       "  raymoval compare out/street results/reference/street\n"
       "  raymoval describe raymoval\n"
       "  raymoval clean data/05 -o static.pcd\n"
+      "  raymoval simulate town -o data/town\n"
       "`raymoval COMMAND --help` says more. Exit codes: 0 done, 1 a cell or a check failed or got "
       "worse,\n"
       "2 cannot be done as asked, 3 internal error.");
-  const std::vector<Command> commands = {add_run_command(program),      add_table_command(program),
-                                         add_compare_command(program),  add_list_command(program),
-                                         add_describe_command(program), add_score_command(program),
-                                         add_clean_command(program)};
+  const std::vector<Command> commands = {
+      add_run_command(program),   add_table_command(program),    add_compare_command(program),
+      add_list_command(program),  add_describe_command(program), add_score_command(program),
+      add_clean_command(program), add_simulate_command(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,9 +3,12 @@
 #include <memory>
 
 #include "benchmark/commands.h"
+#include "benchmark/shipped_suites.h"
 #include "core/sensor_model.h"
 #include "core/text.h"
 #include "datasets/semantickitti/semantickitti.h"
+#include "datasets/simulated/library.h"
+#include "datasets/simulated/scene_text.h"
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -42,8 +45,30 @@ Lines sensor_lines() {
   return lines;
 }
 
+Lines scene_lines() {
+  Lines lines;
+  for (const std::string& name : simulated_scene_names()) {
+    const simulated::WorldFile world = simulated::parse_world(simulated::find_world(name));
+    lines.emplace_back(name, world.description + " (" +
+                                 grouped_text(static_cast<std::uint64_t>(world.scans)) +
+                                 " scans, " + world.sensor + ")");
+  }
+  return lines;
+}
+
+Lines simulated_sensor_lines() {
+  Lines lines;
+  for (const std::string& name : simulated_sensor_names()) {
+    lines.emplace_back(name, simulated::parse_sensor(simulated::find_sensor(name)).description);
+  }
+  return lines;
+}
+
 Lines sequence_lines() {
-  Lines lines = {{"street", "built-in procedural scene, needs no data"},
+  Lines lines = {{"street", "small built-in scene, needs no data"},
+                 {"SCENE", "a scene of `raymoval list scenes`, simulated once and cached"},
+                 {"SCENE:key=value,...",
+                  "the same with scans=N, seed=N, sensor=NAME, pose_noise=F, rolling=skewed"},
                  {"FOLDER", "a folder in SemanticKITTI or DynamicMap layout, or one of scan files"},
                  {"ROOT:05", "a whole sequence of a SemanticKITTI root folder"}};
   for (const PaperSegment& segment : paper_segments()) {
@@ -51,6 +76,13 @@ Lines sequence_lines() {
                                                    frame_range_text(segment.frames) +
                                                    ", as papers compare on");
   }
+  return lines;
+}
+
+Lines suite_lines() {
+  Lines lines;
+  for (const std::string& name : shipped_suite_names())
+    lines.emplace_back(name, suite_sentence(name));
   return lines;
 }
 
@@ -72,7 +104,10 @@ ExitCode list(const std::string& what) {
       {"variants", [] { return method_lines(true); }},
       {"protocols", protocol_lines},
       {"sensors", sensor_lines},
-      {"sequences", sequence_lines}};
+      {"sequences", sequence_lines},
+      {"scenes", scene_lines},
+      {"simulated-sensors", simulated_sensor_lines},
+      {"suites", suite_lines}};
   std::vector<std::string> names;
   bool found = false;
   for (const auto& [name, make] : lists) {
@@ -89,9 +124,12 @@ ExitCode list(const std::string& what) {
 
 Command add_list_command(CLI::App& program) {
   auto what = std::make_shared<std::string>();
-  CLI::App* app = program.add_subcommand("list", "Names methods, protocols, sensors, sequences");
+  CLI::App* app =
+      program.add_subcommand("list", "Names methods, protocols, sensors, scenes, suites");
   app->allow_extras();
-  app->add_option("what", *what, "methods, variants, protocols, sensors or sequences; all if empty")
+  app->add_option("what", *what,
+                  "methods, variants, protocols, sensors, sequences, scenes, "
+                  "simulated-sensors or suites; all if empty")
       ->type_name("WHAT");
   app->footer("Examples:\n  raymoval list\n  raymoval list variants");
   return {app, [what] { return list(*what); }};

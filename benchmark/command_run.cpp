@@ -4,6 +4,7 @@
 
 #include "benchmark/commands.h"
 #include "benchmark/runner.h"
+#include "benchmark/shipped_suites.h"
 #include "core/files.h"
 #include "core/text.h"
 
@@ -53,8 +54,8 @@ Suite suite_from_flags(const RunFlags& flags, const MethodRegistry& registry) {
 Suite resolved_suite(const RunFlags& flags) {
   const MethodRegistry& registry = MethodRegistry::built_in();
   if (!flags.suite.empty()) check_suite_alone(flags);
-  Suite suite =
-      flags.suite.empty() ? suite_from_flags(flags, registry) : read_suite(flags.suite, registry);
+  Suite suite = flags.suite.empty() ? suite_from_flags(flags, registry)
+                                    : read_suite(find_suite(flags.suite), registry);
   std::vector<Setting> settings;
   for (const std::string& text : flags.settings) settings.push_back(parse_setting(text));
   apply_settings(suite, settings);
@@ -106,9 +107,10 @@ Command add_run_command(CLI::App& program) {
   auto flags = std::make_shared<RunFlags>();
   CLI::App* app = program.add_subcommand("run", "Runs methods on sequences and scores them");
   app->allow_extras();
-  app->add_option("suite", flags->suite, "Suite file (JSON, comments allowed)")
-      ->type_name("SUITE.json");
-  app->add_option("--sequence", flags->sequences, "Sequence folder, ROOT:05, or `street`")
+  app->add_option("suite", flags->suite,
+                  "Suite file (JSON, comments allowed), or name of a shipped suite")
+      ->type_name("SUITE");
+  app->add_option("--sequence", flags->sequences, "Sequence folder, ROOT:05, `street`, or a scene")
       ->type_name("PATH")
       ->allow_extra_args(false);
   app->add_option("--method", flags->methods, "Method to run, NAME or NAME:variant")
@@ -132,6 +134,8 @@ Command add_run_command(CLI::App& program) {
       "  raymoval run --sequence street --method raymoval:online --out out/street\n"
       "  raymoval run --sequence data/05 --frames 0:100 --method raymoval --set raymoval.tau0=0.2 "
       "--out out/05\n"
+      "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"
+      "  raymoval run simulated --out out/simulated\n"
       "  raymoval run suite.json --out out/suite --threads 2");
   return {app, [flags] { return run(*flags); }};
 }

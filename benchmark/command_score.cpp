@@ -76,9 +76,11 @@ ExitCode score(const ScoreFlags& flags) {
   for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");
   if (suite.protocols.empty()) add_protocol(suite, "erasor", "");
   const int given = parse_threads(flags.threads);
+  const int threads = given > 0 ? given : hardware_threads();
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
-  SequenceBench bench(open_sequence(flags.sequence, flags.reading.options()), suite.protocols,
-                      given > 0 ? given : hardware_threads(), &progress);
+  SequenceBench bench(open_sequence(flags.sequence, flags.reading.options(),
+                                    {threads, &progress, &interrupt_flag()}),
+                      suite.protocols, threads, &progress);
   const nlohmann::ordered_json record = score_record(bench, flags, progress);
   if (!flags.json.empty()) write_atomically(flags.json, json_text(record));
   return ExitCode::kDone;
@@ -90,7 +92,7 @@ Command add_score_command(CLI::App& program) {
   auto flags = std::make_shared<ScoreFlags>();
   CLI::App* app = program.add_subcommand("score", "Scores label files made by any program");
   app->allow_extras();
-  app->add_option("--sequence", flags->sequence, "Sequence folder, ROOT:05, or `street`")
+  app->add_option("--sequence", flags->sequence, "Sequence folder, ROOT:05, `street`, or a scene")
       ->type_name("PATH");
   app->add_option("--predictions", flags->predictions,
                   "Folder of NNNNNN.label files: 251 to 259 = removed, others kept")

@@ -28,6 +28,7 @@ Command add_list_command(CLI::App& program);
 Command add_describe_command(CLI::App& program);
 Command add_score_command(CLI::App& program);
 Command add_clean_command(CLI::App& program);
+Command add_simulate_command(CLI::App& program);
 
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {

@@ -44,10 +44,10 @@ void prepare_run_folder(const path& out) {
   make_folder(out);
 }
 
-std::vector<Sequence> open_sequences(const Suite& suite) {
+std::vector<Sequence> open_sequences(const Suite& suite, const OpenContext& context) {
   std::vector<Sequence> sequences;
   for (const SequenceRequest& request : suite.sequences) {
-    sequences.push_back(open_sequence(request.path, request.options));
+    sequences.push_back(open_sequence(request.path, request.options, context));
     check_has_labels(sequences.back());
     for (std::size_t i = 0; i + 1 < sequences.size(); ++i) {
       if (folder_name(sequences[i].name) == folder_name(sequences.back().name)) {
@@ -94,7 +94,8 @@ class Runner {
         threads_(suite.threads > 0 ? suite.threads : hardware_threads()) {}
 
   RunSummary run() {
-    std::vector<Sequence> sequences = open_sequences(suite_);
+    std::vector<Sequence> sequences =
+        open_sequences(suite_, {threads_, options_.progress, options_.cancel});
     for (const ProtocolRequest& request : suite_.protocols) {
       (void)make_protocol(request.protocol, request.options);  // Bad options show before the work.
     }

@@ -7,6 +7,7 @@
 
 #include "core/files.h"
 #include "core/text.h"
+#include "datasets/simulated/scene_text.h"
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -51,10 +52,11 @@ RangeLimits range_of(const json& object, const std::string& where) {
 }
 
 /// A path of a suite file: beside the file if it is there, else as it stands. `ROOT:05` names a
-/// part of ROOT, so what follows the last colon does not count; `street` is the built-in scene.
+/// part of ROOT, so what follows the last colon does not count; names of built-in scenes stay.
 std::string located(const std::string& path, const std::filesystem::path& folder) {
   const std::filesystem::path given(path);
   if (given.is_absolute() || path == "street") return path;
+  if (path.find('/') == std::string::npos && names_scene(path)) return path;
   const std::filesystem::path beside = folder / given;
   const std::string text = beside.string();
   const std::size_t colon = text.rfind(':');

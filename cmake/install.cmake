@@ -9,6 +9,8 @@ foreach(room core datasets methods eval)
   install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raymoval
           FILES_MATCHING PATTERN "*.h")
 endforeach()
+install(DIRECTORY benchmark/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
+        FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY results/published DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval)
 install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir})
 configure_package_config_file(cmake/raymovalConfig.cmake.in raymovalConfig.cmake

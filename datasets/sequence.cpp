@@ -15,6 +15,7 @@
 #include "datasets/files/files.h"
 #include "datasets/frames.h"
 #include "datasets/semantickitti/semantickitti.h"
+#include "datasets/simulated/scene_text.h"
 #include "datasets/simulated/street.h"
 
 namespace raymoval {
@@ -25,7 +26,8 @@ namespace fs = std::filesystem;
 constexpr const char* kKnownLayouts =
     "Known are: a SemanticKITTI sequence (velodyne/*.bin, poses.txt, calib.txt), a SemanticKITTI "
     "root as ROOT:05 or ROOT:kitti-05 (sequences/NN), a DynamicMap sequence (pcd/*.pcd), a folder "
-    "of .pcd, .ply or .bin scans with poses.txt, and 'street', the built-in scene.";
+    "of .pcd, .ply or .bin scans with poses.txt, 'street', the built-in scene, and the simulated "
+    "scenes of `raymoval list scenes`.";
 
 /// Up to eight names in `folder`, for messages.
 std::string content_text(const fs::path& folder) {
@@ -52,6 +54,22 @@ Sequence open_folder(const fs::path& folder, const SequenceOptions& options) {
   }
   throw DataError(folder.string() + ": no known layout; found " + content_text(folder) + ". " +
                   kKnownLayouts);
+}
+
+/// The nearest scene name, for a path that leads nowhere; empty if none is near.
+std::string scene_suggestion(const std::string& name) {
+  std::vector<std::string> names = simulated_scene_names();
+  names.emplace_back("street");
+  const auto near = closest_name(name, names);
+  return near ? " Did you mean the scene '" + *near + "'?" : "";
+}
+
+/// Generated unless it is in the cache, then read like a recorded drive.
+Sequence open_scene(const std::string& text, const SequenceOptions& options,
+                    const OpenContext& context) {
+  return open_semantickitti(cached_simulation(parse_scene(text), default_cache_root(),
+                                              context.threads, context.progress, context.cancel),
+                            options);
 }
 
 /// Adds plain numbers as bytes.
@@ -111,8 +129,10 @@ nlohmann::ordered_json Sequence::record() const {
   return record;
 }
 
-Sequence open_sequence(const std::string& path, const SequenceOptions& options) {
+Sequence open_sequence(const std::string& path, const SequenceOptions& options,
+                       const OpenContext& context) {
   if (path == "street") return open_street(options);
+  if (names_scene(path)) return open_scene(path, options, context);
   if (is_folder(path)) return open_folder(path, options);
   std::error_code error;
   if (fs::exists(path, error)) {
@@ -121,7 +141,7 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options) 
   const std::size_t colon = path.rfind(':');
   const std::string root = path.substr(0, colon);
   if (colon == std::string::npos || !is_folder(root)) {
-    throw DataError(root + ": no such folder. " + kKnownLayouts);
+    throw DataError(root + ": no such folder." + scene_suggestion(root) + " " + kKnownLayouts);
   }
   return open_semantickitti_root(root, path.substr(colon + 1), options);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "core/label_rule.h"
+#include "core/progress.h"
 #include "core/range_limits.h"
 #include "core/scan_source.h"
 
@@ -54,16 +56,31 @@ struct Sequence {
   [[nodiscard]] nlohmann::ordered_json record() const;
 };
 
+/// With what a simulated scene is generated that is not in the cache yet.
+struct OpenContext {
+  int threads = 1;
+  Progress* progress = nullptr;
+  const std::atomic<bool>* cancel = nullptr;
+};
+
 /// Opens a sequence. `path` is one of:
 /// - a sequence folder, its layout told by what is in it: `velodyne/` (SemanticKITTI), `pcd/` (KTH
 ///   DynamicMap), or `.pcd`, `.ply`, `.bin` scans beside a pose file;
 /// - `ROOT:05`, the whole sequence `ROOT/sequences/05` of a SemanticKITTI root;
 /// - `ROOT:kitti-05`, the segment of that sequence which the field compares on (kitti-00, -01, -02,
 ///   -05, -07, see `paper_segments`); `options.frames` replaces its frame range;
-/// - `street`, the built-in procedural scene (write `./street` for a folder of that name).
+/// - `street`, the small built-in scene, made in memory (write `./street` for a folder of that
+///   name);
+/// - a simulated scene (see `raymoval list scenes`) or the path of a scene file, with options or
+///   without: `town`, `town:scans=60,seed=3,sensor=vlp16,pose_noise=0,rolling=skewed`. `sensor` is
+///   a name or path of a simulated sensor; what is not given is as `SimulationOptions` says. It is
+///   generated once into the cache folder (`default_cache_root`) and read from there like any
+///   other sequence in SemanticKITTI layout.
 /// A `sequence.json` in the folder may say more, see `read_settings`; `options` stand above it.
-/// @throws DataError, UsageError or ConfigurationError saying what was found and what was expected
-Sequence open_sequence(const std::string& path, const SequenceOptions& options);
+/// @throws DataError, UsageError or ConfigurationError saying what was found and what was expected;
+/// Cancelled
+Sequence open_sequence(const std::string& path, const SequenceOptions& options,
+                       const OpenContext& context = {});
 
 /// Hash of everything a method or protocol reads: points, reflectance, times, poses and labels of
 /// the chosen frames, sensor model, label rule and range limits. File and sequence names are left

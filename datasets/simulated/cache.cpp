@@ -63,7 +63,7 @@ fs::path default_cache_root() {
 }
 
 fs::path cached_simulation(const SimulationOptions& options, const fs::path& cache_root,
-                           int threads, Progress* progress) {
+                           int threads, Progress* progress, const std::atomic<bool>* cancel) {
   const simulated::NamedText world = simulated::find_world(options.scene);
   const simulated::WorldFile file = simulated::parse_world(world);
   const simulated::NamedText sensor =
@@ -77,7 +77,7 @@ fs::path cached_simulation(const SimulationOptions& options, const fs::path& cac
   if (fs::is_directory(folder)) return folder;
   sweep_leftovers(folder.parent_path());
   try {
-    write_simulated(options, folder, threads, progress);
+    write_simulated(options, folder, threads, progress, cancel);
   } catch (const DataError&) {
     if (!fs::is_directory(folder)) throw;  // else another run was faster with the same bytes
   }

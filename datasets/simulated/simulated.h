@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -82,9 +83,10 @@ std::string simulated_sensor_text(const std::string& name);
 /// Writes the SemanticKITTI layout: velodyne/, labels/, poses.txt (camera convention), calib.txt,
 /// times.txt, sequence.json, and movers.json (who moved when). `folder` appears whole or not at
 /// all.
-/// @throws DataError if `folder` exists or cannot be written.
+/// @param cancel checked before each scan
+/// @throws DataError if `folder` exists and is not an empty folder, or cannot be written; Cancelled
 void write_simulated(const SimulationOptions& options, const std::filesystem::path& folder,
-                     int threads, Progress* progress);
+                     int threads, Progress* progress, const std::atomic<bool>* cancel = nullptr);
 
 /// $RAYMOVAL_CACHE, else $XDG_CACHE_HOME/raymoval, else ~/.cache/raymoval.
 /// @throws ConfigurationError if none of the variables nor HOME is set.
@@ -95,7 +97,8 @@ std::filesystem::path default_cache_root();
 /// same one at once; one that was killed leaves nothing that is taken for whole.
 std::filesystem::path cached_simulation(const SimulationOptions& options,
                                         const std::filesystem::path& cache_root, int threads,
-                                        Progress* progress);
+                                        Progress* progress,
+                                        const std::atomic<bool>* cancel = nullptr);
 
 /// Sequences that are run together.
 struct SimulationSuite {

@@ -188,9 +188,11 @@ class TemporaryFolder {
 };
 
 void write_all(const SimulationOptions& options, const SimulatedSequence& sequence,
-               const fs::path& folder, int threads, Progress* progress) {
+               const fs::path& folder, int threads, Progress* progress,
+               const std::atomic<bool>* cancel) {
   if (progress != nullptr) progress->begin("simulating " + sequence.name(), sequence.size());
   parallel_for(threads, sequence.size(), 1, [&](std::size_t i) {
+    if (cancel != nullptr && cancel->load()) throw Cancelled();
     write_scan(sequence, i, folder);
     if (progress != nullptr) progress->advance();
   });
@@ -203,9 +205,12 @@ void write_all(const SimulationOptions& options, const SimulatedSequence& sequen
 }  // namespace
 
 void write_simulated(const SimulationOptions& options, const fs::path& folder, int threads,
-                     Progress* progress) {
-  if (fs::exists(folder)) {
-    throw DataError(folder.string() + ": exists already; remove it or choose another folder.");
+                     Progress* progress, const std::atomic<bool>* cancel) {
+  std::error_code unreadable;
+  if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder, unreadable))) {
+    throw DataError(
+        folder.string() +
+        ": exists already and is not an empty folder; remove it or choose another one.");
   }
   const auto sequence = make_simulated(options, threads);
   if (folder.has_parent_path()) {
@@ -213,7 +218,7 @@ void write_simulated(const SimulationOptions& options, const fs::path& folder, i
     fs::create_directories(folder.parent_path(), error);
   }
   TemporaryFolder temporary(folder);
-  write_all(options, *sequence, temporary.path(), threads, progress);
+  write_all(options, *sequence, temporary.path(), threads, progress, cancel);
   std::error_code error;
   fs::rename(temporary.path(), folder, error);
   if (error) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/shipped_suites.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "datasets/frames.h"
+
+namespace raymoval {
+namespace {
+
+/// The source folder comes first, so that a changed suite counts at once for who builds it.
+std::filesystem::path suite_folder() {
+  for (const char* folder : {RAYMOVAL_SOURCE_SUITES, RAYMOVAL_INSTALLED_SUITES}) {
+    if (is_folder(folder)) return folder;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> shipped_suite_names() {
+  const std::filesystem::path folder = suite_folder();
+  std::vector<std::string> names;
+  if (folder.empty()) return names;
+  for (const auto& path : list_files(folder, {".json"})) names.push_back(path.stem().string());
+  return names;
+}
+
+std::string suite_sentence(const std::string& name) {
+  const std::string text = read_text(find_suite(name));
+  const std::string first = text.substr(0, text.find('\n'));
+  return first.starts_with("// ") ? first.substr(3) : "";
+}
+
+std::filesystem::path find_suite(const std::string& name_or_path) {
+  if (is_file(name_or_path)) return name_or_path;
+  const std::vector<std::string> names = shipped_suite_names();
+  for (const std::string& name : names) {
+    if (name == name_or_path) return suite_folder() / (name + ".json");
+  }
+  if (names.empty()) {
+    throw UsageError(name_or_path + ": no such suite file, and the shipped suites are neither in " +
+                     RAYMOVAL_SOURCE_SUITES + " nor in " + RAYMOVAL_INSTALLED_SUITES +
+                     ". Install raymoval again.");
+  }
+  throw UsageError(name_or_path + ": no such suite file, and no shipped suite has this name." +
+                   suggestion(name_or_path, names));
+}
+
+}  // namespace raymoval
