@@ -11,7 +11,7 @@ namespace raymoval {
 /// How progress is told on standard error.
 enum class ProgressStyle {
   kQuiet,     ///< Not at all.
-  kLog,       ///< A line at the start and every half minute.
+  kLog,       ///< A line every half minute.
   kTerminal,  ///< One line, rewritten, with an estimate of the time left.
 };
 

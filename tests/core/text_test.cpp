@@ -83,6 +83,7 @@ TEST_CASE("Digits are grouped by three") {
 
 TEST_CASE("A number is the whole text or nothing") {
   CHECK(parse_number<double>("+2.5") == 2.5);
+  CHECK_FALSE(parse_number<double>("+-2.5").has_value());
   CHECK(parse_number<double>("-1e-3") == -1e-3);
   CHECK(parse_number<int>("-12") == -12);
   for (const char* bad : {"", "+", "-", " 1", "1 ", "1\n", "1,5", "1.5.2", "0x10", "1e", "1e999",
