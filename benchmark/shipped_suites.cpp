@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/shipped_suites.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
@@ -24,6 +26,7 @@ std::vector<std::string> shipped_suite_names() {
   std::vector<std::string> names;
   if (folder.empty()) return names;
   for (const auto& path : list_files(folder, {".json"})) names.push_back(path.stem().string());
+  std::sort(names.begin(), names.end());  // "simulated" before "simulated-long"
   return names;
 }
 

@@ -43,10 +43,11 @@ short=(--sequence street --frames 0:2 --quiet)
 
 # Help and listings.
 expect 0 "Examples" --help
-for command in run table compare list describe score clean; do expect 0 "Examples" "$command" --help; done
+for command in run table compare list describe score clean simulate; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
-for what in methods variants protocols sensors sequences; do expect 0 "" list "$what"; done
+for what in methods variants protocols sensors sequences scenes simulated-sensors \
+  suites; do expect 0 "" list "$what"; done
 for name in raymoval raymoval:online noop erasor; do
   for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
 done
@@ -193,6 +194,52 @@ expect 2 ".pcd" clean street -o map.xyz
 expect 2 "--voxel" clean street -o map2.pcd --voxel 0
 expect 2 "same file" clean street -o map2.pcd --dynamic map2.pcd
 holds "no refused map was written" test ! -e map2.pcd
+
+# Simulated scenes: written to a folder, and used by name through the cache.
+export RAYMOVAL_CACHE=$work/cache
+tiny=(--scans 2 --sensor vlp16 --quiet)
+expect 0 "2 scans" simulate town -o sim/town "${tiny[@]}" --seed 3 --threads 1
+for file in velodyne/000001.bin labels/000001.label poses.txt calib.txt sequence.json; do
+  holds "a simulated sequence has $file" test -s sim/town/$file
+done
+mkdir empty
+expect 0 "2 scans" simulate town -o empty "${tiny[@]}" --seed 3 --threads 2
+holds "the same options give the same bytes" diff -r sim/town empty
+expect 0 "2 scans" simulate town -o seed4 "${tiny[@]}" --seed 4
+holds "another seed gives other scans" test "$(cmp -s sim/town/velodyne/000001.bin \
+  seed4/velodyne/000001.bin; echo $?)" -eq 1
+expect 2 "not an empty folder" simulate town -o sim/town "${tiny[@]}"
+expect 2 "Did you mean 'town'" simulate tow -o other_sim "${tiny[@]}"
+expect 2 "Did you mean 'vlp16'" simulate town -o other_sim --sensor vlp1
+expect 2 "'skewed'" simulate town -o other_sim --rolling skew
+expect 2 "contradict" simulate town -o other_sim --perfect-poses --pose-noise 1
+for wrong in "--scans 0" "--scans two" "--seed -1" "--pose-noise -1" "--threads 0"; do
+  # shellcheck disable=SC2086
+  expect 2 "${wrong% *}" simulate town -o other_sim $wrong
+done
+expect 2 "simulate what" simulate -o other_sim
+expect 2 "-o DIR" simulate town
+holds "no refused simulation left a folder" test ! -e other_sim
+holds "nothing half written is left" test -z "$(find . -name '*.part')"
+expect 0 "All controls are as they must be" run --sequence sim/town --method noop --quiet \
+  --out run_folder
+expect 0 "All controls are as they must be" run --quiet --method noop \
+  --sequence town:scans=2,sensor=vlp16,seed=3 --out run_scene
+fingerprint() { grep -o '"fingerprint": "[^"]*"' "$1/cells/town/oracle-default/cell.json"; }
+holds "a cell tells its data's fingerprint" test -n "$(fingerprint run_folder)"
+holds "a scene by name is what simulate writes" test "$(fingerprint run_folder)" = \
+  "$(fingerprint run_scene)"
+holds "the record tells scene and seed" grep -q 'scene town, sensor vlp16, seed 3' \
+  run_scene/run.json
+stamp=$(find cache -exec stat -c '%n %y' {} + | sort)
+expect 0 "removed" clean town:scans=2,sensor=vlp16,seed=3 --method noop --quiet -o town.pcd
+holds "what is in the cache is not made again" test "$stamp" = \
+  "$(find cache -exec stat -c '%n %y' {} + | sort)"
+for wrong in "town:scan=2 'scans'" "town:scans=x town:scans=x" "town:scans=2,scans=3 twice" \
+  "town:05 key=value" "suburbs 'suburb'"; do
+  expect 2 "${wrong#* }" run --sequence "${wrong% *}" --method noop --quiet --out other_sim
+done
+expect 2 "Did you mean 'simulated'" run simulatd --out other_sim
 
 # An interrupted run ends by itself and goes on later.
 "$raymoval" run --sequence street --quiet --method raymoval:online --out stopped >out.txt 2>err.txt &
