@@ -12,7 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scripts/install_dependencies.sh
 cmake --preset release
-cmake --build --preset release
+cmake --build --preset release --target raymoval_program
 
 # Paths are meant from where the script was called.
 from_caller() {
