@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval/consistency.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace raymoval {
 
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
@@ -13,6 +16,10 @@ Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_
     dynamic[k] = reference - scan.range[k] > margin.at(scan.range[k]) ? 1 : 0;
   }
   return dynamic;
+}
+
+double grazing_distance(double vertical, double height, double limit) {
+  return std::min(limit, height / std::max(std::abs(vertical), 1e-9));
 }
 
 std::vector<int> find_seen_through(const ProjectedScan& scan,

@@ -22,6 +22,12 @@ struct RangeMargin {
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
                        const RangeMargin& margin);
 
+/// Distance that a ray takes to change its height by `height` metres, but at most `limit`: a return
+/// nearer than that behind a first hit may be the same ground, seen at a grazing angle through the
+/// empty upper part of its voxels.
+/// @param vertical z of the ray's unit direction in the world
+double grazing_distance(double vertical, double height, double limit);
+
 /// The opposite case, "erase" in the paper's overview: bins through which the scan sees. The
 /// nearest return of the bin's neighbourhood lies beyond the map reference by more than the margin
 /// at the map's range, and beyond the bin's own first hit by more than the margin's constant part.

@@ -56,6 +56,13 @@ void add_tests(Table& table) {
               {"m", 0, 10, kOurs, "Constant part of the erase test's margin."})
       .number("erase_tau1", &P::erase_tau1,
               {"", 0, 2, kOurs, "Part of the erase test's margin that grows with the map's range."})
+      .number("erase_height", &P::erase_height,
+              {"voxels", 0, 10, kOurs,
+               "The ray must have changed its height by this much between the first hit and the "
+               "return behind it; less may be one surface seen at a grazing angle."})
+      .number("erase_height_limit", &P::erase_height_limit,
+              {"m", 0, 100, kOurs,
+               "Beyond this distance behind the first hit no change of height is asked for."})
       .number("erase_percentile", &P::erase_percentile,
               {"", 0, 1, "eq. 9 ('lower quantile' in the text)",
                "Quantile of the window of first hits in the erase test."})

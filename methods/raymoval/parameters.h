@@ -35,6 +35,8 @@ struct RaymovalParameters {
   double erase_tau0 = 0.30;
   double erase_tau1 = 0.10;
   double erase_percentile = 0.1;
+  double erase_height = 1.0;
+  double erase_height_limit = 5.0;
   int erase_azimuth_window = 1;
   int erase_elevation_window = -1;
   bool permanent_erase = true;

@@ -156,8 +156,15 @@ class RaymovalPass {
                          erase_rows_, context_.threads);
     for (const int bin : find_seen_through(prepared.projected, nearest_return, first_hit, reference,
                                            {parameters_.erase_tau0, parameters_.erase_tau1})) {
-      const VoxelKey voxel = first_hit.voxel[static_cast<std::size_t>(bin)];
-      if (!prepared.own_voxels.contains(voxel)) map_.erase(voxel_index(voxel));
+      const auto at = static_cast<std::size_t>(bin);
+      const Eigen::Vector3d direction =
+          prepared.scan.T_world_sensor.linear() * grid_.direction(bin);
+      const bool along_surface =
+          nearest_return[at] - first_hit.range[at] <
+          grazing_distance(direction.z(), parameters_.erase_height * parameters_.voxel_size,
+                           parameters_.erase_height_limit);
+      if (along_surface || prepared.own_voxels.contains(first_hit.voxel[at])) continue;
+      map_.erase(voxel_index(first_hit.voxel[at]));
     }
   }
 

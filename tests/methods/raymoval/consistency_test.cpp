@@ -38,6 +38,16 @@ TEST_CASE("a bin is seen through if its scan lies beyond the map by the margin a
   CHECK(find_seen_through(scan, nearest, hits, reference, {0.3, 0.1}) == std::vector<int>{1});
 }
 
+TEST_CASE("flat ground seen at a grazing angle is not seen through") {
+  // A ray that falls 0.05 m a metre crosses 0.2 m of height in 4 m, whichever way it goes.
+  CHECK(grazing_distance(-0.05, 0.2, 5.0) == Approx(4.0));
+  CHECK(grazing_distance(0.05, 0.2, 5.0) == Approx(4.0));
+  // Level rays would never cross it: the limit stands in.
+  CHECK(grazing_distance(-0.001, 0.2, 5.0) == Approx(5.0));
+  CHECK(grazing_distance(0.0, 0.2, 5.0) == Approx(5.0));
+  CHECK(grazing_distance(-1.0, 0.2, 5.0) == Approx(0.2));
+}
+
 TEST_CASE("no return counts only within the sensor's view and the range asked for") {
   const AngularGrid grid{4, 1, -0.1, 0.1};  // Columns at -135, -45, 45 and 135 degrees.
   SensorModel sensor;

@@ -95,6 +95,19 @@ TEST_CASE("a thin pole before a wall is not seen through by its neighbours") {
   CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 7) < 0.05);
 }
 
+TEST_CASE("a road that lies low in its voxels stays whole while the sensor drives over it") {
+  // The surface is 2 cm above a voxel wall: rays cross up to 0.18 m of empty height in its voxels.
+  const Box road{{-40, -6, -2}, {60, 6, -1.38}};
+  World world{toy::Scanner{}};
+  for (int i = 0; i < 20; ++i) world.scan({kWall, road}, pose_at(0.37 * i - 8, 0.02, 0.03));
+  const MaskStore masks = run("offline", world);
+  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 19) < 0.02);
+  // The distance along the surface is what saves it.
+  ConfiguredMethod method = configured("offline");
+  set_parameter(method.configuration, "erase_height", 0.0);
+  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 0, 19) > 0.05);
+}
+
 TEST_CASE("a sensor that sees only ahead judges only what it sees") {
   toy::Scanner scanner;
   scanner.azimuth_from = -30;
