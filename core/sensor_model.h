@@ -34,9 +34,9 @@ std::vector<std::string> sensor_model_names();
 /// @throws ConfigurationError for an unknown name; the message lists the known ones.
 SensorModel sensor_model_named(const std::string& name);
 
-/// Field of view, azimuth step and ranges as seen in `scans` (at least one with points); the distance
-/// of the beams stays unknown (0). The field of view is the range of angles that holds 99.98 % of the
-/// points, widened by one step on either side.
+/// Field of view, azimuth step and ranges as seen in `scans` (at least one with points); the
+/// distance of the beams stays unknown (0). The field of view is the range of angles that
+/// holds 99.98 % of the points, widened by one step on either side.
 /// @throws DataError if there is no point to look at.
 SensorModel estimate_sensor_model(const std::vector<Scan>& scans);
 

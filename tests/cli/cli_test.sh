@@ -117,7 +117,7 @@ expect 2 "--time-band" compare run reference --time-band 3
 expect 2 "two results" compare run
 expect 2 "no such run folder" compare run nowhere
 for wrong in F1 =1 F1=x F1=-1; do expect 2 "METRIC=NUMBER" compare run reference --tolerance $wrong; done
-expect 2 "Supported are: F1, PR, RR" compare run reference --tolerance F2=1
+expect 2 "Did you mean 'F1'" compare run reference --tolerance F2=1
 expect 2 "at least 1" compare run reference --time-band 0.5
 "$raymoval" run "${short[@]}" --method raymoval:online --set raymoval.tau0=0.4 --out other_tau \
   >out.txt 2>err.txt
