@@ -95,7 +95,7 @@ class RaymovalPass {
     return dynamic;
   }
 
-  /// Loads a scan, finds the voxel of each point and projects it (eqs 1-3, 10).
+  /// Finds the voxel of each point and projects it (eqs 1-3, 10).
   [[nodiscard]] PreparedScan prepare(Scan scan) const {
     const StageScope timed(context_.times, "binning");
     PreparedScan prepared;
