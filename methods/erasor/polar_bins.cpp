@@ -18,7 +18,7 @@ PolarBins::PolarBins(const ErasorParameters& parameters)
 int PolarBins::bin_of(const Eigen::Vector3d& body) const {
   if (!(body.z() > minimum_height_ && body.z() < maximum_height_)) return -1;
   const double square = body.x() * body.x() + body.y() * body.y();
-  if (square > range_ * range_) return -1;
+  if (!(square <= range_ * range_)) return -1;
   const int ring = std::min(static_cast<int>(std::sqrt(square) * rings_per_metre_), rings_ - 1);
   double theta = std::atan2(body.y(), body.x());
   // Also for y = -0 and x < 0, where the angle is -pi and a test of y alone would let it pass.

@@ -157,11 +157,13 @@ TEST_CASE("a street comes out as the slow method has it", "[erasor]") {
   }
 }
 
-TEST_CASE("the movers of a street go and its road stays", "[erasor]") {
-  const toy::World world = toy::street(10);
+TEST_CASE("the car of a street goes and its road stays", "[erasor]") {
+  // Over 30 scans the sensor comes to where the car was. The rest of the car was never seen from a
+  // bin whose ground shows. Measured: car 0.58, road 0.0003.
+  const toy::World world = toy::street(30);
   const MaskStore masks = toy::masks_of(*make_erasor(street_parameters()), world);
-  CHECK(toy::removed_share(world, masks, 3, 0, 9) > 0.5);   // The car; measured MEASURE_CAR.
-  CHECK(toy::removed_share(world, masks, 0, 0, 9) < 0.01);  // The road; measured MEASURE_ROAD.
+  CHECK(toy::removed_share(world, masks, 3, 0, 29) > 0.5);
+  CHECK(toy::removed_share(world, masks, 0, 0, 29) < 0.002);
 }
 
 TEST_CASE("any number of threads gives the same bytes", "[erasor]") {
@@ -175,9 +177,13 @@ TEST_CASE("any number of threads gives the same bytes", "[erasor]") {
 }
 
 TEST_CASE("off the lattice few verdicts change", "[erasor]") {
+  // A shift or turn that is not of whole voxels cuts the same points into other voxels, whose means
+  // may fall to the other side of a bin's border or of the ground. Measured: 306 to 441 verdicts,
+  // 0.20 to 0.29 % of the points, beside 2165 removals.
   const toy::World world = toy::street(8);
   ConfiguredMethod method = MethodRegistry::built_in().configure("erasor");
   set_parameter(method.configuration, "removal_interval", std::int64_t{2});
+  const auto removed = toy::masks_of(*method.make(), world).removed_count();
   std::size_t points = 0;
   for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
   Pose turned = toy::whole_motion(0.037, 0.081, 0, 0);
@@ -185,10 +191,9 @@ TEST_CASE("off the lattice few verdicts change", "[erasor]") {
       Eigen::AngleAxisd(17 * toy::kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (const Pose& motion :
        {toy::whole_motion(0.1, 0.1, 0.1, 0), toy::whole_motion(0.037, 0.081, 0.113, 0), turned}) {
-    const double share = static_cast<double>(toy::verdicts_changed_by(motion, method, world)) /
-                         static_cast<double>(points);
-    UNSCOPED_INFO(share);
-    CHECK(share < 0.02);
+    const auto changed = toy::verdicts_changed_by(motion, method, world);
+    CHECK(changed > 0);
+    CHECK(changed < removed / 3);
+    CHECK(100 * changed < points);
   }
-  CHECK(false);
 }
