@@ -17,6 +17,7 @@ ScanBlock& ScanGrid::add_block(const VoxelIndex& at, VoxelKey key) {
   if (used_ == blocks_.size()) blocks_.push_back(std::make_unique<ScanBlock>());
   ScanBlock& block = *blocks_[used_++];
   block.at = at;
+  block.beside = {};
   block.columns.fill(Column{});
   return block;
 }

@@ -12,7 +12,7 @@ namespace raymoval::dufomap {
 /// Voxels come in blocks of 16 x 16 upright columns of 64. A word holds a column: the beams of a
 /// LiDAR run mostly level, so that neighbours on a beam lie in different words and marking one does
 /// not wait for the other.
-inline constexpr int kSideBits = 4;
+inline constexpr int kSideBits = 5;
 inline constexpr int kSide = 1 << kSideBits;
 inline constexpr int kHeightBits = 6;
 inline constexpr int kHeight = 1 << kHeightBits;
@@ -39,8 +39,10 @@ struct Column {
 };
 
 struct ScanBlock {
-  VoxelIndex at;  ///< Block indices (see `block_of`).
-  std::array<Column, kColumns> columns;
+  VoxelIndex at = VoxelIndex::Zero();  ///< Block indices (see `block_of`).
+  /// Blocks below and above along x, y and z, as far as a beam went there.
+  std::array<std::array<ScanBlock*, 2>, 3> beside{};
+  std::array<Column, kColumns> columns{};
 };
 
 /// Hits and free voxels of one scan, in sparse blocks. Clearing keeps the memory for the next scan.
@@ -55,6 +57,16 @@ class ScanGrid {
     const VoxelKey key = voxel_key(at);
     const auto found = index_.find(key);
     return found != index_.end() ? *blocks_[found->second] : add_block(at, key);
+  }
+  /// The neighbour of a block along an axis, `step` = +1 or -1, made if there is none yet.
+  ScanBlock& beside(ScanBlock& from, Eigen::Index axis, int step) {
+    ScanBlock*& link = from.beside[static_cast<std::size_t>(axis)][step > 0 ? 1 : 0];
+    if (link == nullptr) {
+      VoxelIndex at = from.at;
+      at[axis] += step;
+      link = &block(at);
+    }
+    return *link;
   }
   /// The block at these block indices, or null.
   [[nodiscard]] const ScanBlock* find(const VoxelIndex& at) const {

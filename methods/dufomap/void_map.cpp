@@ -22,31 +22,37 @@ std::uint64_t erode_upright(std::uint64_t below, std::uint64_t column, std::uint
   return eroded;
 }
 
-/// The block at (dx, dy) beside `at`, eroded along z, into its part of `padded`.
-void add_neighbour(const ScanGrid& grid, const VoxelIndex& at, int dx, int dy, int inflation,
+/// First and past-the-last column along one axis that a block at `d` (-1, 0, +1) adds.
+std::pair<int, int> columns_added(int d, int inflation) {
+  if (d < 0) return {-inflation, 0};
+  return d > 0 ? std::pair(kSide, kSide + inflation) : std::pair(0, kSide);
+}
+
+/// Puts the block at (dx, dy) beside `at`, eroded along z, into its part of `padded`.
+/// @return false if that is all zero
+bool add_neighbour(const ScanGrid& grid, const VoxelIndex& at, int dx, int dy, int inflation,
                    Padded& padded) {
-  const auto range = [inflation](int d) {
-    return std::pair(d > 0 ? kSide : std::max(d * kSide, d < 0 ? -inflation : 0),
-                     d > 0 ? kSide + inflation : (d < 0 ? 0 : kSide));
+  static const ScanBlock kNothing{};
+  const auto block_at = [&](int dz) -> const ScanBlock& {
+    const ScanBlock* block = grid.find(at + VoxelIndex(dx, dy, dz));
+    return block == nullptr ? kNothing : *block;
   };
-  const auto [x0, x1] = range(dx);
-  const auto [y0, y1] = range(dy);
-  const ScanBlock* block = grid.find(at + VoxelIndex(dx, dy, 0));
-  const ScanBlock* below = block == nullptr ? nullptr : grid.find(at + VoxelIndex(dx, dy, -1));
-  const ScanBlock* above = block == nullptr ? nullptr : grid.find(at + VoxelIndex(dx, dy, 1));
-  for (int x = x0; x < x1; ++x) {
+  const ScanBlock &block = block_at(0), &below = block_at(-1), &above = block_at(1);
+  const auto [x_first, x_end] = columns_added(dx, inflation);
+  const auto [y_first, y_end] = columns_added(dy, inflation);
+  std::uint64_t any = 0;
+  for (int x = x_first; x < x_end; ++x) {
     auto& row = padded[static_cast<std::size_t>(x + inflation)];
-    for (int y = y0; y < y1; ++y) {
+    for (int y = y_first; y < y_end; ++y) {
       const std::size_t column = column_of({x, y, 0});
-      const auto free_of = [column](const ScanBlock* b) {
-        return b == nullptr ? std::uint64_t{0} : b->columns[column].free;
-      };
-      row[static_cast<std::size_t>(y + inflation)] =
-          block == nullptr
-              ? 0
-              : erode_upright(free_of(below), free_of(block), free_of(above), inflation);
+      const std::uint64_t eroded =
+          erode_upright(below.columns[column].free, block.columns[column].free,
+                        above.columns[column].free, inflation);
+      row[static_cast<std::size_t>(y + inflation)] = eroded;
+      any |= eroded;
     }
   }
+  return any != 0;
 }
 
 /// For each row: AND over `2 * inflation + 1` rows from it on.
@@ -84,10 +90,10 @@ void find_voids(const ScanGrid& grid, int inflation, ScanVoids& voids) {
   VoidBits bits;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const ScanBlock& block = grid[i];
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        add_neighbour(grid, block.at, dx, dy, inflation, padded);
-      }
+    if (!add_neighbour(grid, block.at, 0, 0, inflation, padded)) continue;
+    for (int side = 0; side < 9; ++side) {
+      const int dx = side / 3 - 1, dy = side % 3 - 1;
+      if (side != 4) add_neighbour(grid, block.at, dx, dy, inflation, padded);
     }
     erode_along_x(padded, inflation);
     if (erode_along_y(padded, inflation, block, bits)) {
