@@ -54,10 +54,10 @@ class Walk {
   /// Marks all voxels. @return the last
   VoxelIndex run() {
     while (true) {
-      const Fixed x_exit = x_.block_exit(column_ >> kSideBits);
-      const Fixed y_exit = y_.block_exit(column_ & (kSide - 1));
+      const Fixed x_exit = x_.block_exit(column_ / kSide);
+      const Fixed y_exit = y_.block_exit(column_ % kSide);
       const Fixed exit = std::min(x_exit, y_exit);
-      const Fixed level = std::min(exit, z_.next + 1);  // Level walls come before upright ones.
+      const Fixed level = std::min(exit, z_.next + 1);  // At an edge, x and y come before z.
       if (walk_level(std::min(level, end_)) || end_ <= std::min(exit, z_.next)) break;
       if (z_.next < exit) {
         change_height();
@@ -67,8 +67,8 @@ class Walk {
         leave_along_y();
       }
     }
-    return {block_->at.x() * kSide + (column_ >> kSideBits),
-            block_->at.y() * kSide + (column_ & (kSide - 1)), block_->at.z() * kHeight + height_};
+    return {block_->at.x() * kSide + column_ / kSide, block_->at.y() * kSide + column_ % kSide,
+            block_->at.z() * kHeight + height_};
   }
 
  private:
@@ -78,36 +78,37 @@ class Walk {
     Column* const columns = block_->columns.data();
     const std::uint64_t free = std::uint64_t{1} << height_;
     const std::uint64_t hit = free & stopping_hits_;
-    const int x_step = x_.step * kSide, y_step = y_.step;
+    const int x_step = x_.step * kSide, y_minus_x = y_.step - x_step;
     const Fixed x_delta = x_.delta, y_delta = y_.delta;
-    Fixed x = x_.next, y = y_.next;  // Copies stay in registers.
+    // Where the next x wall is, and how far behind it the next y wall. Copies stay in registers.
+    Fixed x = x_.next, lead = y_.next - x;
     int column = column_;
     bool at_hit = false;
     while (true) {
       Column& here = columns[column];
       here.free |= free;
       at_hit = (here.hit & hit) != 0;
-      if (at_hit || std::min(x, y) >= limit) break;
-      const Fixed y_first = (y - x) >> 63;  // All ones or all zeros.
+      const Fixed y_first = lead >> 63;  // All ones or all zeros.
+      if (at_hit || x + (lead & y_first) >= limit) break;
       x += x_delta & ~y_first;
-      y += y_delta & y_first;
-      const int choice = static_cast<int>(y_first);
-      column += (y_step & choice) | (x_step & ~choice);
+      const Fixed after_y = lead + y_delta, after_x = lead - x_delta;
+      lead = lead < 0 ? after_y : after_x;
+      column += x_step + (y_minus_x & static_cast<int>(y_first));
     }
     x_.next = x;
-    y_.next = y;
+    y_.next = x + lead;
     column_ = column;
     return at_hit;
   }
 
   void leave_along_x() {
     x_.next += x_.delta;
-    column_ = (column_ & (kSide - 1)) | (x_.step > 0 ? 0 : (kSide - 1) << kSideBits);
+    column_ -= x_.step * (kSide - 1) * kSide;
     block_ = &grid_.beside(*block_, 0, x_.step);
   }
   void leave_along_y() {
     y_.next += y_.delta;
-    column_ = (column_ & ~(kSide - 1)) | (y_.step > 0 ? 0 : kSide - 1);
+    column_ -= y_.step * (kSide - 1);
     block_ = &grid_.beside(*block_, 1, y_.step);
   }
   void change_height() {

@@ -34,7 +34,7 @@ Table make_table() {
           "maximum_range", &P::maximum_range,
           {"m", 0, 1000, "'max_range' (-1 there)", "Beams free no voxel beyond; 0 is no limit."})
       .flag("offline", &P::offline,
-            {.source = "section III ('offline' and 'online')",
+            {.source = "the paper's online variant",
              .sentence = "Answer for all points after the last scan instead of for each scan once "
                          "it is integrated."});
   return table;

@@ -9,7 +9,7 @@ namespace raymoval::dufomap {
 ScanBlock& ScanGrid::add_block(const VoxelIndex& at, VoxelKey key) {
   if (used_ >= kMostBlocks) {
     throw DataError("dufomap: the beams of one scan cross more than " +
-                    grouped_text(kMostBlocks * kColumns * kHeight) +
+                    grouped_text(kMostBlocks * kSide * kSide * kHeight) +
                     " voxels; expected points within reach of a LiDAR. Set dufomap.maximum_range, "
                     "or a larger dufomap.voxel_size.");
   }

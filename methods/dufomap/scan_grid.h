@@ -9,7 +9,7 @@
 
 namespace raymoval::dufomap {
 
-/// Voxels come in blocks of 16 x 16 upright columns of 64. A word holds a column: the beams of a
+/// Voxels come in blocks of 32 x 32 upright columns of 64. A word holds a column: the beams of a
 /// LiDAR run mostly level, so that neighbours on a beam lie in different words and marking one does
 /// not wait for the other.
 inline constexpr int kSideBits = 5;
@@ -22,10 +22,9 @@ inline constexpr int kColumns = kSide * kSide;
 inline VoxelIndex block_of(const VoxelIndex& voxel) {
   return {voxel.x() >> kSideBits, voxel.y() >> kSideBits, voxel.z() >> kHeightBits};
 }
-/// Column of a voxel in its block, x above y.
+/// Column of a voxel in its block.
 inline std::size_t column_of(const VoxelIndex& voxel) {
-  return static_cast<std::size_t>(((voxel.x() & (kSide - 1)) << kSideBits) |
-                                  (voxel.y() & (kSide - 1)));
+  return static_cast<std::size_t>((voxel.x() & (kSide - 1)) * kSide + (voxel.y() & (kSide - 1)));
 }
 /// Bit of a voxel in its column.
 inline std::uint64_t bit_of(const VoxelIndex& voxel) {
@@ -48,15 +47,17 @@ struct ScanBlock {
 /// Hits and free voxels of one scan, in sparse blocks. Clearing keeps the memory for the next scan.
 class ScanGrid {
  public:
-  /// More blocks (4 KiB each) than any scan of a real place needs.
-  static constexpr std::size_t kMostBlocks = std::size_t{1} << 20;
+  /// More blocks (16 KiB each) than any scan of a real place needs.
+  static constexpr std::size_t kMostBlocks = std::size_t{1} << 18;
 
   /// The block at these block indices, made if there is none yet. References stay valid until
   /// `clear`. @throws DataError beyond `kMostBlocks`.
   ScanBlock& block(const VoxelIndex& at) {
+    if (last_ != nullptr && last_->at == at) return *last_;
     const VoxelKey key = voxel_key(at);
     const auto found = index_.find(key);
-    return found != index_.end() ? *blocks_[found->second] : add_block(at, key);
+    last_ = found != index_.end() ? blocks_[found->second].get() : &add_block(at, key);
+    return *last_;
   }
   /// The neighbour of a block along an axis, `step` = +1 or -1, made if there is none yet.
   ScanBlock& beside(ScanBlock& from, Eigen::Index axis, int step) {
@@ -82,6 +83,7 @@ class ScanGrid {
   void clear() {
     index_.clear();
     used_ = 0;
+    last_ = nullptr;
   }
 
  private:
@@ -90,6 +92,7 @@ class ScanGrid {
   VoxelMap<std::uint32_t> index_;
   std::vector<std::unique_ptr<ScanBlock>> blocks_;  ///< The first `used_` are this scan's.
   std::size_t used_ = 0;
+  ScanBlock* last_ = nullptr;  ///< Asked for last: mostly asked for again.
 };
 
 }  // namespace raymoval::dufomap

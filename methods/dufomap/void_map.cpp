@@ -87,7 +87,7 @@ bool erode_along_y(const Padded& padded, int inflation, const ScanBlock& block, 
 void find_voids(const ScanGrid& grid, int inflation, ScanVoids& voids) {
   voids.clear();
   Padded padded;
-  VoidBits bits;
+  VoidBits bits{};
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const ScanBlock& block = grid[i];
     if (!add_neighbour(grid, block.at, 0, 0, inflation, padded)) continue;

@@ -200,3 +200,20 @@ TEST_CASE("a point far out is refused, or cut by the maximum range") {
   near.maximum_range = 50.0;
   CHECK(run(scans, near).get(0) == Mask{0, 0});
 }
+
+TEST_CASE("where the lattice lies matters little") {
+  // Moves by parts of a voxel and odd turns. Measured on three streets of 8 scans: at most 0.90 %
+  // of all verdicts change (a quarter of what is removed, most of it along the outlines of voids).
+  const toy::World world = toy::street(6);
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
+  Pose shift = Pose::Identity(), turn = Pose::Identity();
+  shift.translation() << 0.037, 0.041, -0.029;
+  turn.linear() = Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const auto method = MethodRegistry::built_in().configure("dufomap:offline");
+  for (const Pose& motion : {shift, turn}) {
+    const std::size_t changed = toy::verdicts_changed_by(motion, method, world);
+    CHECK(changed > 0);
+    CHECK(static_cast<double>(changed) < 0.015 * static_cast<double>(points));
+  }
+}
