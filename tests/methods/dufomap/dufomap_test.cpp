@@ -2,6 +2,7 @@
 #include "methods/dufomap/dufomap.h"
 
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 
 #include "tests/methods/dufomap/listed_scans.h"
@@ -181,6 +182,15 @@ TEST_CASE("empty scans, lone points and no scans at all") {
     CHECK(masks.get(1) == Mask{0});
     CHECK(masks.get(2) == Mask{0});
   }
+}
+
+TEST_CASE("a cancelled run of DUFOMap stops") {
+  const toy::World world = passer_by();
+  const std::atomic<bool> stop{true};
+  RunContext context;
+  context.cancel = &stop;
+  toy::Masks masks(world.size());
+  CHECK_THROWS_AS(make_dufomap({})->run(world, masks, context), Cancelled);
 }
 
 TEST_CASE("a beam of no length is a hit and nothing else") {
