@@ -3,6 +3,7 @@
 
 #include "core/text.h"
 #include "methods/controls/controls.h"
+#include "methods/dufomap/dufomap.h"
 #include "methods/erasor/erasor.h"
 #include "methods/raymoval/raymoval.h"
 
@@ -16,6 +17,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(oracle_entry());
     methods.add(raymoval_entry());
     methods.add(erasor_entry());
+    methods.add(dufomap_entry());
     return methods;
   }();
   return registry;
