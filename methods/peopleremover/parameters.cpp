@@ -116,6 +116,11 @@ MethodEntry peopleremover_entry() {
        "Whole beams, voxels of 0.2 m: nothing protects surfaces seen at a grazing angle.",
        false,
        {{"maxrange_method", none}}},
+      {"plain",
+       "Whole beams, voxels of 0.2 m, freed voxels only: comes nearest to the rows that papers "
+       "print.",
+       false,
+       {{"maxrange_method", none}, {"subvoxel_accuracy", false}}},
       {"reduced",
        "As normals, one beam per cap of 0.01 rad.",
        false,
