@@ -201,8 +201,9 @@ MethodEntry removert_entry() {
       {"code", "As the public code answers, its faults included.", false,
        with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
       {"port",
-       "As the ROS-free port answers: three passes on the same map, along the world's axes.", false,
-       with(code, {{"update_between_passes", false}, {"world_axes", true}})},
+       "As the ROS-free port answers, which tests the same map in every pass (its images along the "
+       "world's axes are an option).",
+       false, with(code, {{"update_between_passes", false}})},
   };
   entry.make = [](const Configuration& configuration) {
     return make_removert(removert_parameter_table().read(configuration));
