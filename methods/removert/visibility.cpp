@@ -4,6 +4,9 @@
 #include <atomic>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 namespace raymoval::removert {
 namespace {
@@ -28,9 +31,8 @@ int rounded(float raw) {
 }
 
 /// Largest limit in rows [top, bottom] and columns [left, right], which may go round the seam.
-float bound_around(const ScanImage& scan, int top, int bottom, int left, int right) {
-  const int columns = scan.grid.columns();
-  const MaximumPyramid& pyramid = scan.limit_pyramid;
+float bound_around(const MaximumPyramid& pyramid, int columns, int top, int bottom, int left,
+                   int right) {
   if (right - left >= columns - 1) return pyramid.bound(top, bottom, 0, columns - 1);
   if (left < 0) {
     return std::max(pyramid.bound(top, bottom, left + columns, columns - 1),
@@ -59,16 +61,16 @@ std::pair<int, int> columns_around(const PixelGrid& grid, float azimuth, float h
 
 /// At least the largest limit in the pixels that points of a ball can fall into; -1 if they cannot
 /// fall into any or all lie too far.
-float limit_around(const ScanImage& scan, const Eigen::Vector3f& centre, float radius) {
+float limit_around(const PixelGrid& grid, const MaximumPyramid& limits,
+                   const Eigen::Vector3f& centre, float radius) {
   const float distance = centre.norm();
   const float nearest = (distance - radius) * (1.0F - kRangeSlack);
-  if (nearest >= scan.limit_pyramid.top()) return -1.0F;
-  if (nearest <= 0.0F) return scan.limit_pyramid.top();
+  if (nearest >= limits.top()) return -1.0F;
+  if (nearest <= 0.0F) return limits.top();
   const float flat = centre.head<2>().norm();
   const float azimuth = std::atan2(centre.y(), centre.x());
   const float elevation = std::atan2(centre.z(), flat);
   const float half_height = arc_sine_bound(radius / distance);
-  const PixelGrid& grid = scan.grid;
   const float scale = static_cast<float>(grid.row_scale());
   const float middle = 0.5F * static_cast<float>(grid.rows());
   const float top = middle - (elevation + half_height) * scale - kPixelSlack;
@@ -77,7 +79,7 @@ float limit_around(const ScanImage& scan, const Eigen::Vector3f& centre, float r
   if (!grid.clamps() && (bottom < 0.0F || top > static_cast<float>(last + 1))) return -1.0F;
   const float half_width = flat > radius ? arc_sine_bound(radius / flat) : kPi;
   const auto [left, right] = columns_around(grid, azimuth, half_width);
-  const float limit = bound_around(scan, std::clamp(rounded(top), 0, last),
+  const float limit = bound_around(limits, grid.columns(), std::clamp(rounded(top), 0, last),
                                    std::clamp(rounded(bottom), 0, last), left, right);
   return nearest < limit ? limit : -1.0F;
 }
@@ -92,14 +94,28 @@ void count_scan(std::uint32_t& counter) {
 /// A scan's image with the motion into its frame, in both precisions.
 struct VisibilityPass::View {
   View(const ScanImage& image, const Pose& T_image_world)
-      : scan(image), pose(T_image_world), rotation(T_image_world.linear().cast<float>()) {}
+      : scan(image),
+        pose(T_image_world),
+        rotation(T_image_world.linear().cast<float>()),
+        limits(&image.limit_pyramid) {}
   [[nodiscard]] float limit_around_ball(const Ball& ball) const {
-    return limit_around(scan, (pose * ball.centre).cast<float>(), ball.radius);
+    return limit_around(scan.grid, *limits, (pose * ball.centre).cast<float>(), ball.radius);
+  }
+  /// From now on what lies behind the map points found so far is left out too.
+  void hide_behind(const std::vector<Nearest>& pixels) {
+    std::vector<float> reach = scan.limit;
+    for (std::size_t u = 0; u < reach.size(); ++u) {
+      reach[u] = std::min(reach[u], static_cast<float>(pixels[u].range) * (1.0F + kRangeSlack));
+    }
+    hidden.emplace(reach, scan.grid.rows(), scan.grid.columns());
+    limits = &*hidden;
   }
 
   const ScanImage& scan;
   Pose pose;
   Eigen::Matrix3f rotation;
+  const MaximumPyramid* limits;
+  std::optional<MaximumPyramid> hidden;
 };
 
 VisibilityPass::VisibilityPass(const MapPoints& map, const RemovertParameters& parameters,
@@ -110,17 +126,42 @@ VisibilityPass::VisibilityPass(const MapPoints& map, const RemovertParameters& p
 }
 
 void VisibilityPass::show(const ScanImage& scan, const Pose& T_image_world) {
-  const View view(scan, T_image_world);
+  View view(scan, T_image_world);
   std::unique_ptr<Image> image = borrow_image(scan.grid.size());
-  for (const BlockGroup& group : map_.groups) {
+  std::size_t looked_at = 0;
+  for (const std::size_t g : order_of_groups(T_image_world)) {
+    const BlockGroup& group = map_.groups[g];
     if (view.limit_around_ball(group.ball) < 0.0F) continue;
     for (std::size_t b = group.begin; b < group.end; ++b) {
-      const float limit = view.limit_around_ball(map_.blocks[b].ball);
-      if (limit >= 0.0F) look_at_block(view, map_.blocks[b], limit, *image);
+      const Block& block = map_.blocks[b];
+      const float limit = view.limit_around_ball(block.ball);
+      if (limit < 0.0F) continue;
+      look_at_block(view, block, limit, *image);
+      looked_at += block.end - block.begin;
+    }
+    if (candidates_ == Candidates::kAll && looked_at > 2 * image->pixels.size()) {
+      view.hide_behind(image->pixels);
+      looked_at = 0;
     }
   }
   vote(scan, *image);
   give_back(std::move(image));
+}
+
+/// The map's own order, or near groups first if near points can hide far ones.
+std::vector<std::size_t> VisibilityPass::order_of_groups(const Pose& T_image_world) const {
+  std::vector<std::size_t> order(map_.groups.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (candidates_ == Candidates::kInFront) return order;
+  std::vector<double> distances;
+  distances.reserve(order.size());
+  for (const BlockGroup& group : map_.groups) {
+    distances.push_back((T_image_world * group.ball.centre).norm());
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(distances[a], a) < std::pair(distances[b], b);
+  });
+  return order;
 }
 
 void VisibilityPass::look_at_block(const View& view, const Block& block, float limit,
@@ -158,8 +199,9 @@ void VisibilityPass::take_if_nearest(const View& view, const Eigen::Vector3d& po
   if (pixel == kOutside) return;
   const auto u = static_cast<std::size_t>(pixel);
   const double range = point.norm();
-  // Points come in the order of the map: of two at the same range the first stays.
-  if (!(range < view.scan.limit[u]) || !(range < image.pixels[u].range)) return;
+  if (!(range < view.scan.limit[u])) return;
+  // Of two at the same range the first in the map's order is it.
+  if (std::pair(range, id) >= std::pair(image.pixels[u].range, image.pixels[u].point)) return;
   if (image.pixels[u].point == kNoPoint) image.touched.push_back(pixel);
   image.pixels[u] = {range, id};
 }

@@ -44,6 +44,7 @@ class VisibilityPass {
   };
   struct View;
 
+  [[nodiscard]] std::vector<std::size_t> order_of_groups(const Pose& T_image_world) const;
   void look_at_block(const View& view, const Block& block, float limit, Image& image) const;
   static void take_if_nearest(const View& view, const Eigen::Vector3d& point, std::size_t id,
                               Image& image);

@@ -199,8 +199,10 @@ TEST_CASE("removert: shortcuts change no vote") {
     const Candidates candidates = all ? Candidates::kAll : Candidates::kInFront;
     const Points map = random_cloud(random, 6000, 40.0), scan = random_cloud(random, 2000, 60.0);
     const Pose pose = random_pose(random);
-    const Votes fast = votes(map, scan, parameters, candidates, pose, 1.0);
-    const Votes slow = slow_votes(map, scan, parameters, candidates, pose, 1.0);
+    // With few pixels the map is large enough for near points to hide far ones.
+    const double resolution = round % 3 == 0 ? 0.2 : 1.0;
+    const Votes fast = votes(map, scan, parameters, candidates, pose, resolution);
+    const Votes slow = slow_votes(map, scan, parameters, candidates, pose, resolution);
     INFO("round " << round);
     CHECK(fast.dynamic == slow.dynamic);
     CHECK(fast.still == slow.still);
