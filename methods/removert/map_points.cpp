@@ -50,6 +50,11 @@ void close_block(MapPoints& points) {
 
 }  // namespace
 
+void MapPoints::reserve(std::size_t points) {
+  for (auto* values : {&x, &y, &z}) values->reserve(points);
+  id.reserve(points);
+}
+
 void MapPoints::append(const MapPoints& from, std::size_t i) {
   x.push_back(from.x[i]);
   y.push_back(from.y[i]);
@@ -74,8 +79,12 @@ void MapPoints::close() {
 }
 
 MapPoints take_points(MapPoints& points, const std::vector<std::uint8_t>& taken) {
+  const auto left = std::count(taken.begin(), taken.end(), std::uint8_t{0});
+  const std::size_t count = taken.size() - static_cast<std::size_t>(left);
   MapPoints out;
   MapPoints kept;
+  out.reserve(count);
+  kept.reserve(points.size() - count);
   for (const Block& block : points.blocks) {
     open_block(out, block);
     open_block(kept, block);
@@ -93,6 +102,7 @@ MapPoints take_points(MapPoints& points, const std::vector<std::uint8_t>& taken)
 
 MapPoints united(const MapPoints& a, const MapPoints& b) {
   MapPoints both;
+  both.reserve(a.size() + b.size());
   const auto add_block = [&both](const MapPoints& from, const Block& block) {
     if (both.blocks.empty() || both.blocks.back().key != block.key) open_block(both, block);
     for (std::size_t i = block.begin; i < block.end; ++i) both.append(from, i);
@@ -222,8 +232,7 @@ MapPoints MapBuilder::finish() {
   std::size_t count = 0;
   for (const OpenBlock& block : blocks_) count += block.entries.size();
   MapPoints points;
-  for (auto* values : {&points.x, &points.y, &points.z}) values->reserve(count);
-  points.id.reserve(count);
+  points.reserve(count);
   for (OpenBlock& block : blocks_) move_block(block, points);
   blocks_.clear();
   block_of_.clear();

@@ -42,6 +42,7 @@ struct MapPoints {
   [[nodiscard]] Eigen::Vector3d position(const Block& block, std::size_t i) const {
     return block.centre + Eigen::Vector3d(x[i], y[i], z[i]);
   }
+  void reserve(std::size_t points);
   void append(const MapPoints& from, std::size_t i);
   /// Finds balls and groups, once all blocks are there in order.
   void close();
@@ -79,8 +80,8 @@ class CellLattice {
   int bits_ = 0;  ///< A block has 2^bits cells along an edge.
 };
 
-/// Collects points into the map: one centroid per cell (or each point). While it grows it takes 20
-/// bytes a cell and at most half as much again for points not yet merged.
+/// Collects points into the map: one centroid per cell (or each point). An entry takes 20 bytes; at
+/// most half as many again as there are cells, and 32 a block, wait to be merged.
 class MapBuilder {
  public:
   explicit MapBuilder(const CellLattice& lattice);

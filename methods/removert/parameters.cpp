@@ -129,6 +129,24 @@ Configuration with(Configuration base, const Configuration& more) {
   return base;
 }
 
+/// The first is what the bare name means.
+std::vector<MethodVariant> variants() {
+  const Configuration code = code_preset();
+  return {
+      {"rm3", "Three remove passes.", false, {}},
+      {"rm3-rv1",
+       "Three remove passes and one revert pass (RM3+RV1; a '+' cannot name a result).",
+       false,
+       {{"revert_resolution_1", 1.8182}}},
+      {"code", "As the public code answers, its faults included.", false,
+       with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
+      {"port",
+       "As the ROS-free port answers, which tests the same map in every pass (its images along the "
+       "world's axes are an option).",
+       false, with(code, {{"update_between_passes", false}})},
+  };
+}
+
 std::vector<double> positive(std::initializer_list<double> resolutions) {
   std::vector<double> kept;
   for (const double resolution : resolutions) {
@@ -191,20 +209,7 @@ MethodEntry removert_entry() {
       "is empty.",
   };
   entry.parameters = removert_parameter_table().specs();
-  const Configuration code = code_preset();
-  entry.variants = {
-      {"rm3", "Three remove passes.", false, {}},
-      {"rm3-rv1",
-       "Three remove passes and one revert pass (RM3+RV1; a '+' cannot name a result).",
-       false,
-       {{"revert_resolution_1", 1.8182}}},
-      {"code", "As the public code answers, its faults included.", false,
-       with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
-      {"port",
-       "As the ROS-free port answers, which tests the same map in every pass (its images along the "
-       "world's axes are an option).",
-       false, with(code, {{"update_between_passes", false}})},
-  };
+  entry.variants = variants();
   entry.make = [](const Configuration& configuration) {
     return make_removert(removert_parameter_table().read(configuration));
   };

@@ -23,8 +23,8 @@ namespace raymoval {
 /// - A single scan is enough to remove a map point; there is no vote unless asked for.
 /// - The map's cells lie on the lattice anchored at the world's origin. A point is removed iff its
 ///   cell is: no nearest neighbour is looked for.
-/// - Of the map only centroids are held, about 20 bytes per cell of `map_voxel` while it is
-///   collected and 25 afterwards; scans are read once per pass. `map_voxel` = 0 holds every point.
+/// - Of the map only centroids are held, at the peak about 75 bytes per cell of `map_voxel`; scans
+///   are read once per pass. `map_voxel` = 0 holds every point.
 /// - Scans are used as they are: the public code's filter of scans does nothing on data of this
 ///   size (its cell count overflows).
 MethodEntry removert_entry();
