@@ -7,6 +7,7 @@
 #include "methods/erasor/erasor.h"
 #include "methods/peopleremover/peopleremover.h"
 #include "methods/raymoval/raymoval.h"
+#include "methods/removert/removert.h"
 
 namespace raymoval {
 
@@ -18,6 +19,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(oracle_entry());
     methods.add(raymoval_entry());
     methods.add(peopleremover_entry());
+    methods.add(removert_entry());
     methods.add(erasor_entry());
     methods.add(dufomap_entry());
     return methods;
