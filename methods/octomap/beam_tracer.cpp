@@ -67,10 +67,8 @@ BeamTracer::BeamTracer(const CellLattice& lattice, const octomap::point3d& origi
   if (!first_) return;
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double centre = lattice.centre(gather_bits(*first_ >> axis));
-    for (const int up : {0, 1}) {
-      const auto half = static_cast<float>((up == 1 ? 1 : -1) * resolution_ * 0.5);
-      to_wall_[axis][static_cast<std::size_t>(up)] = centre + half - origin(axis);
-    }
+    to_wall_[axis] = {centre - lattice.half_cell() - origin(axis),
+                      centre + lattice.half_cell() - origin(axis)};
   }
 }
 

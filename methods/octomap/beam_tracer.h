@@ -14,7 +14,10 @@ namespace raymoval {
 /// liboctomap's `coordToKeyChecked`.
 class CellLattice {
  public:
-  explicit CellLattice(double resolution) : resolution_(resolution), factor_(1.0 / resolution) {}
+  explicit CellLattice(double resolution)
+      : resolution_(resolution),
+        factor_(1.0 / resolution),
+        half_cell_(static_cast<float>(resolution * 0.5)) {}
   [[nodiscard]] double resolution() const { return resolution_; }
   /// The cell that holds `point`; nothing beyond 32768 cells from the tree's centre.
   [[nodiscard]] std::optional<CellCode> cell_of(const octomap::point3d& point) const;
@@ -24,10 +27,13 @@ class CellLattice {
   [[nodiscard]] double centre(std::uint16_t key) const {
     return (static_cast<double>(static_cast<int>(key) - kCentre) + 0.5) * resolution_;
   }
+  /// Half a cell, metres; in float, as liboctomap has it where a walk begins.
+  [[nodiscard]] float half_cell() const { return half_cell_; }
   static constexpr int kCentre = 32768;
 
  private:
   double resolution_, factor_;
+  float half_cell_;
 };
 
 /// Walks beams from one origin. Gives cell for cell what liboctomap's `computeRayKeys` gives (a
