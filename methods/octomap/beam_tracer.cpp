@@ -10,20 +10,26 @@ namespace {
 
 /// What a walk knows of an axis.
 struct AxisWalk {
-  CellCode others;  ///< Bits of the two other axes.
   CellCode step;    ///< +1 or -1 in the bits of this axis.
-  double to_next;   ///< Distance along the beam at which it leaves its cell along this axis.
-  double per_cell;  ///< Distance along the beam from one wall of this axis to the next.
+  double to_next;   ///< Along the beam to the cell's wall of this axis, metres.
+  double per_cell;  ///< Along the beam from one wall of this axis to the next, metres.
 };
 
 AxisWalk axis_walk(unsigned axis, float direction, const std::array<double, 2>& to_wall,
                    double resolution) {
   constexpr double kNever = std::numeric_limits<double>::max();
-  const CellCode bits = kAxisBits << axis;
-  if (!(direction > 0.0F) && !(direction < 0.0F)) return {~bits, 0, kNever, kNever};
+  if (!(direction > 0.0F) && !(direction < 0.0F)) return {0, kNever, kNever};
   const bool up = direction > 0.0F;
-  return {~bits, up ? CellCode{1} << axis : bits, to_wall[up ? 1 : 0] / direction,
+  return {up ? CellCode{1} << axis : kAxisBits << axis, to_wall[up ? 1 : 0] / direction,
           resolution / std::fabs(static_cast<double>(direction))};
+}
+
+/// Steps along an axis by adding in its bits: all others are ones and pass the carry on.
+template <unsigned kAxis>
+void step_along(AxisWalk& axis, CellCode& cell) {
+  constexpr CellCode kBits = kAxisBits << kAxis;
+  cell = (((cell | ~kBits) + axis.step) & kBits) | (cell & ~kBits);
+  axis.to_next += axis.per_cell;
 }
 
 /// Sets bits of cells that mostly follow each other within a block.
@@ -82,22 +88,19 @@ void BeamTracer::mark_free(const octomap::point3d& end, CellCode last, CellBlock
   AxisWalk z = axis_walk(2, direction(2), to_wall_[2], resolution_);
   FreeMarker marker(cells);
   CellCode cell = *first_;
-  double leaves = 0.0;  // Distance at which the beam leaves `cell`; past the end only by rounding.
+  double leaves_at = 0.0;  // Distance at which the beam leaves the cell; past the end by rounding.
   do {
     marker.mark(cell);
-    // Adding in the bits of one axis: the other bits are all ones and pass the carry on. Ties go
-    // to the later axis.
-    const auto step_along = [&cell](AxisWalk& axis) {
-      cell = (((cell | axis.others) + axis.step) & ~axis.others) | (cell & axis.others);
-      axis.to_next += axis.per_cell;
-    };
-    if (x.to_next < y.to_next) {
-      step_along(x.to_next < z.to_next ? x : z);
+    // Through the nearest wall; of two equally near, that of the later axis.
+    if (x.to_next < y.to_next && x.to_next < z.to_next) {
+      step_along<0>(x, cell);
+    } else if (!(x.to_next < y.to_next) && y.to_next < z.to_next) {
+      step_along<1>(y, cell);
     } else {
-      step_along(y.to_next < z.to_next ? y : z);
+      step_along<2>(z, cell);
     }
-    leaves = std::min(std::min(x.to_next, y.to_next), z.to_next);
-  } while (cell != last && !(leaves > length));
+    leaves_at = std::min(std::min(x.to_next, y.to_next), z.to_next);
+  } while (cell != last && !(leaves_at > length));
 }
 
 }  // namespace raymoval
