@@ -63,6 +63,13 @@ class CellBlocks {
     return add(block, at);
   }
 
+  /// The same block if there is one.
+  [[nodiscard]] const CellBlock* find(std::uint64_t block) const {
+    std::size_t at = slot_of(block);
+    while (slots_[at].used && slots_[at].block != block) at = (at + 1) & (slots_.size() - 1);
+    return slots_[at].used ? &blocks_[slots_[at].number] : nullptr;
+  }
+
   void occupy(CellCode cell) {
     block(cell >> kBlockBits).occupied[cell >> 6 & 7] |= std::uint64_t{1} << (cell & 63);
   }

@@ -105,6 +105,16 @@ bool any_bit(const std::array<std::uint64_t, 8>& words) {
   return std::any_of(words.begin(), words.end(), [](std::uint64_t word) { return word != 0; });
 }
 
+/// Takes out of `cells` what is not among the occupied cells of `wanted`. @return whether any stay
+bool keep_wanted(CellBlock& cells, const CellBlock* wanted) {
+  if (wanted == nullptr) return false;
+  for (std::size_t word = 0; word < 8; ++word) {
+    cells.free[word] &= wanted->occupied[word];
+    cells.occupied[word] &= wanted->occupied[word];
+  }
+  return any_bit(cells.free) || any_bit(cells.occupied);
+}
+
 /// Key of some cell of `block`, whose first word with a bit set is looked for.
 octomap::OcTreeKey touched_key(std::uint64_t name, const CellBlock& cells) {
   for (std::size_t word = 0; word < 8; ++word) {
@@ -141,26 +151,19 @@ void OccupancyTree::sort_blocks(const std::vector<CellBlocks>& parts) {
             [](const NamedBlock& a, const NamedBlock& b) { return a.name < b.name; });
 }
 
-void OccupancyTree::update(const std::vector<CellBlocks>& parts) {
+void OccupancyTree::update(const std::vector<CellBlocks>& parts, const CellBlocks* wanted) {
   sort_blocks(parts);
-  if (sorted_.empty()) return;
-  if (tree_.getRoot() == nullptr) {
-    // An unseen leaf stands at log-odds 0, whatever it is made by; this one is among the touched.
-    const NamedBlock& first = sorted_.front();
-    tree_.setNodeValue(touched_key(first.name, *first.cells), 0.0F, true);
-  }
-  path_[0] = tree_.getRoot();
-  path_depth_ = 0;
-  CellBlock merged;
+  path_depth_ = -1;
   for (std::size_t i = 0; i < sorted_.size();) {
     const std::uint64_t name = sorted_[i].name;
-    merged = {};
+    CellBlock merged;
     for (; i < sorted_.size() && sorted_[i].name == name; ++i) {
       for (std::size_t word = 0; word < 8; ++word) {
         merged.free[word] |= sorted_[i].cells->free[word];
         merged.occupied[word] |= sorted_[i].cells->occupied[word];
       }
     }
+    if (wanted != nullptr && !keep_wanted(merged, wanted->find(name))) continue;
     for (std::size_t word = 0; exclusive_ && word < 8; ++word) {
       merged.free[word] &= ~merged.occupied[word];
     }
@@ -170,8 +173,15 @@ void OccupancyTree::update(const std::vector<CellBlocks>& parts) {
 }
 
 void OccupancyTree::update_block(std::uint64_t name, const CellBlock& cells) {
-  const auto differing = static_cast<int>(std::bit_width(name ^ path_name_));
-  leave_down_to(std::min(path_depth_, kBlockDepth - (differing + 2) / 3));
+  if (path_depth_ < 0) {
+    // An unseen leaf stands at log-odds 0, whatever it is made by; this one is about to be updated.
+    if (tree_.getRoot() == nullptr) tree_.setNodeValue(touched_key(name, cells), 0.0F, true);
+    path_[0] = tree_.getRoot();
+    path_depth_ = 0;
+  } else {
+    const auto differing = static_cast<int>(std::bit_width(name ^ path_name_));
+    leave_down_to(std::min(path_depth_, kBlockDepth - (differing + 2) / 3));
+  }
   path_name_ = name;
   bool created = false;
   if (!descend(name, cells, created)) return;

@@ -26,7 +26,8 @@ class OccupancyTree {
 
   /// Lowers the free cells and raises the occupied ones, each once. A cell that is both is raised
   /// only, or lowered and then raised if `kth_nonexclusive`.
-  void update(const std::vector<CellBlocks>& parts);
+  /// @param wanted if given, only its occupied cells are put in; no cell depends on another
+  void update(const std::vector<CellBlocks>& parts, const CellBlocks* wanted = nullptr);
 
  private:
   static constexpr int kBlockDepth = 13;  ///< A node of this depth holds 8 x 8 x 8 leaves.

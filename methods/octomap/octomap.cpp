@@ -14,7 +14,7 @@
 namespace raymoval {
 namespace {
 
-/// One run: a map of all scans, then an answer for each point from the map.
+/// One run: the cells that matter, a map of all scans, then an answer for each point from the map.
 class OctomapRun {
  public:
   OctomapRun(const OctomapParameters& parameters, const ScanSource& scans,
@@ -33,13 +33,25 @@ class OctomapRun {
     centre_ = first.array().round().matrix() * parameters.resolution;
   }
 
+  /// Only cells that hold a point are ever asked for, and no cell depends on another: the map is
+  /// kept to those. Free space without any point is most of a map.
+  void collect_cells() {
+    for_each_scan("octomap, cells", [this](const Scan& scan) {
+      const std::vector<octomap::point3d> points = in_tree_frame(scan);
+      const StageScope timed(context_.times, "cells");
+      for (const octomap::point3d& point : points) {
+        if (const std::optional<CellCode> cell = lattice_.cell_of(point)) wanted_.occupy(*cell);
+      }
+    });
+  }
+
   void build_map() {
     for_each_scan("octomap", [this](const Scan& scan) {
       const std::vector<octomap::point3d> points = in_tree_frame(scan);
       const std::vector<PointRole> roles = roles_of(scan.index, points);
       find_cells(scan, points, roles);
       const StageScope timed(context_.times, "map update");
-      map_.update(cells_.parts());
+      map_.update(cells_.parts(), &wanted_);
     });
   }
 
@@ -163,6 +175,7 @@ class OctomapRun {
   const RunContext& context_;
   CellLattice lattice_;
   ScanCells cells_;
+  CellBlocks wanted_;  ///< Cells in which any scan has a point.
   OccupancyTree map_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< Of the tree, in the world.
   MaskStore kept_;     ///< Points on the ground, which stay whatever their leaf says.
@@ -176,6 +189,7 @@ class OctomapRemover : public Remover {
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
     OctomapRun octomap_run(parameters_, scans, context);
+    octomap_run.collect_cells();
     octomap_run.build_map();
     octomap_run.answer(sink);
   }

@@ -13,8 +13,10 @@ namespace raymoval {
 /// remove moving objects: a point goes if its leaf is free once all scans are in.
 ///
 /// Decisions and deviations (the entry's notes list them too):
-/// - The map is liboctomap's, and node for node what `insertPointCloud` makes; only the cells of a
-///   scan and the way through the tree are computed by faster code.
+/// - The map is liboctomap's tree with the leaves of `insertPointCloud`, kept to cells in which
+/// some
+///   scan has a point: no other is asked for, and no cell depends on another. The cells of a scan
+///   and the way through the tree are computed by faster code.
 /// - The tree's centre lies at the first scan's origin, rounded to whole cells of the world
 /// lattice.
 /// - A point whose leaf is unknown stays; so does one outside the tree.

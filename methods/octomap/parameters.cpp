@@ -95,8 +95,10 @@ void add_noise(Table& table) {
 
 std::vector<std::string> notes() {
   return {
-      "The map is liboctomap's tree and equals, node for node, what insertPointCloud makes of the "
-      "same scans; the cells of a scan are computed and put in by faster code of our own.",
+      "The map is liboctomap's tree with the leaves that insertPointCloud makes of the same scans, "
+      "kept to cells in which some scan has a point, for no other is asked for; the cells of a "
+      "scan "
+      "are computed and put in by faster code of our own.",
       "The tree's centre is the first scan's origin rounded to whole cells, so that coordinates "
       "stay exact in float far from the world's origin; the cells are those of the world's "
       "lattice.",
