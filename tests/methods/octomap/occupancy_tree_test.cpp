@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <random>
+#include <set>
 
 #include "tests/methods/octomap/hand_scans.h"
 
@@ -37,12 +38,12 @@ void insert_by_library(octomap::OcTree& tree, const toy::Points& points,
                         parameters.discretise);
 }
 
-/// Inserts 14 scans both ways and compares the trees after each.
-void compare_with_library(const OctomapParameters& parameters, int threads) {
+/// Inserts scans both ways and compares the trees after each.
+void compare_with_library(const OctomapParameters& parameters, int threads, int scans = 14) {
   octomap::OcTree plain(parameters.resolution);
   toy::HandMap map(parameters, threads);
   std::mt19937 random(11);
-  for (int scan = 0; scan < 14; ++scan) {
+  for (int scan = 0; scan < scans; ++scan) {
     const Eigen::Vector3d origin(0.013 + 0.2 * (scan % 4), -0.51, 0.017);
     const toy::Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
     insert_by_library(plain, points, origin, parameters);
@@ -74,7 +75,43 @@ TEST_CASE("the tree is node for node that of insertPointCloud") {
     parameters.discretise = true;
   }
   compare_with_library(parameters, 1);
-  compare_with_library(parameters, 3);
+  compare_with_library(parameters, 3, 4);
+}
+
+TEST_CASE("a map kept to some cells has the same values there, and nothing else") {
+  const OctomapParameters parameters;
+  toy::HandMap whole(parameters);
+  ScanCells cells(parameters, 1);
+  OccupancyTree kept(parameters);
+  const CellLattice lattice(parameters.resolution);
+  CellBlocks wanted;
+  std::mt19937 random(11);
+  std::set<CellCode> codes;
+  for (double x = -4.9; x < 4.9; x += 0.6)
+    codes.insert(*lattice.cell_of(toy::rounded({x, 0.3, 0.1})));
+  for (const CellCode code : codes) wanted.occupy(code);
+  const Eigen::Vector3d origin(0.013, -0.51, 0.017);
+  for (int scan = 0; scan < 8; ++scan) {
+    const toy::Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
+    whole.insert(points, origin);
+    cells.compute(toy::rounded(points), std::vector<PointRole>(points.size(), PointRole::kSurface),
+                  toy::rounded(origin));
+    kept.update(cells.parts(), &wanted);
+  }
+  TreeReader of_whole(whole.tree()), of_kept(kept.tree());
+  int known = 0;
+  for (double x = -4.9; x < 4.9; x += 0.2) {
+    const CellCode code = *lattice.cell_of(toy::rounded({x, 0.3, 0.1}));
+    const octomap::OcTreeNode* node = of_kept.find(code);
+    known += node != nullptr ? 1 : 0;
+    if (!codes.contains(code)) {
+      CHECK(node == nullptr);
+    } else if (const octomap::OcTreeNode* full = of_whole.find(code)) {
+      REQUIRE(node != nullptr);
+      CHECK(node->getLogOdds() == full->getLogOdds());
+    }
+  }
+  CHECK(known > 8);
 }
 
 TEST_CASE("equal leaves are merged, and parted when they differ") {
