@@ -4,6 +4,7 @@
 // y = z = 0.1: A is the cell of x = 1.1, W that of x = 2.1, A on the way to W.
 #include "methods/octomap/octomap.h"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 
 #include "tests/methods/octomap/hand_scans.h"
@@ -299,4 +300,14 @@ TEST_CASE("the lattice's place changes a bounded share of the verdicts") {
   CHECK(half_a_cell < 0.02);
   CHECK(share(0.07, -0.03, 0.0) < 0.02);
   CHECK(share(0.0, 0.0, 0.1) < 0.35);
+}
+
+TEST_CASE("a cancelled octomap run stops") {
+  const std::atomic<bool> stop{true};
+  RunContext context;
+  context.cancel = &stop;
+  const HandScans scans = seen(1, 1);
+  toy::Masks answer(scans.size());
+  CHECK_THROWS_AS(make_octomap({})->run(scans, answer, context), Cancelled);
+  CHECK_FALSE(answer.store.has(0));
 }
