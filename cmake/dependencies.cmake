@@ -16,6 +16,12 @@ find_library(RAYMOVAL_PCL_IO_LIBRARY pcl_io REQUIRED)
 find_library(RAYMOVAL_PCL_IO_PLY_LIBRARY pcl_io_ply REQUIRED)
 set(RAYMOVAL_PCL_LIBRARIES ${RAYMOVAL_PCL_IO_LIBRARY} ${RAYMOVAL_PCL_IO_PLY_LIBRARY}
     ${RAYMOVAL_PCL_COMMON_LIBRARY})
+# Planes by random sample consensus, for the octomap method.
+find_library(RAYMOVAL_PCL_SAMPLE_CONSENSUS_LIBRARY pcl_sample_consensus REQUIRED)
+set(RAYMOVAL_PCL_CONSENSUS_LIBRARIES ${RAYMOVAL_PCL_SAMPLE_CONSENSUS_LIBRARY}
+    ${RAYMOVAL_PCL_COMMON_LIBRARY})
+
+find_package(octomap 1.9 REQUIRED)
 
 # The simulator's ray tracer.
 find_package(embree 3.13 CONFIG REQUIRED)

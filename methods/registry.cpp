@@ -5,6 +5,7 @@
 #include "methods/controls/controls.h"
 #include "methods/dufomap/dufomap.h"
 #include "methods/erasor/erasor.h"
+#include "methods/octomap/octomap.h"
 #include "methods/peopleremover/peopleremover.h"
 #include "methods/raymoval/raymoval.h"
 #include "methods/removert/removert.h"
@@ -18,6 +19,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(remove_all_entry());
     methods.add(oracle_entry());
     methods.add(raymoval_entry());
+    methods.add(octomap_entry());
     methods.add(peopleremover_entry());
     methods.add(removert_entry());
     methods.add(erasor_entry());
