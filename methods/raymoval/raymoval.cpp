@@ -80,7 +80,8 @@ class RaymovalPass {
         context_(context),
         grid_(grid_for(sensor, parameters)),
         map_(parameters.voxel_size, parameters.permanent_erase),
-        erase_rows_(rows_of_a_beam(sensor, grid_, parameters)) {}
+        erase_rows_(rows_of_a_beam(sensor, grid_, parameters)),
+        caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {}
 
   [[nodiscard]] StaticMap& map() { return map_; }
 
@@ -113,8 +114,9 @@ class RaymovalPass {
  private:
   FirstHitImage cast(const Pose& T_world_sensor) {
     const StageScope timed(context_.times, "raycasting");
-    return cast_first_hits(map_.occupied(), T_world_sensor, grid_, parameters_.minimum_range,
-                           parameters_.maximum_range, context_.threads);
+    FirstHitImage image;
+    caster_.cast(map_.occupied(), T_world_sensor, context_.threads, image);
+    return image;
   }
 
   /// Eq. 11 on the map reference of eqs 8-9; also points where the map was seen through before.
@@ -154,6 +156,7 @@ class RaymovalPass {
     const std::vector<float> nearest_return =
         windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.erase_azimuth_window,
                          erase_rows_, context_.threads);
+    std::vector<VoxelIndex> seen_through;
     for (const int bin : find_seen_through(prepared.projected, nearest_return, first_hit, reference,
                                            {parameters_.erase_tau0, parameters_.erase_tau1})) {
       const auto at = static_cast<std::size_t>(bin);
@@ -163,9 +166,13 @@ class RaymovalPass {
           nearest_return[at] - first_hit.range[at] <
           grazing_distance(direction.z(), parameters_.erase_height * parameters_.voxel_size,
                            parameters_.erase_height_limit);
-      if (along_surface || prepared.own_voxels.contains(first_hit.voxel[at])) continue;
-      map_.erase(voxel_index(first_hit.voxel[at]));
+      if (along_surface) continue;
+      const auto voxel = first_hit.voxel(map_.occupied(), bin);
+      if (!voxel) continue;
+      if (prepared.own_voxels.contains(voxel_key(*voxel))) continue;
+      seen_through.push_back(*voxel);
     }
+    for (const VoxelIndex& voxel : seen_through) map_.erase(voxel);
   }
 
   void erase_without_return(const PreparedScan& prepared, const FirstHitImage& first_hit) {
@@ -177,7 +184,8 @@ class RaymovalPass {
     std::vector<VoxelKey> voxels;
     for (const int bin :
          find_no_return(nearest_return, first_hit, grid_, sensor_, parameters_.no_return_range)) {
-      voxels.push_back(first_hit.voxel[static_cast<std::size_t>(bin)]);
+      const auto voxel = first_hit.voxel(map_.occupied(), bin);
+      if (voxel) voxels.push_back(voxel_key(*voxel));
     }
     // However many of its bins a scan misses, it is one witness.
     std::sort(voxels.begin(), voxels.end());
@@ -203,6 +211,7 @@ class RaymovalPass {
   AngularGrid grid_;
   StaticMap map_;
   int erase_rows_;
+  FirstHitCaster caster_;
   VoxelMap<int> scans_without_return_;
 };
 

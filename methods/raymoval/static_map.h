@@ -14,6 +14,7 @@ class StaticMap {
       : occupied_(voxel_size), permanent_erase_(permanent_erase) {}
 
   [[nodiscard]] const OccupancyMap& occupied() const { return occupied_; }
+  [[nodiscard]] OccupancyMap& occupied() { return occupied_; }
   [[nodiscard]] VoxelIndex voxel_of(const Eigen::Vector3d& world) const {
     return occupied_.voxel_of(world);
   }
