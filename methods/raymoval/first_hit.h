@@ -69,9 +69,10 @@ struct FirstHitImage {
 /// **Exactness.** Walls are subtracted from the sensor's position, and directions computed, in
 /// double and then rounded to float once, so neighbouring boxes share their walls bit by bit and no
 /// ray slips between them. Boxes that the sensor stands beside are cut at the sensor's planes: the
-/// entry wall of each piece is then known. Bricks that reach into the minimum range are tested
-/// voxel by voxel. The answer is that of `cast_ray` rounded to float, but for rays that graze an
-/// edge or lie within a face. It does not depend on threads or the instruction set.
+/// entry wall of each piece is then known. Rays that are inside a box at the minimum range are
+/// tested with its voxels one by one. The answer is that of `cast_ray` rounded to float, but for
+/// rays that graze an edge or lie within a face. It does not depend on threads or the instruction
+/// set.
 class FirstHitCaster {
  public:
   FirstHitCaster(const AngularGrid& grid, const RayLimits& limits,

@@ -21,6 +21,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace raymoval::sweep {
 namespace HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -36,14 +37,22 @@ enum Field : std::size_t {
   kHighA,
   kLowB,
   kHighB,
-  kNear,             ///< The walls on the sensor's side, x, y, z.
-  kFar = kNear + 3,  ///< The other ones.
-  kFields = kFar + 3,
+  kNear,               ///< The walls on the sensor's side, x, y, z.
+  kFar = kNear + 3,    ///< The other ones.
+  kPacked = kFar + 3,  ///< The bits of the BrickBox.
+  kFields,
 };
 constexpr std::size_t kGroupFloats = kFields * kGroup;
 
 F number(double value) {
   return hn::Set(Floats(), static_cast<float>(value));
+}
+
+/// One bit a lane.
+HWY_INLINE std::uint32_t mask_bits(hn::Mask<Floats> mask) {
+  std::uint64_t bytes = 0;
+  hn::StoreMaskBits(Floats(), mask, reinterpret_cast<std::uint8_t*>(&bytes));
+  return static_cast<std::uint32_t>(bytes);
 }
 
 F atan2_of(F y, F x) {
@@ -246,26 +255,28 @@ struct Pieces {
   float* values;
   std::size_t capacity;
   std::size_t count = 0;
+  [[nodiscard]] float* packed() const { return values + 6 * capacity; }
   [[nodiscard]] float* low(std::size_t axis) const { return values + axis * capacity; }
   [[nodiscard]] float* high(std::size_t axis) const { return values + (axis + 3) * capacity; }
 };
-/// A brick has at most 512 voxels, and at most 3 x 64 + 3 x 8 + 1 cuts at the sensor's planes.
-constexpr std::size_t kMostPieces = 768;
+/// A brick has at most 256 boxes, each cut into 8 at most.
+constexpr std::size_t kMostPieces = 2048;
 
 /// Adds a box, cut at the planes through the sensor, so that for every piece it is known which of
 /// its walls a ray can enter by.
-void add_piece(Pieces& pieces, std::array<float, 3> low, std::array<float, 3> high) {
+void add_piece(Pieces& pieces, BrickBox box, std::array<float, 3> low, std::array<float, 3> high) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(low[k] < 0.0F && high[k] > 0.0F)) continue;
     std::array<float, 3> cut = high;
     cut[k] = 0.0F;
-    add_piece(pieces, low, cut);
+    add_piece(pieces, box, low, cut);
     low[k] = 0.0F;
   }
   for (std::size_t k = 0; k < 3; ++k) {
     pieces.low(k)[pieces.count] = low[k];
     pieces.high(k)[pieces.count] = high[k];
   }
+  pieces.packed()[pieces.count] = std::bit_cast<float>(box.packed);
   ++pieces.count;
 }
 
@@ -280,6 +291,7 @@ void load_boxes(const Frame& frame, std::size_t brick, Pieces& pieces) {
     std::memcpy(packed, boxes.data() + i,
                 std::min(hn::Lanes(d), boxes.size() - i) * sizeof(std::uint32_t));
     auto word = hn::Load(bits, packed);
+    hn::Store(hn::BitCast(Floats(), word), Floats(), pieces.packed() + i);
     const auto next = [&] {
       const auto value = hn::BitCast(d, hn::And(word, hn::Set(bits, 7U)));
       word = hn::ShiftRight<3>(word);
@@ -307,22 +319,7 @@ void cut_boxes(const Frame& frame, std::size_t brick, Pieces& pieces) {
       low[k] = walls[k][box.first(k)];
       high[k] = walls[k][box.last(k) + 1];
     }
-    add_piece(pieces, low, high);
-  }
-}
-
-/// The single voxels of a brick that reaches into the minimum range: what counts there is where a
-/// ray enters a voxel, not where it enters a box of several.
-void cut_voxels(const Frame& frame, std::size_t brick, Pieces& pieces) {
-  const Brick& voxels = frame.map->brick(frame.bricks->slot[brick]);
-  std::array<const float*, 3> walls;
-  for (std::size_t k = 0; k < 3; ++k) walls[k] = frame.planes[k] + frame.bricks->plane[k][brick];
-  for (int x = 0; x < Brick::kSide; ++x) {
-    for (auto left = voxels.occupied[static_cast<std::size_t>(x)]; left != 0; left &= left - 1) {
-      const int y = std::countr_zero(left) / 8, z = std::countr_zero(left) % 8;
-      add_piece(pieces, {walls[0][x], walls[1][y], walls[2][z]},
-                {walls[0][x + 1], walls[1][y + 1], walls[2][z + 1]});
-    }
+    add_piece(pieces, box, low, high);
   }
 }
 
@@ -351,6 +348,7 @@ void store_group(const Frame& frame, const Pieces& pieces, std::size_t i, float*
     hn::Store(hn::IfThenElse(ahead, low[k], high[k]), d, group + (kNear + k) * kGroup);
     hn::Store(hn::IfThenElse(ahead, high[k], low[k]), d, group + (kFar + k) * kGroup);
   }
+  hn::Store(hn::Load(d, pieces.packed() + i), d, group + kPacked * kGroup);
   hn::Store(height_low, d, group + kHeightLow * kGroup);
   hn::Store(height_high, d, group + kHeightHigh * kGroup);
   for (std::size_t level = 0; level < 2; ++level) {
@@ -373,9 +371,7 @@ void expand(const Frame& frame, std::size_t brick, Scratch& scratch) {
   for (std::size_t k = 0; k < 3; ++k) {
     beside |= frame.bricks->low[k][brick] < 0.0F && frame.bricks->high[k][brick] > 0.0F;
   }
-  if (reaches_minimum(frame, frame.bricks->nearest[brick])) {
-    cut_voxels(frame, brick, pieces);
-  } else if (beside) {
+  if (beside) {
     cut_boxes(frame, brick, pieces);
   } else {
     load_boxes(frame, brick, pieces);
@@ -464,9 +460,7 @@ void bound_boxes(const Column& column, const float* group, float* rho, std::uint
     const auto top_below = hn::Lt(field(kHeightHigh), hn::Zero(d));
     hn::Store(hn::IfThenElse(below, in, out), d, rho + i);
     hn::Store(hn::IfThenElse(top_below, out, in), d, rho + kGroup + i);
-    std::uint8_t mask[8] = {};
-    hn::StoreMaskBits(d, hn::Le(in, out), mask);
-    bits |= static_cast<std::uint32_t>(mask[0] | mask[1] << 8) << i;
+    bits |= mask_bits(hn::Le(in, out)) << i;
   }
   *crossing = bits;
 }
@@ -480,37 +474,91 @@ std::uint32_t boxes_between(const float* group, const float* rho, float below, f
                             hn::Mul(hn::Set(d, above), hn::Load(d, rho + i)));
     const auto high = hn::Ge(hn::Load(d, group + kHeightHigh * kGroup + i),
                              hn::Mul(hn::Set(d, below), hn::Load(d, rho + kGroup + i)));
-    std::uint8_t mask[8] = {};
-    hn::StoreMaskBits(d, hn::And(low, high), mask);
-    bits |= static_cast<std::uint32_t>(mask[0] | mask[1] << 8) << i;
+    bits |= mask_bits(hn::And(low, high)) << i;
   }
   return bits;
 }
 
+/// Rays of consecutive rows.
+struct Rays {
+  std::array<F, 3> inverse;  ///< 1 / direction along each axis.
+};
+
+/// Where rays enter and leave a box.
+struct Crossing {
+  F enter, leave;
+};
+
 /// Exact slab test of one box with a vector of rays. Only products and comparisons: every
 /// instruction set rounds alike.
-template <bool kAfterMinimum>
-F nearer_hit(const float* box, const std::array<F, 3>& inverse, F depth, F minimum_range) {
+HWY_INLINE Crossing cross_box(const float* box, const Rays& rays) {
   const Floats d;
-  std::array<F, 3> in, out;
-  for (std::size_t k = 0; k < 3; ++k) {
-    in[k] = hn::Mul(hn::Set(d, box[(kNear + k) * kGroup]), inverse[k]);
-    out[k] = hn::Mul(hn::Set(d, box[(kFar + k) * kGroup]), inverse[k]);
-  }
-  const F enter = hn::Max(hn::Max(in[0], in[1]), in[2]);
-  const F leave = hn::Min(hn::Min(out[0], out[1]), out[2]);
-  auto hit = hn::And(hn::Le(enter, leave), hn::Lt(enter, depth));
-  if constexpr (kAfterMinimum) hit = hn::And(hit, hn::Ge(enter, minimum_range));
-  return hn::IfThenElse(hit, enter, depth);
+  const auto at = [&](std::size_t field, std::size_t axis) {
+    return hn::Mul(hn::Set(d, box[(field + axis) * kGroup]), rays.inverse[axis]);
+  };
+  return {hn::Max(hn::Max(at(kNear, 0), at(kNear, 1)), at(kNear, 2)),
+          hn::Min(hn::Min(at(kFar, 0), at(kFar, 1)), at(kFar, 2))};
 }
 
-template <bool kAfterMinimum>
+HWY_INLINE F nearer_hit(const float* box, const Rays& rays, F depth) {
+  const Crossing crossing = cross_box(box, rays);
+  const auto hit = hn::And(hn::Le(crossing.enter, crossing.leave), hn::Lt(crossing.enter, depth));
+  return hn::IfThenElse(hit, crossing.enter, depth);
+}
+
+/// The same for the voxels of a box one by one, if entered after the minimum range.
+HWY_NOINLINE F nearer_voxel(const Frame& frame, std::size_t brick, std::uint32_t packed,
+                            const Rays& rays, F depth) {
+  const Floats d;
+  const F minimum = hn::Set(d, frame.minimum_range);
+  const BrickBox box{packed};
+  const auto slab = [&](std::size_t axis, int at) {
+    const float* wall = frame.planes[axis] + frame.bricks->plane[axis][brick] + at;
+    const F a = hn::Mul(hn::Set(d, wall[0]), rays.inverse[axis]);
+    const F b = hn::Mul(hn::Set(d, wall[1]), rays.inverse[axis]);
+    return Crossing{hn::Min(a, b), hn::Max(a, b)};
+  };
+  for (int x = box.first(0); x <= box.last(0); ++x) {
+    const Crossing in_x = slab(0, x);
+    for (int y = box.first(1); y <= box.last(1); ++y) {
+      const Crossing in_y = slab(1, y);
+      const F enter_xy = hn::Max(in_x.enter, in_y.enter);
+      const F leave_xy = hn::Min(in_x.leave, in_y.leave);
+      for (int z = box.first(2); z <= box.last(2); ++z) {
+        const Crossing in_z = slab(2, z);
+        const F enter = hn::Max(enter_xy, in_z.enter);
+        const auto crossed = hn::Le(enter, hn::Min(leave_xy, in_z.leave));
+        const auto hit = hn::And(crossed, hn::And(hn::Ge(enter, minimum), hn::Lt(enter, depth)));
+        depth = hn::IfThenElse(hit, enter, depth);
+      }
+    }
+  }
+  return depth;
+}
+
+/// For a box that reaches into the minimum range. Rays that are inside it there may enter its next
+/// voxel later.
+HWY_INLINE F nearer_hit_after_minimum(const Frame& frame, std::size_t brick, const float* box,
+                                      const Rays& rays, F depth) {
+  const Floats d;
+  const F minimum = hn::Set(d, frame.minimum_range);
+  const Crossing crossing = cross_box(box, rays);
+  const auto crossed = hn::Le(crossing.enter, crossing.leave);
+  const auto early = hn::Lt(crossing.enter, minimum);
+  const auto inside = hn::And(crossed, hn::And(early, hn::Ge(crossing.leave, minimum)));
+  const auto hit = hn::And(crossed, hn::Lt(crossing.enter, depth));
+  depth = hn::IfThenElse(hn::AndNot(early, hit), crossing.enter, depth);
+  if (hn::AllFalse(d, inside)) return depth;
+  return nearer_voxel(frame, brick, std::bit_cast<std::uint32_t>(box[kPacked * kGroup]), rays,
+                      depth);
+}
+
+template <bool kAtMinimum>
 void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& entry,
                  Scratch& scratch) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
   const F nearest = hn::Set(d, entry.nearest);
-  const F minimum_range = hn::Set(d, frame.minimum_range);
   const float* boxes = nullptr;
   std::size_t groups = 0;
   for (std::size_t row = entry.first_row / lanes * lanes; row <= entry.last_row; row += lanes) {
@@ -530,9 +578,8 @@ void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& en
     }
     const std::size_t last = std::min(row + lanes, static_cast<std::size_t>(frame.grid->rows)) - 1;
     const float below = frame.grid->tangent_below[row], above = frame.grid->tangent_above[last];
-    const std::array<F, 3> inverse = {hn::Load(d, column.inverse[0] + row),
-                                      hn::Load(d, column.inverse[1] + row),
-                                      hn::Load(d, column.inverse[2] + row)};
+    const Rays rays{{hn::Load(d, column.inverse[0] + row), hn::Load(d, column.inverse[1] + row),
+                     hn::Load(d, column.inverse[2] + row)}};
     for (std::size_t g = 0; g < groups; ++g) {
       if (scratch.crossing[g] == 0) continue;
       const float* group = boxes + g * kGroupFloats;
@@ -540,8 +587,12 @@ void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& en
           scratch.crossing[g] &
           boxes_between(group, scratch.bounds.data() + g * 2 * kGroup, below, above);
       for (; left != 0; left &= left - 1) {
-        depth = nearer_hit<kAfterMinimum>(group + std::countr_zero(left), inverse, depth,
-                                          minimum_range);
+        const float* box = group + std::countr_zero(left);
+        if constexpr (kAtMinimum) {
+          depth = nearer_hit_after_minimum(frame, entry.brick, box, rays, depth);
+        } else {
+          depth = nearer_hit(box, rays, depth);
+        }
       }
     }
     hn::Store(depth, d, column.depth + row);
@@ -562,7 +613,7 @@ void write_rows(const Frame& frame, int first, int count, const float* depth, fl
 
 void prepare_scratch(const Frame& frame, Scratch& scratch) {
   const auto rows = static_cast<std::size_t>(frame.grid->padded_rows);
-  scratch.pieces.require(6 * kMostPieces);
+  scratch.pieces.require(7 * kMostPieces);
   scratch.bounds.require(2 * kMostPieces);
   scratch.crossing.resize(kMostPieces / kGroup);
   scratch.directions.require(3 * rows);
@@ -571,14 +622,13 @@ void prepare_scratch(const Frame& frame, Scratch& scratch) {
   scratch.boxes_used = 0;
   std::size_t most = 0;
   for (const std::uint32_t brick : *frame.order) {
-    // Cut boxes are rare; a bound that is a little high costs address space only.
-    const bool voxels = reaches_minimum(frame, frame.bricks->nearest[brick]);
-    bool beside = voxels;
+    bool beside = false;
     for (std::size_t k = 0; k < 3; ++k) {
       beside |= frame.bricks->low[k][brick] < 0.0F && frame.bricks->high[k][brick] > 0.0F;
     }
+    // Cut boxes are rare; a bound that is too high costs address space only.
     const std::size_t boxes = frame.map->boxes(frame.bricks->slot[brick]).size();
-    most += ((voxels ? kMostPieces : (beside ? 8 : 1) * boxes) + kGroup - 1) / kGroup;
+    most += ((beside ? 8 : 1) * boxes + kGroup - 1) / kGroup;
   }
   scratch.boxes.require(most * kGroupFloats);
 }
@@ -605,6 +655,8 @@ void sweep_columns(const Frame& frame, int begin, int end, Scratch& scratch, flo
     write_rows(frame, first, count, scratch.depth.data(), range);
   }
 }
+
+}  // namespace
 
 Kernels kernels() {
   return {&measure_bricks, &sweep_columns};

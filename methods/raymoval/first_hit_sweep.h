@@ -74,6 +74,7 @@ struct Scratch {
   AlignedArray<float> pieces;  ///< Boxes of one brick, cut at the sensor's planes.
   AlignedArray<float> bounds;  ///< Of one brick's boxes in one column.
   std::vector<std::uint32_t> crossing;
+  std::vector<int> rows_inside;    ///< Of one column: rays inside a box at the minimum range.
   AlignedArray<float> directions;  ///< Inverse directions of one column.
   AlignedArray<float> depth;       ///< Ranges of kGroup columns.
 };
