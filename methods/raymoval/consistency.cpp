@@ -4,17 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
+
 namespace raymoval {
 
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
-                       const RangeMargin& margin) {
+                       const RangeMargin& margin, int threads) {
   Mask dynamic(scan.range.size(), 0);
-  for (std::size_t k = 0; k < dynamic.size(); ++k) {
-    if (scan.bin[k] < 0) continue;
+  parallel_for(threads, dynamic.size(), 8192, [&](std::size_t k) {
+    if (scan.bin[k] < 0) return;
     const float reference = map_reference[static_cast<std::size_t>(scan.bin[k])];
-    if (reference == kNoRange) continue;
+    if (reference == kNoRange) return;
     dynamic[k] = reference - scan.range[k] > margin.at(scan.range[k]) ? 1 : 0;
-  }
+  });
   return dynamic;
 }
 
@@ -22,22 +24,34 @@ double grazing_distance(double vertical, double height, double limit) {
   return std::min(limit, height / std::max(std::abs(vertical), 1e-9));
 }
 
-std::vector<int> find_seen_through(const ProjectedScan& scan,
-                                   const std::vector<float>& nearest_return,
-                                   const FirstHitImage& first_hit,
-                                   const std::vector<float>& map_reference,
-                                   const RangeMargin& margin) {
-  std::vector<int> bins;
-  for (std::size_t bin = 0; bin < map_reference.size(); ++bin) {
-    if (scan.minimum_range[bin] == kNoRange || first_hit.range[bin] == kNoRange) continue;
+std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
+                                           const std::function<float(int)>& nearest_return,
+                                           const FirstHitImage& first_hit,
+                                           const std::vector<float>& map_reference,
+                                           const RangeMargin& margin, int threads) {
+  constexpr std::size_t kGrain = 8192;
+  const std::size_t bins = scan.minimum_range.size();
+  const auto sees_through = [&](std::size_t bin, double seen_to) {
     const double reference = map_reference[bin];
-    const double seen_to = nearest_return[bin];
-    if (seen_to - reference > margin.at(reference) &&
-        seen_to - first_hit.range[bin] > margin.tau0) {
-      bins.push_back(static_cast<int>(bin));
+    return seen_to - reference > margin.at(reference) &&
+           seen_to - first_hit.range[bin] > margin.tau0;
+  };
+  std::vector<std::vector<SeenThrough>> parts((bins + kGrain - 1) / kGrain);
+  parallel_chunks(threads, bins, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t bin = begin; bin < end; ++bin) {
+      const float own = scan.minimum_range[bin];
+      if (own == kNoRange || first_hit.range[bin] == kNoRange) continue;
+      // The neighbourhood's nearest is no farther than the bin's own: most bins end here.
+      if (!sees_through(bin, own)) continue;
+      const float nearest = nearest_return(static_cast<int>(bin));
+      if (sees_through(bin, nearest)) {
+        parts[begin / kGrain].push_back({static_cast<int>(bin), nearest});
+      }
     }
-  }
-  return bins;
+  });
+  std::vector<SeenThrough> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 std::vector<int> find_no_return(const std::vector<float>& nearest_return,

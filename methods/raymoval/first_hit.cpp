@@ -181,6 +181,7 @@ class FirstHitCaster::State {
     image.grid = grid_;
     image.T_world_sensor = T_world_sensor;
     image.limits = limits_;
+    image.directions = directions_;
     image.range.resize(static_cast<std::size_t>(grid_.size()));
     const Frame frame = start_frame(map, T_world_sensor);
     gather_bricks(map, walls_, frame.maximum_range, bricks_);
@@ -227,6 +228,7 @@ class FirstHitCaster::State {
 
   AngularGrid grid_;
   RayLimits limits_;
+  std::shared_ptr<const DirectionTable> directions_ = std::make_shared<DirectionTable>(grid_);
   GridTables tables_;
   sweep::Kernels kernels_;
   WallTables walls_;
@@ -255,7 +257,10 @@ FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
 }
 
 Ray FirstHitImage::ray(int bin) const {
-  return {T_world_sensor.translation(), T_world_sensor.linear() * grid.direction(bin)};
+  return {
+      T_world_sensor.translation(),
+      T_world_sensor.linear() * directions->at(static_cast<std::size_t>(grid.azimuth_of(bin)),
+                                               static_cast<std::size_t>(grid.elevation_of(bin)))};
 }
 
 std::optional<VoxelIndex> FirstHitImage::voxel(const OccupancyMap& map, int bin) const {

@@ -41,6 +41,7 @@ struct FirstHitImage {
   AngularGrid grid;
   Pose T_world_sensor = Pose::Identity();
   RayLimits limits;
+  std::shared_ptr<const DirectionTable> directions;  ///< Of the grid.
   std::vector<float> range;  ///< r_cast of each bin, metres; infinite where nothing is hit.
 
   /// Eqs 5-6: the ray of a bin.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "methods/raymoval/scan_kernels.h"
 
 namespace raymoval {
 namespace {
@@ -22,10 +23,14 @@ void for_window(const std::vector<float>& values, const AngularGrid& grid, int i
   }
 }
 
+int percentile_rank(int count, double quantile) {
+  return static_cast<int>(quantile * (count - 1) + 0.5);
+}
+
 }  // namespace
 
 float percentile_of_sorted(const float* sorted, int count, double quantile) {
-  return sorted[static_cast<int>(quantile * (count - 1) + 0.5)];
+  return sorted[percentile_rank(count, quantile)];
 }
 
 std::vector<float> windowed_percentile(const std::vector<float>& values, const AngularGrid& grid,
@@ -46,6 +51,52 @@ std::vector<float> windowed_percentile(const std::vector<float>& values, const A
     }
   });
   return result;
+}
+
+void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
+                          const AngularGrid& grid, int radius,
+                          const std::array<double, 2>& quantiles, int threads,
+                          WindowPercentiles& percentiles, InstructionSet set) {
+  const kernels::Kernels kernel = kernels::kernels_for(set);
+  if (radius != 1 || grid.azimuth_bins < kernel.row_lanes) {
+    percentiles.first = windowed_percentile(values, grid, radius, quantiles[0], threads);
+    percentiles.second = windowed_percentile(values, grid, radius, quantiles[1], threads);
+    return;
+  }
+  percentiles.first.resize(values.size());
+  percentiles.second.resize(values.size());
+  const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
+  const auto rows = static_cast<std::size_t>(grid.elevation_bins);
+  const std::vector<float> beyond(columns, kNoRange);
+  kernels::WindowRow shared;
+  shared.columns = grid.azimuth_bins;
+  for (std::size_t q = 0; q < 2; ++q) {
+    for (int count = 1; count <= 9; ++count) {
+      shared.ranks[q][static_cast<std::size_t>(count)] = percentile_rank(count, quantiles[q]);
+    }
+  }
+  parallel_chunks(threads, rows, 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> scratch(3 * (columns + 2));
+    kernels::WindowRow job = shared;
+    job.scratch = scratch.data();
+    for (std::size_t row = begin; row < end; ++row) {
+      const float* here = values.data() + row * columns;
+      job.values = {row == 0 ? beyond.data() : here - columns, here,
+                    row + 1 == rows ? beyond.data() : here + columns};
+      job.wanted = wanted.data() + row * columns;
+      job.results = {percentiles.first.data() + row * columns,
+                     percentiles.second.data() + row * columns};
+      kernel.percentiles(job);
+    }
+  });
+}
+
+float window_minimum(const std::vector<float>& values, const AngularGrid& grid, int bin,
+                     int azimuth_radius, int elevation_radius) {
+  float smallest = kNoRange;
+  for_window(values, grid, grid.azimuth_of(bin), grid.elevation_of(bin), azimuth_radius,
+             elevation_radius, [&](float value) { smallest = std::min(smallest, value); });
+  return smallest;
 }
 
 std::vector<float> windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "methods/raymoval/angular_grid.h"
@@ -18,6 +19,24 @@ float percentile_of_sorted(const float* sorted, int count, double quantile);
 /// no finite value.
 std::vector<float> windowed_percentile(const std::vector<float>& values, const AngularGrid& grid,
                                        int radius, double quantile, int threads);
+
+/// Two percentiles of the same windows.
+struct WindowPercentiles {
+  std::vector<float> first, second;
+};
+
+/// Eqs 8-9 as `windowed_percentile`, for two quantiles at once and only for the bins where `wanted`
+/// is finite; what the others hold means nothing.
+/// @param percentiles replaced; their memory is used again
+void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
+                          const AngularGrid& grid, int radius,
+                          const std::array<double, 2>& quantiles, int threads,
+                          WindowPercentiles& percentiles,
+                          InstructionSet set = InstructionSet::kBest);
+
+/// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of one bin.
+float window_minimum(const std::vector<float>& values, const AngularGrid& grid, int bin,
+                     int azimuth_radius, int elevation_radius);
 
 /// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
 std::vector<float> windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,

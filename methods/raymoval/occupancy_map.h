@@ -63,6 +63,10 @@ class OccupancyMap {
     const Brick* brick = find_brick(brick_of(voxel));
     return brick != nullptr && brick->contains(voxel.x(), voxel.y(), voxel.z());
   }
+  /// The same for a voxel of the brick `slot`, which may be kNoBrick.
+  [[nodiscard]] bool contains(Slot slot, const VoxelIndex& voxel) const {
+    return slot != kNoBrick && bricks_[slot].contains(voxel.x(), voxel.y(), voxel.z());
+  }
   /// True if any voxel within `dilation` cells (Chebyshev) is occupied.
   [[nodiscard]] bool contains_near(const VoxelIndex& voxel, int dilation) const;
 
@@ -78,6 +82,9 @@ class OccupancyMap {
     const auto found = index_.find(voxel_key(brick));
     return found == index_.end() ? kNoBrick : found->second;
   }
+  /// Brick of each voxel, kNoBrick where there is none. Quick where neighbours follow each other.
+  void find_slots(const std::vector<VoxelIndex>& voxels, int threads,
+                  std::vector<Slot>& slots) const;
   /// The brick's number; it is made if it is not there.
   Slot make_brick(const Eigen::Vector3i& brick);
   [[nodiscard]] const Brick& brick(Slot slot) const { return bricks_[slot]; }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "methods/raymoval/simd.h"
+
+/// Loops over the points of a scan and the bins of an image, compiled for each instruction set.
+/// `angular_grid` and `map_reference` are the way to them.
+namespace raymoval::kernels {
+
+/// Eqs 1-3 for points (x y z, x y z, ...) of a scan.
+struct Projection {
+  const float* points = nullptr;
+  double minimum_range = 0.0;
+  double elevation_min = 0.0;
+  double azimuth_bins_per_radian = 0.0;
+  double elevation_bins_per_radian = 0.0;
+  int azimuth_bins = 0, elevation_bins = 0;
+  float* range = nullptr;
+  std::int32_t* bin = nullptr;  ///< kNoBin, kCloseCall or the number.
+};
+inline constexpr std::int32_t kNoBin = -1;
+/// The point is so near to a border that roundings decide: to be computed as the formula says.
+inline constexpr std::int32_t kCloseCall = -2;
+
+/// Voxels of points in the world.
+struct Voxelisation {
+  const float* points = nullptr;
+  std::array<double, 9> rotation{};  ///< Row by row.
+  std::array<double, 3> translation{};
+  double inverse_voxel_size = 0.0;
+  double limit = 0.0;              ///< Largest magnitude of an index.
+  std::int32_t* voxels = nullptr;  ///< x y z of each point.
+};
+
+/// One row of eqs 8-9 for windows of 3 x 3.
+struct WindowRow {
+  std::array<const float*, 3> values{};  ///< The rows above, here and below.
+  const float* wanted = nullptr;         ///< Bins with a finite value here are wanted.
+  int columns = 0;
+  /// Ranks of two percentiles among 1 .. 9 finite values.
+  std::array<std::array<int, 10>, 2> ranks{};
+  std::array<float*, 2> results{};
+  float* scratch = nullptr;  ///< 3 x (columns + 2) numbers.
+};
+
+struct Kernels {
+  std::size_t lanes;  ///< Points handled at a time.
+  int row_lanes;      ///< Bins handled at a time; a row needs at least so many.
+  /// Points begin .. end - 1, a multiple of `lanes`.
+  void (*project)(const Projection& job, std::size_t begin, std::size_t end);
+  /// The same. @return false if an index is beyond the limit
+  bool (*voxelise)(const Voxelisation& job, std::size_t begin, std::size_t end);
+  void (*percentiles)(const WindowRow& job);
+};
+
+Kernels kernels_for(InstructionSet set);
+
+}  // namespace raymoval::kernels
