@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: MIT
+// Compiled for each instruction set for one instruction only, the one that counts bits.
 #include "methods/raymoval/box_cover.h"
 
+#include "methods/raymoval/compiled_sets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "methods/raymoval/box_cover.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+//
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace raymoval {
+namespace HWY_NAMESPACE {
 namespace {
 
 constexpr std::uint64_t kEveryByte = 0x0101010101010101ULL;
@@ -93,7 +104,7 @@ Candidate best_box(const Brick& brick, const Brick& left, int x) {
 
 }  // namespace
 
-void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
+void cover_brick(const Brick& brick, std::vector<BrickBox>& boxes) {
   boxes.clear();
   Brick left = brick;
   for (int x = 0; x < Brick::kSide; ++x) {
@@ -106,6 +117,22 @@ void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
                                      {box.x1, box.y1, 63 - std::countl_zero(box.column)}));
     }
   }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace raymoval
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "methods/raymoval/instruction_sets.h"
+
+namespace raymoval {
+
+HWY_EXPORT(cover_brick);
+
+void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
+  static const auto kernel = RAYMOVAL_KERNEL_FOR(cover_brick, InstructionSet::kBest);
+  kernel(brick, boxes);
 }
 
 BrickBox tight_box(const Brick& brick) {
@@ -130,3 +157,4 @@ BrickBox tight_box(const Brick& brick) {
 }
 
 }  // namespace raymoval
+#endif

@@ -2,6 +2,7 @@
 #include "methods/raymoval/clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace raymoval {
@@ -55,42 +56,111 @@ void for_neighbours(const VoxelIndex& cell, int reach, Visit&& visit) {
 
 }  // namespace
 
+namespace {
+
+/// Points that are so near to each other that they are joined whatever their ranges.
+struct Clump {
+  VoxelIndex cell;
+  std::vector<int> points;
+  double farthest = 0.0;  ///< Largest range of its points, metres.
+};
+
+/// Joins points as `range_adaptive_clusters` says. Clumps save nearly all comparisons: what is in
+/// one is joined, and of two clumps only the first pair near enough has to be found.
+class Clustering {
+ public:
+  Clustering(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& ranges,
+             double gap, double growth)
+      : points_(points), ranges_(ranges), gap_(gap), growth_(growth), sets_(points.size()) {
+    // The diagonal of a clump is as long as the smallest reach, a rounding less.
+    side_ = gap / std::numbers::sqrt3 * (1.0 - 1e-9);
+    collect_clumps();
+  }
+
+  std::vector<int> run() {
+    const double widest = reach(*std::max_element(ranges_.begin(), ranges_.end()));
+    // Blocks of clumps as wide as the widest reach: partners are in the same or the next one.
+    const int block = static_cast<int>(std::ceil(widest / side_)) + 1;
+    VoxelMap<std::vector<int>> blocks;
+    for (std::size_t c = 0; c < clumps_.size(); ++c) {
+      const VoxelIndex& cell = clumps_[c].cell;
+      const VoxelIndex at(floor_divide(cell.x(), block), floor_divide(cell.y(), block),
+                          floor_divide(cell.z(), block));
+      for_neighbours(at, 1, [&](VoxelKey key) {
+        const auto found = blocks.find(key);
+        if (found == blocks.end()) return;
+        for (const int other : found->second) join(clumps_[c], clumps_[index(other)]);
+      });
+      blocks[voxel_key(at)].push_back(static_cast<int>(c));
+    }
+    return sets_.numbers();
+  }
+
+ private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  static int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+  [[nodiscard]] double reach(double range) const { return gap_ + growth_ * range; }
+
+  void collect_clumps() {
+    VoxelMap<int> numbers;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const VoxelIndex cell = voxel_index(points_[i], 1.0 / side_);
+      const auto [found, is_new] =
+          numbers.try_emplace(voxel_key(cell), static_cast<int>(clumps_.size()));
+      if (is_new) clumps_.push_back({cell, {}, 0.0});
+      Clump& clump = clumps_[index(found->second)];
+      if (!clump.points.empty()) sets_.join(clump.points.front(), static_cast<int>(i));
+      clump.points.push_back(static_cast<int>(i));
+      clump.farthest = std::max(clump.farthest, ranges_[i]);
+    }
+  }
+
+  /// Joins two clumps if any pair of their points is near enough.
+  void join(const Clump& a, const Clump& b) {
+    const double longest = reach(std::min(a.farthest, b.farthest));
+    const Eigen::Vector3i cells = ((a.cell - b.cell).cwiseAbs().array() - 1).max(0).matrix();
+    if (cells.squaredNorm() * side_ * side_ > longest * longest * (1.0 + 1e-9)) return;
+    if (sets_.root(a.points.front()) == sets_.root(b.points.front())) return;
+    for (const int i : a.points) {
+      for (const int j : b.points) {
+        const double near_enough = reach(std::min(ranges_[index(i)], ranges_[index(j)]));
+        if ((points_[index(i)] - points_[index(j)]).squaredNorm() <= near_enough * near_enough) {
+          sets_.join(i, j);
+          return;
+        }
+      }
+    }
+  }
+
+  const std::vector<Eigen::Vector3d>& points_;
+  const std::vector<double>& ranges_;
+  double gap_, growth_, side_;
+  DisjointSets sets_;
+  std::vector<Clump> clumps_;
+};
+
+}  // namespace
+
 std::vector<int> range_adaptive_clusters(const std::vector<Eigen::Vector3d>& points,
                                          const std::vector<double>& ranges, double gap,
                                          double growth) {
-  DisjointSets sets(points.size());
   if (points.empty()) return {};
-  // Cells as wide as the widest gap: partners of a point are in its own cell or a neighbouring one.
-  const double widest = gap + growth * *std::max_element(ranges.begin(), ranges.end());
-  const double scale = 1.0 / std::max(widest, 1e-3);
-  VoxelMap<std::vector<int>> cells;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const VoxelIndex cell = voxel_index(points[i], scale);
-    for_neighbours(cell, 1, [&](VoxelKey key) {
-      const auto found = cells.find(key);
-      if (found == cells.end()) return;
-      for (const int j : found->second) {
-        const auto other = static_cast<std::size_t>(j);
-        const double reach = gap + growth * std::min(ranges[i], ranges[other]);
-        if ((points[i] - points[other]).squaredNorm() <= reach * reach) {
-          sets.join(static_cast<int>(i), j);
-        }
-      }
-    });
-    cells[voxel_key(cell)].push_back(static_cast<int>(i));
-  }
-  return sets.numbers();
+  return Clustering(points, ranges, gap, growth).run();
 }
 
 std::vector<int> voxel_components(const std::vector<VoxelKey>& voxels, int gap) {
   DisjointSets sets(voxels.size());
   VoxelMap<int> seen;
   for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const auto [first, is_new] = seen.emplace(voxels[i], static_cast<int>(i));
+    if (!is_new) {
+      sets.join(static_cast<int>(i), first->second);
+      continue;
+    }
     for_neighbours(voxel_index(voxels[i]), gap, [&](VoxelKey key) {
       const auto found = seen.find(key);
       if (found != seen.end()) sets.join(static_cast<int>(i), found->second);
     });
-    seen.emplace(voxels[i], static_cast<int>(i));
   }
   return sets.numbers();
 }

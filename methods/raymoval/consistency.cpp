@@ -2,9 +2,11 @@
 #include "methods/raymoval/consistency.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/parallel.h"
+#include "methods/raymoval/scan_kernels.h"
 
 namespace raymoval {
 
@@ -30,6 +32,7 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
                                            const std::vector<float>& map_reference,
                                            const RangeMargin& margin, int threads) {
   constexpr std::size_t kGrain = 8192;
+  constexpr double kRounding = 1e-3;  // Of the quick test in float, generously.
   const std::size_t bins = scan.minimum_range.size();
   const auto sees_through = [&](std::size_t bin, double seen_to) {
     const double reference = map_reference[bin];
@@ -37,17 +40,30 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
            seen_to - first_hit.range[bin] > margin.tau0;
   };
   std::vector<std::vector<SeenThrough>> parts((bins + kGrain - 1) / kGrain);
+  const auto check = [&](std::size_t bin, std::vector<SeenThrough>& found) {
+    const float own = scan.minimum_range[bin];
+    if (own == kNoRange || first_hit.range[bin] == kNoRange) return;
+    // The neighbourhood's nearest is no farther than the bin's own: most bins end here.
+    if (!sees_through(bin, own)) return;
+    const float nearest = nearest_return(static_cast<int>(bin));
+    if (sees_through(bin, nearest)) found.push_back({static_cast<int>(bin), nearest});
+  };
+  const kernels::Kernels kernel = kernels::kernels_for(InstructionSet::kBest);
+  kernels::SuspectSearch search;
+  search.own = scan.minimum_range.data();
+  search.first_hit = first_hit.range.data();
+  search.reference = map_reference.data();
+  search.tau0 = static_cast<float>(margin.tau0 - kRounding);
+  search.tau1 = static_cast<float>(margin.tau1 * (1.0 - kRounding));
   parallel_chunks(threads, bins, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t bin = begin; bin < end; ++bin) {
-      const float own = scan.minimum_range[bin];
-      if (own == kNoRange || first_hit.range[bin] == kNoRange) continue;
-      // The neighbourhood's nearest is no farther than the bin's own: most bins end here.
-      if (!sees_through(bin, own)) continue;
-      const float nearest = nearest_return(static_cast<int>(bin));
-      if (sees_through(bin, nearest)) {
-        parts[begin / kGrain].push_back({static_cast<int>(bin), nearest});
+    auto& found = parts[begin / kGrain];
+    std::size_t bin = begin;
+    for (; bin + 16 <= end; bin += 16) {
+      for (std::uint32_t left = kernel.suspects(search, bin); left != 0; left &= left - 1) {
+        check(bin + static_cast<std::size_t>(std::countr_zero(left)), found);
       }
     }
+    for (; bin < end; ++bin) check(bin, found);
   });
   std::vector<SeenThrough> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());

@@ -183,11 +183,34 @@ void percentiles(const WindowRow& job) {
   }
 }
 
+std::uint32_t suspects(const SuspectSearch& job, std::size_t bin) {
+  const Floats d;
+  const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+  const F tau0 = hn::Set(d, job.tau0), tau1 = hn::Set(d, job.tau1);
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+    const F own = hn::LoadU(d, job.own + bin + i);
+    const F hit = hn::LoadU(d, job.first_hit + bin + i);
+    const F reference = hn::LoadU(d, job.reference + bin + i);
+    const F beyond = hn::Sub(own, hn::Add(reference, hn::Mul(tau1, reference)));
+    const auto seen = hn::And(hn::Lt(own, infinite), hn::Lt(hit, infinite));
+    const auto far = hn::And(hn::Gt(hn::Sub(own, hit), tau0), hn::Gt(beyond, tau0));
+    std::uint64_t bytes = 0;
+    hn::StoreMaskBits(d, hn::And(seen, far), reinterpret_cast<std::uint8_t*>(&bytes));
+    bits |= static_cast<std::uint32_t>(bytes) << i;
+  }
+  return bits;
+}
+
 }  // namespace
 
 Kernels kernels() {
-  return {hn::Lanes(Doubles()), static_cast<int>(hn::Lanes(Floats())), &project, &voxelise,
-          &percentiles};
+  return {hn::Lanes(Doubles()),
+          static_cast<int>(hn::Lanes(Floats())),
+          &project,
+          &voxelise,
+          &percentiles,
+          &suspects};
 }
 
 }  // namespace HWY_NAMESPACE

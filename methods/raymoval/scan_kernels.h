@@ -47,6 +47,14 @@ struct WindowRow {
   float* scratch = nullptr;  ///< 3 x (columns + 2) numbers.
 };
 
+/// Which bins may be seen through: own return, first hit and map reference of each.
+struct SuspectSearch {
+  const float* own = nullptr;
+  const float* first_hit = nullptr;
+  const float* reference = nullptr;
+  float tau0 = 0.0F, tau1 = 0.0F;  ///< A little less than the margin's.
+};
+
 struct Kernels {
   std::size_t lanes;  ///< Points handled at a time.
   int row_lanes;      ///< Bins handled at a time; a row needs at least so many.
@@ -55,6 +63,8 @@ struct Kernels {
   /// The same. @return false if an index is beyond the limit
   bool (*voxelise)(const Voxelisation& job, std::size_t begin, std::size_t end);
   void (*percentiles)(const WindowRow& job);
+  /// One bit for each of 16 bins from `bin` on: some more rather than less.
+  std::uint32_t (*suspects)(const SuspectSearch& job, std::size_t bin);
 };
 
 Kernels kernels_for(InstructionSet set);

@@ -2,6 +2,7 @@
 #include "methods/raymoval/validation.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace raymoval {
 namespace {
@@ -95,6 +96,23 @@ std::vector<int> merge_into_groups(const std::vector<int>& cluster_of,
   return group;
 }
 
+/// Voxels of a brick within a box of the lattice.
+struct BrickPart {
+  int first_word, last_word;
+  std::uint64_t mask;  ///< Of each of the words.
+};
+
+BrickPart part_of_brick(const Eigen::Vector3i& brick, const VoxelIndex& low,
+                        const VoxelIndex& high) {
+  const Eigen::Vector3i from = (low - brick * Brick::kSide).cwiseMax(0);
+  const Eigen::Vector3i to = (high - brick * Brick::kSide).cwiseMin(Brick::kMask);
+  const auto ones = [](int count) { return ~std::uint64_t{0} >> (64 - count); };
+  const std::uint64_t column = ones(to.z() - from.z() + 1) << from.z();
+  const std::uint64_t rows = ones(Brick::kSide * (to.y() - from.y() + 1))
+                             << (Brick::kSide * from.y());
+  return {from.x(), to.x(), 0x0101010101010101ULL * column & rows};
+}
+
 }  // namespace
 
 double cluster_points_at(double range, const RaymovalParameters& parameters) {
@@ -130,17 +148,24 @@ bool belongs_to_static(double group_coverage, double thinnest_side,
           thinnest_side <= parameters.thin_side + kRounding);
 }
 
-double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const VoxelSet& removed,
+double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const OccupancyMap& removed,
                int dilation) {
+  const VoxelIndex low = voxel.array() - dilation, high = voxel.array() + dilation;
+  const Eigen::Vector3i first = OccupancyMap::brick_of(low), last = OccupancyMap::brick_of(high);
   int in_map = 0, in_removed = 0;
-  for (int dz = -dilation; dz <= dilation; ++dz) {
-    for (int dy = -dilation; dy <= dilation; ++dy) {
-      for (int dx = -dilation; dx <= dilation; ++dx) {
-        const VoxelIndex near = voxel + VoxelIndex(dx, dy, dz);
-        if (static_map.contains(near)) {
-          ++in_map;
-        } else if (removed.contains(voxel_key(near))) {
-          ++in_removed;
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const Brick* kept = static_map.find_brick({x, y, z});
+        const Brick* gone = removed.find_brick({x, y, z});
+        if (kept == nullptr && gone == nullptr) continue;
+        const BrickPart part = part_of_brick({x, y, z}, low, high);
+        for (int word = part.first_word; word <= part.last_word; ++word) {
+          const auto at = static_cast<std::size_t>(word);
+          const std::uint64_t map_bits = kept == nullptr ? 0 : kept->occupied[at] & part.mask;
+          const std::uint64_t removed_bits = gone == nullptr ? 0 : gone->occupied[at] & part.mask;
+          in_map += std::popcount(map_bits);
+          in_removed += std::popcount(removed_bits & ~map_bits);
         }
       }
     }
@@ -151,13 +176,17 @@ double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const Vo
 std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
                                      const OccupancyMap& static_map,
                                      const RaymovalParameters& parameters) {
-  VoxelSet removed;
-  for (const int member : cluster) removed.insert(voxel_key(points.voxel[at(member)]));
+  OccupancyMap removed(static_map.voxel_size());
+  for (const int member : cluster) removed.insert(points.voxel[at(member)]);
   std::vector<int> unsupported;
+  VoxelMap<double> support_of;  // Points share voxels.
   for (const int member : cluster) {
-    const double share =
-        support(points.voxel[at(member)], static_map, removed, parameters.support_dilation);
-    if (share < parameters.support_share) unsupported.push_back(member);
+    const VoxelIndex& voxel = points.voxel[at(member)];
+    const auto [found, is_new] = support_of.try_emplace(voxel_key(voxel), 0.0);
+    if (is_new) {
+      found.value() = support(voxel, static_map, removed, parameters.support_dilation);
+    }
+    if (found.value() < parameters.support_share) unsupported.push_back(member);
   }
   return unsupported;
 }
