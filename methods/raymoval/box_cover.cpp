@@ -102,11 +102,27 @@ Candidate best_box(const Brick& brick, const Brick& left, int x) {
   return best;
 }
 
+/// Drops the boxes that are not full and takes the others' voxels out of `left`.
+void keep_full_boxes(const Brick& brick, std::vector<BrickBox>& boxes, Brick& left) {
+  std::erase_if(boxes, [&](BrickBox box) {
+    const std::uint64_t column =
+        (std::uint64_t{2} << box.last(2)) - (std::uint64_t{1} << box.first(2));
+    const Candidate kept{box.first(0), box.last(0), box.first(1), box.last(1), column};
+    const std::uint64_t slice = kept.slice();
+    for (int x = kept.x0; x <= kept.x1; ++x) {
+      if (!holds(brick, x, slice)) return true;
+    }
+    for (int x = kept.x0; x <= kept.x1; ++x) left.occupied[static_cast<std::size_t>(x)] &= ~slice;
+    return false;
+  });
+}
+
 }  // namespace
 
+/// Covers what is in no box of `boxes` yet.
 void cover_brick(const Brick& brick, std::vector<BrickBox>& boxes) {
-  boxes.clear();
   Brick left = brick;
+  if (!boxes.empty()) keep_full_boxes(brick, boxes, left);
   for (int x = 0; x < Brick::kSide; ++x) {
     while (left.occupied[static_cast<std::size_t>(x)] != 0) {
       const Candidate box = best_box(brick, left, x);
@@ -131,6 +147,11 @@ namespace raymoval {
 HWY_EXPORT(cover_brick);
 
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
+  boxes.clear();
+  mend_cover(brick, boxes);
+}
+
+void mend_cover(const Brick& brick, std::vector<BrickBox>& boxes) {
   static const auto kernel = RAYMOVAL_KERNEL_FOR(cover_brick, InstructionSet::kBest);
   kernel(brick, boxes);
 }

@@ -80,13 +80,14 @@ void OccupancyMap::update_boxes(int threads) {
   struct Part {
     std::vector<BrickBox> boxes;
     std::vector<std::size_t> ends;
+    std::vector<bool> is_fresh;
   };
   std::vector<Part> parts((changed_.size() + kGrain - 1) / kGrain);
   parallel_chunks(threads, changed_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     Part& part = parts[begin / kGrain];
     std::vector<BrickBox> cover;
     for (std::size_t i = begin; i < end; ++i) {
-      cover_with_boxes(bricks_[changed_[i]], cover);
+      part.is_fresh.push_back(cover_again(changed_[i], cover));
       part.boxes.insert(part.boxes.end(), cover.begin(), cover.end());
       part.ends.push_back(part.boxes.size());
     }
@@ -95,9 +96,20 @@ void OccupancyMap::update_boxes(int threads) {
     const Part& part = parts[i / kGrain];
     const std::size_t begin = i % kGrain == 0 ? 0 : part.ends[i % kGrain - 1];
     store_boxes(changed_[i], part.boxes.data() + begin, part.ends[i % kGrain] - begin);
+    if (part.is_fresh[i % kGrain]) covers_[changed_[i]].fresh_count = covers_[changed_[i]].count;
     is_changed_[changed_[i]] = 0;
   }
   changed_.clear();
+}
+
+bool OccupancyMap::cover_again(Slot slot, std::vector<BrickBox>& boxes) const {
+  const auto present = this->boxes(slot);
+  boxes.assign(present.begin(), present.end());
+  mend_cover(bricks_[slot], boxes);
+  // A mended cover gets worse with time.
+  if (boxes.size() <= covers_[slot].fresh_count * 3U / 2U + 2U) return false;
+  cover_with_boxes(bricks_[slot], boxes);
+  return true;
 }
 
 void OccupancyMap::store_boxes(Slot slot, const BrickBox* boxes, std::size_t count) {

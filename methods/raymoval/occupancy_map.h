@@ -117,6 +117,7 @@ class OccupancyMap {
     std::uint32_t begin = 0;
     std::uint16_t count = 0;
     std::uint16_t capacity = 0;
+    std::uint16_t fresh_count = 0;  ///< When the brick was last covered from scratch.
     std::uint32_t tile = 0;
     std::uint32_t head = 0;
   };
@@ -129,6 +130,8 @@ class OccupancyMap {
     is_changed_[slot] = 1;
     changed_.push_back(slot);
   }
+  /// New boxes of a changed brick. @return whether they were found from scratch
+  bool cover_again(Slot slot, std::vector<BrickBox>& boxes) const;
   void store_boxes(Slot slot, const BrickBox* boxes, std::size_t count);
 
   double voxel_size_;

@@ -15,7 +15,7 @@ std::int64_t up_to(std::int64_t target) {
 
 std::int64_t highway_targets(InstructionSet set) {
   if (set == InstructionSet::kPlain) return 0;
-  const std::int64_t here = hwy::SupportedTargets();
+  static const std::int64_t here = hwy::SupportedTargets();  // Slow to find out.
 #if HWY_ARCH_X86
   switch (set) {
     case InstructionSet::kSse4:

@@ -48,6 +48,20 @@ TEST_CASE("boxes cover exactly the voxels of a brick") {
   }
 }
 
+TEST_CASE("a mended cover holds exactly the voxels that are there now") {
+  Random random(6);
+  Brick brick;
+  std::vector<BrickBox> boxes;
+  for (int round = 0; round < 2000; ++round) {
+    const int x = random.integer(0, 7), y = random.integer(0, 7), z = random.integer(0, 7);
+    brick.occupied[static_cast<std::size_t>(x)] ^= Brick::bit(y, z);
+    if (round % 7 == 0) brick.occupied[static_cast<std::size_t>(y)] |= 0xFFFFULL << (8 * x);
+    if (round % 3 != 0) continue;  // Several changes at once.
+    mend_cover(brick, boxes);
+    REQUIRE(union_of(boxes).occupied == brick.occupied);
+  }
+}
+
 TEST_CASE("a cover has one box where one is enough") {
   CHECK(cover_of(Brick{}).empty());
   Brick full;
