@@ -63,11 +63,17 @@ bool OccupancyMap::erase(const VoxelIndex& voxel) {
 }
 
 bool OccupancyMap::contains_near(const VoxelIndex& voxel, int dilation) const {
-  if (contains(voxel)) return true;
-  for (int dz = -dilation; dz <= dilation; ++dz) {
-    for (int dy = -dilation; dy <= dilation; ++dy) {
-      for (int dx = -dilation; dx <= dilation; ++dx) {
-        if (contains(voxel + VoxelIndex(dx, dy, dz))) return true;
+  const VoxelIndex low = voxel.array() - dilation, high = voxel.array() + dilation;
+  const Eigen::Vector3i first = brick_of(low), last = brick_of(high);
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const Brick* found = find_brick({x, y, z});
+        if (found == nullptr) continue;
+        const BrickPart part = BrickPart::within({x, y, z}, low, high);
+        for (int word = part.first_word; word <= part.last_word; ++word) {
+          if ((found->occupied[static_cast<std::size_t>(word)] & part.mask) != 0) return true;
+        }
       }
     }
   }

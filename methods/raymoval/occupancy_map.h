@@ -11,6 +11,24 @@
 
 namespace raymoval {
 
+/// Voxels of a brick that lie within a box of the lattice.
+struct BrickPart {
+  int first_word, last_word;
+  std::uint64_t mask;  ///< Of each of the words.
+
+  /// @param brick brick coordinates; the box `low` .. `high` (inclusive) reaches into it
+  static BrickPart within(const Eigen::Vector3i& brick, const VoxelIndex& low,
+                          const VoxelIndex& high) {
+    const Eigen::Vector3i from = (low - brick * Brick::kSide).cwiseMax(0);
+    const Eigen::Vector3i to = (high - brick * Brick::kSide).cwiseMin(Brick::kMask);
+    const auto ones = [](int count) { return ~std::uint64_t{0} >> (64 - count); };
+    const std::uint64_t column = ones(to.z() - from.z() + 1) << from.z();
+    const std::uint64_t rows = ones(Brick::kSide * (to.y() - from.y() + 1))
+                               << (Brick::kSide * from.y());
+    return {from.x(), to.x(), (0x0101010101010101ULL * column) & rows};
+  }
+};
+
 /// Occupied voxels in sparse bricks of 8 x 8 x 8, one bit each. Insert, erase and look-up take
 /// constant time; memory grows with the occupied part only (`memory_bytes`).
 ///

@@ -86,11 +86,14 @@ class RaymovalPass {
 
   /// Section 3 for one scan. @return 1 for each point found dynamic now (the online answer).
   Mask process(const PreparedScan& prepared) {
-    cast(prepared);                                       // eqs 4-7
-    find_references(prepared);                            // eqs 8-9
-    const Mask candidates = find_candidates(prepared);    // eq. 11
-    const Mask dynamic = validate(prepared, candidates);  // eqs 12-15
-    erase(prepared);
+    cast(prepared);                                     // eqs 4-7
+    find_references(prepared);                          // eqs 8-9
+    const Mask candidates = find_candidates(prepared);  // eq. 11
+    Mask dynamic;                                       // eqs 12-15
+    Evidence evidence;                                  // Of what is seen through.
+    side_by_side([&](StageTimes* times) { dynamic = validate(prepared, candidates, times); },
+                 [&](StageTimes* times) { evidence = find_evidence(prepared, times); });
+    erase(evidence);
     integrate(prepared, dynamic);
     return dynamic;
   }
@@ -105,6 +108,27 @@ class RaymovalPass {
   }
 
  private:
+  /// Voxels to erase.
+  struct Evidence {
+    std::vector<VoxelIndex> seen_through, without_return;
+  };
+
+  /// Two steps that only read the map: with several threads one is done beside the other, and they
+  /// are timed as one stage.
+  template <class Validate, class FindEvidence>
+  void side_by_side(Validate&& validate_step, FindEvidence&& evidence_step) {
+    const bool together = context_.threads > 1;
+    const StageScope timed(together ? context_.times : nullptr, "validation and erase");
+    StageTimes* times = together ? nullptr : context_.times;
+    parallel_for(context_.threads, 2, 1, [&](std::size_t task) {
+      if (task == 0) {
+        validate_step(times);
+      } else {
+        evidence_step(times);
+      }
+    });
+  }
+
   void cast(const PreparedScan& prepared) {
     const StageScope timed(context_.times, "raycasting");
     caster_.cast(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
@@ -138,24 +162,33 @@ class RaymovalPass {
     return candidates;
   }
 
-  Mask validate(const PreparedScan& prepared, const Mask& candidates) {
+  Mask validate(const PreparedScan& prepared, const Mask& candidates, StageTimes* times) {
     if (!parameters_.validate || parameters_.map_source == MapSource::kNaive) return candidates;
-    const StageScope timed(context_.times, "validation");
+    const StageScope timed(times, "validation");
     return validate_scan(prepared.scan, prepared.voxels, candidates, map_.occupied(), parameters_);
   }
 
   /// Both kinds of evidence are read off the same map before any of it is erased.
-  void erase(const PreparedScan& prepared) {
-    const std::vector<VoxelIndex> seen_through = voxels_seen_through(prepared);
-    const std::vector<VoxelIndex> without_return = voxels_without_return(prepared);
-    for (const VoxelIndex& voxel : seen_through) map_.erase(voxel);
-    for (const VoxelIndex& voxel : without_return) map_.erase(voxel);
+  Evidence find_evidence(const PreparedScan& prepared, StageTimes* times) {
+    Evidence evidence;
+    if (parameters_.erase) {
+      const StageScope timed(times, "erase");
+      evidence.seen_through = voxels_seen_through(prepared);
+    }
+    if (parameters_.no_return) {
+      const StageScope timed(times, "no-return evidence");
+      evidence.without_return = voxels_without_return(prepared);
+    }
+    return evidence;
+  }
+
+  void erase(const Evidence& evidence) {
+    for (const VoxelIndex& voxel : evidence.seen_through) map_.erase(voxel);
+    for (const VoxelIndex& voxel : evidence.without_return) map_.erase(voxel);
   }
 
   std::vector<VoxelIndex> voxels_seen_through(const PreparedScan& prepared) {
     std::vector<VoxelIndex> voxels;
-    if (!parameters_.erase) return voxels;
-    const StageScope timed(context_.times, "erase");
     const auto nearest_return = [&](int bin) {
       return window_minimum(prepared.projected.minimum_range, grid_, bin,
                             parameters_.erase_azimuth_window, erase_rows_);
@@ -199,8 +232,6 @@ class RaymovalPass {
 
   std::vector<VoxelIndex> voxels_without_return(const PreparedScan& prepared) {
     std::vector<VoxelIndex> erased;
-    if (!parameters_.no_return) return erased;
-    const StageScope timed(context_.times, "no-return evidence");
     const std::vector<float> nearest_return = windowed_minimum(
         prepared.projected.minimum_range, grid_, parameters_.no_return_azimuth_window,
         parameters_.no_return_elevation_window, context_.threads);

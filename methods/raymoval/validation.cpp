@@ -73,46 +73,6 @@ std::vector<VoxelKey> keys_of(const std::vector<VoxelIndex>& voxels) {
   return keys;
 }
 
-/// Joins clusters that have voxels in common components: numbers of the merged groups by member.
-std::vector<int> merge_into_groups(const std::vector<int>& cluster_of,
-                                   const std::vector<int>& component_of) {
-  // Clusters and components together are a graph with one edge a member; its connected parts are
-  // the groups. A few sweeps settle it, since components are local.
-  std::vector<int> group = component_of;
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (const auto* numbers : {&cluster_of, &component_of}) {
-      for (const std::vector<int>& members : members_of(*numbers)) {
-        int lowest = group[at(members.front())];
-        for (const int member : members) lowest = std::min(lowest, group[at(member)]);
-        for (const int member : members) {
-          changed |= group[at(member)] != lowest;
-          group[at(member)] = lowest;
-        }
-      }
-    }
-  }
-  return group;
-}
-
-/// Voxels of a brick within a box of the lattice.
-struct BrickPart {
-  int first_word, last_word;
-  std::uint64_t mask;  ///< Of each of the words.
-};
-
-BrickPart part_of_brick(const Eigen::Vector3i& brick, const VoxelIndex& low,
-                        const VoxelIndex& high) {
-  const Eigen::Vector3i from = (low - brick * Brick::kSide).cwiseMax(0);
-  const Eigen::Vector3i to = (high - brick * Brick::kSide).cwiseMin(Brick::kMask);
-  const auto ones = [](int count) { return ~std::uint64_t{0} >> (64 - count); };
-  const std::uint64_t column = ones(to.z() - from.z() + 1) << from.z();
-  const std::uint64_t rows = ones(Brick::kSide * (to.y() - from.y() + 1))
-                             << (Brick::kSide * from.y());
-  return {from.x(), to.x(), 0x0101010101010101ULL * column & rows};
-}
-
 }  // namespace
 
 double cluster_points_at(double range, const RaymovalParameters& parameters) {
@@ -134,8 +94,12 @@ bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& po
 double coverage(const std::vector<int>& members, const ScanPoints& points,
                 const OccupancyMap& static_map, int dilation) {
   int inside = 0;
+  VoxelMap<bool> near;  // Points share voxels.
   for (const int member : members) {
-    inside += static_map.contains_near(points.voxel[at(member)], dilation) ? 1 : 0;
+    const VoxelIndex& voxel = points.voxel[at(member)];
+    const auto [found, is_new] = near.try_emplace(voxel_key(voxel), false);
+    if (is_new) found.value() = static_map.contains_near(voxel, dilation);
+    inside += found->second ? 1 : 0;
   }
   return members.empty() ? 0.0 : inside / static_cast<double>(members.size());
 }
@@ -159,7 +123,7 @@ double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const Oc
         const Brick* kept = static_map.find_brick({x, y, z});
         const Brick* gone = removed.find_brick({x, y, z});
         if (kept == nullptr && gone == nullptr) continue;
-        const BrickPart part = part_of_brick({x, y, z}, low, high);
+        const BrickPart part = BrickPart::within({x, y, z}, low, high);
         for (int word = part.first_word; word <= part.last_word; ++word) {
           const auto at = static_cast<std::size_t>(word);
           const std::uint64_t map_bits = kept == nullptr ? 0 : kept->occupied[at] & part.mask;
@@ -206,7 +170,7 @@ Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& stati
   std::vector<int> cluster_of;
   for (const int i : screened) cluster_of.push_back(cluster_numbers[at(i)]);
   const std::vector<int> group_of =
-      merge_into_groups(cluster_of, voxel_components(keys_of(points.voxel), parameters.group_gap));
+      joined_groups(cluster_of, voxel_components(keys_of(points.voxel), parameters.group_gap));
   const Mask in_dynamic_group = check_groups(group_of, points, static_map, parameters);
   Mask dynamic(candidates.size(), 0);
   for (const std::vector<int>& cluster : members_of(cluster_of)) {

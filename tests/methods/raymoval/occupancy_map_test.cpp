@@ -115,6 +115,28 @@ TEST_CASE("the map holds what a plain set holds, whatever comes and goes") {
   }
 }
 
+TEST_CASE("a voxel nearby is found across the borders of bricks") {
+  Random random(10);
+  OccupancyMap map(0.2);
+  for (int k = 0; k < 60; ++k) {
+    map.insert({random.integer(-12, 12), random.integer(-12, 12), random.integer(-12, 12)});
+  }
+  for (int k = 0; k < 500; ++k) {
+    const VoxelIndex voxel(random.integer(-14, 14), random.integer(-14, 14),
+                           random.integer(-14, 14));
+    const int dilation = k % 4;
+    bool expected = false;
+    for (int dx = -dilation; dx <= dilation; ++dx) {
+      for (int dy = -dilation; dy <= dilation; ++dy) {
+        for (int dz = -dilation; dz <= dilation; ++dz) {
+          expected |= map.contains(voxel + VoxelIndex(dx, dy, dz));
+        }
+      }
+    }
+    REQUIRE(map.contains_near(voxel, dilation) == expected);
+  }
+}
+
 TEST_CASE("every brick is in the tile it stands on, once") {
   Random random(9);
   OccupancyMap map(0.2);
