@@ -75,7 +75,7 @@ void run_design(benchmark::State& state, Workload& workload, const Design& desig
 
 void add(const std::string& name, Workload& workload, const Design& design,
          Answer answer = Answer::kExact) {
-  benchmark::RegisterBenchmark((name + "/" + workload.name).c_str(), [&workload, design](
+  benchmark::RegisterBenchmark((name + "/" + workload.name).c_str(), [&workload, design, answer](
                                                                          benchmark::State& state) {
     try {
       run_design(state, workload, design, answer);
