@@ -47,10 +47,15 @@ void remember(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
+/// Processor time of the one thread, which other programs do not change much; wall time where
+/// several threads are at work.
 double in_milliseconds(const Json& run) {
   const std::string unit = run.at("time_unit");
+  const std::string name = run.at("run_name");
+  const bool threaded =
+      name.find("2_threads") != std::string::npos || name.find("online_2") != std::string::npos;
   const double scale = unit == "ns" ? 1e-6 : unit == "us" ? 1e-3 : unit == "ms" ? 1.0 : 1e3;
-  return run.at("real_time").get<double>() * scale;
+  return run.at(threaded ? "real_time" : "cpu_time").get<double>() * scale;
 }
 
 void add_runs(const Json& file, Results& results) {
@@ -82,16 +87,29 @@ std::string number(double value, int digits) {
   return text;
 }
 
+/// Kernels that ran on a workload.
+std::vector<std::string> slowest_first(Results& results, const std::string& workload) {
+  std::vector<std::pair<double, std::string>> timed;
+  for (const std::string& kernel : results.kernels) {
+    const Series* series = results.find(kernel, workload);
+    if (series == nullptr || series->milliseconds.empty()) continue;
+    timed.emplace_back(-series->median(), kernel);
+  }
+  std::sort(timed.begin(), timed.end());
+  std::vector<std::string> names;
+  for (const auto& [time, name] : timed) names.push_back(name);
+  return names;
+}
+
 std::string image_table(Results& results, const std::string& workload) {
   Series* yardstick = results.find("dense_bitset_dda", workload);
   if (yardstick == nullptr || yardstick->milliseconds.empty()) return "";
   std::string text = "\n## First-hit images, " + workload + "\n\n" +
                      "| kernel | ms an image, median | times as fast as dense_bitset_dda | steps a "
                      "ray | bins off by 1 mm |\n| --- | ---: | ---: | ---: | ---: |\n";
-  for (const std::string& kernel : results.kernels) {
+  for (const std::string& kernel : slowest_first(results, workload)) {
     const Series* series = results.find(kernel, workload);
-    if (series == nullptr || series->counter("images_per_iteration", 0.0) == 0.0) continue;
-    if (series->milliseconds.empty()) continue;
+    if (series->counter("images_per_iteration", 0.0) == 0.0) continue;
     const double steps = series->counter("steps_per_ray", 0.0);
     const double off = series->counter("bins_off_by_1_mm", -1.0);
     text += "| " + kernel + " | " +
@@ -166,7 +184,8 @@ std::string tables_of(const std::vector<std::string>& json_files) {
       throw DataError(path + ": this is not the JSON of Google Benchmark (" + error.what() + ").");
     }
   }
-  std::string text = "# Kernels\n";
+  std::string text =
+      "# Kernels\n\nMedians of processor time; of wall time where two threads are at work.\n";
   for (const std::string& workload : results.workloads) text += image_table(results, workload);
   return text + scan_table(results) + map_table(results);
 }

@@ -27,7 +27,7 @@ double grazing_distance(double vertical, double height, double limit) {
 }
 
 std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
-                                           const std::function<float(int)>& nearest_return,
+                                           const std::function<float(int, float)>& nearest_return,
                                            const FirstHitImage& first_hit,
                                            const std::vector<float>& map_reference,
                                            const RangeMargin& margin, int threads) {
@@ -45,7 +45,9 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
     if (own == kNoRange || first_hit.range[bin] == kNoRange) return;
     // The neighbourhood's nearest is no farther than the bin's own: most bins end here.
     if (!sees_through(bin, own)) return;
-    const float nearest = nearest_return(static_cast<int>(bin));
+    // A return this near is no farther than the surface, roundings aside.
+    const float bound = first_hit.range[bin] + static_cast<float>(margin.tau0 * 0.999);
+    const float nearest = nearest_return(static_cast<int>(bin), bound);
     if (sees_through(bin, nearest)) found.push_back({static_cast<int>(bin), nearest});
   };
   const kernels::Kernels kernel = kernels::kernels_for(InstructionSet::kBest);

@@ -92,10 +92,16 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
 }
 
 float window_minimum(const std::vector<float>& values, const AngularGrid& grid, int bin,
-                     int azimuth_radius, int elevation_radius) {
+                     int azimuth_radius, int elevation_radius, float bound) {
   float smallest = kNoRange;
-  for_window(values, grid, grid.azimuth_of(bin), grid.elevation_of(bin), azimuth_radius,
-             elevation_radius, [&](float value) { smallest = std::min(smallest, value); });
+  const int i = grid.azimuth_of(bin), j = grid.elevation_of(bin);
+  // From the bin outwards: what is near it decides most often.
+  for (int step = 0; step <= 2 * elevation_radius && smallest >= bound; ++step) {
+    const int row = j + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
+    if (row < 0 || row >= grid.elevation_bins) continue;
+    for_window(values, grid, i, row, azimuth_radius, 0,
+               [&](float value) { smallest = std::min(smallest, value); });
+  }
   return smallest;
 }
 

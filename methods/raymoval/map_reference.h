@@ -35,8 +35,9 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
                           InstructionSet set = InstructionSet::kBest);
 
 /// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of one bin.
+/// @param bound where the smallest value is below this, any value below it will do
 float window_minimum(const std::vector<float>& values, const AngularGrid& grid, int bin,
-                     int azimuth_radius, int elevation_radius);
+                     int azimuth_radius, int elevation_radius, float bound);
 
 /// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
 std::vector<float> windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,

@@ -189,9 +189,9 @@ class RaymovalPass {
 
   std::vector<VoxelIndex> voxels_seen_through(const PreparedScan& prepared) {
     std::vector<VoxelIndex> voxels;
-    const auto nearest_return = [&](int bin) {
+    const auto nearest_return = [&](int bin, float bound) {
       return window_minimum(prepared.projected.minimum_range, grid_, bin,
-                            parameters_.erase_azimuth_window, erase_rows_);
+                            parameters_.erase_azimuth_window, erase_rows_, bound);
     };
     for (const SeenThrough& through :
          find_seen_through(prepared.projected, nearest_return, first_hit_, references_.second,
