@@ -21,6 +21,7 @@ struct Brick {
   [[nodiscard]] bool contains(int x, int y, int z) const {
     return (occupied[static_cast<std::size_t>(x & kMask)] & bit(y, z)) != 0;
   }
+  void add(int x, int y, int z) { occupied[static_cast<std::size_t>(x & kMask)] |= bit(y, z); }
   static std::uint64_t bit(int y, int z) {
     return std::uint64_t{1} << ((y & kMask) * kSide + (z & kMask));
   }

@@ -14,10 +14,12 @@ Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_
                        const RangeMargin& margin, int threads) {
   Mask dynamic(scan.range.size(), 0);
   parallel_for(threads, dynamic.size(), 8192, [&](std::size_t k) {
-    if (scan.bin[k] < 0) return;
-    const float reference = map_reference[static_cast<std::size_t>(scan.bin[k])];
-    if (reference == kNoRange) return;
-    dynamic[k] = reference - scan.range[k] > margin.at(scan.range[k]) ? 1 : 0;
+    // Without branches: which points have a reference is anyone's guess.
+    const bool has_bin = scan.bin[k] >= 0;
+    const float reference = map_reference[has_bin ? static_cast<std::size_t>(scan.bin[k]) : 0];
+    const float range = scan.range[k];
+    const bool before = reference - range > margin.at(range);
+    dynamic[k] = static_cast<std::uint8_t>(has_bin & (reference != kNoRange) & before);
   });
   return dynamic;
 }
@@ -27,32 +29,27 @@ double grazing_distance(double vertical, double height, double limit) {
 }
 
 std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
-                                           const std::function<float(int, float)>& nearest_return,
+                                           const std::vector<float>& nearest_return,
                                            const FirstHitImage& first_hit,
                                            const std::vector<float>& map_reference,
                                            const RangeMargin& margin, int threads) {
   constexpr std::size_t kGrain = 8192;
   constexpr double kRounding = 1e-3;  // Of the quick test in float, generously.
   const std::size_t bins = scan.minimum_range.size();
-  const auto sees_through = [&](std::size_t bin, double seen_to) {
-    const double reference = map_reference[bin];
-    return seen_to - reference > margin.at(reference) &&
-           seen_to - first_hit.range[bin] > margin.tau0;
-  };
   std::vector<std::vector<SeenThrough>> parts((bins + kGrain - 1) / kGrain);
   const auto check = [&](std::size_t bin, std::vector<SeenThrough>& found) {
-    const float own = scan.minimum_range[bin];
-    if (own == kNoRange || first_hit.range[bin] == kNoRange) return;
-    // The neighbourhood's nearest is no farther than the bin's own: most bins end here.
-    if (!sees_through(bin, own)) return;
-    // A return this near is no farther than the surface, roundings aside.
-    const float bound = first_hit.range[bin] + static_cast<float>(margin.tau0 * 0.999);
-    const float nearest = nearest_return(static_cast<int>(bin), bound);
-    if (sees_through(bin, nearest)) found.push_back({static_cast<int>(bin), nearest});
+    if (scan.minimum_range[bin] == kNoRange || first_hit.range[bin] == kNoRange) return;
+    const double reference = map_reference[bin];
+    const double seen_to = nearest_return[bin];
+    if (seen_to - reference > margin.at(reference) &&
+        seen_to - first_hit.range[bin] > margin.tau0) {
+      found.push_back({static_cast<int>(bin), nearest_return[bin]});
+    }
   };
   const kernels::Kernels kernel = kernels::kernels_for(InstructionSet::kBest);
   kernels::SuspectSearch search;
   search.own = scan.minimum_range.data();
+  search.nearest = nearest_return.data();
   search.first_hit = first_hit.range.data();
   search.reference = map_reference.data();
   search.tau0 = static_cast<float>(margin.tau0 - kRounding);

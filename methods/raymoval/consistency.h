@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "core/sensor_model.h"
@@ -39,10 +38,9 @@ struct SeenThrough {
 /// nearest return of the bin's neighbourhood lies beyond the map reference by more than the margin
 /// at the map's range, and beyond the bin's own first hit by more than the margin's constant part.
 /// Only bins with a return of their own.
-/// @param nearest_return gives the smallest range of the scan in a bin's neighbourhood, at most the
-/// bin's own; asked with a bound, it may give any range below the bound that is there
+/// @param nearest_return smallest range of the scan in each bin's neighbourhood
 std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
-                                           const std::function<float(int, float)>& nearest_return,
+                                           const std::vector<float>& nearest_return,
                                            const FirstHitImage& first_hit,
                                            const std::vector<float>& map_reference,
                                            const RangeMargin& margin, int threads);

@@ -91,40 +91,50 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
   });
 }
 
-float window_minimum(const std::vector<float>& values, const AngularGrid& grid, int bin,
-                     int azimuth_radius, int elevation_radius, float bound) {
-  float smallest = kNoRange;
-  const int i = grid.azimuth_of(bin), j = grid.elevation_of(bin);
-  // From the bin outwards: what is near it decides most often.
-  for (int step = 0; step <= 2 * elevation_radius && smallest >= bound; ++step) {
-    const int row = j + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
-    if (row < 0 || row >= grid.elevation_bins) continue;
-    for_window(values, grid, i, row, azimuth_radius, 0,
-               [&](float value) { smallest = std::min(smallest, value); });
+namespace {
+
+/// For grids too narrow for vectors.
+void slow_windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
+                           int azimuth_radius, int elevation_radius, std::vector<float>& minimum) {
+  for (int bin = 0; bin < grid.size(); ++bin) {
+    float& smallest = minimum[static_cast<std::size_t>(bin)];
+    smallest = kNoRange;
+    for_window(values, grid, grid.azimuth_of(bin), grid.elevation_of(bin), azimuth_radius,
+               elevation_radius, [&](float value) { smallest = std::min(smallest, value); });
   }
-  return smallest;
 }
 
-std::vector<float> windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
-                                    int azimuth_radius, int elevation_radius, int threads) {
-  // The minimum over a rectangle is the minimum over rows of the minima over columns.
-  std::vector<float> along_rows(values.size()), result(values.size());
-  const auto rows = static_cast<std::size_t>(grid.elevation_bins);
-  const auto pass = [&](const std::vector<float>& from, std::vector<float>& to, int columns,
-                        int lines) {
-    parallel_for(threads, rows, 8, [&](std::size_t row) {
-      for (int i = 0; i < grid.azimuth_bins; ++i) {
-        float smallest = kNoRange;
-        for_window(from, grid, i, static_cast<int>(row), columns, lines,
-                   [&](float value) { smallest = std::min(smallest, value); });
-        to[row * static_cast<std::size_t>(grid.azimuth_bins) + static_cast<std::size_t>(i)] =
-            smallest;
-      }
-    });
-  };
-  pass(values, along_rows, azimuth_radius, 0);
-  pass(along_rows, result, 0, elevation_radius);
-  return result;
+}  // namespace
+
+void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
+                      int elevation_radius, int threads, std::vector<float>& minimum,
+                      InstructionSet set) {
+  const kernels::Kernels kernel = kernels::kernels_for(set);
+  minimum.resize(values.size());
+  if (grid.azimuth_bins < kernel.row_lanes + azimuth_radius) {
+    slow_windowed_minimum(values, grid, azimuth_radius, elevation_radius, minimum);
+    return;
+  }
+  kernels::WindowMinimum shared;
+  shared.values = values.data();
+  shared.result = minimum.data();
+  shared.columns = grid.azimuth_bins;
+  shared.rows = grid.elevation_bins;
+  shared.azimuth_radius = azimuth_radius;
+  shared.elevation_radius = elevation_radius;
+  const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
+  const auto lanes = static_cast<std::size_t>(kernel.row_lanes);
+  const std::size_t strips = (columns + lanes - 1) / lanes;
+  parallel_chunks(threads, strips, 8, [&](std::size_t begin, std::size_t end) {
+    AlignedArray<float> scratch;
+    scratch.require(lanes * static_cast<std::size_t>(grid.elevation_bins + 2 * elevation_radius));
+    kernels::WindowMinimum job = shared;
+    job.scratch = scratch.data();
+    for (std::size_t strip = begin; strip < end; ++strip) {
+      const std::size_t first = std::min(strip * lanes, columns - lanes);
+      kernel.minimum(job, static_cast<int>(first), static_cast<int>(strip * lanes - first));
+    }
+  });
 }
 
 }  // namespace raymoval

@@ -34,13 +34,10 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
                           WindowPercentiles& percentiles,
                           InstructionSet set = InstructionSet::kBest);
 
-/// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of one bin.
-/// @param bound where the smallest value is below this, any value below it will do
-float window_minimum(const std::vector<float>& values, const AngularGrid& grid, int bin,
-                     int azimuth_radius, int elevation_radius, float bound);
-
 /// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
-std::vector<float> windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
-                                    int azimuth_radius, int elevation_radius, int threads);
+/// @param minimum replaced; its memory is used again
+void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
+                      int elevation_radius, int threads, std::vector<float>& minimum,
+                      InstructionSet set = InstructionSet::kBest);
 
 }  // namespace raymoval

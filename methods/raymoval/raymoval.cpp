@@ -189,12 +189,10 @@ class RaymovalPass {
 
   std::vector<VoxelIndex> voxels_seen_through(const PreparedScan& prepared) {
     std::vector<VoxelIndex> voxels;
-    const auto nearest_return = [&](int bin, float bound) {
-      return window_minimum(prepared.projected.minimum_range, grid_, bin,
-                            parameters_.erase_azimuth_window, erase_rows_, bound);
-    };
+    windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.erase_azimuth_window,
+                     erase_rows_, context_.threads, nearest_return_);
     for (const SeenThrough& through :
-         find_seen_through(prepared.projected, nearest_return, first_hit_, references_.second,
+         find_seen_through(prepared.projected, nearest_return_, first_hit_, references_.second,
                            {parameters_.erase_tau0, parameters_.erase_tau1}, context_.threads)) {
       const float first_hit = first_hit_.range[static_cast<std::size_t>(through.bin)];
       const bool along_surface = through.nearest_return - first_hit <
@@ -213,31 +211,36 @@ class RaymovalPass {
   /// not seen through.
   void drop_own_voxels(const PreparedScan& prepared, std::vector<VoxelIndex>& voxels) {
     if (voxels.empty()) return;
-    VoxelSet suspects, own;
-    suspect_bricks_.resize(map_.occupied().brick_count(), 0);
+    const auto slot_of = [&](const VoxelIndex& voxel) {
+      return map_.occupied().find_slot(OccupancyMap::brick_of(voxel));
+    };
+    std::vector<OccupancyMap::Slot> bricks;
+    number_of_.resize(map_.occupied().brick_count(), 0);
     for (const VoxelIndex& voxel : voxels) {
-      suspects.insert(voxel_key(voxel));
-      suspect_bricks_[map_.occupied().find_slot(OccupancyMap::brick_of(voxel))] = 1;
+      std::uint32_t& number = number_of_[slot_of(voxel)];
+      if (number != 0) continue;
+      bricks.push_back(slot_of(voxel));
+      number = static_cast<std::uint32_t>(bricks.size());
     }
+    std::vector<Brick> own(bricks.size());  // The scan's voxels in these bricks.
     for (std::size_t k = 0; k < slots_.size(); ++k) {
-      if (slots_[k] == OccupancyMap::kNoBrick || suspect_bricks_[slots_[k]] == 0) continue;
-      const VoxelKey key = voxel_key(prepared.voxels[k]);
-      if (suspects.contains(key)) own.insert(key);
+      if (slots_[k] == OccupancyMap::kNoBrick || number_of_[slots_[k]] == 0) continue;
+      const VoxelIndex& voxel = prepared.voxels[k];
+      own[number_of_[slots_[k]] - 1].add(voxel.x(), voxel.y(), voxel.z());
     }
-    for (const VoxelIndex& voxel : voxels) {
-      suspect_bricks_[map_.occupied().find_slot(OccupancyMap::brick_of(voxel))] = 0;
-    }
-    std::erase_if(voxels, [&](const VoxelIndex& voxel) { return own.contains(voxel_key(voxel)); });
+    std::erase_if(voxels, [&](const VoxelIndex& voxel) {
+      return own[number_of_[slot_of(voxel)] - 1].contains(voxel.x(), voxel.y(), voxel.z());
+    });
+    for (const OccupancyMap::Slot slot : bricks) number_of_[slot] = 0;
   }
 
   std::vector<VoxelIndex> voxels_without_return(const PreparedScan& prepared) {
     std::vector<VoxelIndex> erased;
-    const std::vector<float> nearest_return = windowed_minimum(
-        prepared.projected.minimum_range, grid_, parameters_.no_return_azimuth_window,
-        parameters_.no_return_elevation_window, context_.threads);
+    windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.no_return_azimuth_window,
+                     parameters_.no_return_elevation_window, context_.threads, nearest_return_);
     std::vector<VoxelKey> voxels;
     for (const int bin :
-         find_no_return(nearest_return, first_hit_, grid_, sensor_, parameters_.no_return_range)) {
+         find_no_return(nearest_return_, first_hit_, grid_, sensor_, parameters_.no_return_range)) {
       const auto voxel = first_hit_.voxel(map_.occupied(), bin);
       if (voxel) voxels.push_back(voxel_key(*voxel));
     }
@@ -269,8 +272,9 @@ class RaymovalPass {
   // Of the present scan; kept for their memory.
   FirstHitImage first_hit_;
   WindowPercentiles references_;
-  std::vector<OccupancyMap::Slot> slots_;     ///< Brick of each point.
-  std::vector<std::uint8_t> suspect_bricks_;  ///< Bricks with a voxel that may be seen through.
+  std::vector<OccupancyMap::Slot> slots_;  ///< Brick of each point.
+  std::vector<std::uint32_t> number_of_;   ///< Of each brick that may be seen through; else 0.
+  std::vector<float> nearest_return_;
 };
 
 class RaymovalRemover : public Remover {

@@ -183,6 +183,62 @@ void percentiles(const WindowRow& job) {
   }
 }
 
+/// Smallest of the values at columns i - radius .. i + radius of a row, lane by lane.
+F minimum_along_row(const WindowMinimum& job, const float* row, int i) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  F smallest = hn::LoadU(d, row + i);
+  for (int offset = 1; offset <= job.azimuth_radius; ++offset) {
+    for (const int at : {i - offset, i + offset}) {
+      if (at >= 0 && at + lanes <= job.columns) {
+        smallest = hn::Min(smallest, hn::LoadU(d, row + at));
+        continue;
+      }
+      alignas(64) float wrapped[16];  // The circle closes here.
+      for (int lane = 0; lane < lanes; ++lane) {
+        wrapped[lane] = row[(at + lane + job.columns) % job.columns];
+      }
+      smallest = hn::Min(smallest, hn::Load(d, wrapped));
+    }
+  }
+  return smallest;
+}
+
+void minimum(const WindowMinimum& job, int first, int skip) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto rows = static_cast<std::size_t>(job.rows);
+  const auto reach = static_cast<std::size_t>(job.elevation_radius);
+  const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+  for (std::size_t j = 0; j < rows + 2 * reach; ++j) {
+    const bool is_row = j >= reach && j < reach + rows;
+    const float* row =
+        job.values + (is_row ? j - reach : 0) * static_cast<std::size_t>(job.columns);
+    hn::Store(is_row ? minimum_along_row(job, row, first) : infinite, d, job.scratch + j * lanes);
+  }
+  // Minima over 2, 4, 8 ... rows, in place, as long as the window holds them.
+  const std::size_t window = 2 * reach + 1;
+  std::size_t span = 1;
+  for (; 2 * span <= window; span *= 2) {
+    for (std::size_t j = 0; j + 2 * span <= rows + 2 * reach; ++j) {
+      float* here = job.scratch + j * lanes;
+      hn::Store(hn::Min(hn::Load(d, here), hn::Load(d, here + span * lanes)), d, here);
+    }
+  }
+  for (std::size_t j = 0; j < rows; ++j) {
+    const float* here = job.scratch + j * lanes;
+    const F smallest = hn::Min(hn::Load(d, here), hn::Load(d, here + (window - span) * lanes));
+    float* out = job.result + j * static_cast<std::size_t>(job.columns) + first;
+    if (skip == 0) {
+      hn::StoreU(smallest, d, out);
+    } else {
+      alignas(64) float values[16];
+      hn::Store(smallest, d, values);
+      std::copy(values + skip, values + lanes, out + skip);
+    }
+  }
+}
+
 std::uint32_t suspects(const SuspectSearch& job, std::size_t bin) {
   const Floats d;
   const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
@@ -190,11 +246,12 @@ std::uint32_t suspects(const SuspectSearch& job, std::size_t bin) {
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
     const F own = hn::LoadU(d, job.own + bin + i);
+    const F nearest = hn::LoadU(d, job.nearest + bin + i);
     const F hit = hn::LoadU(d, job.first_hit + bin + i);
     const F reference = hn::LoadU(d, job.reference + bin + i);
-    const F beyond = hn::Sub(own, hn::Add(reference, hn::Mul(tau1, reference)));
+    const F beyond = hn::Sub(nearest, hn::Add(reference, hn::Mul(tau1, reference)));
     const auto seen = hn::And(hn::Lt(own, infinite), hn::Lt(hit, infinite));
-    const auto far = hn::And(hn::Gt(hn::Sub(own, hit), tau0), hn::Gt(beyond, tau0));
+    const auto far = hn::And(hn::Gt(hn::Sub(nearest, hit), tau0), hn::Gt(beyond, tau0));
     std::uint64_t bytes = 0;
     hn::StoreMaskBits(d, hn::And(seen, far), reinterpret_cast<std::uint8_t*>(&bytes));
     bits |= static_cast<std::uint32_t>(bytes) << i;
@@ -210,6 +267,7 @@ Kernels kernels() {
           &project,
           &voxelise,
           &percentiles,
+          &minimum,
           &suspects};
 }
 

@@ -47,9 +47,20 @@ struct WindowRow {
   float* scratch = nullptr;  ///< 3 x (columns + 2) numbers.
 };
 
-/// Which bins may be seen through: own return, first hit and map reference of each.
+/// Smallest value of a window around each bin.
+struct WindowMinimum {
+  const float* values = nullptr;
+  float* result = nullptr;
+  int columns = 0, rows = 0;
+  int azimuth_radius = 0, elevation_radius = 0;
+  float* scratch = nullptr;  ///< row_lanes x (rows + 2 elevation_radius) numbers, aligned.
+};
+
+/// Which bins may be seen through: nearest return of the neighbourhood, first hit and map reference
+/// of each.
 struct SuspectSearch {
-  const float* own = nullptr;
+  const float* own = nullptr;  ///< The bin's own return; infinite if it has none.
+  const float* nearest = nullptr;
   const float* first_hit = nullptr;
   const float* reference = nullptr;
   float tau0 = 0.0F, tau1 = 0.0F;  ///< A little less than the margin's.
@@ -63,6 +74,9 @@ struct Kernels {
   /// The same. @return false if an index is beyond the limit
   bool (*voxelise)(const Voxelisation& job, std::size_t begin, std::size_t end);
   void (*percentiles)(const WindowRow& job);
+  /// The columns `first` .. `first` + row_lanes - 1, which lie within the row; the first `skip` of
+  /// them are not written.
+  void (*minimum)(const WindowMinimum& job, int first, int skip);
   /// One bit for each of 16 bins from `bin` on: some more rather than less.
   std::uint32_t (*suspects)(const SuspectSearch& job, std::size_t bin);
 };
