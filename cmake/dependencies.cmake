@@ -7,6 +7,8 @@ find_package(nanoflann REQUIRED)
 find_package(tsl-robin-map REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+# SIMD chosen at run time.
+pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 
 # PCL only where .pcd and .ply files are read. Its own CMake configuration drags in VTK and Qt, so
 # its two libraries are looked up directly.
