@@ -14,6 +14,7 @@ namespace {
 
 struct TableFlags {
   std::string run, format = "md";
+  std::vector<std::string> protocols;
   bool with_published = false;
 };
 
@@ -30,7 +31,11 @@ ExitCode show(const TableFlags& flags) {
   }
   const std::filesystem::path file = find_results(flags.run);
   const nlohmann::ordered_json json = read_sealed(file);
-  const RunResults results = parse_results(json, file.string());
+  if (flags.format == "json" && !flags.protocols.empty()) {
+    throw UsageError("--protocol goes with --format md, csv or tex.");
+  }
+  RunResults results = parse_results(json, file.string());
+  choose_protocols(results, flags.protocols);
   std::vector<OutsideColumn> outside;
   if (flags.with_published) outside = published_columns();
   if (flags.format == "json") {
@@ -52,10 +57,14 @@ Command add_table_command(CLI::App& program) {
   app->allow_extras();
   app->add_option("run", flags->run, "Run folder")->type_name("RUN");
   app->add_option("--format", flags->format, "md (default), csv, tex or json");
+  app->add_option("--protocol", flags->protocols, "Only what this protocol says (default: all)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   app->add_flag("--with-published", flags->with_published, "Set papers' rows beside the run's");
   app->footer(
       "Examples:\n"
       "  raymoval table out/street\n"
+      "  raymoval table out/street --protocol dynamicmap\n"
       "  raymoval table out/kitti --with-published --format tex");
   return {app, [flags] { return show(*flags); }};
 }

@@ -34,6 +34,10 @@ struct Rate {
   std::string undefined_reason = "";
 };
 
+/// 100 part / whole as a rate; undefined for `reason` where `whole` is 0.
+Rate percent_rate(const std::string& name, std::int64_t part, std::int64_t whole,
+                  const std::string& reason);
+
 /// Integer counts first, the rates that follow from them second.
 struct ProtocolResult {
   std::string protocol;

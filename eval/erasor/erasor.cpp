@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "eval/checked_scan.h"
 #include "eval/erasor/accumulate.h"
 #include "eval/erasor/matching.h"
 #include "eval/erasor/options.h"
@@ -24,26 +25,13 @@ class ErasorTruth : public TruthMap {
   std::unique_ptr<NearestLabels> dense;
 };
 
-void check_input(const EvaluationInput& input) {
-  if (input.scans == nullptr) throw InternalError("protocol erasor was given no scans");
-  if (input.labels == nullptr) {
-    throw DataError(
-        "protocol erasor needs a label for each point and the sequence has none: expected label "
-        "files. Choose labelled data.");
-  }
-}
-
-Rate rate_of(const std::string& name, std::int64_t part, std::int64_t whole,
-             const std::string& reason) {
-  if (whole == 0) return {name, std::nullopt, reason};
-  return {name, 100.0 * static_cast<double>(part) / static_cast<double>(whole)};
-}
-
 void add_rates(const MatchCounts& counts, const std::string& suffix, std::vector<Rate>& rates) {
-  const Rate preservation = rate_of("PR" + suffix, counts.preserved_static, counts.static_voxels,
-                                    "the ground truth has no static voxel");
-  const Rate rejection = rate_of("RR" + suffix, counts.dynamic_voxels - counts.remaining_dynamic,
-                                 counts.dynamic_voxels, "the ground truth has no dynamic voxel");
+  const Rate preservation =
+      percent_rate("PR" + suffix, counts.preserved_static, counts.static_voxels,
+                   "the ground truth has no static voxel");
+  const Rate rejection =
+      percent_rate("RR" + suffix, counts.dynamic_voxels - counts.remaining_dynamic,
+                   counts.dynamic_voxels, "the ground truth has no dynamic voxel");
   Rate f1{"F1" + suffix, std::nullopt};
   if (preservation.value && rejection.value) {
     f1.value = f1_from_percent(*preservation.value, *rejection.value);
@@ -91,7 +79,7 @@ class ErasorProtocol : public Protocol {
   [[nodiscard]] Configuration options() const override { return option_table().write(options_); }
 
   [[nodiscard]] std::unique_ptr<TruthMap> prepare(const EvaluationInput& input) const override {
-    check_input(input);
+    check_input(input, name());
     const LabelClasses classes(effective_rule(input.label_rule, options_));
     DenseMap dense = accumulate(input, options_, classes, nullptr, "ground truth map");
     auto truth = std::make_unique<ErasorTruth>();
@@ -107,15 +95,12 @@ class ErasorProtocol : public Protocol {
 
   [[nodiscard]] ProtocolResult score(const EvaluationInput& input, const TruthMap& truth_map,
                                      const MaskStore& masks) const override {
-    check_input(input);
+    check_input(input, name());
     const auto* truth = dynamic_cast<const ErasorTruth*>(&truth_map);
     if (truth == nullptr || (options_.label_mode == LabelMode::kNearest && !truth->dense)) {
       throw InternalError("protocol erasor was given a truth map that it did not prepare");
     }
-    if (masks.size() != input.scans->size()) {
-      throw MethodError(std::to_string(masks.size()) + " masks for " +
-                        std::to_string(input.scans->size()) + " scans; expected one per scan.");
-    }
+    check_mask_count(input, masks);
     const LabelClasses classes(effective_rule(input.label_rule, options_));
     PointCounts points;
     const LabelledVoxels estimate = estimate_map(input, *truth, classes, masks, points);

@@ -122,3 +122,41 @@ TEST_CASE("Stage times are means per scan with the rest named") {
   CHECK(tables[0].rows[1].cells[0].text == "125.000");
   CHECK(tables[0].rows[2].cells[0].text == "500.000");
 }
+
+namespace {
+
+/// Method x on s1 and s2 and y_1 on s1, by points: rates of another protocol on the same cells.
+void add_points_protocol(RunResults& results) {
+  results.protocols.push_back("dynamicmap");
+  const auto add = [&](const std::string& sequence, const std::string& cell, double sa, double da) {
+    ResultRow added = row(sequence, cell, {}, {}, {});
+    added.protocol = "dynamicmap";
+    added.rates = {{"SA", sa}, {"DA", da}, {"AA", 1.0}, {"HA", 2.0 * sa * da / (sa + da)}};
+    results.rows.push_back(added);
+  };
+  add("s1", "x", 50.0, 50.0);
+  add("s2", "x", 40.0, 60.0);
+  add("s1", "y_1", 75.0, 25.0);
+}
+
+}  // namespace
+
+TEST_CASE("A protocol with SA and DA has a table with its columns, and can be asked for alone") {
+  RunResults results = two_by_two();
+  add_points_protocol(results);
+  const std::vector<TextTable> tables = make_tables(results);
+  REQUIRE(tables.size() >= 2);
+  CHECK(tables[1].title == "Accuracy by protocol dynamicmap");
+  REQUIRE(tables[1].groups.size() == 2);
+  CHECK(tables[1].groups[0].columns == std::vector<std::string>{"SA", "DA", "AA", "HA"});
+  CHECK(tables[1].rows[1].cells[3].text == "48.000");  // 2 40 60 / 100.
+  CHECK(tables[1].rows[0].cells[4].mark == Mark::kBest);
+  CHECK(tables[1].rows[0].cells[7].text == "37.500");
+  CHECK_THAT(results_csv(results),
+             Contains("\ns2,x,v,dynamicmap,ok,,,,40.000,60.000,1.000,48.000"));
+  choose_protocols(results, {"dynamicmap"});
+  CHECK(results.rows.size() == 3);
+  REQUIRE(make_tables(results).size() == 1);
+  CHECK(make_tables(results)[0].title == "Accuracy by protocol dynamicmap");
+  CHECK_THROWS_WITH(choose_protocols(results, {"dynamicmpa"}), Contains("'dynamicmap'"));
+}
