@@ -203,6 +203,23 @@ ordered_json unreadable_cell(const std::string& sequence, const MethodRequest& r
   return cell;
 }
 
+ordered_json to_json(const Intervals& intervals) {
+  ordered_json record;
+  record["level"] = intervals.options.level;
+  record["replicates"] = intervals.options.replicates;
+  record["seed"] = intervals.options.seed;
+  record["block_scans"] = intervals.block_scans;
+  record["rates"] = ordered_json::object();
+  record["undefined"] = ordered_json::object();
+  for (const Interval& interval : intervals.rates) {
+    const bool defined = interval.low && interval.high;
+    record["rates"][interval.name] =
+        defined ? ordered_json::array({*interval.low, *interval.high}) : ordered_json(nullptr);
+    if (!defined) record["undefined"][interval.name] = interval.undefined_reason;
+  }
+  return record;
+}
+
 ordered_json to_json(const ProtocolResult& result) {
   ordered_json record;
   record["counts"] = ordered_json::object();
@@ -215,6 +232,7 @@ ordered_json to_json(const ProtocolResult& result) {
     if (!defined) record["undefined"][rate.name] = rate.undefined_reason;
   }
   record["warnings"] = result.warnings;
+  if (result.intervals) record["intervals"] = to_json(*result.intervals);
   return record;
 }
 

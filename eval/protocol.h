@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/range_limits.h"
 #include "core/scan_source.h"
+#include "eval/bootstrap.h"
 
 namespace raymoval {
 
@@ -44,6 +45,8 @@ struct ProtocolResult {
   std::vector<std::pair<std::string, std::int64_t>> counts;
   std::vector<Rate> rates;
   std::vector<std::string> warnings;
+  /// Of the protocol's main rates, by block bootstrap over scans; none if it does not draw any.
+  std::optional<Intervals> intervals = std::nullopt;
 
   /// @throws InternalError if there is no such count.
   [[nodiscard]] std::int64_t count(const std::string& name) const;

@@ -12,6 +12,16 @@ using namespace dynamicmap;
 /// Nothing is prepared but the certainty that there is something to score against.
 class DynamicMapTruth : public TruthMap {};
 
+/// What the rates are made of.
+std::vector<std::int64_t> counts_of(const ScanPresence& presence) {
+  return {presence.present_static, presence.points.static_points, presence.removed_dynamic,
+          presence.points.dynamic_points};
+}
+
+std::vector<Rate> rates_of(const std::vector<std::int64_t>& counts) {
+  return accuracy_rates(counts[0], counts[1], counts[2], counts[3], "point");
+}
+
 class DynamicMapProtocol : public Protocol {
  public:
   explicit DynamicMapProtocol(const Options& options) : options_(options) {}
@@ -51,8 +61,10 @@ class DynamicMapProtocol : public Protocol {
                      {"ego_points", all.points.ego},
                      {"out_of_range_points", all.points.out_of_range},
                      {"ignored_points", all.points.ignored}};
-    result.rates = accuracy_rates(all.present_static, all.points.static_points, all.removed_dynamic,
-                                  all.points.dynamic_points, "point");
+    result.rates = rates_of(counts_of(all));
+    std::vector<std::vector<std::int64_t>> by_scan;
+    for (const ScanPresence& scan : scans) by_scan.push_back(counts_of(scan));
+    result.intervals = bootstrap(by_scan, rates_of);
     if (all.kept_static == 0 && all.flagged_dynamic == all.points.dynamic_points) {
       result.warnings.push_back("the estimate is empty: every evaluated point is removed");
     }

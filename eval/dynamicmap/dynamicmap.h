@@ -12,7 +12,8 @@ namespace raymoval {
 /// Truth: every point, where the poses put it, without voxels, crop or lift. A point is present if
 /// any kept point, itself included, is at most `distance` away, else it is gone; labels of kept
 /// points are not looked at. SA = present static / static, DA = gone dynamic / dynamic (percent),
-/// AA = sqrt(SA DA), HA = 2 SA DA / (SA + DA). So a removed point that lies near a kept one counts
+/// AA = sqrt(SA DA), HA = 2 SA DA / (SA + DA). Their intervals come from a block bootstrap over
+/// scans, to which points belong by themselves. So a removed point that lies near a kept one counts
 /// as present, and an oracle stays below DA 100 where wheels touch the road. Points of an ignored
 /// label are in neither denominator, but a map made by a method holds them like any other
 /// (`ignored_in_estimate`).

@@ -63,6 +63,11 @@ PointCounts& PointCounts::operator+=(const PointCounts& other) {
   return *this;
 }
 
+std::uint32_t DenseMap::scan_of(std::uint32_t point) const {
+  const auto end = std::upper_bound(scan_ends.begin(), scan_ends.end(), std::size_t{point});
+  return static_cast<std::uint32_t>(end - scan_ends.begin());
+}
+
 LabelRule effective_rule(const LabelRule& rule, const Options& options) {
   LabelRule effective = rule;
   if (!options.truck_is_moving) std::erase(effective.moving, kMovingTruck);
@@ -91,6 +96,7 @@ DenseMap accumulate(const EvaluationInput& input, const Options& options,
       dense.cloud.append(part.voxels.cloud);
       dense.mixed_label_ties += part.voxels.mixed_label_ties;
       dense.points += part.points;
+      dense.scan_ends.push_back(dense.cloud.size());
     }
   }
   if (input.progress != nullptr) input.progress->end();

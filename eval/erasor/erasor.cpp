@@ -21,6 +21,8 @@ class ErasorTruth : public TruthMap {
  public:
   LabelledVoxels map;
   PointCounts points;
+  /// For each voxel of the map the scan whose point gave it its label.
+  std::vector<std::uint32_t> scan_of_voxel;
   /// The dense map, searchable; only kept where labels are taken from it again.
   std::unique_ptr<NearestLabels> dense;
 };
@@ -47,6 +49,19 @@ void add_counts(const MatchCounts& counts, const std::string& suffix, ProtocolRe
   result.counts.emplace_back("dynamic_voxels" + suffix, counts.dynamic_voxels);
   result.counts.emplace_back("preserved_static" + suffix, counts.preserved_static);
   result.counts.emplace_back("remaining_dynamic" + suffix, counts.remaining_dynamic);
+}
+
+Intervals intervals_of(const std::vector<MatchCounts>& scans) {
+  std::vector<std::vector<std::int64_t>> counts;
+  for (const MatchCounts& scan : scans) {
+    counts.push_back(
+        {scan.static_voxels, scan.dynamic_voxels, scan.preserved_static, scan.remaining_dynamic});
+  }
+  return bootstrap(counts, [](const std::vector<std::int64_t>& sums) {
+    std::vector<Rate> rates;
+    add_rates({sums[0], sums[1], sums[2], sums[3]}, "", rates);
+    return rates;
+  });
 }
 
 /// How the estimate lies in the truth, looked at the other way round.
@@ -86,6 +101,9 @@ class ErasorProtocol : public Protocol {
     truth->map = voxelise(dense.cloud, options_.voxel_size, classes, input.threads);
     truth->map.mixed_label_ties += dense.mixed_label_ties;
     truth->points = dense.points;
+    for (const std::uint32_t point : truth->map.label_points) {
+      truth->scan_of_voxel.push_back(dense.scan_of(point));
+    }
     if (truth->map.size() == 0) throw_empty_truth(dense.points);
     if (options_.label_mode == LabelMode::kNearest) {
       truth->dense = std::make_unique<NearestLabels>(std::move(dense.cloud));
@@ -144,6 +162,9 @@ class ErasorProtocol : public Protocol {
     add_rates(counts, "", result.rates);
     add_map_counts(truth, estimate, overlap, points, result);
     add_no_truck(input, truth, estimate, partners, result);
+    result.intervals =
+        intervals_of(count_matches_by_scan(truth.map, estimate, partners, truth.scan_of_voxel,
+                                           input.scans->size(), classes, options_));
     add_warnings(estimate, overlap, result);
     return result;
   }

@@ -16,6 +16,11 @@ namespace raymoval {
 /// static, a moving one remains if that moves. PR = preserved / static, RR = 1 - remaining /
 /// moving (percent), F1 their harmonic mean (fraction).
 ///
+/// Intervals of PR, RR and F1: block bootstrap over scans, for which each voxel of the truth
+/// belongs to the one scan whose point gave it its label, that is the point nearest to its
+/// centroid. Among the scans that saw a voxel this is none in particular, so voxels spread over
+/// them; each counts once, and the counts of all scans add up to those of the map.
+///
 /// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic; estimate_voxels;
 /// estimate_voxels_without_partner (no truth voxel within the same reach; never penalised);
 /// mixed_label_ties and estimate_mixed_label_ties (voxels whose class hung on input order);
