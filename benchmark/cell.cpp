@@ -109,6 +109,7 @@ void score_all(const CellTask& task, const MaskStore& masks, ordered_json& cell)
     record.update(to_json(task.bench->score(i, masks)));
     cell["protocols"].push_back(std::move(record));
   }
+  cell["columns"] = columns_record(task.bench->columns(masks));
 }
 
 /// Everything of a cell that is known before the method runs.
@@ -124,6 +125,7 @@ ordered_json cell_head(const std::string& sequence, const MethodRequest& request
   cell["method"] = method_record(request);
   cell["data"] = nullptr;
   cell["protocols"] = ordered_json::array();
+  cell["columns"] = nullptr;
   cell["masks"] = nullptr;
   cell["measured"] = nullptr;
   return cell;
@@ -133,6 +135,7 @@ void fail(ordered_json& cell, const char* status, const std::string& reason) {
   cell["status"] = status;
   cell["reason"] = reason;
   cell["protocols"] = ordered_json::array();
+  cell["columns"] = nullptr;
 }
 
 void fill_cell(const CellTask& task, ordered_json& cell) {
@@ -173,6 +176,7 @@ std::string cell_key(const CellTask& task) {
   for (std::size_t i = 0; i < task.bench->protocol_count(); ++i) {
     identity["protocols"].push_back(protocol_record(*task.bench, i));
   }
+  identity["columns"] = kColumnsVersion;
   return content_hash(json_text(identity));
 }
 
@@ -201,6 +205,21 @@ ordered_json unreadable_cell(const std::string& sequence, const MethodRequest& r
   ordered_json cell = cell_head(sequence, request);
   fail(cell, "bad_data", reason);
   return cell;
+}
+
+ordered_json columns_record(const std::vector<ColumnValue>& columns) {
+  ordered_json record;
+  record["version"] = kColumnsVersion;
+  record["values"] = ordered_json::object();
+  for (const ColumnValue& column : columns) {
+    ordered_json& value = record["values"][column.name];
+    value["part"] = column.share.part;
+    value["whole"] = column.share.whole;
+    const std::optional<double> percent = column.share.percent();
+    value["percent"] = percent ? ordered_json(*percent) : ordered_json(nullptr);
+    if (!percent) value["undefined"] = column.undefined_reason;
+  }
+  return record;
 }
 
 ordered_json to_json(const Intervals& intervals) {

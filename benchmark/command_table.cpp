@@ -2,6 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/column_tables.h"
 #include "benchmark/commands.h"
 #include "benchmark/published_columns.h"
 #include "benchmark/result_sets.h"
@@ -16,6 +17,7 @@ struct TableFlags {
   std::string run, format = "md";
   std::vector<std::string> protocols;
   bool with_published = false;
+  bool columns = false;
 };
 
 ExitCode show(const TableFlags& flags) {
@@ -28,6 +30,9 @@ ExitCode show(const TableFlags& flags) {
   const bool plain = flags.format == "md" || flags.format == "tex";
   if (flags.with_published && !plain) {
     throw UsageError("--with-published goes with --format md or tex.");
+  }
+  if (flags.columns && (!plain || flags.with_published)) {
+    throw UsageError("--columns goes with --format md or tex, and without --with-published.");
   }
   const std::filesystem::path file = find_results(flags.run);
   const nlohmann::ordered_json json = read_sealed(file);
@@ -43,7 +48,7 @@ ExitCode show(const TableFlags& flags) {
   } else if (flags.format == "csv") {
     print(results_csv(results));
   } else {
-    const auto tables = make_tables(results, outside);
+    const auto tables = flags.columns ? full_column_tables(results) : make_tables(results, outside);
     print(flags.format == "md" ? tables_markdown(results, tables) : tables_latex(tables));
   }
   return ExitCode::kDone;
@@ -60,10 +65,13 @@ Command add_table_command(CLI::App& program) {
   app->add_option("--protocol", flags->protocols, "Only what this protocol says (default: all)")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  app->add_flag("--columns", flags->columns,
+                "Instead of the usual tables: points by class, range and height, and intervals");
   app->add_flag("--with-published", flags->with_published, "Set papers' rows beside the run's");
   app->footer(
       "Examples:\n"
       "  raymoval table out/street\n"
+      "  raymoval table out/street --columns\n"
       "  raymoval table out/street --protocol dynamicmap\n"
       "  raymoval table out/kitti --with-published --format tex");
   return {app, [flags] { return show(*flags); }};

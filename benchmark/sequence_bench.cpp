@@ -41,6 +41,10 @@ EvaluationInput SequenceBench::input() const {
   return input;
 }
 
+std::vector<ColumnValue> SequenceBench::columns(const MaskStore& masks) const {
+  return column_values(tally_removals(input(), masks));
+}
+
 ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
   Scorer& scorer = scorers_[i];
   if (scorer.truth == nullptr) scorer.truth = scorer.protocol->prepare(input());

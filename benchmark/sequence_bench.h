@@ -8,6 +8,7 @@
 #include "benchmark/suite.h"
 #include "core/progress.h"
 #include "datasets/sequence.h"
+#include "eval/columns.h"
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -32,6 +33,9 @@ class SequenceBench {
 
   /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
   ProtocolResult score(std::size_t i, const MaskStore& masks);
+
+  /// Figures on the removed points by class, range and height.
+  [[nodiscard]] std::vector<ColumnValue> columns(const MaskStore& masks) const;
 
  private:
   struct Scorer {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "benchmark/column_tables.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "eval/averages.h"
@@ -283,6 +284,11 @@ std::vector<TextTable> make_tables(const RunResults& results,
     TextTable methods = method_table(results, protocol, outside);
     if (!methods.groups.empty()) tables.push_back(std::move(methods));
   }
+  const auto append = [&tables](std::vector<TextTable> more) {
+    for (TextTable& table : more) tables.push_back(std::move(table));
+  };
+  append(ranking_tables(results));
+  append(compact_column_tables(results));
   if (!outside.empty()) tables.push_back(published_table(outside));
   for (const std::string& protocol : results.protocols) {
     TextTable controls = control_table(results, protocol);

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "benchmark/column_tables.h"
+#include "core/error.h"
 #include "core/files.h"
 
 using namespace raymoval;
@@ -159,4 +161,72 @@ TEST_CASE("A protocol with SA and DA has a table with its columns, and can be as
   REQUIRE(make_tables(results).size() == 1);
   CHECK(make_tables(results)[0].title == "Accuracy by protocol dynamicmap");
   CHECK_THROWS_WITH(choose_protocols(results, {"dynamicmpa"}), Contains("'dynamicmap'"));
+}
+
+TEST_CASE("The ranking says where protocols put the methods in another order") {
+  RunResults results = two_by_two();
+  CHECK(ranking_tables(results).empty());  // One protocol.
+  add_points_protocol(results);
+  const std::vector<TextTable> tables = ranking_tables(results);
+  REQUIRE(tables.size() == 1);
+  const std::vector<TableRow>& rows = tables[0].rows;
+  REQUIRE(tables[0].groups.size() == 3);  // s1, s2, mean.
+  CHECK(tables[0].groups[0].columns ==
+        std::vector<std::string>{"erasor F1", "dynamicmap HA", "change"});
+  // s1: F1 0.72 against 0.80, but HA 50 against 37.5.
+  CHECK(rows[0].cells[0].text == "2");
+  CHECK(rows[0].cells[1].text == "1");
+  CHECK(rows[0].cells[2].text == "+1");
+  CHECK(rows[1].cells[2].text == "-1");
+  CHECK_THAT(tables[0].notes[1],
+             Contains("s1: y_1 before x by F1 (erasor), after it by HA (dynamicmap)"));
+  // s2 and the mean: y_1 has no F1 on s2, and no cell there by points.
+  CHECK(rows[0].cells[5].text == "=");
+  CHECK(rows[1].cells[3].text == "-");
+  CHECK(rows[1].cells[5].text == "-");
+  CHECK(rows[1].cells[6].text == "-");
+  CHECK(tables[0].notes.size() == 2);
+}
+
+TEST_CASE("Methods that are displayed alike share a rank") {
+  RunResults results = two_by_two();
+  add_points_protocol(results);
+  results.rows[2].rates["F1"] = 0.72001;
+  const std::vector<TextTable> tables = ranking_tables(results);
+  CHECK(tables[0].rows[0].cells[0].text == "1");
+  CHECK(tables[0].rows[1].cells[0].text == "1");
+  CHECK(tables[0].rows[1].cells[2].text == "-1");
+  CHECK(tables[0].notes.back() == "No pair of methods changes places.");
+}
+
+TEST_CASE("Column tables name the worst classes and add sequences up") {
+  RunResults results = two_by_two();
+  results.columns = {{"x",
+                      false,
+                      2,
+                      {{"precision", {3, 4}},
+                       {"recall", {0, 0}},
+                       {"rejection [range 0-10 m]", {0, 1000}},
+                       {"rejection [moving-car]", {50, 100}},
+                       {"rejection [moving-car, range 0-10 m]", {0, 100}},
+                       {"rejection [moving-bus]", {60, 200}},
+                       {"rejection [moving-person]", {0, 99}},
+                       {"preservation [road]", {99, 100}}}}};
+  results.rows[0].intervals = {{"PR", {89.0, 91.5}}, {"F1", {0.7, 0.74}}};
+  const std::vector<TextTable> compact = compact_column_tables(results);
+  REQUIRE(compact.size() == 1);
+  const std::vector<TableCell>& cells = compact[0].rows[0].cells;
+  CHECK(cells[0].text == "75.000");
+  CHECK(cells[1].text == "n/a");
+  // Neither a band, nor a band of a class, nor a class of 99 points.
+  CHECK(cells[4].text == "moving-bus 30.000");
+  CHECK(cells[5].text == "road 99.000");
+  const std::vector<TextTable> full = full_column_tables(results);
+  REQUIRE(full.size() == 4);
+  CHECK(full[0].rows.size() == 3);  // precision, recall, rejection by range.
+  CHECK(full[1].rows.size() == 4);
+  CHECK(full[2].rows.size() == 1);
+  CHECK(full[3].groups[0].columns == std::vector<std::string>{"PR", "F1"});
+  CHECK(full[3].rows[0].cells[0].text == "89.000 to 91.500");
+  CHECK(full[3].rows[0].cells[1].text == "0.7000 to 0.7400");
 }
