@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "eval/cloud_masks.h"
+
 namespace raymoval {
 
 void check_has_labels(const Sequence& sequence) {
@@ -45,10 +47,25 @@ std::vector<ColumnValue> SequenceBench::columns(const MaskStore& masks) const {
   return column_values(tally_removals(input(), masks));
 }
 
-ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
+const SequenceBench::Scorer& SequenceBench::prepared(std::size_t i) {
   Scorer& scorer = scorers_[i];
   if (scorer.truth == nullptr) scorer.truth = scorer.protocol->prepare(input());
+  return scorer;
+}
+
+ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
+  const Scorer& scorer = prepared(i);
   return scorer.protocol->score(input(), *scorer.truth, masks);
+}
+
+ProtocolResult SequenceBench::score_cloud(std::size_t i,
+                                          const std::vector<Eigen::Vector3f>& cloud) {
+  const Scorer& scorer = prepared(i);
+  return scorer.protocol->score_cloud(input(), *scorer.truth, cloud);
+}
+
+MaskStore SequenceBench::cloud_masks(const std::vector<Eigen::Vector3f>& cloud) const {
+  return masks_of_cloud(input(), cloud, kCloudDistance);
 }
 
 }  // namespace raymoval

@@ -34,6 +34,12 @@ class SequenceBench {
   /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
   ProtocolResult score(std::size_t i, const MaskStore& masks);
 
+  /// Scores a cleaned cloud, finite points in the world frame, by protocol `i`.
+  ProtocolResult score_cloud(std::size_t i, const std::vector<Eigen::Vector3f>& cloud);
+
+  /// Which points of the scans are not found again in a cleaned cloud (see `masks_of_cloud`).
+  [[nodiscard]] MaskStore cloud_masks(const std::vector<Eigen::Vector3f>& cloud) const;
+
   /// Figures on the removed points by class, range and height.
   [[nodiscard]] std::vector<ColumnValue> columns(const MaskStore& masks) const;
 
@@ -44,6 +50,7 @@ class SequenceBench {
     std::unique_ptr<TruthMap> truth;
   };
   [[nodiscard]] EvaluationInput input() const;
+  const Scorer& prepared(std::size_t i);
 
   Sequence sequence_;
   int threads_;

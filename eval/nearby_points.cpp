@@ -16,7 +16,8 @@ constexpr double kSmallestEdge = 0.2;
 
 }  // namespace
 
-NearbyPoints::NearbyPoints(const std::vector<Eigen::Vector3d>& points, double reach)
+template <class Point>
+NearbyPoints<Point>::NearbyPoints(const std::vector<Point>& points, double reach)
     : reach_(reach), inverse_edge_(1.0 / std::max(4.0 * reach, kSmallestEdge)) {
   if (points.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw DataError("a map of " + grouped_text(points.size()) +
@@ -25,7 +26,8 @@ NearbyPoints::NearbyPoints(const std::vector<Eigen::Vector3d>& points, double re
   }
   std::vector<CellPoint> order(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    order[i] = {voxel_key(voxel_index(points[i], inverse_edge_)), static_cast<std::uint32_t>(i)};
+    order[i] = {voxel_key(voxel_index(points[i].template cast<double>(), inverse_edge_)),
+                static_cast<std::uint32_t>(i)};
   }
   sort_by_cell(order);
   points_.reserve(order.size());
@@ -36,5 +38,8 @@ NearbyPoints::NearbyPoints(const std::vector<Eigen::Vector3d>& points, double re
     points_.push_back({points[item.point], item.point});
   }
 }
+
+template class NearbyPoints<Eigen::Vector3d>;
+template class NearbyPoints<Eigen::Vector3f>;
 
 }  // namespace raymoval

@@ -13,11 +13,13 @@ namespace raymoval {
 
 /// Points of the world frame (metres) that can be asked for all that lie within one fixed reach of
 /// a query. A hash of cells of four times the reach, so that a query looks into 1 to 8 of them.
+/// @tparam Point Eigen::Vector3d, or Eigen::Vector3f for half the memory; distances are in double
+template <class Point>
 class NearbyPoints {
  public:
   /// @param reach metres
   /// @throws DataError if a point lies beyond the lattice or there are 2^32 points or more
-  NearbyPoints(const std::vector<Eigen::Vector3d>& points, double reach);
+  NearbyPoints(const std::vector<Point>& points, double reach);
 
   /// Calls `visit(position in points)` for every point whose squared distance (in double) from
   /// `query` is at most `reach` squared, in no particular order, until it returns false.
@@ -51,7 +53,7 @@ class NearbyPoints {
     std::uint32_t begin, end;
   };
   struct Entry {
-    Eigen::Vector3d point;
+    Point point;
     std::uint32_t index;
   };
 
@@ -62,7 +64,7 @@ class NearbyPoints {
     const Span span = found->second;
     for (std::uint32_t i = span.begin; i < span.end; ++i) {
       const Entry& entry = points_[i];
-      if ((entry.point - query).squaredNorm() > reach_ * reach_) continue;
+      if ((entry.point.template cast<double>() - query).squaredNorm() > reach_ * reach_) continue;
       if (!visit(entry.index)) return false;
     }
     return true;
@@ -73,5 +75,8 @@ class NearbyPoints {
   std::vector<Entry> points_;  ///< Cell by cell.
   VoxelMap<Span> cells_;
 };
+
+extern template class NearbyPoints<Eigen::Vector3d>;
+extern template class NearbyPoints<Eigen::Vector3f>;
 
 }  // namespace raymoval

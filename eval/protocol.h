@@ -73,6 +73,13 @@ class Protocol {
   /// @param masks one mask per scan, as long as the scan has points
   [[nodiscard]] virtual ProtocolResult score(const EvaluationInput& input, const TruthMap& truth,
                                              const MaskStore& masks) const = 0;
+  /// Scores a cleaned map without labels that was made elsewhere; labels are found again by nearest
+  /// neighbour. Not to be mixed with scores by masks in one table.
+  /// @param cloud finite points in the world frame of the scans' poses
+  /// @throws UsageError if the options rule it out
+  [[nodiscard]] virtual ProtocolResult score_cloud(
+      const EvaluationInput& input, const TruthMap& truth,
+      const std::vector<Eigen::Vector3f>& cloud) const = 0;
 };
 
 /// Names, options and makers of the protocols; `make_protocol("erasor", options)`.

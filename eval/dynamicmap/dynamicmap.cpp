@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/dynamicmap/dynamicmap.h"
 
+#include "eval/cloud_masks.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/presence.h"
 
@@ -40,6 +41,14 @@ class DynamicMapProtocol : public Protocol {
     check_input(input, name());
     check_mask_count(input, masks);
     return result_of(measure_presence(truth_points(input), masks, options_));
+  }
+
+  [[nodiscard]] ProtocolResult score_cloud(
+      const EvaluationInput& input, const TruthMap& /*truth*/,
+      const std::vector<Eigen::Vector3f>& cloud) const override {
+    check_input(input, name());
+    const MaskStore masks = masks_of_cloud(input, cloud, options_.distance);
+    return result_of(presence_by_index(truth_points(input), masks));
   }
 
  private:

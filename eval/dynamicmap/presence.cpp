@@ -31,7 +31,7 @@ class Measurement {
     for (std::size_t i = 0; i < masks_.size(); ++i) points += masks_.point_count(i);
     const bool flagged_stay = 2 * masks_.removed_count() <= points;
     const Collected stay = collect(flagged_stay);
-    const NearbyPoints near(stay.points, options_.distance);
+    const NearbyPoints<Eigen::Vector3d> near(stay.points, options_.distance);
     if (flagged_stay) {
       add_marked(stay, mark_near_kept(stay, near));
     } else {
@@ -80,7 +80,8 @@ class Measurement {
   }
 
   /// For each flagged point whether a kept one is near. Threads only ever write a 1.
-  std::vector<std::uint8_t> mark_near_kept(const Collected& flagged, const NearbyPoints& near) {
+  std::vector<std::uint8_t> mark_near_kept(const Collected& flagged,
+                                           const NearbyPoints<Eigen::Vector3d>& near) {
     std::vector<std::uint8_t> marks(flagged.points.size(), 0);
     if (marks.empty()) return marks;
     begin("points near kept ones");
@@ -106,7 +107,7 @@ class Measurement {
     }
   }
 
-  void search_flagged(const NearbyPoints& kept) {
+  void search_flagged(const NearbyPoints<Eigen::Vector3d>& kept) {
     begin("points near kept ones");
     parallel_for(truth_.input().threads, scans_.size(), 1, [&](std::size_t i) {
       truth_.read(i, &masks_, [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
@@ -157,6 +158,22 @@ ScanPresence& ScanPresence::operator+=(const ScanPresence& other) {
   present_static += other.present_static;
   removed_dynamic += other.removed_dynamic;
   return *this;
+}
+
+std::vector<ScanPresence> presence_by_index(const TruthPoints& truth, const MaskStore& masks) {
+  const EvaluationInput& input = truth.input();
+  std::vector<ScanPresence> scans(input.scans->size());
+  parallel_for(input.threads, scans.size(), 1, [&](std::size_t i) {
+    ScanPresence& counts = scans[i];
+    const auto visit = [&](std::size_t, const Scan&, Kind kind, bool removed) {
+      if (kind == Kind::kStatic && !removed) ++counts.kept_static;
+      if (kind == Kind::kDynamic && removed) ++counts.flagged_dynamic;
+    };
+    counts.points = truth.read(i, &masks, visit);
+    counts.present_static = counts.kept_static;
+    counts.removed_dynamic = counts.flagged_dynamic;
+  });
+  return scans;
 }
 
 std::vector<ScanPresence> measure_presence(const TruthPoints& truth, const MaskStore& masks,

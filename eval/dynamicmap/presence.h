@@ -29,4 +29,7 @@ struct ScanPresence {
 std::vector<ScanPresence> measure_presence(const TruthPoints& truth, const MaskStore& masks,
                                            const Options& options);
 
+/// The same where the masks already say what is present.
+std::vector<ScanPresence> presence_by_index(const TruthPoints& truth, const MaskStore& masks);
+
 }  // namespace raymoval::dynamicmap

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "eval/cloud_masks.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/truth_points.h"
 
@@ -61,6 +62,12 @@ class StrictProtocol : public Protocol {
       throw InternalError("protocol " + name() + " was given a truth that it did not prepare");
     }
     return result_of(*truth, kept_cells(input, *truth, masks));
+  }
+
+  [[nodiscard]] ProtocolResult score_cloud(
+      const EvaluationInput& input, const TruthMap& truth,
+      const std::vector<Eigen::Vector3f>& cloud) const override {
+    return score(input, truth, masks_of_cloud(input, cloud, kCloudDistance));
   }
 
  private:

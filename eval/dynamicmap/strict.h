@@ -15,6 +15,7 @@ namespace raymoval {
 /// both). A static cell is preserved if a static point in it is kept, a dynamic one is cleared if
 /// no dynamic point in it is kept. So the oracle has SA 100 and DA 100, and neither a neighbour
 /// within reach nor a kept point of the other class helps.
+/// A cleaned cloud keeps the points that lie within 0.05 m of it.
 ///
 /// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic, mixed_voxels (in
 /// both sets); ego_points, out_of_range_points, ignored_points.

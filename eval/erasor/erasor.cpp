@@ -125,6 +125,25 @@ class ErasorProtocol : public Protocol {
     return result_of(input, *truth, estimate, classes, points);
   }
 
+  [[nodiscard]] ProtocolResult score_cloud(
+      const EvaluationInput& input, const TruthMap& truth_map,
+      const std::vector<Eigen::Vector3f>& cloud) const override {
+    check_input(input, name());
+    const auto* truth = dynamic_cast<const ErasorTruth*>(&truth_map);
+    if (truth == nullptr) {
+      throw InternalError("protocol erasor was given a truth map that it did not prepare");
+    }
+    if (options_.label_mode != LabelMode::kNearest) {
+      throw UsageError("a cloud has no labels by index: expected label_mode = nearest.");
+    }
+    const LabelClasses classes(effective_rule(input.label_rule, options_));
+    const LabelledVoxels estimate = cloud_map(input, classes, cloud);
+    ProtocolResult result = result_of(input, *truth, estimate, classes, truth->points);
+    std::erase_if(result.counts, [](const auto& count) { return count.first == "removed_points"; });
+    result.counts.emplace_back("cloud_points", static_cast<std::int64_t>(cloud.size()));
+    return result;
+  }
+
  private:
   [[noreturn]] static void throw_empty_truth(const PointCounts& points) {
     throw DataError("nothing to score against: of " +
@@ -145,6 +164,31 @@ class ErasorProtocol : public Protocol {
     LabelledVoxels map = voxelise(dense.cloud, options_.voxel_size, classes, input.threads);
     map.mixed_label_ties += dense.mixed_label_ties;
     if (truth.dense) map.cloud.labels = truth.dense->labels_of(map.cloud.points, input.threads);
+    return map;
+  }
+
+  /// The voxelised cloud, each voxel with the label of its nearest point in the dense map. Points
+  /// of ignored labels stand in that map too, and what lies nearest to one is ignored likewise.
+  [[nodiscard]] LabelledVoxels cloud_map(const EvaluationInput& input, const LabelClasses& classes,
+                                         const std::vector<Eigen::Vector3f>& points) const {
+    LabelledCloud cloud;
+    for (const Eigen::Vector3f& point : points) cloud.points.push_back(point.cast<double>());
+    cloud.labels.resize(points.size());
+    const LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes, input.threads);
+    if (all.size() == 0) return all;
+    EvaluationInput whole = input;
+    whole.label_rule.ignored.clear();
+    const LabelClasses whole_classes(effective_rule(whole.label_rule, options_));
+    const NearestLabels dense(
+        accumulate(whole, options_, whole_classes, nullptr, "points for labels").cloud);
+    const std::vector<std::uint32_t> labels = dense.labels_of(all.cloud.points, input.threads);
+    LabelledVoxels map;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (classes.of(labels[i]) == LabelClass::kIgnored) continue;
+      map.keys.push_back(all.keys[i]);
+      map.cloud.points.push_back(all.cloud.points[i]);
+      map.cloud.labels.push_back(labels[i]);
+    }
     return map;
   }
 

@@ -28,6 +28,11 @@ namespace raymoval {
 /// (those of them that were flagged); out_of_range_points, ignored_points, cropped_points. If
 /// moving trucks (id 258) occur and move, the first four and the rates come again as `..._no_truck`
 /// with trucks counted as static, as in the scripts behind early published tables.
+///
+/// A cleaned cloud (with `label_mode` nearest, and `lift` 0 unless the cloud was lifted likewise)
+/// is voxelised once; each voxel takes the label of the nearest point of the dense map, however far
+/// away. Static voxels beside removed objects so become dynamic and RR has a ceiling below 100:
+/// score the cloud of an oracle to see it. `cloud_points` then stands for `removed_points`.
 ProtocolEntry erasor_protocol_entry();
 std::unique_ptr<Protocol> make_erasor_protocol(const Configuration& options);
 
