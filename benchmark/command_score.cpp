@@ -124,13 +124,25 @@ class Scoring {
              " points: labels by nearest neighbour, points present within 0.05 m; not to be "
              "compared with scores by index\n";
     for (const std::string& warning : cloud.warnings()) text_ += "  warning: " + warning + "\n";
-    const CleanedCloud oracle = oracle_cloud(bench_.sequence(), voxel, &progress_);
+    const std::vector<ProtocolResult> ceilings = oracle_results(voxel);
+    const CloudEstimate estimate(cloud.points);
     for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
       if (interrupt_flag()) throw Cancelled();
-      const ProtocolResult ceiling = bench_.score_cloud(i, oracle.points);
-      add_result(i, bench_.score_cloud(i, cloud.points), &ceiling);
+      add_result(i, bench_.score_cloud(i, estimate), &ceilings[i]);
     }
-    return bench_.cloud_masks(cloud.points);
+    return bench_.cloud_masks(estimate);
+  }
+
+  /// What the oracle's cloud scores by each protocol.
+  std::vector<ProtocolResult> oracle_results(double voxel) {
+    const CleanedCloud oracle = oracle_cloud(bench_.sequence(), voxel, &progress_);
+    const CloudEstimate estimate(oracle.points);
+    std::vector<ProtocolResult> results;
+    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
+      if (interrupt_flag()) throw Cancelled();
+      results.push_back(bench_.score_cloud(i, estimate));
+    }
+    return results;
   }
 
   /// @param ceiling what the oracle's cloud scored; null where labels go by index

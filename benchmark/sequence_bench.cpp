@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "eval/cloud_masks.h"
-
 namespace raymoval {
 
 void check_has_labels(const Sequence& sequence) {
@@ -58,14 +56,13 @@ ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
   return scorer.protocol->score(input(), *scorer.truth, masks);
 }
 
-ProtocolResult SequenceBench::score_cloud(std::size_t i,
-                                          const std::vector<Eigen::Vector3f>& cloud) {
+ProtocolResult SequenceBench::score_cloud(std::size_t i, const CloudEstimate& cloud) {
   const Scorer& scorer = prepared(i);
   return scorer.protocol->score_cloud(input(), *scorer.truth, cloud);
 }
 
-MaskStore SequenceBench::cloud_masks(const std::vector<Eigen::Vector3f>& cloud) const {
-  return masks_of_cloud(input(), cloud, kCloudDistance);
+const MaskStore& SequenceBench::cloud_masks(const CloudEstimate& cloud) const {
+  return cloud.masks(input(), kCloudDistance);
 }
 
 }  // namespace raymoval

@@ -8,6 +8,7 @@
 #include "benchmark/suite.h"
 #include "core/progress.h"
 #include "datasets/sequence.h"
+#include "eval/cloud_masks.h"
 #include "eval/columns.h"
 #include "eval/protocol.h"
 
@@ -34,11 +35,11 @@ class SequenceBench {
   /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
   ProtocolResult score(std::size_t i, const MaskStore& masks);
 
-  /// Scores a cleaned cloud, finite points in the world frame, by protocol `i`.
-  ProtocolResult score_cloud(std::size_t i, const std::vector<Eigen::Vector3f>& cloud);
+  /// Scores a cleaned cloud by protocol `i`.
+  ProtocolResult score_cloud(std::size_t i, const CloudEstimate& cloud);
 
   /// Which points of the scans are not found again in a cleaned cloud (see `masks_of_cloud`).
-  [[nodiscard]] MaskStore cloud_masks(const std::vector<Eigen::Vector3f>& cloud) const;
+  [[nodiscard]] const MaskStore& cloud_masks(const CloudEstimate& cloud) const;
 
   /// Figures on the removed points by class, range and height.
   [[nodiscard]] std::vector<ColumnValue> columns(const MaskStore& masks) const;

@@ -24,4 +24,12 @@ MaskStore masks_of_cloud(const EvaluationInput& input, const std::vector<Eigen::
   return masks;
 }
 
+const MaskStore& CloudEstimate::masks(const EvaluationInput& input, double distance) const {
+  if (distance_ != distance) {
+    masks_ = masks_of_cloud(input, points_, distance);
+    distance_ = distance;
+  }
+  return masks_;
+}
+
 }  // namespace raymoval

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/mask_store.h"
@@ -21,5 +22,23 @@ inline constexpr double kCloudDistance = 0.05;
 ///   thinned to voxels of more than twice the distance passes for one with most points removed.
 MaskStore masks_of_cloud(const EvaluationInput& input, const std::vector<Eigen::Vector3f>& cloud,
                          double distance);
+
+/// A cleaned cloud, and the masks that follow from it once somebody has asked for them. Not for
+/// several threads at once.
+class CloudEstimate {
+ public:
+  /// @param points finite, in the world frame; must outlive this object
+  explicit CloudEstimate(const std::vector<Eigen::Vector3f>& points) : points_(points) {}
+
+  [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const { return points_; }
+  /// `masks_of_cloud`; computed again only for another distance.
+  /// @param input the same in each call
+  const MaskStore& masks(const EvaluationInput& input, double distance) const;
+
+ private:
+  const std::vector<Eigen::Vector3f>& points_;
+  mutable std::optional<double> distance_;
+  mutable MaskStore masks_;
+};
 
 }  // namespace raymoval

@@ -54,6 +54,8 @@ struct ProtocolResult {
   [[nodiscard]] std::optional<double> rate(const std::string& name) const;
 };
 
+class CloudEstimate;
+
 /// What depends on scans and labels only, built once for a sequence and shared by all methods.
 class TruthMap {
  public:
@@ -75,11 +77,11 @@ class Protocol {
                                              const MaskStore& masks) const = 0;
   /// Scores a cleaned map without labels that was made elsewhere; labels are found again by nearest
   /// neighbour. Not to be mixed with scores by masks in one table.
-  /// @param cloud finite points in the world frame of the scans' poses
+  /// @param cloud points in the world frame of the scans' poses
   /// @throws UsageError if the options rule it out
-  [[nodiscard]] virtual ProtocolResult score_cloud(
-      const EvaluationInput& input, const TruthMap& truth,
-      const std::vector<Eigen::Vector3f>& cloud) const = 0;
+  [[nodiscard]] virtual ProtocolResult score_cloud(const EvaluationInput& input,
+                                                   const TruthMap& truth,
+                                                   const CloudEstimate& cloud) const = 0;
 };
 
 /// Names, options and makers of the protocols; `make_protocol("erasor", options)`.

@@ -43,11 +43,10 @@ class DynamicMapProtocol : public Protocol {
     return result_of(measure_presence(truth_points(input), masks, options_));
   }
 
-  [[nodiscard]] ProtocolResult score_cloud(
-      const EvaluationInput& input, const TruthMap& /*truth*/,
-      const std::vector<Eigen::Vector3f>& cloud) const override {
+  [[nodiscard]] ProtocolResult score_cloud(const EvaluationInput& input, const TruthMap& /*truth*/,
+                                           const CloudEstimate& cloud) const override {
     check_input(input, name());
-    const MaskStore masks = masks_of_cloud(input, cloud, options_.distance);
+    const MaskStore& masks = cloud.masks(input, options_.distance);
     return result_of(presence_by_index(truth_points(input), masks));
   }
 

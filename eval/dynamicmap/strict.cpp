@@ -64,10 +64,9 @@ class StrictProtocol : public Protocol {
     return result_of(*truth, kept_cells(input, *truth, masks));
   }
 
-  [[nodiscard]] ProtocolResult score_cloud(
-      const EvaluationInput& input, const TruthMap& truth,
-      const std::vector<Eigen::Vector3f>& cloud) const override {
-    return score(input, truth, masks_of_cloud(input, cloud, kCloudDistance));
+  [[nodiscard]] ProtocolResult score_cloud(const EvaluationInput& input, const TruthMap& truth,
+                                           const CloudEstimate& cloud) const override {
+    return score(input, truth, cloud.masks(input, kCloudDistance));
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "eval/checked_scan.h"
+#include "eval/cloud_masks.h"
 #include "eval/erasor/accumulate.h"
 #include "eval/erasor/matching.h"
 #include "eval/erasor/options.h"
@@ -125,9 +126,8 @@ class ErasorProtocol : public Protocol {
     return result_of(input, *truth, estimate, classes, points);
   }
 
-  [[nodiscard]] ProtocolResult score_cloud(
-      const EvaluationInput& input, const TruthMap& truth_map,
-      const std::vector<Eigen::Vector3f>& cloud) const override {
+  [[nodiscard]] ProtocolResult score_cloud(const EvaluationInput& input, const TruthMap& truth_map,
+                                           const CloudEstimate& cloud) const override {
     check_input(input, name());
     const auto* truth = dynamic_cast<const ErasorTruth*>(&truth_map);
     if (truth == nullptr) {
@@ -137,10 +137,10 @@ class ErasorProtocol : public Protocol {
       throw UsageError("a cloud has no labels by index: expected label_mode = nearest.");
     }
     const LabelClasses classes(effective_rule(input.label_rule, options_));
-    const LabelledVoxels estimate = cloud_map(input, classes, cloud);
+    const LabelledVoxels estimate = cloud_map(input, classes, cloud.points());
     ProtocolResult result = result_of(input, *truth, estimate, classes, truth->points);
     std::erase_if(result.counts, [](const auto& count) { return count.first == "removed_points"; });
-    result.counts.emplace_back("cloud_points", static_cast<std::int64_t>(cloud.size()));
+    result.counts.emplace_back("cloud_points", static_cast<std::int64_t>(cloud.points().size()));
     return result;
   }
 

@@ -37,7 +37,7 @@ ProtocolResult score_cloud(const std::string& name, const EvaluationInput& input
   Settings settings;
   if (name == "erasor") settings = {{"label_mode", std::string("nearest")}, {"lift", 0.0}};
   const auto protocol = protocol_with(name, settings);
-  return protocol->score_cloud(input, *protocol->prepare(input), cloud);
+  return protocol->score_cloud(input, *protocol->prepare(input), CloudEstimate(cloud));
 }
 
 }  // namespace
@@ -129,7 +129,8 @@ TEST_CASE("a cloud has no labels by index", "[cloud][edge]") {
   const MemorySequence sequence = worked_example();
   const auto protocol = erasor_protocol();
   const auto truth = protocol->prepare(sequence.input());
-  CHECK_THROWS_AS(protocol->score_cloud(sequence.input(), *truth, {}), UsageError);
+  const Points none;
+  CHECK_THROWS_AS(protocol->score_cloud(sequence.input(), *truth, CloudEstimate(none)), UsageError);
 }
 
 TEST_CASE("masks of a cloud are what it lacks", "[cloud]") {
