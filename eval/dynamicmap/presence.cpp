@@ -2,24 +2,75 @@
 #include "eval/dynamicmap/presence.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "core/parallel.h"
+#include "core/voxel_key.h"
 #include "eval/nearby_points.h"
 
 namespace raymoval::dynamicmap {
 namespace {
 
-/// Points of the truth that stay in memory, scan after scan.
-struct Collected {
-  std::vector<Eigen::Vector3d> points;  ///< World frame.
-  std::vector<std::uint8_t> moving;
-  std::vector<std::size_t> first;  ///< Of each scan, and the end.
-};
+/// Edge of the cells that tell which kept points are worth keeping, at least.
+constexpr double kSmallestEdge = 0.2;
 
 Eigen::Vector3d placed(const Scan& scan, std::size_t point) {
   return scan.T_world_sensor * scan.points[point].cast<double>();
 }
+
+/// What the masks say of a scan themselves; calls `visit(scan, point, kind, removed)` on the way.
+template <class Visit>
+ScanPresence count_by_index(const TruthPoints& truth, const MaskStore& masks, std::size_t index,
+                            Visit&& visit) {
+  ScanPresence counts;
+  counts.points =
+      truth.read(index, &masks, [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
+        if (kind == Kind::kStatic && !removed) ++counts.kept_static;
+        if (kind == Kind::kDynamic && removed) ++counts.flagged_dynamic;
+        visit(scan, p, kind, removed);
+      });
+  counts.present_static = counts.kept_static;
+  counts.removed_dynamic = counts.flagged_dynamic;
+  return counts;
+}
+
+/// Flagged points of the truth, scan after scan.
+struct FlaggedPoints {
+  std::vector<Eigen::Vector3d> points;  ///< World frame.
+  std::vector<std::uint8_t> moving;
+  std::vector<std::size_t> first = {0};  ///< Of each scan, and the end.
+};
+
+/// Cells with flagged points in or beside them; what lies elsewhere is near none of them.
+class CellsAround {
+ public:
+  CellsAround(const std::vector<Eigen::Vector3d>& points, double distance)
+      : inverse_edge_(1.0 / std::max(2.0 * distance, kSmallestEdge)) {
+    VoxelSet own;
+    for (const Eigen::Vector3d& point : points) own.insert(key_of(point));
+    for (const VoxelKey key : own) add_neighbours(voxel_index(key));
+  }
+
+  [[nodiscard]] bool contains(const Eigen::Vector3d& point) const {
+    return !cells_.empty() && cells_.contains(key_of(point));
+  }
+
+ private:
+  [[nodiscard]] VoxelKey key_of(const Eigen::Vector3d& point) const {
+    return voxel_key(voxel_index(point, inverse_edge_));
+  }
+  void add_neighbours(const VoxelIndex& cell) {
+    for (int z = -1; z <= 1; ++z) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+          cells_.insert(voxel_key(cell.x() + x, cell.y() + y, cell.z() + z));
+        }
+      }
+    }
+  }
+
+  double inverse_edge_;
+  VoxelSet cells_;
+};
 
 class Measurement {
  public:
@@ -27,96 +78,58 @@ class Measurement {
       : truth_(truth), masks_(masks), options_(options), scans_(truth.input().scans->size()) {}
 
   std::vector<ScanPresence> run() {
-    std::size_t points = 0;
-    for (std::size_t i = 0; i < masks_.size(); ++i) points += masks_.point_count(i);
-    const bool flagged_stay = 2 * masks_.removed_count() <= points;
-    const Collected stay = collect(flagged_stay);
-    const NearbyPoints<Eigen::Vector3d> near(stay.points, options_.distance);
-    if (flagged_stay) {
-      add_marked(stay, mark_near_kept(stay, near));
-    } else {
-      search_flagged(near);
-    }
+    const FlaggedPoints flagged = collect_flagged();
+    const std::vector<Eigen::Vector3d> kept =
+        collect_kept(CellsAround(flagged.points, options_.distance));
+    const NearbyPoints<Eigen::Vector3d> near(kept, options_.distance);
+    parallel_for(truth_.input().threads, scans_.size(), 1, [&](std::size_t scan) {
+      for (std::size_t i = flagged.first[scan]; i < flagged.first[scan + 1]; ++i) {
+        if (near.has_near(flagged.points[i])) add_present(scans_[scan], flagged.moving[i] != 0);
+      }
+    });
     return std::move(scans_);
   }
 
  private:
-  /// Reads all scans once, counts what needs no search, and keeps the flagged or the kept points.
-  Collected collect(bool flagged) {
+  /// Counts what the masks say themselves, and collects what has to be searched for.
+  FlaggedPoints collect_flagged() {
     struct Part {
       std::vector<Eigen::Vector3d> points;
       std::vector<std::uint8_t> moving;
     };
-    Collected all;
-    all.first.push_back(0);
-    begin("points that are gone");
-    const auto batch = static_cast<std::size_t>(std::max(1, truth_.input().threads)) * 4;
-    for (std::size_t first = 0; first < scans_.size(); first += batch) {
-      std::vector<Part> parts(std::min(batch, scans_.size() - first));
-      parallel_for(truth_.input().threads, parts.size(), 1, [&](std::size_t i) {
-        ScanPresence& counts = scans_[first + i];
-        const auto visit = [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
-          if (kind == Kind::kStatic && !removed) ++counts.kept_static;
-          if (kind == Kind::kDynamic && removed) ++counts.flagged_dynamic;
-          if (flagged ? !(removed && is_truth(kind)) : !in_estimate(kind, removed)) return;
-          parts[i].points.push_back(placed(scan, p));
-          parts[i].moving.push_back(kind == Kind::kDynamic ? 1 : 0);
-        };
-        counts.points = truth_.read(first + i, &masks_, visit);
-        advance();
-      });
-      for (const Part& part : parts) {
-        all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-        all.moving.insert(all.moving.end(), part.moving.begin(), part.moving.end());
-        all.first.push_back(all.points.size());
-      }
-    }
-    end();
-    for (ScanPresence& counts : scans_) {
-      counts.present_static = counts.kept_static;
-      counts.removed_dynamic = counts.flagged_dynamic;
-    }
+    FlaggedPoints all;
+    const auto read = [&](std::size_t scan_index, Part& part) {
+      ScanPresence& counts = scans_[scan_index];
+      counts = count_by_index(truth_, masks_, scan_index,
+                              [&](const Scan& scan, std::size_t p, Kind kind, bool removed) {
+                                if (!removed || !is_truth(kind)) return;
+                                part.points.push_back(placed(scan, p));
+                                part.moving.push_back(kind == Kind::kDynamic ? 1 : 0);
+                              });
+    };
+    in_batches<Part>("points that are gone", read, [&](const Part& part) {
+      all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+      all.moving.insert(all.moving.end(), part.moving.begin(), part.moving.end());
+      all.first.push_back(all.points.size());
+    });
     return all;
   }
 
-  /// For each flagged point whether a kept one is near. Threads only ever write a 1.
-  std::vector<std::uint8_t> mark_near_kept(const Collected& flagged,
-                                           const NearbyPoints<Eigen::Vector3d>& near) {
-    std::vector<std::uint8_t> marks(flagged.points.size(), 0);
-    if (marks.empty()) return marks;
-    begin("points near kept ones");
-    parallel_for(truth_.input().threads, scans_.size(), 1, [&](std::size_t i) {
-      truth_.read(i, &masks_, [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
-        if (!in_estimate(kind, removed)) return;
-        near.visit(placed(scan, p), [&](std::uint32_t found) {
-          std::atomic_ref<std::uint8_t>(marks[found]).store(1, std::memory_order_relaxed);
-          return true;
-        });
-      });
-      advance();
-    });
-    end();
-    return marks;
-  }
-
-  void add_marked(const Collected& flagged, const std::vector<std::uint8_t>& marks) {
-    for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
-      for (std::size_t i = flagged.first[scan]; i < flagged.first[scan + 1]; ++i) {
-        if (marks[i] != 0) add_present(scans_[scan], flagged.moving[i] != 0);
-      }
-    }
-  }
-
-  void search_flagged(const NearbyPoints<Eigen::Vector3d>& kept) {
-    begin("points near kept ones");
-    parallel_for(truth_.input().threads, scans_.size(), 1, [&](std::size_t i) {
-      truth_.read(i, &masks_, [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
-        if (!removed || !is_truth(kind) || !kept.has_near(placed(scan, p))) return;
-        add_present(scans_[i], kind == Kind::kDynamic);
-      });
-      advance();
-    });
-    end();
+  /// Points of the estimate that may be near a flagged one.
+  std::vector<Eigen::Vector3d> collect_kept(const CellsAround& cells) {
+    using Part = std::vector<Eigen::Vector3d>;
+    Part all;
+    const auto read = [&](std::size_t scan_index, Part& part) {
+      (void)truth_.read(scan_index, &masks_,
+                        [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
+                          if (!in_estimate(kind, removed)) return;
+                          const Eigen::Vector3d point = placed(scan, p);
+                          if (cells.contains(point)) part.push_back(point);
+                        });
+    };
+    in_batches<Part>("points near those gone", read,
+                     [&](const Part& part) { all.insert(all.end(), part.begin(), part.end()); });
+    return all;
   }
 
   /// Whether a point stands in the map that is scored; its label is not looked at.
@@ -133,14 +146,21 @@ class Measurement {
     }
   }
 
-  void begin(const char* task) const {
-    if (truth_.input().progress != nullptr) truth_.input().progress->begin(task, scans_.size());
-  }
-  void advance() const {
-    if (truth_.input().progress != nullptr) truth_.input().progress->advance();
-  }
-  void end() const {
-    if (truth_.input().progress != nullptr) truth_.input().progress->end();
+  /// Calls `read(scan, part)` for all scans, a batch at a time, and `take(part)` in their order.
+  template <class Part, class Read, class Take>
+  void in_batches(const char* task, Read&& read, Take&& take) {
+    const EvaluationInput& input = truth_.input();
+    if (input.progress != nullptr) input.progress->begin(task, scans_.size());
+    const auto batch = static_cast<std::size_t>(std::max(1, input.threads)) * 4;
+    for (std::size_t first = 0; first < scans_.size(); first += batch) {
+      std::vector<Part> parts(std::min(batch, scans_.size() - first));
+      parallel_for(input.threads, parts.size(), 1, [&](std::size_t i) {
+        read(first + i, parts[i]);
+        if (input.progress != nullptr) input.progress->advance();
+      });
+      for (const Part& part : parts) take(part);
+    }
+    if (input.progress != nullptr) input.progress->end();
   }
 
   const TruthPoints& truth_;
@@ -161,17 +181,9 @@ ScanPresence& ScanPresence::operator+=(const ScanPresence& other) {
 }
 
 std::vector<ScanPresence> presence_by_index(const TruthPoints& truth, const MaskStore& masks) {
-  const EvaluationInput& input = truth.input();
-  std::vector<ScanPresence> scans(input.scans->size());
-  parallel_for(input.threads, scans.size(), 1, [&](std::size_t i) {
-    ScanPresence& counts = scans[i];
-    const auto visit = [&](std::size_t, const Scan&, Kind kind, bool removed) {
-      if (kind == Kind::kStatic && !removed) ++counts.kept_static;
-      if (kind == Kind::kDynamic && removed) ++counts.flagged_dynamic;
-    };
-    counts.points = truth.read(i, &masks, visit);
-    counts.present_static = counts.kept_static;
-    counts.removed_dynamic = counts.flagged_dynamic;
+  std::vector<ScanPresence> scans(truth.input().scans->size());
+  parallel_for(truth.input().threads, scans.size(), 1, [&](std::size_t i) {
+    scans[i] = count_by_index(truth, masks, i, [](const Scan&, std::size_t, Kind, bool) {});
   });
   return scans;
 }

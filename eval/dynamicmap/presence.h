@@ -23,8 +23,9 @@ struct ScanPresence {
 /// For each scan, how many of its points are kept, and how many have any kept point of any scan,
 /// themselves included, at `options.distance` metres or less.
 ///
-/// A kept point is its own partner, so only flagged ones are searched for. Whichever of the kept
-/// and the flagged points are fewer stay in memory, the others stream by scan for scan.
+/// A kept point is its own partner, so only flagged ones are searched for. They and the kept points
+/// around them stay in memory, all else streams by, and time grows with the points times the
+/// logarithm of their number, however often a place was seen.
 /// @throws MethodError, DataError as `load_checked`; DataError beyond the lattice
 std::vector<ScanPresence> measure_presence(const TruthPoints& truth, const MaskStore& masks,
                                            const Options& options);
