@@ -10,6 +10,7 @@
 #include "benchmark/checked_sink.h"
 #include "benchmark/machine.h"
 #include "benchmark/removal_files.h"
+#include "benchmark/score_json.h"
 #include "benchmark/sealed_json.h"
 #include "core/files.h"
 #include "methods/controls/controls.h"
@@ -173,10 +174,10 @@ std::string cell_key(const CellTask& task) {
   identity["schema_version"] = kSchemaVersion;
   identity["method"] = method_record(*task.request);
   identity["data"] = data_record(*task.bench);
+  identity["columns"]["version"] = kColumnsVersion;
   for (std::size_t i = 0; i < task.bench->protocol_count(); ++i) {
     identity["protocols"].push_back(protocol_record(*task.bench, i));
   }
-  identity["columns"] = kColumnsVersion;
   return content_hash(json_text(identity));
 }
 
@@ -205,38 +206,6 @@ ordered_json unreadable_cell(const std::string& sequence, const MethodRequest& r
   ordered_json cell = cell_head(sequence, request);
   fail(cell, "bad_data", reason);
   return cell;
-}
-
-ordered_json columns_record(const std::vector<ColumnValue>& columns) {
-  ordered_json record;
-  record["version"] = kColumnsVersion;
-  record["values"] = ordered_json::object();
-  for (const ColumnValue& column : columns) {
-    ordered_json& value = record["values"][column.name];
-    value["part"] = column.share.part;
-    value["whole"] = column.share.whole;
-    const std::optional<double> percent = column.share.percent();
-    value["percent"] = percent ? ordered_json(*percent) : ordered_json(nullptr);
-    if (!percent) value["undefined"] = column.undefined_reason;
-  }
-  return record;
-}
-
-ordered_json to_json(const Intervals& intervals) {
-  ordered_json record;
-  record["level"] = intervals.options.level;
-  record["replicates"] = intervals.options.replicates;
-  record["seed"] = intervals.options.seed;
-  record["block_scans"] = intervals.block_scans;
-  record["rates"] = ordered_json::object();
-  record["undefined"] = ordered_json::object();
-  for (const Interval& interval : intervals.rates) {
-    const bool defined = interval.low && interval.high;
-    record["rates"][interval.name] =
-        defined ? ordered_json::array({*interval.low, *interval.high}) : ordered_json(nullptr);
-    if (!defined) record["undefined"][interval.name] = interval.undefined_reason;
-  }
-  return record;
 }
 
 ordered_json to_json(const ProtocolResult& result) {

@@ -39,12 +39,6 @@ nlohmann::ordered_json unreadable_cell(const std::string& sequence, const Method
 /// @throws DataError if it needs labels and there are none
 std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence);
 
-/// Each column as part, whole and percent; null with a reason where undefined.
-nlohmann::ordered_json columns_record(const std::vector<ColumnValue>& columns);
-
-/// How the intervals were drawn, and [low, high] of each rate; null with a reason where undefined.
-nlohmann::ordered_json to_json(const Intervals& intervals);
-
 /// Counts and rates as JSON; an undefined rate is null, its reason stands below "undefined".
 nlohmann::ordered_json to_json(const ProtocolResult& result);
 

@@ -8,6 +8,7 @@
 #include "benchmark/commands.h"
 #include "benchmark/removal_files.h"
 #include "benchmark/results.h"
+#include "benchmark/score_json.h"
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_bench.h"
 #include "core/files.h"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cell.h"
+#include "benchmark/score_json.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -31,13 +32,6 @@ ResultRow row_head(const ordered_json& cell) {
     row.peak_memory_mib = number_or_nothing(measured.at("peak_memory_mib"));
   }
   return row;
-}
-
-void add_intervals(const ordered_json& scored, ResultRow& row) {
-  if (!scored.contains("intervals")) return;
-  for (const auto& [name, ends] : scored.at("intervals").at("rates").items()) {
-    if (!ends.is_null()) row.intervals[name] = {ends.at(0).get<double>(), ends.at(1).get<double>()};
-  }
 }
 
 /// One row for each protocol of the suite, also where the cell failed.
@@ -86,26 +80,6 @@ void add_times(const ordered_json& cell, RunResults& results) {
   }
 }
 
-void add_columns(const ordered_json& cell, RunResults& results) {
-  if (!cell.contains("columns") || cell.at("columns").is_null()) return;
-  const auto name = cell.at("name").get<std::string>();
-  const auto known = std::find_if(results.columns.begin(), results.columns.end(),
-                                  [&](const MethodColumns& method) { return method.cell == name; });
-  const auto place = static_cast<std::size_t>(known - results.columns.begin());
-  if (known == results.columns.end()) {
-    results.columns.push_back({name, cell.at("method").at("control").get<bool>(), 0, {}});
-  }
-  MethodColumns& method = results.columns[place];
-  ++method.sequences;
-  for (const auto& [column, value] : cell.at("columns").at("values").items()) {
-    const auto same = [&key = column](const auto& entry) { return entry.first == key; };
-    auto found = std::find_if(method.values.begin(), method.values.end(), same);
-    if (found == method.values.end()) found = method.values.insert(found, {column, Share{}});
-    found->second.part += value.at("part").get<std::int64_t>();
-    found->second.whole += value.at("whole").get<std::int64_t>();
-  }
-}
-
 RunResults parse(const ordered_json& json) {
   RunResults results;
   const ordered_json& suite = json.at("run").at("suite");
@@ -121,8 +95,8 @@ RunResults parse(const ordered_json& json) {
   }
   for (const ordered_json& cell : json.at("cells")) {
     add_rows(cell, results);
-    add_times(cell, results);
     add_columns(cell, results);
+    add_times(cell, results);
   }
   results.control_problems = json.at("controls").at("problems").get<std::vector<std::string>>();
   return results;
@@ -139,13 +113,6 @@ std::string csv_text(const std::string& text) {
 }
 
 }  // namespace
-
-Share MethodColumns::find(const std::string& name) const {
-  for (const auto& [column, share] : values) {
-    if (column == name) return share;
-  }
-  return {};
-}
 
 const ResultRow* RunResults::find(const std::string& sequence, const std::string& cell,
                                   const std::string& protocol) const {
@@ -190,6 +157,21 @@ std::string results_csv(const RunResults& results) {
     csv += "," + csv_text(row.cell) + "\n";
   }
   return csv;
+}
+
+void choose_protocols(RunResults& results, const std::vector<std::string>& protocols) {
+  const auto wanted = [&](const std::string& name) {
+    return std::find(protocols.begin(), protocols.end(), name) != protocols.end();
+  };
+  for (const std::string& protocol : protocols) {
+    const auto& known = results.protocols;
+    if (std::find(known.begin(), known.end(), protocol) != known.end()) continue;
+    throw UsageError("--protocol " + protocol + ": this run was not scored by it." +
+                     suggestion(protocol, known));
+  }
+  if (protocols.empty()) return;
+  std::erase_if(results.protocols, [&](const auto& name) { return !wanted(name); });
+  std::erase_if(results.rows, [&](const ResultRow& row) { return !wanted(row.protocol); });
 }
 
 }  // namespace raymoval

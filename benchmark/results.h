@@ -58,8 +58,8 @@ struct RunResults {
   std::vector<std::string> cells;  ///< Names of the methods, in the order of the suite.
   std::vector<std::string> protocols;
   std::vector<ResultRow> rows;
-  std::vector<MethodTimes> times;  ///< Controls are left out.
   std::vector<MethodColumns> columns;
+  std::vector<MethodTimes> times;  ///< Controls are left out.
   std::vector<std::string> control_problems;
 
   /// The row of a sequence, cell and protocol; null if there is none.
@@ -76,5 +76,9 @@ std::string results_csv(const RunResults& results);
 
 /// A rate as it stands in tables: "98.123", F1 "0.9812".
 std::string rate_text(const std::string& rate, double value);
+
+/// Leaves only what was scored by `protocols`; all of it if there are none.
+/// @throws UsageError if the run was not scored by one of them
+void choose_protocols(RunResults& results, const std::vector<std::string>& protocols);
 
 }  // namespace raymoval

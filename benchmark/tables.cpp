@@ -6,7 +6,6 @@
 #include <set>
 
 #include "benchmark/column_tables.h"
-#include "core/error.h"
 #include "core/text.h"
 #include "eval/averages.h"
 
@@ -265,18 +264,6 @@ const RateValues* OutsideColumn::find(const std::string& name) const {
   return nullptr;
 }
 
-void choose_protocols(RunResults& results, const std::vector<std::string>& protocols) {
-  for (const std::string& protocol : protocols) {
-    if (has(results.protocols, protocol)) continue;
-    throw UsageError("--protocol " + protocol + ": this run was not scored by it." +
-                     suggestion(protocol, results.protocols));
-  }
-  if (protocols.empty()) return;
-  const auto unwanted = [&](const std::string& name) { return !has(protocols, name); };
-  std::erase_if(results.protocols, unwanted);
-  std::erase_if(results.rows, [&](const ResultRow& row) { return unwanted(row.protocol); });
-}
-
 std::vector<TextTable> make_tables(const RunResults& results,
                                    const std::vector<OutsideColumn>& outside) {
   std::vector<TextTable> tables;
@@ -284,12 +271,12 @@ std::vector<TextTable> make_tables(const RunResults& results,
     TextTable methods = method_table(results, protocol, outside);
     if (!methods.groups.empty()) tables.push_back(std::move(methods));
   }
+  if (!outside.empty()) tables.push_back(published_table(outside));
   const auto append = [&tables](std::vector<TextTable> more) {
     for (TextTable& table : more) tables.push_back(std::move(table));
   };
   append(ranking_tables(results));
   append(compact_column_tables(results));
-  if (!outside.empty()) tables.push_back(published_table(outside));
   for (const std::string& protocol : results.protocols) {
     TextTable controls = control_table(results, protocol);
     if (!controls.groups.empty()) tables.push_back(std::move(controls));

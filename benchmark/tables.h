@@ -27,10 +27,6 @@ struct OutsideColumn {
 std::vector<TextTable> make_tables(const RunResults& results,
                                    const std::vector<OutsideColumn>& outside = {});
 
-/// Leaves only what was scored by `protocols`; all of it if there are none.
-/// @throws UsageError if the run was not scored by one of them
-void choose_protocols(RunResults& results, const std::vector<std::string>& protocols);
-
 std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables);
 std::string tables_latex(const std::vector<TextTable>& tables);
 
