@@ -300,7 +300,7 @@ void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting&
     if (request.name != setting.target) continue;
     const std::string owner = "protocol " + request.protocol;
     const ParameterSpec& spec =
-        find_parameter(owner, protocol_parameters(request.protocol), setting.key);
+        find_parameter(owner, protocol_entry(request.protocol).parameters, setting.key);
     set_parameter(request.options, setting.key,
                   checked_value_from_text(owner, spec, setting.value));
     return;

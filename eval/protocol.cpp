@@ -65,6 +65,10 @@ const std::vector<ProtocolEntry>& protocol_entries() {
   return entries;
 }
 
+const ProtocolEntry& protocol_entry(const std::string& name) {
+  return find_maker(name).entry;
+}
+
 Configuration protocol_defaults(const std::string& name) {
   Configuration options;
   for (const ParameterSpec& spec : find_maker(name).entry.parameters) {

@@ -91,6 +91,8 @@ struct ProtocolEntry {
   std::vector<ParameterSpec> parameters;
 };
 const std::vector<ProtocolEntry>& protocol_entries();
+/// The protocol called `name`. @throws UsageError suggesting the nearest name.
+const ProtocolEntry& protocol_entry(const std::string& name);
 /// Options of `name` at their defaults. @throws UsageError suggesting the nearest name.
 Configuration protocol_defaults(const std::string& name);
 std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configuration& options);
