@@ -10,6 +10,7 @@
 #include "benchmark/checked_sink.h"
 #include "benchmark/machine.h"
 #include "benchmark/removal_files.h"
+#include "benchmark/score_json.h"
 #include "benchmark/sealed_json.h"
 #include "core/files.h"
 #include "methods/controls/controls.h"
@@ -109,6 +110,7 @@ void score_all(const CellTask& task, const MaskStore& masks, ordered_json& cell)
     record.update(to_json(task.bench->score(i, masks)));
     cell["protocols"].push_back(std::move(record));
   }
+  cell["columns"] = columns_record(task.bench->columns(masks));
 }
 
 /// Everything of a cell that is known before the method runs.
@@ -124,6 +126,7 @@ ordered_json cell_head(const std::string& sequence, const MethodRequest& request
   cell["method"] = method_record(request);
   cell["data"] = nullptr;
   cell["protocols"] = ordered_json::array();
+  cell["columns"] = nullptr;
   cell["masks"] = nullptr;
   cell["measured"] = nullptr;
   return cell;
@@ -133,6 +136,7 @@ void fail(ordered_json& cell, const char* status, const std::string& reason) {
   cell["status"] = status;
   cell["reason"] = reason;
   cell["protocols"] = ordered_json::array();
+  cell["columns"] = nullptr;
 }
 
 void fill_cell(const CellTask& task, ordered_json& cell) {
@@ -170,6 +174,7 @@ std::string cell_key(const CellTask& task) {
   identity["schema_version"] = kSchemaVersion;
   identity["method"] = method_record(*task.request);
   identity["data"] = data_record(*task.bench);
+  identity["columns"]["version"] = kColumnsVersion;
   for (std::size_t i = 0; i < task.bench->protocol_count(); ++i) {
     identity["protocols"].push_back(protocol_record(*task.bench, i));
   }
@@ -215,6 +220,7 @@ ordered_json to_json(const ProtocolResult& result) {
     if (!defined) record["undefined"][rate.name] = rate.undefined_reason;
   }
   record["warnings"] = result.warnings;
+  if (result.intervals) record["intervals"] = to_json(*result.intervals);
   return record;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/results.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cell.h"
+#include "benchmark/score_json.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -42,6 +44,7 @@ void add_rows(const ordered_json& cell, RunResults& results) {
       for (const auto& [name, value] : scored.at("rates").items()) {
         row.rates[name] = number_or_nothing(value);
       }
+      add_intervals(scored, row);
     }
     results.rows.push_back(std::move(row));
   }
@@ -92,6 +95,7 @@ RunResults parse(const ordered_json& json) {
   }
   for (const ordered_json& cell : json.at("cells")) {
     add_rows(cell, results);
+    add_columns(cell, results);
     add_times(cell, results);
   }
   results.control_problems = json.at("controls").at("problems").get<std::vector<std::string>>();
@@ -153,6 +157,21 @@ std::string results_csv(const RunResults& results) {
     csv += "," + csv_text(row.cell) + "\n";
   }
   return csv;
+}
+
+void choose_protocols(RunResults& results, const std::vector<std::string>& protocols) {
+  const auto wanted = [&](const std::string& name) {
+    return std::find(protocols.begin(), protocols.end(), name) != protocols.end();
+  };
+  for (const std::string& protocol : protocols) {
+    const auto& known = results.protocols;
+    if (std::find(known.begin(), known.end(), protocol) != known.end()) continue;
+    throw UsageError("--protocol " + protocol + ": this run was not scored by it." +
+                     suggestion(protocol, known));
+  }
+  if (protocols.empty()) return;
+  std::erase_if(results.protocols, [&](const auto& name) { return !wanted(name); });
+  std::erase_if(results.rows, [&](const ResultRow& row) { return !wanted(row.protocol); });
 }
 
 }  // namespace raymoval

@@ -5,7 +5,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "eval/columns.h"
 
 namespace raymoval {
 
@@ -22,6 +25,8 @@ struct ResultRow {
   std::string status;
   bool control = false;
   RateValues rates;  ///< Empty unless the status is "ok".
+  /// Low and high end by rate, where they are defined.
+  std::map<std::string, std::pair<double, double>> intervals;
   std::optional<double> seconds_per_scan;
   std::optional<double> peak_memory_mib;
 };
@@ -35,6 +40,17 @@ struct MethodTimes {
   std::vector<std::pair<std::string, double>> stages;  ///< Seconds of each stage.
 };
 
+/// Columns of a method, added up over all sequences that it finished.
+struct MethodColumns {
+  std::string cell;
+  bool control = false;
+  std::size_t sequences = 0;
+  std::vector<std::pair<std::string, Share>> values;
+
+  /// Nothing of nothing if there is no such column.
+  [[nodiscard]] Share find(const std::string& name) const;
+};
+
 /// What tables are made of, read from results.json.
 struct RunResults {
   std::string name;
@@ -42,6 +58,7 @@ struct RunResults {
   std::vector<std::string> cells;  ///< Names of the methods, in the order of the suite.
   std::vector<std::string> protocols;
   std::vector<ResultRow> rows;
+  std::vector<MethodColumns> columns;
   std::vector<MethodTimes> times;  ///< Controls are left out.
   std::vector<std::string> control_problems;
 
@@ -59,5 +76,9 @@ std::string results_csv(const RunResults& results);
 
 /// A rate as it stands in tables: "98.123", F1 "0.9812".
 std::string rate_text(const std::string& rate, double value);
+
+/// Leaves only what was scored by `protocols`; all of it if there are none.
+/// @throws UsageError if the run was not scored by one of them
+void choose_protocols(RunResults& results, const std::vector<std::string>& protocols);
 
 }  // namespace raymoval

@@ -293,6 +293,22 @@ void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
   }
 }
 
+void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting) {
+  std::vector<std::string> names;
+  for (ProtocolRequest& request : protocols) {
+    names.push_back(request.name);
+    if (request.name != setting.target) continue;
+    const std::string owner = "protocol " + request.protocol;
+    const ParameterSpec& spec =
+        find_parameter(owner, protocol_entry(request.protocol).parameters, setting.key);
+    set_parameter(request.options, setting.key,
+                  checked_value_from_text(owner, spec, setting.value));
+    return;
+  }
+  throw UsageError("--set names '" + setting.target + "', which is no protocol asked for." +
+                   suggestion(setting.target, names));
+}
+
 const std::vector<std::string>& control_names() {
   static const std::vector<std::string> names = {"noop", "remove-all", "oracle"};
   return names;

@@ -68,6 +68,10 @@ ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const s
 /// @throws UsageError if one names no method of the suite, or the same value is set twice.
 void apply_settings(Suite& suite, const std::vector<Setting>& settings);
 
+/// Sets an option of the protocol that `setting` names.
+/// @throws UsageError if it is not among `protocols`, ConfigurationError for a key or value
+void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting);
+
 /// Puts `noop`, `remove-all` and `oracle` in front, unless listed already.
 void add_controls(Suite& suite, const MethodRegistry& registry);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "benchmark/column_tables.h"
 #include "core/text.h"
 #include "eval/averages.h"
 
@@ -189,6 +190,15 @@ TextTable rate_table(const std::vector<std::string>& sequences, const std::strin
   return table;
 }
 
+/// What the rates of a table are.
+std::string rate_words(const std::vector<std::string>& rates) {
+  if (has(rates, "F1")) {
+    return "Rates in percent, F1 as a fraction. mean_F1 is the mean of the F1 values; F1_of_means "
+           "is the F1 of mean PR and mean RR.";
+  }
+  return "Rates in percent; AA is the geometric and HA the harmonic mean of SA and DA.";
+}
+
 TextTable method_table(const RunResults& results, const std::string& protocol,
                        const std::vector<OutsideColumn>& outside) {
   const std::vector<std::string> rates = rates_of(results, protocol);
@@ -196,10 +206,9 @@ TextTable method_table(const RunResults& results, const std::string& protocol,
   if (has(rates, "PR") && has(rates, "RR")) add_outside(results, outside, columns);
   TextTable table =
       rate_table(results.sequences, "Accuracy by protocol " + protocol, columns, rates, true);
-  table.notes.push_back(
-      "Rates in percent, F1 as a fraction. mean_F1 is the mean of the F1 values; F1_of_means is "
-      "the F1 of mean PR and mean RR. n/a: undefined or not run; (4/5): the mean is over the 4 of "
-      "5 sequences that have a value.");
+  table.notes.push_back(rate_words(rates) +
+                        " n/a: undefined or not run; (4/5): the mean is over the 4 of 5 sequences "
+                        "that have a value.");
   return table;
 }
 
@@ -263,6 +272,11 @@ std::vector<TextTable> make_tables(const RunResults& results,
     if (!methods.groups.empty()) tables.push_back(std::move(methods));
   }
   if (!outside.empty()) tables.push_back(published_table(outside));
+  const auto append = [&tables](std::vector<TextTable> more) {
+    for (TextTable& table : more) tables.push_back(std::move(table));
+  };
+  append(ranking_tables(results));
+  append(compact_column_tables(results));
   for (const std::string& protocol : results.protocols) {
     TextTable controls = control_table(results, protocol);
     if (!controls.groups.empty()) tables.push_back(std::move(controls));

@@ -46,7 +46,7 @@ expect 0 "Examples" --help
 for command in run table compare list describe score clean simulate; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
-for what in methods variants protocols sensors sequences scenes simulated-sensors \
+for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
   suites; do expect 0 "" list "$what"; done
 for name in raymoval raymoval:online noop erasor; do
   for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
@@ -134,6 +134,21 @@ holds "score gives the counts of the run" diff <(counts score.json | tr -d ' ') 
 expect 2 "--predictions" score "${short[@]}"
 expect 2 "no such folder" score "${short[@]}" --predictions nowhere
 expect 2 "missing" score --sequence street --frames 0:3 --quiet --predictions $cell/removals
+expect 0 "SA" score "${short[@]}" --predictions $cell/removals --protocol dynamicmap \
+  --set dynamicmap.distance=0.1
+expect 2 "'distance'" score "${short[@]}" --predictions $cell/removals --protocol dynamicmap \
+  --set dynamicmap.distanc=0.1
+
+# A cleaned map has a ceiling; a broken one no points.
+expect 0 "removed" clean street --frames 0:2 --quiet -o clean.pcd
+expect 0 "ceiling" score "${short[@]}" --cloud clean.pcd --protocol erasor --protocol dynamicmap
+expect 0 "precision" score "${short[@]}" --cloud clean.pcd --voxel 0.1
+printf '\x00\x00\xc0\x7f%.0s' 1 2 3 4 >nan.bin
+expect 0 "no finite number" score "${short[@]}" --cloud nan.bin
+: >empty.bin
+expect 0 "PR 0.000" score "${short[@]}" --cloud empty.bin
+expect 2 "exclude" score "${short[@]}" --cloud clean.pcd --predictions $cell/removals
+expect 2 "--cloud" score "${short[@]}" --voxel 0.1 --predictions $cell/removals
 truncate -s -4 $cell/removals/000001.label
 expect 2 "000001.label" score "${short[@]}" --predictions $cell/removals
 
