@@ -33,6 +33,16 @@ struct MethodTimes {
   double seconds = 0.0;                                ///< Without waiting for scans.
   double load_seconds = 0.0;                           ///< Waiting for scans.
   std::vector<std::pair<std::string, double>> stages;  ///< Seconds of each stage.
+  int repeats = 1;  ///< So many runs were made; the times are those of the median one.
+};
+
+/// A cell without a result.
+struct FailedCell {
+  std::string sequence;
+  std::string cell;
+  std::string status;
+  std::string reason;
+  std::string last_output;  ///< Last line that the method printed.
 };
 
 /// What tables are made of, read from results.json.
@@ -43,6 +53,8 @@ struct RunResults {
   std::vector<std::string> protocols;
   std::vector<ResultRow> rows;
   std::vector<MethodTimes> times;  ///< Controls are left out.
+  std::vector<FailedCell> failures;
+  std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.
   std::vector<std::string> control_problems;
 
   /// The row of a sequence, cell and protocol; null if there is none.

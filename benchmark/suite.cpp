@@ -147,19 +147,32 @@ void read_protocol(const json& item, const std::string& where, Suite& suite) {
   }
 }
 
+int count_of(const json& file, const char* key, int most, const std::string& where) {
+  const json& value = file[key];
+  if (!value.is_number_integer() || value.get<std::int64_t>() < 1 ||
+      value.get<std::int64_t>() > most) {
+    throw_wrong_type(where, key, ("a whole number from 1 to " + std::to_string(most)).c_str());
+  }
+  return value.get<int>();
+}
+
+double limit_of(const json& file, const char* key, const std::string& where) {
+  if (!file.contains(key)) return 0.0;
+  if (!file[key].is_number() || !(file[key].get<double>() > 0.0)) {
+    throw_wrong_type(where, key, "a number greater than 0");
+  }
+  return file[key].get<double>();
+}
+
 void read_switches(const json& file, const std::string& where, Suite& suite) {
   if (file.contains("controls")) {
     if (!file["controls"].is_boolean()) throw_wrong_type(where, "controls", "true or false");
     suite.controls = file["controls"].get<bool>();
   }
-  if (file.contains("threads")) {
-    const json& threads = file["threads"];
-    if (!threads.is_number_integer() || threads.get<std::int64_t>() < 1 ||
-        threads.get<std::int64_t>() > 4096) {
-      throw_wrong_type(where, "threads", "a whole number from 1 to 4096");
-    }
-    suite.threads = threads.get<int>();
-  }
+  if (file.contains("threads")) suite.threads = count_of(file, "threads", 4096, where);
+  if (file.contains("repeats")) suite.repeats = count_of(file, "repeats", 1000, where);
+  suite.time_limit_s = limit_of(file, "time_limit_s", where);
+  suite.memory_limit_mib = limit_of(file, "memory_limit_mib", where);
 }
 
 /// A name that appears in folders and tables.
@@ -190,7 +203,10 @@ Setting parse_setting(const std::string& text) {
 Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry) {
   const json file = read_json(path);
   const std::string where = path.string();
-  check_keys(file, {"name", "sequences", "methods", "protocols", "controls", "threads"}, where);
+  check_keys(file,
+             {"name", "sequences", "methods", "protocols", "controls", "threads", "repeats",
+              "time_limit_s", "memory_limit_mib"},
+             where);
   Suite suite;
   suite.name = text_of(file, "name", where).value_or(path.stem().string());
   const json& sequences = list_of(file, "sequences", where);

@@ -37,8 +37,11 @@ struct Suite {
   std::vector<SequenceRequest> sequences;
   std::vector<MethodRequest> methods;
   std::vector<ProtocolRequest> protocols;
-  bool controls = true;  ///< Whether the controls are added and checked.
-  int threads = 0;       ///< 0: as many as the machine has.
+  bool controls = true;           ///< Whether the controls are added and checked.
+  int threads = 0;                ///< 0: as many as the machine has.
+  int repeats = 1;                ///< How often each method runs, for its time; controls run once.
+  double time_limit_s = 0.0;      ///< Of a cell; 0: the usual, by the number of scans.
+  double memory_limit_mib = 0.0;  ///< Of a cell; 0: the usual, by what the machine has.
 };
 
 /// `--set raymoval:online.tau0=0.2`, taken apart.

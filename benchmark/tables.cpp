@@ -225,6 +225,31 @@ TextTable published_table(const std::vector<OutsideColumn>& outside) {
   return table;
 }
 
+/// At most so much of a text that somebody else wrote, cut between characters.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + " ...";
+}
+
+/// What became of the cells that have no result.
+TextTable failure_table(const RunResults& results) {
+  TextTable table{
+      "Cells without a result", "cell", {{"", {"status", "reason", "last line printed"}}}, {}, {}};
+  for (const FailedCell& failed : results.failures) {
+    table.rows.push_back(
+        {failed.sequence + " / " + failed.cell,
+         {{failed.status}, {shortened(failed.reason)}, {shortened(failed.last_output)}},
+         false});
+  }
+  for (const std::string& cell : results.missing) {
+    table.rows.push_back({cell, {{"not run"}, {""}, {""}}, false});
+  }
+  return table;
+}
+
 TextTable stage_table(const MethodTimes& times) {
   TextTable table{"Time of " + times.cell, "stage", {{"", {"ms per scan", "share in %"}}}, {}, {}};
   const double scans = static_cast<double>(std::max<std::size_t>(times.scans, 1));
@@ -243,6 +268,9 @@ TextTable stage_table(const MethodTimes& times) {
   table.notes.push_back("Mean over " + grouped_text(times.scans) +
                         " scans. Reading scans (load) took another " +
                         fixed_text(1000.0 * times.load_seconds / scans, 3) + " ms per scan.");
+  if (times.repeats > 1) {
+    table.notes.push_back("The median of " + std::to_string(times.repeats) + " runs.");
+  }
   return table;
 }
 
@@ -266,6 +294,9 @@ std::vector<TextTable> make_tables(const RunResults& results,
   for (const std::string& protocol : results.protocols) {
     TextTable controls = control_table(results, protocol);
     if (!controls.groups.empty()) tables.push_back(std::move(controls));
+  }
+  if (!results.failures.empty() || !results.missing.empty()) {
+    tables.push_back(failure_table(results));
   }
   for (const MethodTimes& times : results.times) tables.push_back(stage_table(times));
   return tables;

@@ -4,46 +4,13 @@
 # Usage: cli_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-checks=0
-failures=0
-
-complain() {
-  failures=$((failures + 1))
-  echo "FAILED: $1"
-  sed 's/^/  out: /' out.txt | head -5
-  sed 's/^/  err: /' err.txt | head -5
-}
-
-# expect CODE TEXT ARGUMENTS...: the exit code, and TEXT somewhere in what was printed.
-expect() {
-  local code=$1 text=$2 got
-  shift 2
-  checks=$((checks + 1))
-  "$raymoval" "$@" >out.txt 2>err.txt
-  got=$?
-  if [[ $got -ne $code ]]; then
-    complain "raymoval $*: exit code $got, expected $code"
-  elif ! cat out.txt err.txt | grep -qF -- "$text"; then
-    complain "raymoval $*: does not say '$text'"
-  elif [[ $code -ne 0 ]] && ! grep -q '^raymoval: ' err.txt; then
-    complain "raymoval $*: no 'raymoval: message' on standard error"
-  fi
-}
-
-# holds NAME COMMAND...: any other condition.
-holds() {
-  checks=$((checks + 1))
-  "${@:2}" >out.txt 2>err.txt || complain "$1"
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 short=(--sequence street --frames 0:2 --quiet)
 
 # Help and listings.
 expect 0 "Examples" --help
-for command in run table compare list describe score clean simulate; do expect 0 "Examples" "$command" --help; done
+for command in run plan table compare list describe score clean simulate; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
 for what in methods variants protocols sensors sequences scenes simulated-sensors \
@@ -252,5 +219,4 @@ holds "an interrupted run exits with 1" test $? -eq 1
 holds "finished cells stay" test -s stopped/cells/street/oracle-default/cell.json
 holds "nothing claims to be complete" test ! -e stopped/results.json
 
-echo "cli: $((checks - failures)) of $checks checks hold"
-[[ $failures -eq 0 ]]
+finish cli
