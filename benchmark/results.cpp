@@ -98,6 +98,15 @@ void add_failure(const ordered_json& cell, RunResults& results) {
        cell.at("reason").get<std::string>(), last_line(cell.at("output_tail").get<std::string>())});
 }
 
+SweptCell swept_cell(const ordered_json& method) {
+  SweptCell swept{
+      method.at("name").get<std::string>(), method.at("sweep").at("of").get<std::string>(), {}};
+  for (const auto& [key, value] : method.at("sweep").at("values").items()) {
+    swept.values.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return swept;
+}
+
 RunResults parse(const ordered_json& json) {
   RunResults results;
   const ordered_json& suite = json.at("run").at("suite");
@@ -107,6 +116,7 @@ RunResults parse(const ordered_json& json) {
   }
   for (const ordered_json& item : suite.at("methods")) {
     results.cells.push_back(item.at("name").get<std::string>());
+    if (item.contains("sweep")) results.sweeps.push_back(swept_cell(item));
   }
   for (const ordered_json& item : suite.at("protocols")) {
     results.protocols.push_back(item.at("name").get<std::string>());
@@ -139,6 +149,11 @@ const ResultRow* RunResults::find(const std::string& sequence, const std::string
     if (row.sequence == sequence && row.cell == cell && row.protocol == protocol) return &row;
   }
   return nullptr;
+}
+
+bool RunResults::is_swept(const std::string& cell) const {
+  return std::any_of(sweeps.begin(), sweeps.end(),
+                     [&](const SweptCell& swept) { return swept.cell == cell; });
 }
 
 RunResults parse_results(const ordered_json& results, const std::string& where) {

@@ -45,6 +45,13 @@ struct FailedCell {
   std::string last_output;  ///< Last line that the method printed.
 };
 
+/// A cell that is one point of a sweep.
+struct SweptCell {
+  std::string cell;
+  std::string of;  ///< What is swept, "raymoval:offline".
+  std::vector<std::pair<std::string, std::string>> values;
+};
+
 /// What tables are made of, read from results.json.
 struct RunResults {
   std::string name;
@@ -53,6 +60,7 @@ struct RunResults {
   std::vector<std::string> protocols;
   std::vector<ResultRow> rows;
   std::vector<MethodTimes> times;  ///< Controls are left out.
+  std::vector<SweptCell> sweeps;
   std::vector<FailedCell> failures;
   std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.
   std::vector<std::string> control_problems;
@@ -60,6 +68,7 @@ struct RunResults {
   /// The row of a sequence, cell and protocol; null if there is none.
   [[nodiscard]] const ResultRow* find(const std::string& sequence, const std::string& cell,
                                       const std::string& protocol) const;
+  [[nodiscard]] bool is_swept(const std::string& cell) const;
 };
 
 /// @param results content of results.json

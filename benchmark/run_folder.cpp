@@ -39,6 +39,10 @@ ordered_json method_record(const MethodRequest& request) {
   method["method"] = request.method.full_name();
   method["version"] = request.method.entry->version;
   method["parameters"] = to_json(request.method.configuration);
+  if (!request.sweep.empty()) {
+    method["sweep"]["of"] = request.sweep_of;
+    method["sweep"]["values"] = to_json(request.sweep);
+  }
   return method;
 }
 

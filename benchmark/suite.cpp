@@ -51,13 +51,26 @@ RangeLimits range_of(const json& object, const std::string& where) {
   return range;
 }
 
+/// Where the paths of a suite file lead.
+struct Places {
+  std::filesystem::path folder;  ///< Of the file.
+  std::string data;              ///< What "{data}" stands for.
+  bool data_used = false;
+};
+
+constexpr std::string_view kData = "{data}";
+
 /// A path of a suite file: beside the file if it is there, else as it stands. `ROOT:05` names a
 /// part of ROOT, so what follows the last colon does not count; names of built-in scenes stay.
-std::string located(const std::string& path, const std::filesystem::path& folder) {
+std::string located(const std::string& path, Places& places) {
+  if (path.starts_with(kData)) {
+    places.data_used = true;
+    return places.data + path.substr(kData.size());
+  }
   const std::filesystem::path given(path);
   if (given.is_absolute() || path == "street") return path;
   if (path.find('/') == std::string::npos && names_scene(path)) return path;
-  const std::filesystem::path beside = folder / given;
+  const std::filesystem::path beside = places.folder / given;
   const std::string text = beside.string();
   const std::size_t colon = text.rfind(':');
   std::error_code ignored;
@@ -67,17 +80,16 @@ std::string located(const std::string& path, const std::filesystem::path& folder
   return there ? text : path;
 }
 
-SequenceRequest sequence_of(const json& item, const std::filesystem::path& folder,
-                            const std::string& where) {
+SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
   SequenceRequest request;
   if (item.is_string()) {
-    request.path = located(item.get<std::string>(), folder);
+    request.path = located(item.get<std::string>(), places);
     return request;
   }
   check_keys(item, {"path", "name", "frames", "poses", "label_rule", "range_m", "sensor"}, where);
   const auto path = text_of(item, "path", where);
   if (!path) throw ConfigurationError(where + ": 'path' is missing.");
-  request.path = located(*path, folder);
+  request.path = located(*path, places);
   SequenceOptions& options = request.options;
   options.name = text_of(item, "name", where);
   options.poses = text_of(item, "poses", where);
@@ -86,7 +98,7 @@ SequenceRequest sequence_of(const json& item, const std::filesystem::path& folde
     options.frames = parse_frame_range(*frames);
   }
   if (const auto rule = text_of(item, "label_rule", where)) {
-    options.label_rule = located(*rule, folder);
+    options.label_rule = located(*rule, places);
   }
   if (item.contains("range_m")) options.range_m = range_of(item["range_m"], where + ".range_m");
   return request;
@@ -115,6 +127,73 @@ const std::vector<ParameterSpec>& protocol_parameters(const std::string& name) {
   throw UsageError("protocol '" + name + "' is unknown." + suggestion(name, names));
 }
 
+/// A point of a sweep: a value of each swept parameter, in the order of the file.
+using SweepPoint = std::vector<std::pair<std::string, json>>;
+
+bool is_sweep(const json& value) {
+  return value.is_object();
+}
+
+/// All combinations of the swept values in `set`; one empty point if none is swept.
+std::vector<SweepPoint> sweep_points(const json& set, const std::string& where) {
+  constexpr std::size_t kMostPoints = 1000;
+  std::vector<SweepPoint> points = {{}};
+  for (const auto& [key, value] : set.items()) {
+    if (!is_sweep(value)) continue;
+    check_keys(value, {"sweep"}, where + ".set." + key);
+    if (!value.contains("sweep") || !value["sweep"].is_array() || value["sweep"].empty()) {
+      throw_wrong_type(where + ".set." + key, "sweep", "a list of values [ ... ]");
+    }
+    std::vector<SweepPoint> longer;
+    for (const SweepPoint& point : points) {
+      for (const json& one : value["sweep"]) {
+        longer.push_back(point);
+        longer.back().emplace_back(key, one);
+      }
+    }
+    points = std::move(longer);
+    if (points.size() > kMostPoints) {
+      throw ConfigurationError(where + ": the sweep has more than " + std::to_string(kMostPoints) +
+                               " points; split it.");
+    }
+  }
+  return points;
+}
+
+/// "raymoval:online:tau0=0.2,tau1=0.3"
+std::string point_name(const std::string& base, const Configuration& point) {
+  std::vector<std::string> parts;
+  for (const auto& [key, value] : point) parts.push_back(key + "=" + parameter_text(value));
+  return base + ":" + join(parts, ",");
+}
+
+/// Adds one method, or one for each point of a sweep.
+void add_points(const std::string& name, const std::string& as, const json& set,
+                const std::string& where, const MethodRegistry& registry, Suite& suite) {
+  json plain = json::object();
+  for (const auto& [key, value] : set.items()) {
+    if (!is_sweep(value)) plain[key] = value;
+  }
+  for (const SweepPoint& point : sweep_points(set, where)) {
+    ConfiguredMethod method = registry.configure(name);
+    const MethodEntry& entry = *method.entry;
+    Configuration values;
+    json together = plain;
+    for (const auto& [key, value] : point) {
+      together[key] = value;
+      values.emplace_back(
+          key, checked_value(entry.name, find_parameter(entry.name, entry.parameters, key), value));
+    }
+    const std::string base = as.empty() ? method.full_name() : as;
+    MethodRequest& added =
+        add_method(suite, name, values.empty() ? as : point_name(base, values), registry);
+    apply_object(together, entry.name, where, entry.parameters, added.method.configuration);
+    if (values.empty()) continue;
+    added.sweep_of = base;
+    added.sweep = values;
+  }
+}
+
 void read_method(const json& item, const std::string& where, const MethodRegistry& registry,
                  Suite& suite) {
   if (item.is_string()) {
@@ -124,12 +203,9 @@ void read_method(const json& item, const std::string& where, const MethodRegistr
   check_keys(item, {"method", "set", "as"}, where);
   const auto name = text_of(item, "method", where);
   if (!name) throw ConfigurationError(where + ": 'method' is missing.");
-  MethodRequest& added =
-      add_method(suite, *name, text_of(item, "as", where).value_or(""), registry);
-  if (item.contains("set")) {
-    apply_object(item["set"], added.method.entry->name, where, added.method.entry->parameters,
-                 added.method.configuration);
-  }
+  const json set = item.value("set", json::object());
+  if (!set.is_object()) throw_wrong_type(where, "set", "an object { \"key\": value }");
+  add_points(*name, text_of(item, "as", where).value_or(""), set, where, registry, suite);
 }
 
 void read_protocol(const json& item, const std::string& where, Suite& suite) {
@@ -181,11 +257,11 @@ void check_cell_name(const std::string& name) {
                      std::all_of(name.begin(), name.end(), [](unsigned char c) {
                        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
                               (c >= 'a' && c <= 'z') || c == '-' || c == '_' || c == '.' ||
-                              c == ':';
+                              c == ':' || c == '=' || c == ',' || c == '+';
                      });
   if (!legal) {
     throw UsageError("'" + name +
-                     "' cannot name a result: use letters, digits, '-', '_', '.' and ':'.");
+                     "' cannot name a result: use letters, digits and any of - _ . : = , +.");
   }
 }
 
@@ -200,7 +276,8 @@ Setting parse_setting(const std::string& text) {
   return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
 }
 
-Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry) {
+Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry,
+                 const std::string& data) {
   const json file = read_json(path);
   const std::string where = path.string();
   check_keys(file,
@@ -208,11 +285,11 @@ Suite read_suite(const std::filesystem::path& path, const MethodRegistry& regist
               "time_limit_s", "memory_limit_mib"},
              where);
   Suite suite;
+  Places places{path.parent_path(), data};
   suite.name = text_of(file, "name", where).value_or(path.stem().string());
   const json& sequences = list_of(file, "sequences", where);
   for (std::size_t i = 0; i < sequences.size(); ++i) {
-    suite.sequences.push_back(
-        sequence_of(sequences[i], path.parent_path(), place(where, "sequences", i)));
+    suite.sequences.push_back(sequence_of(sequences[i], places, place(where, "sequences", i)));
   }
   const json& methods = list_of(file, "methods", where);
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -223,6 +300,13 @@ Suite read_suite(const std::filesystem::path& path, const MethodRegistry& regist
     read_protocol(protocols[i], place(where, "protocols", i), suite);
   }
   read_switches(file, where, suite);
+  if (places.data_used != !data.empty()) {
+    throw UsageError(places.data_used
+                         ? where + ": this suite runs on data of yours: say where with --data ROOT."
+                         : where +
+                               ": --data is given, but no path of this suite begins with "
+                               "{data}.");
+  }
   if (suite.sequences.empty()) throw ConfigurationError(where + ": 'sequences' names none.");
   if (suite.methods.empty()) throw ConfigurationError(where + ": 'methods' names none.");
   return suite;
@@ -263,6 +347,11 @@ namespace {
 bool apply_setting(const Setting& setting, MethodRequest& request) {
   const MethodEntry& entry = *request.method.entry;
   const ParameterSpec& spec = find_parameter(entry.name, entry.parameters, setting.key);
+  for (const auto& [key, value] : request.sweep) {
+    if (key != setting.key) continue;
+    throw UsageError("--set " + setting.target + "." + key + ": the suite sweeps this parameter; " +
+                     "leave one out.");
+  }
   set_parameter(request.method.configuration, setting.key,
                 checked_value_from_text(entry.name, spec, setting.value));
   return true;
@@ -335,7 +424,7 @@ std::string folder_name(const std::string& name) {
   std::string folder;
   for (const char c : name) {
     const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-                       c == '-' || c == '_' || c == '.';
+                       c == '-' || c == '_' || c == '.' || c == '=' || c == ',' || c == '+';
     folder += plain ? c : (c == ':' ? '-' : '_');
   }
   if (folder.empty() || folder.front() == '.') folder.insert(0, "_");

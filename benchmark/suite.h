@@ -22,6 +22,8 @@ struct SequenceRequest {
 struct MethodRequest {
   std::string name;  ///< Unique in the suite: "raymoval:online", or what "as" says.
   ConfiguredMethod method;
+  std::string sweep_of = {};  ///< Name without the swept values, if this is one point of a sweep.
+  Configuration sweep = {};   ///< The swept values of this point.
 };
 
 /// A protocol of a suite with its effective options.
@@ -55,9 +57,11 @@ struct Setting {
 Setting parse_setting(const std::string& text);
 
 /// Reads a suite file (JSON with comments). Relative paths are looked up beside the suite file
-/// first, then from the working folder.
-/// @throws ConfigurationError naming the file, the key and the nearest legal one.
-Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry);
+/// first, then from the working folder; "{data}" at the start of a path stands for `data`.
+/// @throws ConfigurationError naming the file, the key and the nearest legal one; UsageError if the
+/// file asks for `data` and there is none, or the other way round
+Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry,
+                 const std::string& data = "");
 
 /// Adds "raymoval:online" under its own name, or under `as` if that is not empty.
 /// @throws UsageError if the name is taken or unknown.

@@ -44,8 +44,11 @@ Suite SuiteFlags::resolved() const {
   const SuiteFlags& flags = *this;
   const MethodRegistry& registry = program_methods();
   if (!flags.suite.empty()) check_suite_alone(flags);
+  if (flags.suite.empty() && !data.empty()) {
+    throw UsageError("--data goes with a suite file that names {data}; use --sequence.");
+  }
   Suite made = flags.suite.empty() ? suite_from_flags(flags, registry)
-                                   : read_suite(find_suite(flags.suite), registry);
+                                   : read_suite(find_suite(flags.suite), registry, data);
   std::vector<Setting> parsed;
   for (const std::string& text : flags.settings) parsed.push_back(parse_setting(text));
   apply_settings(made, parsed);
@@ -62,6 +65,8 @@ Suite SuiteFlags::resolved() const {
 void SuiteFlags::add_to(CLI::App& app) {
   app.add_option("suite", suite, "Suite file (JSON, comments allowed), or name of a shipped suite")
       ->type_name("SUITE");
+  app.add_option("--data", data, "Root of the data set that the suite calls {data}")
+      ->type_name("ROOT");
   app.add_option("--sequence", sequences, "Sequence folder, ROOT:05, `street`, or a scene")
       ->type_name("PATH")
       ->allow_extra_args(false);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "benchmark/sweep_tables.h"
 #include "core/text.h"
 #include "eval/averages.h"
 
@@ -39,6 +40,7 @@ std::vector<Column> run_columns(const RunResults& results, const std::string& pr
                                 bool controls) {
   std::vector<Column> columns;
   for (const std::string& cell : results.cells) {
+    if (results.is_swept(cell)) continue;  // Shown in a table of its own.
     Column column{cell, {}, {}, false};
     bool wanted = false;
     for (const std::string& sequence : results.sequences) {
@@ -290,6 +292,7 @@ std::vector<TextTable> make_tables(const RunResults& results,
     TextTable methods = method_table(results, protocol, outside);
     if (!methods.groups.empty()) tables.push_back(std::move(methods));
   }
+  for (TextTable& sweep : sweep_tables(results)) tables.push_back(std::move(sweep));
   if (!outside.empty()) tables.push_back(published_table(outside));
   for (const std::string& protocol : results.protocols) {
     TextTable controls = control_table(results, protocol);
@@ -298,7 +301,9 @@ std::vector<TextTable> make_tables(const RunResults& results,
   if (!results.failures.empty() || !results.missing.empty()) {
     tables.push_back(failure_table(results));
   }
-  for (const MethodTimes& times : results.times) tables.push_back(stage_table(times));
+  for (const MethodTimes& times : results.times) {
+    if (!results.is_swept(times.cell)) tables.push_back(stage_table(times));
+  }
   return tables;
 }
 

@@ -139,6 +139,21 @@ expect 2 "line 1" run bad.json --out suite2
 echo '{"sequences": ["street", "street"], "methods": ["noop"]}' >bad.json
 expect 2 "two sequences" run bad.json --out suite2
 
+# Sweeps and data of one's own.
+cat >sweep.json <<'JSON'
+{ "sequences": [{"path": "street", "frames": "0:1"}],
+  "methods": [{"method": "raymoval:online", "set": {"tau1": {"sweep": [0.1, 0.35]}}}] }
+JSON
+expect 0 "Sweep of raymoval:online by protocol erasor" run sweep.json --quiet --out sweep
+holds "each point has a cell" test -s sweep/cells/street/raymoval-online-tau1=0.35/cell.json
+expect 0 "| 0.35 " table sweep
+expect 2 "sweeps this parameter" run sweep.json --set raymoval.tau1=0.2 --out sweep
+expect 2 "--data ROOT" run semantickitti --out kitti
+expect 2 "--data is given" run sweep.json --data . --out kitti
+expect 2 "--data goes with" run "${short[@]}" --method noop --data . --out kitti
+expect 2 "kitti-00" run semantickitti --data "$work" --out kitti
+holds "no refused run made a folder" test ! -e kitti
+
 # Threads never change what is stored outside "measured".
 for threads in 1 2; do
   "$raymoval" run "${short[@]}" --method raymoval:online --threads $threads --out t$threads >/dev/null
