@@ -39,16 +39,16 @@ constexpr int kFirstSpare = 64;  ///< Above all descriptors that a child is give
   if (::getppid() != parent) ::_exit(127);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  ::dup2(nothing, STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
   // First out of the way, then into place: a source may have the number of another's place.
   int spare[8];
   const std::size_t count = std::min<std::size_t>(setup.descriptors.size(), std::size(spare));
   for (std::size_t i = 0; i < count; ++i) {
     spare[i] = ::fcntl(setup.descriptors[i].first, F_DUPFD_CLOEXEC, kFirstSpare);
   }
+  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  ::dup2(nothing, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
   for (std::size_t i = 0; i < count; ++i) ::dup2(spare[i], setup.descriptors[i].second);
   ::execv("/proc/self/exe", arguments);
   ::_exit(127);

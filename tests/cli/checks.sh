@@ -50,7 +50,8 @@ without_times() {
                    skip && /^ *\}/ { match($0, /^ */); if (RLENGTH == indent) { skip = 0; next } }
                    !skip' "$file" ;;
       *.csv) sed -E 's/,[^,]*,[^,]*(,[^,]*)$/\1/' "$file" ;;
-      *.md | *.tex) sed -E '/Time of/,$d' "$file" ;;
+      *.md | *.tex) sed -E '/Time of/,$d
+        /Sweep of/,/Each row/ { s/ +/ /g; s/-+/-/g; s/ [0-9.]+ (\||\\\\)$/ TIME/ }' "$file" ;;
       *) cksum <"$file" ;;
     esac
   done)

@@ -28,13 +28,15 @@ class Faulty : public raymoval::Remover {
   Faulty(Deed deed, double milliseconds) : deed_(std::move(deed)), pause_(milliseconds * 1e-3) {}
 
   void run(const raymoval::ScanSource& scans, raymoval::RemovalSink& sink,
-           const raymoval::RunContext&) override {
+           const raymoval::RunContext& context) override {
+    context.begin_pass("combing", scans.size());
     for (std::size_t i = 0; i < scans.size(); ++i) {
       if (i == 1) deed_();
       std::this_thread::sleep_for(pause_);
       raymoval::Mask mask(scans.load(i).size(), 0);
       for (std::size_t k = 0; k < mask.size(); k += 2) mask[k] = 1;
       sink.accept(i, mask);
+      context.advance();
     }
   }
 
@@ -71,6 +73,7 @@ void stray() {
 void crash() {
   std::puts("the last words");
   std::fflush(stdout);
+  std::signal(SIGSEGV, SIG_DFL);  // A sanitizer would catch it.
   std::raise(SIGSEGV);
 }
 

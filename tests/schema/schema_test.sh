@@ -7,5 +7,5 @@ for python in python3 /usr/bin/python3; do
     exec "$python" "$(dirname "${BASH_SOURCE[0]}")/schema_test.py" "$1"
   fi
 done
-echo "schema_test.sh: no Python with jsonschema; run scripts/install_dependencies.sh" >&2
+echo "schema_test.sh: no Python with jsonschema; run scripts/install_dependencies.sh --tests" >&2
 exit 1
