@@ -47,6 +47,8 @@ expect 2 "" run --sequence street --frames nine --method noop --out o
 expect 2 "" run --sequence street --sensor nose --method noop --out o
 expect 2 "nowhere" run --sequence nowhere --method noop --out o
 expect 2 "nowhere" run nowhere.json --out o
+expect 2 "nothing to run on" plan
+expect 2 "Did you mean 'simulated'" plan simulatd
 expect 2 "no such run folder" table nowhere
 expect 2 "which run" table
 holds "no bad command line made a folder" test ! -e o
