@@ -50,6 +50,15 @@ MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, con
   return suite.methods.back();
 }
 
+const std::vector<ParameterSpec>& protocol_parameters(const std::string& name) {
+  std::vector<std::string> names;
+  for (const ProtocolEntry& entry : protocol_entries()) {
+    if (entry.name == name) return entry.parameters;
+    names.push_back(entry.name);
+  }
+  throw UsageError("protocol '" + name + "' is unknown." + suggestion(name, names));
+}
+
 ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as) {
   ProtocolRequest request{as.empty() ? protocol : as, protocol, protocol_defaults(protocol)};
   check_cell_name(request.name);

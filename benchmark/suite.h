@@ -68,6 +68,9 @@ Suite read_suite(const std::filesystem::path& path, const MethodRegistry& regist
 MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
                           const MethodRegistry& registry);
 
+/// Options of a protocol. @throws UsageError suggesting the nearest protocol
+const std::vector<ParameterSpec>& protocol_parameters(const std::string& name);
+
 /// Adds a protocol with its default options. @throws UsageError if the name is taken or unknown.
 ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as);
 

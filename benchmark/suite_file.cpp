@@ -6,7 +6,6 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "datasets/simulated/scene_text.h"
-#include "eval/protocol.h"
 
 namespace raymoval {
 namespace {
@@ -114,15 +113,6 @@ void apply_object(const json& object, const std::string& owner, const std::strin
       throw ConfigurationError(where + ": " + error.what());
     }
   }
-}
-
-const std::vector<ParameterSpec>& protocol_parameters(const std::string& name) {
-  std::vector<std::string> names;
-  for (const ProtocolEntry& entry : protocol_entries()) {
-    if (entry.name == name) return entry.parameters;
-    names.push_back(entry.name);
-  }
-  throw UsageError("protocol '" + name + "' is unknown." + suggestion(name, names));
 }
 
 /// A point of a sweep: a value of each swept parameter, in the order of the file.
