@@ -104,19 +104,27 @@ void fill_cell(const CellTask& task, const MethodAnswer& answer, ordered_json& c
   score_all(task, answer.masks, cell);
 }
 
-/// "parameter tau0 was 0.2, is 0.4" for the first difference between two objects.
-std::string first_difference(const std::string& what, const ordered_json& stored,
-                             const ordered_json& wanted) {
+/// "parameter tau0 was 0.2, is 0.4" for the first part of `wanted` that `stored` has otherwise.
+std::string first_change(const std::string& what, const ordered_json& stored,
+                         const ordered_json& wanted) {
   for (const auto& [key, value] : wanted.items()) {
-    const std::string name = what + " " + key;
+    const std::string name = what.empty() ? key : what + " " + key;
     if (!stored.contains(key)) return name + " is new";
     if (value.is_object() && stored[key].is_object()) {
-      const std::string inner = first_difference(name, stored[key], value);
+      const std::string inner = first_change(name, stored[key], value);
       if (!inner.empty()) return inner;
     } else if (stored[key] != value) {
       return name + " was " + stored[key].dump() + ", is " + value.dump();
     }
   }
+  return "";
+}
+
+/// The same, also for what only `stored` has.
+std::string first_difference(const std::string& what, const ordered_json& stored,
+                             const ordered_json& wanted) {
+  const std::string change = first_change(what, stored, wanted);
+  if (!change.empty()) return change;
   for (const auto& [key, value] : stored.items()) {
     if (!wanted.contains(key)) return what + " " + key + " is no more";
   }
@@ -173,8 +181,12 @@ std::string identity_difference(const ordered_json& stored, const ordered_json& 
       found = protocol_difference(stored.at("protocols"), wanted.at("protocols"));
     }
     if (found.empty()) found = first_difference("data", stored.at("data"), wanted.at("data"));
-    if (found.empty()) found = first_difference("", stored, wanted);
-    return found;
+    if (found.empty()) {
+      ordered_json rest = wanted;
+      for (const char* known : {"method", "data", "protocols"}) rest.erase(known);
+      found = first_change("", stored, rest);
+    }
+    return found.empty() ? "it was made otherwise" : found;
   } catch (const ordered_json::exception&) {
     return "its file is of another layout";
   }
