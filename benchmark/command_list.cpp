@@ -19,7 +19,7 @@ using Lines = std::vector<std::pair<std::string, std::string>>;
 
 Lines method_lines(bool variants) {
   Lines lines;
-  for (const auto& entry : MethodRegistry::built_in().entries()) {
+  for (const auto& entry : program_methods().entries()) {
     if (!variants) {
       lines.emplace_back(entry->name, entry->sentence);
       continue;

@@ -38,6 +38,23 @@ struct MethodTimes {
   double seconds = 0.0;                                ///< Without waiting for scans.
   double load_seconds = 0.0;                           ///< Waiting for scans.
   std::vector<std::pair<std::string, double>> stages;  ///< Seconds of each stage.
+  int repeats = 1;  ///< So many runs were made; the times are those of the median one.
+};
+
+/// A cell without a result.
+struct FailedCell {
+  std::string sequence;
+  std::string cell;
+  std::string status;
+  std::string reason;
+  std::string last_output;  ///< Last line that the method printed.
+};
+
+/// A cell that is one point of a sweep.
+struct SweptCell {
+  std::string cell;
+  std::string of;  ///< What is swept, "raymoval:offline".
+  std::vector<std::pair<std::string, std::string>> values;
 };
 
 /// Columns of a method, added up over all sequences that it finished.
@@ -60,11 +77,15 @@ struct RunResults {
   std::vector<ResultRow> rows;
   std::vector<MethodColumns> columns;
   std::vector<MethodTimes> times;  ///< Controls are left out.
+  std::vector<SweptCell> sweeps;
+  std::vector<FailedCell> failures;
+  std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.
   std::vector<std::string> control_problems;
 
   /// The row of a sequence, cell and protocol; null if there is none.
   [[nodiscard]] const ResultRow* find(const std::string& sequence, const std::string& cell,
                                       const std::string& protocol) const;
+  [[nodiscard]] bool is_swept(const std::string& cell) const;
 };
 
 /// @param results content of results.json
