@@ -103,12 +103,14 @@ void add_rivals(Workload& workload) {
     octomap_cast_ray(*tree(w), job);
     return std::int64_t{0};
   };
+  add("dense_bitset_dda", workload,
+      [bits](Workload& w, const ImageJob& job) { return dense_bitset_dda(bits(w), job); });
+  // The slow ones need not be timed on every map.
+  if (workload.name == "drive_with_trails") return;
   add("octomap_cast_ray", workload, octomap, Answer::kOther);  // Ranges of voxels' centres.
   add("hash_set_dda", workload, [set](Workload& w, const ImageJob& job) {
     return hash_set_dda(set(w), w.map.voxel_size(), job);
   });
-  add("dense_bitset_dda", workload,
-      [bits](Workload& w, const ImageJob& job) { return dense_bitset_dda(bits(w), job); });
   const auto asked = [bits](Workload& w, const ImageJob& job) {
     ImageJob part = job;
     part.wanted = &returns_at(w, job);

@@ -141,7 +141,8 @@ std::string scan_table(Results& results) {
     }
   }
   if (text.empty()) return "";
-  return "\n## Scans\n\n| kernel | sequence | ms a scan, median | of which |\n| --- | --- | ---: | "
+  return "\n## Scans\n\n| kernel | sequence | ms a scan, median | of which, wall time |\n| --- | "
+         "--- | ---: | "
          "--- |\n" +
          text;
 }

@@ -185,13 +185,13 @@ std::vector<int> voxel_components(const std::vector<VoxelKey>& voxels, int gap) 
   VoxelMap<int> seen;
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     const auto [first, is_new] = seen.emplace(voxels[i], static_cast<int>(i));
-    if (!is_new) {
-      sets.join(static_cast<int>(i), first->second);
-      continue;
-    }
-    for_neighbours(voxel_index(voxels[i]), gap, [&](VoxelKey key) {
+    if (!is_new) sets.join(static_cast<int>(i), first->second);
+  }
+  for (const auto& [voxel, element] : seen) {
+    for_neighbours(voxel_index(voxel), gap, [&, own = voxel, i = element](VoxelKey key) {
+      if (key <= own) return;  // Every pair once.
       const auto found = seen.find(key);
-      if (found != seen.end()) sets.join(static_cast<int>(i), found->second);
+      if (found != seen.end()) sets.join(i, found->second);
     });
   }
   return sets.numbers();
