@@ -16,19 +16,37 @@ struct DescribeFlags {
   bool json = false;
 };
 
-Description description_of(const std::string& name) {
-  const MethodRegistry& registry = program_methods();
-  std::vector<std::string> names;
+constexpr const char* kProtocolPrefix = "protocol:";
+
+const ProtocolEntry* find_protocol(const std::string& name) {
   for (const ProtocolEntry& entry : protocol_entries()) {
-    if (entry.name == name) return describe_protocol(entry);
-    names.push_back(entry.name);
+    if (entry.name == name) return &entry;
   }
+  return nullptr;
+}
+
+/// A name that is both a method's and a protocol's means the method.
+Description description_of(const std::string& name) {
+  const MethodRegistry& registry = MethodRegistry::built_in();
+  std::vector<std::string> names;
   const std::string method = name.substr(0, name.find(':'));
   for (const auto& entry : registry.entries()) {
     if (entry->name == method) return describe_method(registry, name);
     names.push_back(entry->name);
   }
-  throw UsageError("there is no method or protocol '" + name + "'." + suggestion(name, names));
+  const bool prefixed = name.rfind(kProtocolPrefix, 0) == 0;
+  const std::string protocol = prefixed ? name.substr(std::string(kProtocolPrefix).size()) : name;
+  if (const ProtocolEntry* entry = find_protocol(protocol)) return describe_protocol(*entry);
+  for (const ProtocolEntry& entry : protocol_entries()) names.push_back(entry.name);
+  throw UsageError("there is no method or protocol '" + protocol + "'." +
+                   suggestion(protocol, names));
+}
+
+bool is_also_protocol(const std::string& name) {
+  for (const auto& entry : MethodRegistry::built_in().entries()) {
+    if (entry->name == name) return find_protocol(name) != nullptr;
+  }
+  return false;
 }
 
 ExitCode describe(const DescribeFlags& flags) {
@@ -41,6 +59,10 @@ ExitCode describe(const DescribeFlags& flags) {
     print(json_text(to_json(description)));
   } else {
     print(flags.markdown ? description_markdown(description) : description_text(description));
+    if (is_also_protocol(flags.name)) {
+      print("\nThe protocol of this name: raymoval describe " + (kProtocolPrefix + flags.name) +
+            "\n");
+    }
   }
   return ExitCode::kDone;
 }
@@ -52,10 +74,12 @@ Command add_describe_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("describe", "Tells a method's or protocol's source and parameters");
   app->allow_extras();
-  app->add_option("name", flags->name, "METHOD, METHOD:variant or PROTOCOL")->type_name("NAME");
+  app->add_option("name", flags->name, "METHOD, METHOD:variant, PROTOCOL or protocol:NAME")
+      ->type_name("NAME");
   app->add_flag("--markdown", flags->markdown, "As Markdown");
   app->add_flag("--json", flags->json, "As JSON");
-  app->footer("Examples:\n  raymoval describe raymoval:online\n  raymoval describe erasor --json");
+  app->footer(
+      "Examples:\n  raymoval describe raymoval:online\n  raymoval describe protocol:erasor --json");
   return {app, [flags] { return describe(*flags); }};
 }
 

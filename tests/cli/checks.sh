@@ -22,7 +22,7 @@ expect() {
   got=$?
   if [[ $got -ne $code ]]; then
     complain "raymoval $*: exit code $got, expected $code"
-  elif [[ -n $text ]] && ! cat out.txt err.txt | grep -qF -- "$text"; then
+  elif [[ -n $text ]] && ! grep -qF -- "$text" out.txt err.txt; then
     complain "raymoval $*: does not say '$text'"
   elif [[ $code -ne 0 ]] && ! grep -q '^raymoval: ' err.txt; then
     complain "raymoval $*: no 'raymoval: message' on standard error"

@@ -15,10 +15,13 @@ expect 0 "raymoval 0" --version
 expect 0 "oracle" list
 for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
   suites; do expect 0 "" list "$what"; done
-for name in raymoval raymoval:online noop erasor; do
+for name in raymoval raymoval:online noop erasor dynamicmap protocol:erasor; do
   for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
 done
 expect 0 "tau0" describe raymoval:offline --markdown
+expect 0 "raymoval describe protocol:erasor" describe erasor
+expect 0 "PR, RR, F1" describe protocol:erasor
+expect 2 "there is no method or protocol" describe protocol:erasr
 
 # Slips of the command line name what is near.
 expect 2 "a command is missing"
