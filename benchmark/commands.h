@@ -29,6 +29,7 @@ Command add_describe_command(CLI::App& program);
 Command add_score_command(CLI::App& program);
 Command add_clean_command(CLI::App& program);
 Command add_simulate_command(CLI::App& program);
+Command add_inspect_command(CLI::App& program);
 
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {
