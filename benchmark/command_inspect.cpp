@@ -32,7 +32,9 @@ std::string report_text(const InspectionReport& report) {
   const auto notes = static_cast<std::size_t>(
       std::count_if(report.findings.begin(), report.findings.end(),
                     [](const Finding& f) { return f.severity == Severity::kNote; }));
-  text += report.sequence + ": " + grouped_text(report.findings.size() - notes) + " findings";
+  const std::size_t findings = report.findings.size() - notes;
+  text +=
+      report.sequence + ": " + grouped_text(findings) + (findings == 1 ? " finding" : " findings");
   if (notes > 0) text += ", " + grouped_text(notes) + (notes == 1 ? " note" : " notes");
   if (report.scans == 0) return text + "; the sequence cannot be opened.\n";
   return text + " (" + report.layout + ", " + grouped_text(report.scans_read) + " of " +

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "core/voxel_key.h"
 #include "datasets/cloud_file.h"
 #include "datasets/inspect/checks.h"
 
@@ -37,28 +38,30 @@ Words stored_words(const Samples& samples, std::size_t scan) {
 /// How often points close together have different labels, among those near any point whose label
 /// is not the scan's commonest; 0 = never. Labels of other points are scattered in space.
 double confusion(const Scan& scan, const Words& words) {
-  constexpr float kCell = 0.4F, kFar = 25.0F;
+  constexpr double kCell = 0.4, kFar = 25.0;
   std::map<std::uint16_t, std::size_t> total;
-  std::map<std::array<int, 3>, std::map<std::uint16_t, std::size_t>> cells;
+  std::vector<std::pair<VoxelKey, std::uint16_t>> points;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const std::size_t stored = scan.stored_position(i);
-    if (stored >= words.size() || scan.points[i].norm() > kFar) continue;
-    const auto id = static_cast<std::uint16_t>(words[stored] & 0xFFFFU);
-    ++total[id];
-    const Eigen::Vector3f cell = (scan.points[i] / kCell).array().floor();
-    ++cells[{static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z())}]
-           [id];
+    const Eigen::Vector3d p = scan.points[i].cast<double>();
+    if (stored >= words.size() || p.norm() > kFar) continue;
+    points.emplace_back(voxel_key(voxel_index(p, 1.0 / kCell)), semantic_id(words[stored]));
+    ++total[points.back().second];
   }
-  const auto by_count = [](const auto& a, const auto& b) { return a.second < b.second; };
   if (total.size() < 2) return 0.0;
+  const auto by_count = [](const auto& a, const auto& b) { return a.second < b.second; };
   const auto common = std::max_element(total.begin(), total.end(), by_count)->first;
+  std::sort(points.begin(), points.end());
   std::size_t looked_at = 0, odd = 0;
-  for (const auto& [cell, ids] : cells) {
-    if (ids.size() == 1 && ids.begin()->first == common) continue;
-    std::size_t sum = 0;
-    for (const auto& [id, count] : ids) sum += count;
-    looked_at += sum;
-    odd += sum - std::max_element(ids.begin(), ids.end(), by_count)->second;
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    std::size_t most = 0, run = 0;
+    for (end = begin; end < points.size() && points[end].first == points[begin].first; ++end) {
+      run = end > begin && points[end].second == points[end - 1].second ? run + 1 : 1;
+      most = std::max(most, run);
+    }
+    if (most == end - begin && points[begin].second == common) continue;
+    looked_at += end - begin;
+    odd += end - begin - most;
   }
   return looked_at < 50 ? 0.0 : static_cast<double>(odd) / static_cast<double>(looked_at);
 }
@@ -134,10 +137,10 @@ std::vector<Finding> look_for_shift(Samples& samples) {
     const std::size_t most = std::max(counts.as_next, counts.as_previous);
     if (most < 2 || 3 * most < counts.wrong) return {};
     return {shifted_finding(samples, counts.as_next >= counts.as_previous,
-                            "the counts of labels fit that one in " + grouped_text(most) + " of " +
-                                grouped_text(counts.wrong) +
-                                " scans with a count of their own "
-                                "that does not fit (others' neighbours were not read)")};
+                            "in " + grouped_text(most) + " of the " + grouped_text(counts.wrong) +
+                                " scans whose count of labels is not "
+                                "their own it is that of this neighbour (not every neighbour was "
+                                "read)")};
   }
   const double given = mean_confusion(samples, 0);
   const double next = mean_confusion(samples, -1), previous = mean_confusion(samples, 1);

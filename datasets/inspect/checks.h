@@ -23,11 +23,12 @@ struct Check {
 /// All checks, in the order in which they are run and reported.
 const std::vector<Check>& all_checks();
 
-/// How the mean of the poses' files reads: each finding of these checks is one of `pose_verdict`.
+/// The parts of the table, each in a file of its own. Those of poses share one `pose_verdict`.
 std::vector<Check> pose_checks();
 std::vector<Check> point_checks();
 std::vector<Check> label_checks();
 std::vector<Check> time_checks();
 std::vector<Check> sensor_checks();
+std::vector<Check> skew_checks();
 
 }  // namespace raymoval::inspection

@@ -115,6 +115,51 @@ class PairFit {
   std::vector<double> best_;
 };
 
+/// Surfels of one group whose coordinate along its axis, times `sign`, lies within the fullest half
+/// metre beyond 0.3 m, as a share of all planes; `beyond` counts those farther out.
+double fullest_level(const Samples& samples, Surfel::Group group, double sign, double& beyond) {
+  constexpr double kLevel = 0.5, kNearest = 0.3;
+  std::map<int, std::size_t> levels;
+  std::size_t planes = 0;
+  for (const auto& [index, scan] : samples.scans()) {
+    for (const Surfel& surfel : samples.surfels(index)) {
+      if (surfel.is_line() || surfel.mean.norm() > 20.0) continue;
+      ++planes;
+      const double level = sign * surfel.mean[static_cast<Eigen::Index>(group)];
+      if (surfel.group == group && level > kNearest) ++levels[static_cast<int>(level / kLevel)];
+    }
+  }
+  if (levels.empty()) return 0.0;
+  const auto fullest =
+      std::max_element(levels.begin(), levels.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::size_t far = 0;
+  for (const auto& [level, count] : levels) far += level > fullest->first + 1 ? count : 0;
+  beyond = static_cast<double>(far) / static_cast<double>(planes);
+  return static_cast<double>(fullest->second) / static_cast<double>(planes);
+}
+
+/// Whether the ground lies along +y, as in camera axes, and not along -z.
+bool in_camera_axes(Samples& samples) {
+  double beyond_y = 0.0, beyond_z = 0.0;
+  const double y = fullest_level(samples, Surfel::Group::kNormalY, 1.0, beyond_y);
+  const double z = fullest_level(samples, Surfel::Group::kNormalZ, -1.0, beyond_z);
+  samples.measures.emplace_back("ground_along_minus_z", z);
+  samples.measures.emplace_back("ground_along_y", y);
+  return y > 0.1 && y > 3.0 * z && beyond_y < 0.1;
+}
+
+/// Motions alone do not tell points in camera axes from poses that were taken to a camera.
+void look_at_axes(Samples& samples, PoseVerdict& verdict) {
+  if (!verdict.check.empty() && verdict.check != "lidar-poses-as-camera") return;
+  if (!in_camera_axes(samples)) return;
+  verdict.what =
+      "the ground lies along +y of the points: they stand in camera axes (x right, y down, z "
+      "ahead)" +
+      std::string(verdict.check.empty() ? ", and so do the poses" : ", but the poses do not");
+  verdict.check = "camera-frame";
+}
+
 std::string percent(double share) {
   return fixed_text(100.0 * share, 0) + " %";
 }
@@ -160,7 +205,11 @@ PoseVerdict judge(Samples& samples) {
 }  // namespace
 
 const PoseVerdict& pose_verdict(Samples& samples) {
-  if (!samples.pose_verdict) samples.pose_verdict = judge(samples);
+  if (!samples.pose_verdict) {
+    PoseVerdict verdict = judge(samples);
+    look_at_axes(samples, verdict);
+    samples.pose_verdict = verdict;
+  }
   return *samples.pose_verdict;
 }
 

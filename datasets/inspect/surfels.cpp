@@ -20,7 +20,6 @@ constexpr double kThickness = 0.05;   // metres, standard deviation across a sur
 constexpr double kBreadth = 0.12;     // metres, standard deviation along a plane's short side
 constexpr double kLookup = 1.6;       // metres, edge of the cells that surfels are found in
 constexpr double kSameNormal = 0.85;  // cosine between surfels that may be the same surface
-constexpr double kReach = 0.2;        // metres at which a surfel counts nothing
 constexpr std::size_t kFewestOfGroup = 12;
 constexpr std::size_t kGroups = 4;
 
@@ -154,14 +153,15 @@ const Surfel* SurfaceMap::nearest(const Surfel& moved) const {
   return best;
 }
 
-double SurfaceMap::agreement(const std::vector<Surfel>& surfels, const Pose& motion) const {
+double SurfaceMap::agreement(const std::vector<Surfel>& surfels, const Pose& motion,
+                             double reach) const {
   std::array<double, kGroups> sums{};
   for (const Surfel& surfel : surfels) {
     const Surfel moved = moved_by(motion, surfel);
     const Surfel* other = nearest(moved);
     if (other == nullptr) continue;
     const double distance = (across(*other) * (moved.mean - other->mean)).norm();
-    sums[static_cast<std::size_t>(surfel.group)] += std::max(0.0, 1.0 - distance / kReach);
+    sums[static_cast<std::size_t>(surfel.group)] += std::max(0.0, 1.0 - distance / reach);
   }
   const auto sizes = group_sizes(surfels);
   double total = 0.0;

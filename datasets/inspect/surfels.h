@@ -32,10 +32,11 @@ class SurfaceMap {
   explicit SurfaceMap(std::vector<Surfel> surfels);
 
   /// Agreement of `surfels`, moved by `motion`, with this map, 0 to 1. Each surfel counts
-  /// 1 - distance / 0.2 m to the nearest surfel alike (plane to plane along the normal, pole to
+  /// 1 - distance / `reach` to the nearest surfel alike (plane to plane along the normal, pole to
   /// pole across it), or 0; the mean of each group is taken first, so that the ground does not
   /// outvote the few surfaces that tell how far the sensor went.
-  [[nodiscard]] double agreement(const std::vector<Surfel>& surfels, const Pose& motion) const;
+  [[nodiscard]] double agreement(const std::vector<Surfel>& surfels, const Pose& motion,
+                                 double reach = 0.2) const;
 
   /// `motion` improved by Gauss-Newton steps on the same distances.
   [[nodiscard]] Pose refine(const std::vector<Surfel>& surfels, const Pose& motion,
