@@ -99,7 +99,8 @@ std::vector<Check> pose_checks() {
                     "Write points in the world frame: T p with T from VIEWPOINT. Or put the scans "
                     "beside a pose file, where points stay in the sensor frame."),
       {"sensor-elsewhere", "the sensor does not stand where VIEWPOINT says",
-       "VIEWPOINT = tx ty tz qw qx qy qz, the pose of the sensor", "", look_for_sensor},
+       "VIEWPOINT = tx ty tz qw qx qy qz, the pose of the sensor",
+       "Write the pose of the sensor at each scan into its VIEWPOINT.", look_for_sensor},
       verdict_check("points-in-world", "points stand in the world frame though there are poses",
                     "points in the frame of the sensor",
                     "Take the points back to the sensor with the inverse of each pose, or use the "

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/text.h"
 #include "datasets/inspect/checks.h"
@@ -95,7 +96,7 @@ std::vector<Surfel> surfels_of(const Samples& samples, std::size_t scan) {
   if (samples.scans().count(scan) > 0) return samples.surfels(scan);
   Scan read = samples.sequence().scans->load(scan);
   for (Eigen::Vector3f& point : read.points) point *= static_cast<float>(samples.point_scale());
-  return find_surfels(read.points);
+  return find_surfels(without_near(std::move(read.points)));
 }
 
 double registered(const std::vector<Surfel>& from, const std::vector<Surfel>& to,
@@ -104,33 +105,68 @@ double registered(const std::vector<Surfel>& from, const std::vector<Surfel>& to
   return map.agreement(to, map.refine(to, motion), kReach);
 }
 
+/// Agreements of all pairs, as they stand and with each sweep undone.
+struct SkewFit {
+  std::vector<double> given;                ///< By pair.
+  std::vector<std::vector<double>> undone;  ///< By sweep and pair.
+
+  [[nodiscard]] static double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+  }
+  /// Pairs that agree better without the sweep.
+  [[nodiscard]] std::size_t better(std::size_t sweep) const {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < given.size(); ++k) count += undone[sweep][k] > given[k] ? 1 : 0;
+    return count;
+  }
+};
+
+SkewFit fit_sweeps(const Samples& samples, const std::vector<ScanPair>& pairs) {
+  SkewFit fit;
+  fit.undone.resize(sweeps().size());
+  for (const ScanPair& pair : pairs) {
+    const auto from = surfels_of(samples, pair.from), to = surfels_of(samples, pair.to);
+    const Pose motion = samples.poses()[pair.from].inverse() * samples.poses()[pair.to];
+    const Pose from_motion = motion_during(samples, pair.from);
+    const Pose to_motion = motion_during(samples, pair.to);
+    fit.given.push_back(registered(from, to, motion));
+    for (std::size_t k = 0; k < sweeps().size(); ++k) {
+      fit.undone[k].push_back(registered(unskewed(from, from_motion, sweeps()[k]),
+                                         unskewed(to, to_motion, sweeps()[k]), motion));
+    }
+  }
+  return fit;
+}
+
 /// If the points of a scan are each in the frame that the sensor had when it took them, undoing
-/// its motion makes far scans agree better, and on any other data worse.
+/// its motion makes far scans agree better, and undoing the opposite motion makes them worse; on
+/// any other data both make them worse.
 std::vector<Finding> look_for_skew(Samples& samples) {
   if (!pose_verdict(samples).check.empty()) return {};
   const std::vector<ScanPair> pairs = far_pairs(samples);
   if (pairs.size() < kFewestPairs) return {};
-  double given = 0.0;
-  std::vector<double> reached(sweeps().size(), 0.0);
-  for (const ScanPair& pair : pairs) {
-    const auto from = surfels_of(samples, pair.from), to = surfels_of(samples, pair.to);
-    const Pose motion = samples.poses()[pair.from].inverse() * samples.poses()[pair.to];
-    given += registered(from, to, motion);
-    for (std::size_t k = 0; k < sweeps().size(); ++k) {
-      reached[k] += registered(unskewed(from, motion_during(samples, pair.from), sweeps()[k]),
-                               unskewed(to, motion_during(samples, pair.to), sweeps()[k]), motion);
-    }
+  const SkewFit fit = fit_sweeps(samples, pairs);
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < fit.undone.size(); ++k) {
+    if (SkewFit::sum(fit.undone[k]) > SkewFit::sum(fit.undone[best])) best = k;
   }
-  const auto best = std::max_element(reached.begin(), reached.end());
+  const std::size_t opposite = (best + sweeps().size() / 2) % sweeps().size();
+  const double given = SkewFit::sum(fit.given);
   if (given <= 0.0) return {};
-  samples.measures.emplace_back("agreement_unskewed_by_given", *best / given);
-  if (*best < kClear * given) return {};
+  const double gain = SkewFit::sum(fit.undone[best]) / given;
+  const double loss = SkewFit::sum(fit.undone[opposite]) / given;
+  samples.measures.emplace_back("agreement_unskewed_by_given", gain);
+  samples.measures.emplace_back("agreement_skewed_twice_by_given", loss);
+  samples.measures.emplace_back(
+      "share_of_pairs_better_unskewed",
+      static_cast<double>(fit.better(best)) / static_cast<double>(pairs.size()));
+  if (gain < kClear || loss > 1.0 || 4 * fit.better(best) < 3 * pairs.size()) return {};
   Finding finding;
   finding.where = "points of all scans";
   finding.what = "scans " + fixed_text(kDistance, 0) + " m apart agree " +
-                 fixed_text(100.0 * (*best / given - 1.0), 0) +
+                 fixed_text(100.0 * (gain - 1.0), 0) +
                  " % better if the sensor's motion is undone within each (sweep " +
-                 sweeps()[static_cast<std::size_t>(best - reached.begin())].text + ")";
+                 sweeps()[best].text + ")";
   return {finding};
 }
 

@@ -13,8 +13,11 @@ namespace {
 /// stays above it.
 constexpr double kGood = 0.65;
 /// Share that a hypothesis must reach, and by how much it has to beat the given poses.
-constexpr double kNamed = 0.75;
-constexpr double kBetter = 0.1;
+constexpr double kNamed = 0.65;
+constexpr double kBetter = 0.15;
+/// Below this share, and with no hypothesis that explains it, poses and scans do not belong
+/// together.
+constexpr double kForeign = 0.5;
 /// Below this agreement two scans do not show enough of the same.
 constexpr double kTooLittle = 0.25;
 constexpr std::size_t kMostSurfels = 1500;
@@ -139,14 +142,27 @@ double fullest_level(const Samples& samples, Surfel::Group group, double sign, d
   return static_cast<double>(fullest->second) / static_cast<double>(planes);
 }
 
-/// Whether the ground lies along +y, as in camera axes, and not along -z.
+/// Extent of the points of all scans along `axis`, a twentieth left out at either end.
+double extent(const Samples& samples, Eigen::Index axis) {
+  std::vector<float> values;
+  for (const auto& [index, scan] : samples.scans()) {
+    for (std::size_t i = 0; i < scan.size(); i += 50) values.push_back(scan.points[i][axis]);
+  }
+  std::sort(values.begin(), values.end());
+  const std::size_t twentieth = values.size() / 20;
+  return static_cast<double>(values[values.size() - 1 - twentieth] - values[twentieth]);
+}
+
+/// Whether the ground lies along +y, as in camera axes, and not along -z. A few beams (VLP-16) show
+/// no plane of ground beside long walls; but then the scan is wide along y.
 bool in_camera_axes(Samples& samples) {
   double beyond_y = 0.0, beyond_z = 0.0;
   const double y = fullest_level(samples, Surfel::Group::kNormalY, 1.0, beyond_y);
   const double z = fullest_level(samples, Surfel::Group::kNormalZ, -1.0, beyond_z);
   samples.measures.emplace_back("ground_along_minus_z", z);
   samples.measures.emplace_back("ground_along_y", y);
-  return y > 0.1 && y > 3.0 * z && beyond_y < 0.1;
+  if (y < 0.1 || y < 3.0 * z || beyond_y > 0.1) return false;
+  return extent(samples, 1) < 0.7 * extent(samples, 2);
 }
 
 /// Motions alone do not tell points in camera axes from poses that were taken to a camera.
@@ -162,6 +178,35 @@ void look_at_axes(Samples& samples, PoseVerdict& verdict) {
 
 std::string percent(double share) {
   return fixed_text(100.0 * share, 0) + " %";
+}
+
+/// Middle of a scan's points, coordinate by coordinate.
+Eigen::Vector3d middle_of(const Scan& scan) {
+  Eigen::Vector3d middle;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < scan.size(); i += 10) values.push_back(scan.points[i][axis]);
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), at, values.end());
+    middle[axis] = static_cast<double>(*at);
+  }
+  return middle;
+}
+
+/// Whether the points go where the poses go, as points of the world frame do. Traffic that drives
+/// along and a vehicle in view agree without poses, but stay around the sensor.
+bool points_follow_poses(const Samples& samples) {
+  constexpr double kFewest = 2.0;
+  const auto& first = samples.scans().begin()->second;
+  const auto& last = samples.scans().rbegin()->second;
+  const Eigen::Vector3d way =
+      last.T_world_sensor.translation() - first.T_world_sensor.translation();
+  const Eigen::Vector3d moved = middle_of(last) - middle_of(first);
+  return way.norm() >= kFewest && (moved - way).norm() < 0.5 * way.norm();
+}
+
+bool is_identity(const PoseHypothesis& hypothesis) {
+  return hypothesis.check == "points-in-world" || hypothesis.check == "viewpoint-twice";
 }
 
 PoseVerdict judge(Samples& samples) {
@@ -181,9 +226,11 @@ PoseVerdict judge(Samples& samples) {
   for (PoseHypothesis& hypothesis : degree_hypotheses(samples)) {
     hypotheses.push_back(std::move(hypothesis));
   }
+  const bool in_world = points_follow_poses(samples);
   const PoseHypothesis* best = nullptr;
   double reached = 0.0;
   for (const PoseHypothesis& hypothesis : hypotheses) {
+    if (is_identity(hypothesis) && !in_world) continue;
     const double share = fit.share(hypothesis.pose);
     if (share > reached) {
       reached = share;
@@ -195,6 +242,7 @@ PoseVerdict judge(Samples& samples) {
   if (best != nullptr && reached >= kNamed && reached > given + kBetter) {
     return {best->check, now + " and to " + percent(reached) + " " + best->phrase};
   }
+  if (given >= kForeign) return {};
   return {"poses-of-another-sequence",
           now +
               " (100 % = registered to each other), and under no usual mistake of frames, "

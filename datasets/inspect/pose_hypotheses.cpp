@@ -16,6 +16,18 @@ using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
+/// Metres from scan to scan that no vehicle goes, and that a moving one always exceeds: beyond them
+/// other units are worth a thought.
+constexpr double kTooFast = 10.0, kTooSlow = 0.02;
+
+double longest_step(const std::vector<Pose>& poses) {
+  double longest = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    longest = std::max(longest, (poses[i].translation() - poses[i - 1].translation()).norm());
+  }
+  return longest;
+}
+
 Pose scaled(const Pose& pose, double scale) {
   Pose result = pose;
   result.translation() *= scale;
@@ -113,10 +125,15 @@ std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
   std::vector<PoseHypothesis> all;
   add_frame_hypotheses(poses, all);
   add_world_hypotheses(samples, all);
-  all.push_back({"poses-in-millimetres", "if positions are divided by 1,000",
-                 [&poses](std::size_t i) { return scaled(poses[i], 0.001); }});
-  all.push_back({"poses-in-kilometres", "if positions are multiplied by 1,000",
-                 [&poses](std::size_t i) { return scaled(poses[i], 1000.0); }});
+  const double step = longest_step(poses);
+  if (step > kTooFast) {
+    all.push_back({"poses-in-millimetres", "if positions are divided by 1,000",
+                   [&poses](std::size_t i) { return scaled(poses[i], 0.001); }});
+  }
+  if (step < kTooSlow) {
+    all.push_back({"poses-in-kilometres", "if positions are multiplied by 1,000",
+                   [&poses](std::size_t i) { return scaled(poses[i], 1000.0); }});
+  }
   for (const bool w_first : {true, false}) {
     if (w_first == samples.stored_in_world()) continue;
     all.push_back(

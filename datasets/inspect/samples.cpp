@@ -80,10 +80,16 @@ void Samples::settle_point_scale() {
   }
 }
 
+std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points) {
+  constexpr float kNear = 3.0F;
+  std::erase_if(points, [](const Eigen::Vector3f& point) { return point.norm() < kNear; });
+  return points;
+}
+
 const std::vector<Surfel>& Samples::surfels(std::size_t scan) const {
   const auto found = surfels_.find(scan);
   if (found != surfels_.end()) return found->second;
-  return surfels_.emplace(scan, find_surfels(scans_.at(scan).points)).first->second;
+  return surfels_.emplace(scan, find_surfels(without_near(scans_.at(scan).points))).first->second;
 }
 
 std::string Samples::scan_name(std::size_t scan) const {
