@@ -35,7 +35,7 @@ std::size_t points_below(const Scan& scan, const Eigen::Vector3d& centre) {
 /// Points in the world frame agree whatever VIEWPOINT says; but a sensor sees no ground right below
 /// itself.
 std::vector<Finding> look_for_sensor(Samples& samples) {
-  constexpr std::size_t kMany = 20, kFew = 5;
+  constexpr std::size_t kMany = 8, kFew = 2;
   if (!samples.stored_in_world() || !pose_verdict(samples).check.empty()) return {};
   std::size_t given = 0, inverse = 0;
   for (const auto& [index, scan] : samples.scans()) {
@@ -75,7 +75,9 @@ std::vector<Check> pose_checks() {
                     "Poses of a camera: take them to the LiDAR with T = Tr^-1 P Tr (in "
                     "SemanticKITTI layout put 'Tr:' into calib.txt and leave \"poses_are_lidar\" "
                     "out). Points of a camera frame: bring them to the LiDAR with Tr^-1."),
-      verdict_check("lidar-poses-as-camera", "poses of the LiDAR are read as those of a camera",
+      verdict_check("lidar-poses-as-camera",
+                    "poses of the LiDAR are read as those of a camera (or the points, not the "
+                    "poses, are in camera axes)",
                     "camera poses beside a calib.txt with 'Tr:'",
                     "Say \"poses_are_lidar\": true in sequence.json."),
       verdict_check("degrees-for-radians", "rotations are made from degrees as if from radians",

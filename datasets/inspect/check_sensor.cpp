@@ -125,26 +125,44 @@ std::string ids_text(const EgoPoints& ego) {
   return join(ids);
 }
 
+/// Of `steady`, the cells that hang together with one nearer than `start` to the sensor; empty if
+/// they go on to `end`.
+VoxelSet grown_from_sensor(const VoxelSet& steady, double edge, double start, double end) {
+  const auto distance = [edge](VoxelKey key) {
+    return ((voxel_index(key).cast<double>().array() + 0.5) * edge).matrix().norm();
+  };
+  VoxelSet own;
+  std::vector<VoxelKey> open;
+  for (const VoxelKey key : steady) {
+    if (distance(key) <= start && own.insert(key).second) open.push_back(key);
+  }
+  while (!open.empty()) {
+    const VoxelIndex at = voxel_index(open.back());
+    if (distance(open.back()) > end) return {};
+    open.pop_back();
+    for (int k = 0; k < 27; ++k) {
+      const VoxelKey next =
+          voxel_key(VoxelIndex(at + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+      if (steady.count(next) > 0 && own.insert(next).second) open.push_back(next);
+    }
+  }
+  return own;
+}
+
 /// Points that keep their place in the sensor frame while the sensor moves. A wall or a guard rail
-/// along the way does so too, but goes on farther out; a vehicle ends.
+/// along the way does so too, but it begins farther from the sensor or goes on; a vehicle ends.
 std::vector<Finding> look_for_ego(Samples& samples) {
-  constexpr double kEdge = 0.25, kNear = 5.0, kFar = 9.0;
+  constexpr double kEdge = 0.25, kStart = 2.5, kEnd = 8.5, kReach = 9.0;
   constexpr std::size_t kFewestCells = 4, kFewestScans = 5;
   if (!pose_verdict(samples).check.empty()) return {};
   const std::vector<std::size_t> scans = scans_apart(samples);
   if (scans.size() < kFewestScans) return {};
-  const VoxelSet steady = steady_cells(samples, scans, ground_of(samples), kEdge, kFar);
-  std::size_t near_cells = 0, far_cells = 0;
-  VoxelSet own;
-  for (const VoxelKey key : steady) {
-    const Vector3d centre = (voxel_index(key).cast<double>().array() + 0.5) * kEdge;
-    if (centre.norm() <= kNear) own.insert(key);
-    ++(centre.norm() <= kNear ? near_cells : far_cells);
-  }
-  samples.measures.emplace_back("steady_cells_near", static_cast<double>(near_cells));
-  samples.measures.emplace_back("steady_cells_far", static_cast<double>(far_cells));
-  if (near_cells < kFewestCells || far_cells > near_cells) return {};
-  const EgoPoints ego = look_at_points(samples, scans, own, kEdge, kNear + kEdge);
+  const VoxelSet steady = steady_cells(samples, scans, ground_of(samples), kEdge, kReach);
+  const VoxelSet own = grown_from_sensor(steady, kEdge, kStart, kEnd);
+  samples.measures.emplace_back("steady_cells", static_cast<double>(steady.size()));
+  samples.measures.emplace_back("steady_cells_at_sensor", static_cast<double>(own.size()));
+  if (own.size() < kFewestCells) return {};
+  const EgoPoints ego = look_at_points(samples, scans, own, kEdge, kReach);
   if (ego.evaluated < 10 * scans.size()) return {};
   Finding finding;
   finding.where = "points of all scans read";

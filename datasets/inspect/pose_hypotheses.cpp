@@ -7,6 +7,10 @@
 #include <memory>
 #include <numbers>
 
+#include "core/error.h"
+#include "datasets/frames.h"
+#include "datasets/poses.h"
+
 namespace raymoval::inspection {
 namespace {
 
@@ -83,8 +87,34 @@ Matrix3d reordered_quaternion(const Matrix3d& rotation, bool written_w_first) {
       .toRotationMatrix();
 }
 
-void add_frame_hypotheses(const std::vector<Pose>& poses, std::vector<PoseHypothesis>& all) {
-  const Pose C = camera_axes();
+/// The data set's own camera if its calibration tells one, else the axes alone.
+Pose camera_of(const Samples& samples) {
+  if (samples.sequence().layout != "semantickitti" || samples.files().empty()) return camera_axes();
+  const auto calibration = samples.files().front().path.parent_path().parent_path() / "calib.txt";
+  if (!is_file(calibration)) return camera_axes();
+  try {
+    const Pose Tr = read_calibration(calibration, "Tr");
+    return Eigen::AngleAxisd(Tr.linear()).angle() > 0.5 ? Tr : camera_axes();
+  } catch (const Error&) {
+    return camera_axes();  // The row is not used where the poses are said to be the LiDAR's.
+  }
+}
+
+/// Whether the poses are written with quaternions; in memory anything may have been.
+bool have_quaternions(const Samples& samples) {
+  if (samples.files().empty() || samples.stored_in_world()) return true;
+  const auto folder = samples.files().front().path.parent_path();
+  for (const auto& place : {folder, folder.parent_path()}) {
+    const auto path = place / samples.sequence().poses_file;
+    if (is_file(path)) return read_pose_file(path).rows.front().time_s.has_value();
+  }
+  return true;
+}
+
+/// Points in camera axes under poses of the LiDAR move like LiDAR points under poses taken to a
+/// camera, and the other way round, so each motion stands here once.
+void add_frame_hypotheses(const std::vector<Pose>& poses, const Pose& C,
+                          std::vector<PoseHypothesis>& all) {
   all.push_back({"poses-inverted", "under the inverse of each pose",
                  [&poses](std::size_t i) { return poses[i].inverse(); }});
   all.push_back({"camera-frame", "if the poses are those of a camera (x right, y down, z ahead)",
@@ -92,10 +122,6 @@ void add_frame_hypotheses(const std::vector<Pose>& poses, std::vector<PoseHypoth
   all.push_back({"lidar-poses-as-camera",
                  "if the poses are already those of the LiDAR, so that 'Tr' must not be applied",
                  [&poses, C](std::size_t i) { return C * poses[i] * C.inverse(); }});
-  all.push_back({"camera-frame", "if the points stand in camera axes (x right, y down, z ahead)",
-                 [&poses, C](std::size_t i) { return poses[i] * C.inverse(); }});
-  all.push_back({"camera-frame", "if each pose takes LiDAR points to a camera's world",
-                 [&poses, C](std::size_t i) { return poses[i] * C; }});
 }
 
 void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& all) {
@@ -123,8 +149,9 @@ std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
   const auto& poses = samples.poses();
   const std::size_t last = poses.size() - 1;
   std::vector<PoseHypothesis> all;
-  add_frame_hypotheses(poses, all);
+  add_frame_hypotheses(poses, camera_of(samples), all);
   add_world_hypotheses(samples, all);
+  const bool quaternions = have_quaternions(samples);
   const double step = longest_step(poses);
   if (step > kTooFast) {
     all.push_back({"poses-in-millimetres", "if positions are divided by 1,000",
@@ -135,7 +162,7 @@ std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
                    [&poses](std::size_t i) { return scaled(poses[i], 1000.0); }});
   }
   for (const bool w_first : {true, false}) {
-    if (w_first == samples.stored_in_world()) continue;
+    if (w_first == samples.stored_in_world() || !quaternions) continue;
     all.push_back(
         {"quaternion-order",
          w_first ? "if quaternions are read as w x y z" : "if quaternions are read as x y z w",

@@ -80,7 +80,7 @@ struct EditedSequence : ScanSource, LabelSource {
   }
 };
 
-/// A winding street of the suburb, which a car drives along at 10 m/s.
+/// A winding street of the suburb, which a car drives along at 6 m/s.
 inline SimulationOptions suburb(const std::string& sensor = "vlp16", std::size_t scans = 16) {
   SimulationOptions options;
   options.scene = "suburb";
@@ -119,7 +119,7 @@ inline std::set<std::string> found(const InspectionReport& report) {
 inline void check_finds(const InspectionReport& report, const std::string& check,
                         const std::string& remedy = "") {
   INFO(text_of(report));
-  CHECK(found(report) == std::set<std::string>{check});
+  REQUIRE(found(report) == std::set<std::string>{check});
   for (const Finding& finding : report.findings) {
     CHECK_FALSE(finding.where.empty());
     CHECK_FALSE(finding.what.empty());

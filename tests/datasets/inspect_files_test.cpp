@@ -52,9 +52,9 @@ struct PcdStyle {
   };
 };
 
-InspectionReport inspect_dynamicmap(const PcdStyle& style, const std::string& settings = "") {
+InspectionReport inspect_dynamicmap(const PcdStyle& style, const std::string& settings = "",
+                                    const EditedSequence& drive = good_drive()) {
   const TemporaryFolder folder;
-  const EditedSequence drive = good_drive();
   for (const Scan& scan : drive.scans) {
     std::vector<Eigen::Vector3f> points = scan.points;
     std::vector<float> intensity;
@@ -102,12 +102,16 @@ TEST_CASE("VIEWPOINT applied twice or not at all is named", "[inspect]") {
 }
 
 TEST_CASE("a VIEWPOINT that is not the sensor's pose is named", "[inspect]") {
+  // A sensor that looks down far enough for its blind zone to show.
+  const EditedSequence drive(suburb("hdl64e", 16));
+  const std::string range = R"({"range_m": {"min": 2.7}})";
+  check_silent(inspect_dynamicmap({}, range, drive));
   PcdStyle inverse;
   inverse.stored_pose = [](const Pose& pose) { return pose.inverse(); };
-  check_finds(inspect_dynamicmap(inverse), "poses-inverted", "T_world_sensor");
+  check_finds(inspect_dynamicmap(inverse, range, drive), "poses-inverted", "T_world_sensor");
   PcdStyle none;  // PCL's default, points in the world frame.
   none.stored_pose = [](const Pose&) { return Pose(Pose::Identity()); };
-  check_finds(inspect_dynamicmap(none), "viewpoint-missing", "VIEWPOINT");
+  check_finds(inspect_dynamicmap(none, range, drive), "viewpoint-missing", "VIEWPOINT");
 }
 
 TEST_CASE("a .pcd file without VIEWPOINT is named", "[inspect]") {
