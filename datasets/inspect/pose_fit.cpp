@@ -2,6 +2,7 @@
 #include "datasets/inspect/pose_fit.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/text.h"
 #include "datasets/inspect/pose_hypotheses.h"
@@ -209,6 +210,22 @@ bool is_identity(const PoseHypothesis& hypothesis) {
   return hypothesis.check == "points-in-world" || hypothesis.check == "viewpoint-twice";
 }
 
+/// The hypothesis under which the scans agree best, and its share.
+std::pair<PoseHypothesis, double> best_hypothesis(const Samples& samples, const PairFit& fit,
+                                                  std::vector<PoseHypothesis> hypotheses) {
+  for (PoseHypothesis& hypothesis : degree_hypotheses(samples)) {
+    hypotheses.push_back(std::move(hypothesis));
+  }
+  const bool in_world = points_follow_poses(samples);
+  std::pair<PoseHypothesis, double> best{{}, 0.0};
+  for (const PoseHypothesis& hypothesis : hypotheses) {
+    if (is_identity(hypothesis) && !in_world) continue;
+    const double share = fit.share(hypothesis.pose);
+    if (share > best.second) best = {hypothesis, share};
+  }
+  return best;
+}
+
 PoseVerdict judge(Samples& samples) {
   if (samples.pairs().empty()) return {};
   PairFit fit(samples);
@@ -217,36 +234,23 @@ PoseVerdict judge(Samples& samples) {
   double given = fit.share(given_pose);
   samples.measures.emplace_back("agreement", fit.mean_best());
   samples.measures.emplace_back("agreement_of_given_poses", given);
-  if (given >= kGood) return {};
+  if (fit.says_something() && given >= kGood) return {};
 
-  std::vector<PoseHypothesis> hypotheses = pose_hypotheses(samples);
+  const std::vector<PoseHypothesis> hypotheses = pose_hypotheses(samples);
   fit.find_best(hypotheses);
   given = fit.share(given_pose);
   if (!fit.says_something() || given >= kGood) return {};
-  for (PoseHypothesis& hypothesis : degree_hypotheses(samples)) {
-    hypotheses.push_back(std::move(hypothesis));
-  }
-  const bool in_world = points_follow_poses(samples);
-  const PoseHypothesis* best = nullptr;
-  double reached = 0.0;
-  for (const PoseHypothesis& hypothesis : hypotheses) {
-    if (is_identity(hypothesis) && !in_world) continue;
-    const double share = fit.share(hypothesis.pose);
-    if (share > reached) {
-      reached = share;
-      best = &hypothesis;
-    }
-  }
+  const auto [best, reached] = best_hypothesis(samples, fit, hypotheses);
   samples.measures.emplace_back("agreement_of_best_hypothesis", reached);
   const std::string now = "the scans agree to " + percent(given) + " under the poses";
-  if (best != nullptr && reached >= kNamed && reached > given + kBetter) {
-    return {best->check, now + " and to " + percent(reached) + " " + best->phrase};
+  if (reached >= kNamed && reached > given + kBetter) {
+    return {best.check, now + " and to " + percent(reached) + " " + best.phrase};
   }
   if (given >= kForeign) return {};
   return {"poses-of-another-sequence",
           now +
-              " (100 % = registered to each other), and under no usual mistake of frames, "
-              "units or order to more than " +
+              " (100 % = registered to each other), and under no usual mistake of frames, units or "
+              "order to more than " +
               percent(reached)};
 }
 

@@ -55,7 +55,8 @@ void Samples::read_scans(const std::atomic<bool>* cancel) {
   }
   for (const std::size_t scan : wanted) {
     if (cancel != nullptr && cancel->load()) throw Cancelled();
-    scans_.emplace(scan, sequence_.scans->load(scan));
+    const auto& read = scans_.emplace(scan, sequence_.scans->load(scan)).first->second;
+    if (read.points.empty()) throw DataError(scan_name(scan) + ": holds no point to look at.");
   }
 }
 
