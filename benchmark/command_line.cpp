@@ -82,6 +82,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       "  raymoval compare out/street results/reference/street\n"
       "  raymoval describe raymoval\n"
       "  raymoval clean data/05 -o static.pcd\n"
+      "  raymoval inspect data/05\n"
       "  raymoval simulate town -o data/town\n"
       "`raymoval COMMAND --help` says more. Exit codes: 0 done, 1 a cell or a check failed or got "
       "worse,\n"
@@ -90,7 +91,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       add_run_command(program),      add_plan_command(program),    add_run_method_command(program),
       add_table_command(program),    add_compare_command(program), add_list_command(program),
       add_describe_command(program), add_score_command(program),   add_clean_command(program),
-      add_simulate_command(program)};
+      add_simulate_command(program), add_inspect_command(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

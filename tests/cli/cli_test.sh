@@ -10,7 +10,7 @@ short=(--sequence street --frames 0:2 --quiet)
 
 # Help and listings.
 expect 0 "Examples" --help
-for command in run plan table compare list describe score clean simulate; do expect 0 "Examples" "$command" --help; done
+for command in run plan table compare list describe score clean simulate inspect; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
 for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
@@ -242,6 +242,20 @@ for wrong in "town:scan=2 'scans'" "town:scans=x town:scans=x" "town:scans=2,sca
   expect 2 "${wrong#* }" run --sequence "${wrong% *}" --method noop --quiet --out other_sim
 done
 expect 2 "Did you mean 'simulated'" run simulatd --out other_sim
+
+# Inspecting: silent on good data, a finding has a line of its own, exit codes 0, 1, 2.
+expect 0 "0 findings" inspect sim/town --quiet
+expect 0 "poses-inverted" inspect --list
+expect 0 '"findings": []' inspect sim/town --json --quiet
+cp -r sim/town shortened
+head -n 1 sim/town/poses.txt >shortened/poses.txt
+"$raymoval" inspect shortened --quiet >out.txt 2>err.txt
+holds "an inspection with findings exits with 1" test $? -eq 1
+"$raymoval" inspect shortened --quiet >found.txt 2>err.txt
+holds "a finding is named" grep -q '^finding poses-of-another-sequence: poses.txt: .* Take the' found.txt
+expect 2 "no such folder" inspect nowhere
+expect 2 "inspect what" inspect
+expect 2 "Did you mean '--json'" inspect sim/town --jason
 
 # An interrupted run ends by itself and goes on later.
 "$raymoval" run --sequence street --quiet --method raymoval:online --out stopped >out.txt 2>err.txt &

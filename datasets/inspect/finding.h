@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace raymoval {
+
+enum class Severity {
+  kNote,     ///< True of the data and worth knowing, but nothing has to be done.
+  kFinding,  ///< Results would be wrong or misleading.
+};
+
+/// Something that an inspection found.
+struct Finding {
+  std::string check;  ///< Name in the table of checks, such as "poses-inverted".
+  Severity severity = Severity::kFinding;
+  std::string where;     ///< File and frames.
+  std::string what;      ///< What was found, with numbers.
+  std::string expected;  ///< What good data has there.
+  std::string remedy;    ///< What to do.
+};
+
+/// All that an inspection says.
+struct InspectionReport {
+  std::string sequence;
+  std::string layout;
+  std::size_t scans = 0;
+  std::size_t scans_read = 0;
+  std::vector<Finding> findings;
+  /// Numbers behind the findings, in a fixed order.
+  std::vector<std::pair<std::string, double>> measures;
+
+  /// Whether there is a finding that is no note.
+  [[nodiscard]] bool has_findings() const {
+    for (const Finding& finding : findings) {
+      if (finding.severity == Severity::kFinding) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace raymoval

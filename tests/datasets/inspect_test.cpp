@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// Defects made in a good drive that was traced in memory. Those that need files are in
+// inspect_files_test.cpp.
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "datasets/simulated/library.h"
+#include "tests/datasets/inspect_data.h"
+
+using namespace raymoval;
+using namespace raymoval::test;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// LiDAR (x ahead, y left, z up) to camera (x right, y down, z ahead).
+Pose to_camera() {
+  Pose C = Pose::Identity();
+  C.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return C;
+}
+
+/// The rotation rebuilt from its roll, pitch and yaw, each times `factor`.
+Pose with_angles_times(const Pose& pose, double factor) {
+  const Eigen::Matrix3d R = pose.linear();
+  const double roll = std::atan2(R(2, 1), R(2, 2)), pitch = std::asin(-R(2, 0)),
+               yaw = std::atan2(R(1, 0), R(0, 0));
+  Pose result = pose;
+  result.linear() = (Eigen::AngleAxisd(factor * yaw, Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(factor * pitch, Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(factor * roll, Eigen::Vector3d::UnitX()))
+                        .toRotationMatrix();
+  return result;
+}
+
+/// All poses turned, so that the drive starts with a heading far from zero.
+void turn_world(EditedSequence& drive, double yaw) {
+  Pose turn = Pose::Identity();
+  turn.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  drive.each_pose([&](const Pose& pose) { return turn * pose; });
+}
+
+}  // namespace
+
+TEST_CASE("a good drive is silent", "[inspect]") {
+  check_silent(good_drive().inspected());
+  EditedSequence turned = good_drive();
+  turn_world(turned, 2.0);
+  check_silent(turned.inspected());
+}
+
+TEST_CASE("the scenes are silent", "[inspect]") {
+  for (const char* scene : {"town", "country", "crossing", "highway", "excavator"}) {
+    SimulationOptions options;
+    options.scene = scene;
+    options.scans = 12;
+    if (options.scene != "excavator") options.sensor = "vlp16";
+    INFO(scene);
+    const InspectionReport report = EditedSequence(options).inspected();
+    INFO(text_of(report));
+    CHECK(found(report).empty());
+  }
+}
+
+TEST_CASE("inverted poses are named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.each_pose([](const Pose& pose) { return pose.inverse(); });
+  check_finds(drive.inspected(), "poses-inverted", "R^T");
+}
+
+TEST_CASE("camera frames are told from the LiDAR's", "[inspect]") {
+  const Pose C = to_camera();
+  EditedSequence poses = good_drive();
+  poses.each_pose([&](const Pose& pose) { return C * pose * C.inverse(); });
+  check_finds(poses.inspected(), "camera-frame", "Tr^-1 P Tr");
+  EditedSequence lidar_as_camera = good_drive();
+  lidar_as_camera.each_pose([&](const Pose& pose) { return C.inverse() * pose * C; });
+  check_finds(lidar_as_camera.inspected(), "lidar-poses-as-camera", "poses_are_lidar");
+}
+
+TEST_CASE("points in camera axes are told by the ground", "[inspect]") {
+  const Pose C = to_camera();
+  // Enough beams to see the ground as a plane.
+  EditedSequence points(suburb("hdl64e", 10));
+  points.each_point([&](const Scan&, const Eigen::Vector3d& p) { return C * p; });
+  EditedSequence both = points;
+  both.each_pose([&](const Pose& pose) { return C * pose * C.inverse(); });
+  check_finds(points.inspected(), "camera-frame", "Points of a camera frame");
+  check_finds(both.inspected(), "camera-frame", "Points of a camera frame");
+}
+
+TEST_CASE("angles in the wrong unit are named, whatever the first heading", "[inspect]") {
+  for (const double heading : {0.0, 1.9, -2.8}) {
+    EditedSequence degrees = good_drive();
+    turn_world(degrees, heading);
+    degrees.each_pose([](const Pose& pose) { return with_angles_times(pose, 1.0 / kDegree); });
+    check_finds(degrees.inspected(), "degrees-for-radians", "pi/180");
+  }
+  EditedSequence radians = good_drive();
+  turn_world(radians, 1.0);
+  radians.each_pose([](const Pose& pose) { return with_angles_times(pose, kDegree); });
+  check_finds(radians.inspected(), "radians-for-degrees", "180/pi");
+}
+
+TEST_CASE("millimetres and kilometres are named, in points and in poses", "[inspect]") {
+  for (const double factor : {1000.0, 0.001}) {
+    EditedSequence poses = good_drive();
+    poses.each_pose([&](Pose pose) {
+      pose.translation() *= factor;
+      return pose;
+    });
+    check_finds(poses.inspected(), factor > 1.0 ? "poses-in-millimetres" : "poses-in-kilometres",
+                "1,000");
+  }
+  EditedSequence points = good_drive();
+  points.each_point([](const Scan&, const Eigen::Vector3d& p) { return 1000.0 * p; });
+  check_finds(points.inspected(), "points-in-millimetres", "0.001");
+  points.each_pose([](Pose pose) {
+    pose.translation() *= 1000.0;
+    return pose;
+  });
+  CHECK(found(points.inspected()) ==
+        std::set<std::string>{"points-in-millimetres", "poses-in-millimetres"});
+}
+
+TEST_CASE("a quaternion's order is named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  turn_world(drive, 0.7);
+  // Written as w x y z, read as x y z w.
+  drive.each_pose([](Pose pose) {
+    const Eigen::Quaterniond q(pose.linear());
+    pose.linear() = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
+    return pose;
+  });
+  check_finds(drive.inspected(), "quaternion-order", "columns");
+}
+
+TEST_CASE("points in the world frame are named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.each_point(
+      [](const Scan& scan, const Eigen::Vector3d& p) { return scan.T_world_sensor * p; });
+  check_finds(drive.inspected(), "points-in-world", "inverse of each pose");
+}
+
+TEST_CASE("poses of another sequence are named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  // The poses of a drive that turns the other way and twice as fast.
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    const auto s = static_cast<double>(i);
+    Pose pose = Pose::Identity();
+    pose.linear() = Eigen::AngleAxisd(-0.08 * s, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.translation() = Eigen::Vector3d(2.1 * s, -0.06 * s * s, 0.0);
+    drive.scans[i].T_world_sensor = pose;
+  }
+  check_finds(drive.inspected(), "poses-of-another-sequence", "belongs to these scans");
+}
+
+TEST_CASE("a fake point at the origin is named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.scans[0].points[7] = Eigen::Vector3f::Zero();
+  check_finds(drive.inspected(), "point-at-origin", "NaN");
+}
+
+TEST_CASE("duplicated scans are named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.scans[9].points = drive.scans[8].points;
+  drive.scans[9].T_world_sensor = drive.scans[8].T_world_sensor;
+  drive.scans[9].stored_point_count = drive.scans[8].stored_point_count;
+  drive.words[9] = drive.words[8];
+  const InspectionReport report = drive.inspected();
+  INFO(text_of(report));
+  // A pose that stands for one scan and makes up for it in the next is a jump as well.
+  CHECK(found(report).count("duplicated-scans") == 1);
+}
+
+TEST_CASE("scans left out show in the motion", "[inspect]") {
+  EditedSequence drive(suburb("vlp16", 19));
+  drive.scans.erase(drive.scans.begin() + 6, drive.scans.begin() + 9);
+  drive.words.erase(drive.words.begin() + 6, drive.words.begin() + 9);
+  for (std::size_t i = 0; i < drive.size(); ++i) drive.scans[i].index = i;
+  check_finds(drive.inspected(), "jump-in-motion", "missing scans");
+}
+
+TEST_CASE("labels of the next or the last scan are named", "[inspect]") {
+  for (const bool next : {true, false}) {
+    EditedSequence drive = good_drive();
+    const auto good = drive.words;
+    for (std::size_t i = 0; i < drive.size(); ++i) {
+      const std::size_t other =
+          next ? std::min(i + 1, drive.size() - 1) : (i == 0 ? std::size_t{0} : i - 1);
+      drive.words[i] = good[other];
+    }
+    const InspectionReport by_count = drive.inspected();
+    check_finds(by_count, "labels-shifted", "Rename");
+    CHECK_THAT(by_count.findings[0].what, Catch::Contains(next ? "after it" : "before it"));
+    // With counts made equal only the places of the labels tell.
+    for (std::size_t i = 0; i < drive.size(); ++i) {
+      drive.words[i].resize(drive.scans[i].size(), 40);
+    }
+    const InspectionReport by_place = drive.inspected();
+    check_finds(by_place, "labels-shifted", "Rename");
+    CHECK_THAT(by_place.findings[0].what, Catch::Contains(next ? "after it" : "before it"));
+  }
+}
+
+TEST_CASE("a count of labels that does not fit is named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.words[0].pop_back();
+  const InspectionReport report = drive.inspected();
+  check_finds(report, "label-count", "--frames");
+  CHECK_THAT(report.findings[0].where, Catch::Contains("scan 0"));
+}
+
+TEST_CASE("skewed scans are named, corrected ones are not", "[inspect]") {
+  SimulationOptions options = suburb("hdl64e", 14);
+  options.scene = "country";  // At 10 m/s some pairs of scans are 6 m apart.
+  options.rolling = Rolling::kSkewed;
+  const InspectionReport report = EditedSequence(options).inspected();
+  check_finds(report, "skewed-scans", "deskewing");
+  CHECK_THAT(report.findings[0].what, Catch::Contains("clockwise from behind"));
+  options.rolling = Rolling::kCorrected;
+  check_silent(EditedSequence(options).inspected());
+}
+
+TEST_CASE("a cut at a range is named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.keep([](const Eigen::Vector3f& point) { return point.norm() < 25.0F; });
+  check_finds(drive.inspected(), "range-truncated", "unfiltered");
+}
+
+TEST_CASE("the vehicle in view is a finding, or a note where its labels say so", "[inspect]") {
+  EditedSequence drive(suburb("hdl64e", 14));
+  check_silent(drive.inspected());  // Nearer than what is evaluated.
+  drive.range_m.min = 0.0;
+  const InspectionReport noted = drive.inspected();
+  INFO(text_of(noted));
+  REQUIRE(noted.findings.size() == 1);
+  CHECK(noted.findings[0].check == "ego-vehicle");
+  CHECK(noted.findings[0].severity == Severity::kNote);
+  CHECK_FALSE(noted.has_findings());
+  drive.labelled = false;
+  check_finds(drive.inspected(), "ego-vehicle", "range");
+}
