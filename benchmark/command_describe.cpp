@@ -28,6 +28,7 @@ Description description_of(const std::string& name) {
     if (entry->name == method) return describe_method(registry, name);
     names.push_back(entry->name);
   }
+  if (method == "external") return describe_method(registry, name);
   throw UsageError("there is no method or protocol '" + name + "'." + suggestion(name, names));
 }
 
@@ -52,7 +53,8 @@ Command add_describe_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("describe", "Tells a method's or protocol's source and parameters");
   app->allow_extras();
-  app->add_option("name", flags->name, "METHOD, METHOD:variant or PROTOCOL")->type_name("NAME");
+  app->add_option("name", flags->name, "METHOD, METHOD:variant, external:MANIFEST or PROTOCOL")
+      ->type_name("NAME");
   app->add_flag("--markdown", flags->markdown, "As Markdown");
   app->add_flag("--json", flags->json, "As JSON");
   app->footer("Examples:\n  raymoval describe raymoval:online\n  raymoval describe erasor --json");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "benchmark/suite_manifests.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "datasets/simulated/scene_text.h"
@@ -188,7 +189,7 @@ Setting parse_setting(const std::string& text) {
 }
 
 Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry) {
-  const json file = read_json(path);
+  const json file = with_located_manifests(read_json(path), path.parent_path());
   const std::string where = path.string();
   check_keys(file, {"name", "sequences", "methods", "protocols", "controls", "threads"}, where);
   Suite suite;
