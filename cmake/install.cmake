@@ -17,6 +17,8 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} USE_SOURCE_PERMIS
 install(FILES methods/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME methods.md)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(DIRECTORY scripts/workflow DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
+        USE_SOURCE_PERMISSIONS PATTERN "test_slurm.sh" EXCLUDE)
 install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir})
 configure_package_config_file(cmake/raymovalConfig.cmake.in raymovalConfig.cmake
                               INSTALL_DESTINATION ${config_dir})
