@@ -26,6 +26,8 @@ package=$(find packages -maxdepth 1 -name '*.deb' 2>/dev/null)
 [[ -f $package ]] || { echo "package_test.sh: expected one package, found: $package"; exit 1; }
 
 field() { dpkg-deb --field "$package" "$1"; }
+# The packages a field names, without their versions.
+names_in() { field "$1" | tr ',' '\n' | sed 's/[(|].*//; s/ //g'; }
 version=$("$build/raymoval" --version | grep -oE '[0-9]+\.[0-9]+\.[0-9]+')
 holds "its name" test "$(field Package)" = raymoval
 holds "its version is the program's" test "$(field Version)" = "$version"
@@ -33,11 +35,10 @@ holds "its architecture" test "$(field Architecture)" = "$(dpkg --print-architec
 holds "it says what it is" test -n "$(field Description)" -a -n "$(field Maintainer)"
 for library in libc6 libstdc++6 libtbb12 libembree3-3 libxxhash0 liboctomap1.9 libpcl-io1.13 \
   libpcl-common1.13 libpcl-sample-consensus1.13; do
-  holds "it depends on $library" grep -qE "(^|, )$library( |,|\$)" <<<"$(field Depends)"
+  holds "it depends on $library" grep -qxF "$library" <(names_in Depends)
 done
 # What it names can be had: by name it is installed here, since it was built with it.
-for needed in $(field Depends | tr ',' '\n' | sed 's/(.*//; s/|.*//') \
-  $(field Recommends | tr ',' '\n' | sed 's/(.*//; s/|.*//'); do
+for needed in $(names_in Depends) $(names_in Recommends); do
   holds "there is a package $needed" dpkg-query --show "$needed"
 done
 
