@@ -34,6 +34,7 @@ Description description_of(const std::string& name) {
     if (entry->name == method) return describe_method(registry, name);
     names.push_back(entry->name);
   }
+  if (method == "external") return describe_method(registry, name);
   const bool prefixed = name.rfind(kProtocolPrefix, 0) == 0;
   const std::string protocol = prefixed ? name.substr(std::string(kProtocolPrefix).size()) : name;
   if (const ProtocolEntry* entry = find_protocol(protocol)) return describe_protocol(*entry);
@@ -74,7 +75,8 @@ Command add_describe_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("describe", "Tells a method's or protocol's source and parameters");
   app->allow_extras();
-  app->add_option("name", flags->name, "METHOD, METHOD:variant, PROTOCOL or protocol:NAME")
+  app->add_option("name", flags->name,
+                  "METHOD, METHOD:variant, external:MANIFEST, PROTOCOL or protocol:NAME")
       ->type_name("NAME");
   app->add_flag("--markdown", flags->markdown, "As Markdown");
   app->add_flag("--json", flags->json, "As JSON");

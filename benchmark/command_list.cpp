@@ -28,6 +28,8 @@ Lines method_lines(bool variants) {
       lines.emplace_back(entry->name + ":" + variant.name, variant.sentence);
     }
   }
+  lines.emplace_back("external:MANIFEST",
+                     "A program of yours in any language, see methods/README.md.");
   return lines;
 }
 

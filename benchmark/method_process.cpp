@@ -110,7 +110,7 @@ ordered_json task_record(const MethodTask& task, const SequenceRequest& place) {
   ordered_json record;
   record["sequence"] = place_record(place);
   record["name"] = task.request->name;
-  record["method"] = task.request->method.full_name();
+  record["method"] = task.request->method.address();
   record["parameters"] = to_json(task.request->method.configuration);
   record["threads"] = task.threads;
   record["progress"] =

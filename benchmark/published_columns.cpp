@@ -3,22 +3,19 @@
 
 #include <filesystem>
 
+#include "benchmark/shipped_data.h"
 #include "core/error.h"
 #include "eval/published.h"
 
 namespace raymoval {
 namespace {
 
-constexpr const char* kTable = "published/raymoval_table2.json";
+constexpr const char* kTable = "raymoval_table2.json";
 
 std::filesystem::path published_file() {
-  for (const std::filesystem::path place : {RAYMOVAL_SOURCE_RESULTS, RAYMOVAL_INSTALLED_RESULTS}) {
-    std::error_code ignored;
-    if (std::filesystem::exists(place / kTable, ignored)) return place / kTable;
-  }
-  throw DataError(std::string(kTable) + " is neither in the source folder (" +
-                  RAYMOVAL_SOURCE_RESULTS + ") nor where it is installed (" +
-                  RAYMOVAL_INSTALLED_RESULTS + "). Install raymoval again.");
+  const std::filesystem::path folder = shipped_data("published");
+  if (folder.empty()) throw DataError("published tables: " + missing_data("published"));
+  return folder / kTable;
 }
 
 OutsideColumn& column_of(const std::string& method, std::vector<OutsideColumn>& columns) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "benchmark/shipped_data.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
@@ -11,12 +12,8 @@
 namespace raymoval {
 namespace {
 
-/// The source folder comes first, so that a changed suite counts at once for who builds it.
 std::filesystem::path suite_folder() {
-  for (const char* folder : {RAYMOVAL_SOURCE_SUITES, RAYMOVAL_INSTALLED_SUITES}) {
-    if (is_folder(folder)) return folder;
-  }
-  return {};
+  return shipped_data("suites");
 }
 
 }  // namespace
@@ -43,9 +40,8 @@ std::filesystem::path find_suite(const std::string& name_or_path) {
     if (name == name_or_path) return suite_folder() / (name + ".json");
   }
   if (names.empty()) {
-    throw UsageError(name_or_path + ": no such suite file, and the shipped suites are neither in " +
-                     RAYMOVAL_SOURCE_SUITES + " nor in " + RAYMOVAL_INSTALLED_SUITES +
-                     ". Install raymoval again.");
+    throw UsageError(name_or_path + ": no such suite file, and the shipped suites are not there: " +
+                     missing_data("suites"));
   }
   throw UsageError(name_or_path + ": no such suite file, and no shipped suite has this name." +
                    suggestion(name_or_path, names));

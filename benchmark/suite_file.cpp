@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "benchmark/suite.h"
+#include "benchmark/suite_manifests.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "datasets/simulated/scene_text.h"
@@ -243,7 +244,7 @@ void read_switches(const json& file, const std::string& where, Suite& suite) {
 
 Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry,
                  const std::string& data) {
-  const json file = read_json(path);
+  const json file = with_located_manifests(read_json(path), path.parent_path());
   const std::string where = path.string();
   check_keys(file,
              {"name", "sequences", "methods", "protocols", "controls", "threads", "repeats",

@@ -10,20 +10,13 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # SIMD chosen at run time.
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 
-# PCL only where .pcd and .ply files are read. Its own CMake configuration drags in VTK and Qt, so
-# its two libraries are looked up directly.
+# PCL only where .pcd and .ply files are read and where a method says so.
 find_path(RAYMOVAL_PCL_INCLUDE_DIRS pcl/point_cloud.h PATH_SUFFIXES pcl-1.13 pcl-1.12 REQUIRED)
-find_library(RAYMOVAL_PCL_COMMON_LIBRARY pcl_common REQUIRED)
-find_library(RAYMOVAL_PCL_IO_LIBRARY pcl_io REQUIRED)
-find_library(RAYMOVAL_PCL_IO_PLY_LIBRARY pcl_io_ply REQUIRED)
-set(RAYMOVAL_PCL_LIBRARIES ${RAYMOVAL_PCL_IO_LIBRARY} ${RAYMOVAL_PCL_IO_PLY_LIBRARY}
-    ${RAYMOVAL_PCL_COMMON_LIBRARY})
-# Planes by random sample consensus, for the octomap method.
-find_library(RAYMOVAL_PCL_SAMPLE_CONSENSUS_LIBRARY pcl_sample_consensus REQUIRED)
-set(RAYMOVAL_PCL_CONSENSUS_LIBRARIES ${RAYMOVAL_PCL_SAMPLE_CONSENSUS_LIBRARY}
-    ${RAYMOVAL_PCL_COMMON_LIBRARY})
-
 find_package(octomap 1.9 REQUIRED)
+include(cmake/system_libraries.cmake)
+if(raymoval_missing_libraries)
+  message(FATAL_ERROR "not found: ${raymoval_missing_libraries}; run scripts/install_dependencies.sh")
+endif()
 
 # The simulator's ray tracer.
 find_package(embree 3.13 CONFIG REQUIRED)

@@ -12,6 +12,11 @@ endforeach()
 install(DIRECTORY benchmark/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
         FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY results/published results/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} USE_SOURCE_PERMISSIONS
+        PATTERN "__pycache__" EXCLUDE)
+install(FILES methods/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME methods.md)
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY scripts/workflow DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
         USE_SOURCE_PERMISSIONS PATTERN "test_slurm.sh" EXCLUDE)
 install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir})
@@ -19,4 +24,5 @@ configure_package_config_file(cmake/raymovalConfig.cmake.in raymovalConfig.cmake
                               INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(raymovalConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfig.cmake
-              ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfigVersion.cmake DESTINATION ${config_dir})
+              ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfigVersion.cmake
+              cmake/system_libraries.cmake DESTINATION ${config_dir})

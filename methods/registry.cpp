@@ -5,6 +5,7 @@
 #include "methods/controls/controls.h"
 #include "methods/dufomap/dufomap.h"
 #include "methods/erasor/erasor.h"
+#include "methods/external/external.h"
 #include "methods/octomap/octomap.h"
 #include "methods/peopleremover/peopleremover.h"
 #include "methods/raymoval/raymoval.h"
@@ -50,34 +51,53 @@ const MethodEntry& MethodRegistry::find(const std::string& name) const {
   throw UsageError("method '" + name + "' is unknown." + suggestion(name, names));
 }
 
-ConfiguredMethod MethodRegistry::configure(const std::string& name_and_variant) const {
-  const std::size_t colon = name_and_variant.find(':');
-  const MethodEntry& entry = find(name_and_variant.substr(0, colon));
+namespace {
+
+const MethodVariant& find_variant(const MethodEntry& entry, const std::string& wanted) {
+  std::vector<std::string> names;
+  for (const MethodVariant& variant : entry.variants) {
+    if (variant.name == wanted) return variant;
+    names.push_back(variant.name);
+  }
+  throw UsageError("method '" + entry.name + "' has no variant '" + wanted + "'." +
+                   suggestion(wanted, names));
+}
+
+ConfiguredMethod with_defaults(const MethodEntry& entry, const MethodVariant& variant) {
   ConfiguredMethod method;
   method.entry = &entry;
-  method.variant = entry.variants.front();
-  if (colon != std::string::npos) {
-    const std::string wanted = name_and_variant.substr(colon + 1);
-    std::vector<std::string> names;
-    bool found = false;
-    for (const MethodVariant& variant : entry.variants) {
-      names.push_back(variant.name);
-      if (variant.name == wanted) {
-        method.variant = variant;
-        found = true;
-      }
-    }
-    if (!found) {
-      throw UsageError("method '" + entry.name + "' has no variant '" + wanted + "'." +
-                       suggestion(wanted, names));
-    }
-  }
+  method.variant = variant;
   for (const ParameterSpec& spec : entry.parameters) {
     method.configuration.emplace_back(spec.name, spec.default_value);
   }
-  for (const auto& [name, value] : method.variant.overrides) {
+  for (const auto& [name, value] : variant.overrides) {
     set_parameter(method.configuration, name, value);
   }
+  return method;
+}
+
+}  // namespace
+
+ConfiguredMethod MethodRegistry::configure(const std::string& name_and_variant) const {
+  if (const auto manifest = external_manifest(name_and_variant)) {
+    return configure_external(manifest->string());
+  }
+  const std::size_t colon = name_and_variant.find(':');
+  const MethodEntry& entry = find(name_and_variant.substr(0, colon));
+  if (colon == std::string::npos) return with_defaults(entry, entry.variants.front());
+  return with_defaults(entry, find_variant(entry, name_and_variant.substr(colon + 1)));
+}
+
+ConfiguredMethod MethodRegistry::configure_external(const std::string& manifest) const {
+  const auto entry = std::make_shared<const MethodEntry>(external_entry(manifest));
+  for (const auto& known : entries_) {
+    if (known->name == entry->name) {
+      throw ConfigurationError(entry->manifest + ": the name '" + entry->name +
+                               "' is that of a method of raymoval; give it another one.");
+    }
+  }
+  ConfiguredMethod method = with_defaults(*entry, entry->variants.front());
+  method.owned = entry;
   return method;
 }
 

@@ -30,6 +30,7 @@ struct MethodEntry {
   std::vector<ParameterSpec> parameters;
   std::vector<MethodVariant> variants;  ///< The first is what the bare name means.
   bool needs_truth = false;             ///< A control that is given the labels (`oracle`).
+  std::string manifest = {};            ///< Path of the manifest of an external method.
   std::function<std::unique_ptr<Remover>(const Configuration&)> make;
 };
 
@@ -38,9 +39,14 @@ struct ConfiguredMethod {
   const MethodEntry* entry = nullptr;
   MethodVariant variant;
   Configuration configuration;
+  std::shared_ptr<const MethodEntry> owned = {};  ///< `entry`, if no registry has it.
 
   /// "raymoval:online".
   [[nodiscard]] std::string full_name() const { return entry->name + ":" + variant.name; }
+  /// What `MethodRegistry::configure` finds it by, in another process too.
+  [[nodiscard]] std::string address() const {
+    return entry->manifest.empty() ? full_name() : "external:" + entry->manifest;
+  }
   [[nodiscard]] std::unique_ptr<Remover> make() const { return entry->make(configuration); }
 };
 
@@ -57,10 +63,13 @@ class MethodRegistry {
   }
   /// @throws UsageError suggesting the nearest name.
   [[nodiscard]] const MethodEntry& find(const std::string& name) const;
-  /// "raymoval" or "raymoval:online" with its defaults.
+  /// "raymoval", "raymoval:online" or "external:PATH/manifest.json" with its defaults.
+  /// @throws UsageError suggesting the nearest name; ConfigurationError or DataError for a manifest
   [[nodiscard]] ConfiguredMethod configure(const std::string& name_and_variant) const;
 
  private:
+  [[nodiscard]] ConfiguredMethod configure_external(const std::string& manifest) const;
+
   std::vector<std::unique_ptr<MethodEntry>> entries_;
 };
 

@@ -16,7 +16,7 @@ packages=(
 )
 case ${1:-} in
   "") ;;
-  --tests) packages+=(snakemake python3-jsonschema) ;;
+  --tests) packages+=(snakemake python3-jsonschema python3-numpy) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing or --tests." >&2; exit 2 ;;
 esac
 

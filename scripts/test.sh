@@ -60,7 +60,10 @@ check_consumer() {
     cmake -G Ninja -S tests/consumer -B "$prefix/build" -DCMAKE_BUILD_TYPE=Release \
       -DCMAKE_PREFIX_PATH="$prefix/installed" &&
     cmake --build "$prefix/build" &&
-    "$prefix/build/consumer" &&
+    "$prefix/build/near_points/near_points" &&
+    "$prefix/build/methods_only" >/dev/null &&
+    [[ $(wc -l <examples/cpp_method/near_points.cpp) -le 60 ]] &&
+    ! grep -rqF "$PWD/" "$prefix/installed" &&
     "$prefix/installed/bin/raymoval" list methods >/dev/null
   local status=$?
   rm -rf "$prefix"
@@ -74,6 +77,7 @@ step "release build" build release -DRAYMOVAL_WERROR=ON
 run_tests release
 step "reference results" scripts/check_reference.sh
 step "installed library" check_consumer
+step "package" tests/package/package_test.sh build/release
 step "sanitizer build" build asan-ubsan
 run_tests asan-ubsan
 

@@ -150,9 +150,46 @@ def check_suites(folder):
         check(f"program on {text}", tried.returncode == (0 if legal else 2), tried.stderr)
 
 
+def manifests():
+    """Manifests of external methods with whether they are legal."""
+    base = {"name": "own", "sentence": "s", "version": "1", "online": True, "command": ["true"]}
+    parameter = {"name": "a", "default": 2, "sentence": "s"}
+    yield True, base
+    yield True, {**base, "source": "", "notes": ["n"], "files": [], "time_limit_s": 0.5,
+                 "disk_limit_gib": 2, "parameters": [{**parameter, "unit": "m", "minimum": 1,
+                                                      "maximum": 2.5, "source": "here"}]}
+    yield True, {**base, "parameters": [{**parameter, "default": "x", "choices": ["x", "y"]}]}
+    for key in base:
+        yield False, {k: v for k, v in base.items() if k != key}
+    for key, value in [("name", "a/b"), ("name", ""), ("sentence", 1), ("online", "yes"),
+                       ("command", []), ("command", "true"), ("command", [1]), ("notes", "n"),
+                       ("time_limit_s", 0), ("disk_limit_gib", -1), ("parameters", {}),
+                       ("variants", [])]:
+        yield False, {**base, key: value}
+    for key, value in [("name", "a b"), ("default", None), ("unit", 1), ("minimum", "0"),
+                       ("choices", "x"), ("sentence", ""), ("range", [0, 1])]:
+        yield False, {**base, "parameters": [{**parameter, key: value}]}
+    yield False, []
+
+
+def check_manifests(folder):
+    validator = schema("manifest")
+    for path in sorted((ROOT / "examples").rglob("manifest.json")):
+        check_valid(str(path), validator, json.loads(without_comments(path.read_text())))
+    file = folder / "manifest.json"
+    for legal, manifest in manifests():
+        text = json.dumps(manifest)
+        file.write_text(text)
+        check(f"schema on {text}", (first_error(validator, manifest) == "") == legal,
+              first_error(validator, manifest))
+        tried = run("describe", f"external:{file}")
+        check(f"program on {text}", tried.returncode == (0 if legal else 2), tried.stderr)
+
+
 with tempfile.TemporaryDirectory() as name:
     check_results(pathlib.Path(name))
     check_suites(pathlib.Path(name))
+    check_manifests(pathlib.Path(name))
 for failure in failures:
     print("FAILED:", failure)
 print(f"schema: {checks - len(failures)} of {checks} checks hold")

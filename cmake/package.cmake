@@ -1,0 +1,24 @@
+# cpack makes a Debian package of the program, the library and its headers.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME raymoval)
+set(CPACK_PACKAGE_VENDOR "The raymoval authors")
+set(CPACK_PACKAGE_CONTACT "The raymoval authors <raymoval@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGE_DESCRIPTION
+    "Runs methods that remove moving objects from LiDAR maps, scores them by published protocols
+and compares the results. With the library to add a method of one's own in C++.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+# What the program loads, with the versions it was linked with.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# What building against the library takes; a machine that only runs the program can do without.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++ (>= 4:12), pkg-config, libeigen3-dev,
+ nlohmann-json3-dev, libtbb-dev, robin-map-dev, libxxhash-dev, libembree-dev, libpcl-dev,
+ liboctomap-dev")
+string(REPLACE "\n" "" CPACK_DEBIAN_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_PACKAGE_RECOMMENDS}")
+# The example of a method in Python.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-numpy")
+include(CPack)

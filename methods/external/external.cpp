@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "methods/external/external.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "methods/external/manifest.h"
+#include "methods/external/program.h"
+#include "methods/external/sequence_files.h"
+#include "methods/external/working_folder.h"
+
+namespace raymoval {
+namespace {
+
+constexpr std::string_view kPrefix = "external:";
+
+/// Beside what this process has: no more threads than a method may use, no order by random hash.
+std::vector<std::pair<std::string, std::string>> environment_for(int threads) {
+  std::vector<std::pair<std::string, std::string>> variables = {{"PYTHONHASHSEED", "0"}};
+  for (const char* name : {"RAYMOVAL_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS",
+                           "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"}) {
+    variables.emplace_back(name, std::to_string(threads));
+  }
+  return variables;
+}
+
+/// For who writes a program and wants to look at what it got and gave.
+void keep_if_asked(WorkingFolder& folder, const RunContext& context) {
+  const char* asked = std::getenv("RAYMOVAL_KEEP_WORKING_FOLDER");
+  if (asked == nullptr || *asked == '\0') return;
+  folder.keep();
+  if (context.progress != nullptr) {
+    context.progress->say("the working folder is kept: " + folder.path().string());
+  }
+}
+
+class External : public Remover {
+ public:
+  External(Manifest manifest, Configuration parameters)
+      : manifest_(std::move(manifest)), parameters_(std::move(parameters)) {}
+
+  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    WorkingFolder folder;
+    keep_if_asked(folder, context);
+    const auto points = write_files(folder.path(), scans, context);
+    run_command(folder.path(), points.size(), context);
+    const StageScope timed(context.times, "reading answers");
+    read_answers(folder.path(), points, sink, context);
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::size_t> write_files(const std::filesystem::path& folder,
+                                                     const ScanSource& scans,
+                                                     const RunContext& context) const {
+    const StageScope timed(context.times, "writing scans");
+    return write_sequence_files(folder, scans, manifest_, parameters_, context);
+  }
+
+  /// As its manifest says, else 30 s for each scan and at least ten minutes.
+  [[nodiscard]] double time_limit_s(std::size_t scans) const {
+    if (manifest_.time_limit_s > 0.0) return manifest_.time_limit_s;
+    return std::max(600.0, 30.0 * static_cast<double>(scans));
+  }
+
+  void run_command(const std::filesystem::path& folder, std::size_t scans,
+                   const RunContext& context) const {
+    const StageScope timed(context.times, "program");
+    context.begin_pass("program", 1);
+    run_program({command_line(manifest_), folder, environment_for(context.threads),
+                 time_limit_s(scans), context.cancel});
+    context.advance();
+  }
+
+  Manifest manifest_;
+  Configuration parameters_;
+};
+
+}  // namespace
+
+std::optional<std::filesystem::path> external_manifest(const std::string& method_name) {
+  if (!method_name.starts_with(kPrefix)) return std::nullopt;
+  return method_name.substr(kPrefix.size());
+}
+
+MethodEntry external_entry(const std::filesystem::path& manifest) {
+  Manifest read = read_manifest(manifest);
+  MethodEntry entry;
+  entry.name = read.name;
+  entry.sentence = read.sentence;
+  entry.source = read.source;
+  entry.version = read.version + "+" + program_hash(read).substr(0, 16);
+  entry.notes = read.notes;
+  entry.parameters = read.parameters;
+  entry.variants = {{"default",
+                     read.online ? "Answers for a scan from it and earlier ones, its manifest says."
+                                 : "Answers from all scans.",
+                     read.online,
+                     {}}};
+  entry.manifest = read.path.string();
+  entry.make = [read = std::move(read)](const Configuration& parameters) {
+    return std::make_unique<External>(read, parameters);
+  };
+  return entry;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "methods/registry.h"
+
+namespace raymoval {
+
+/// A method that is a program in any language. A manifest names it and its parameters; it gets
+/// scans and parameters as files in a working folder and answers with a label file per scan (see
+/// methods/README.md for the layout).
+///
+/// "external:PATH/manifest.json" -> "PATH/manifest.json"; nothing for the name of another method.
+std::optional<std::filesystem::path> external_manifest(const std::string& method_name);
+
+/// The entry of the method that a manifest describes, with one variant, "default". Its version is
+/// the manifest's with a hash of the manifest and of the program's files, so that results of a
+/// program that was changed meanwhile are not taken for those of this one.
+/// @throws ConfigurationError for a manifest that is not as it should be; DataError if a file that
+/// belongs to the program cannot be read
+MethodEntry external_entry(const std::filesystem::path& manifest);
+
+}  // namespace raymoval

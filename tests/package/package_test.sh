@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Makes the Debian package, reads its fields, unpacks it into an empty root and uses it from there.
+# Usage: package_test.sh BUILD_FOLDER
+set -uo pipefail
+build=$(readlink -f "$1")
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+# holds NAME COMMAND...
+holds() {
+  "${@:2}" >out.txt 2>&1 && return
+  failures=$((failures + 1))
+  echo "FAILED: $1"
+  sed 's/^/  /' out.txt | head -20
+}
+
+if ! command -v dpkg-deb >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; then
+  echo "package_test.sh: dpkg-deb and dpkg-shlibdeps (package dpkg-dev) are needed." >&2
+  exit 1
+fi
+holds "cpack makes a package" cpack --config "$build/CPackConfig.cmake" -B "$work/packages"
+package=$(find packages -maxdepth 1 -name '*.deb' 2>/dev/null)
+[[ -f $package ]] || { echo "package_test.sh: expected one package, found: $package"; exit 1; }
+
+field() { dpkg-deb --field "$package" "$1"; }
+# The packages a field names, without their versions.
+names_in() { field "$1" | tr ',' '\n' | sed 's/[(|].*//; s/ //g'; }
+version=$("$build/raymoval" --version | grep -oE '[0-9]+\.[0-9]+\.[0-9]+')
+holds "its name" test "$(field Package)" = raymoval
+holds "its version is the program's" test "$(field Version)" = "$version"
+holds "its architecture" test "$(field Architecture)" = "$(dpkg --print-architecture)"
+holds "it says what it is" test -n "$(field Description)" -a -n "$(field Maintainer)"
+for library in libc6 libstdc++6 libtbb12 libembree3-3 libxxhash0 liboctomap1.9 libpcl-io1.13 \
+  libpcl-common1.13 libpcl-sample-consensus1.13; do
+  holds "it depends on $library" grep -qxF "$library" <(names_in Depends)
+done
+# What it names can be had: by name it is installed here, since it was built with it.
+for needed in $(names_in Depends) $(names_in Recommends); do
+  holds "there is a package $needed" dpkg-query --show "$needed"
+done
+
+mkdir root
+holds "it unpacks into an empty root" dpkg-deb --extract "$package" root
+for path in bin/raymoval include/raymoval/methods/remover.h include/raymoval/methods/registry.h \
+  lib/libraymoval_core.a lib/libraymoval_datasets.a lib/libraymoval_methods.a \
+  lib/libraymoval_eval.a lib/cmake/raymoval/raymovalConfig.cmake \
+  share/raymoval/suites/quick.json share/raymoval/published/raymoval_table2.json \
+  share/raymoval/schema/manifest.schema.json share/doc/raymoval/copyright \
+  share/doc/raymoval/methods.md share/doc/raymoval/examples/cpp_method/near_points.cpp \
+  share/doc/raymoval/examples/external/voxel_counts/manifest.json; do
+  holds "it holds $path" test -s "root/usr/$path"
+done
+found=$(grep -rlF -e "$source/" -e "$build" root)
+holds "no file tells where it was built: $found" test -z "$found"
+
+raymoval=$work/root/usr/bin/raymoval
+clean=(env -i HOME="$work" PATH=/usr/bin:/bin LC_ALL=C)
+holds "it tells its version" "${clean[@]}" "$raymoval" --version
+holds "it knows its suites" grep -q '^quick ' <("${clean[@]}" "$raymoval" list suites)
+holds "it knows its scenes" grep -q '^town ' <("${clean[@]}" "$raymoval" list scenes)
+holds "it runs" "${clean[@]}" "$raymoval" run --sequence street --frames 0:5 --quiet \
+  --method raymoval:online --out run
+holds "it scores" grep -q '^street,raymoval,online,erasor,ok,' run/results.csv
+holds "it has the published tables" "${clean[@]}" "$raymoval" table run --with-published
+holds "it cleans a map" "${clean[@]}" "$raymoval" clean street --frames 0:5 --quiet -o map.pcd
+
+echo "package: $(du -h "$package" | cut -f1), depends on $(field Depends)"
+[[ $failures -eq 0 ]]
