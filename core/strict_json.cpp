@@ -22,7 +22,7 @@ std::string place_text(const std::string& text, std::size_t byte) {
 template <class Json>
 class Checker {
  public:
-  explicit Checker(const std::string& where) : where_(where) {}
+  Checker(const std::string& where, bool zero_bytes) : where_(where), zero_bytes_(zero_bytes) {}
 
   bool operator()(int depth, typename Json::parse_event_t event, const Json& value) {
     using Event = typename Json::parse_event_t;
@@ -36,17 +36,24 @@ class Checker {
       throw ConfigurationError(where_ + ": the key " + value.dump() +
                                " stands twice in one object; leave one out.");
     }
+    const bool text = event == Event::key || (event == Event::value && value.is_string());
+    if (text && !zero_bytes_ &&
+        value.template get_ref<const std::string&>().find('\0') != std::string::npos) {
+      throw ConfigurationError(where_ + ": the text " + value.dump() +
+                               " has a zero byte, which no name or path has.");
+    }
     return true;
   }
 
  private:
   const std::string& where_;
+  bool zero_bytes_;
   std::vector<std::set<std::string>> keys_;
 };
 
 template <class Json>
-Json parse(const std::string& text, const std::string& where) {
-  Checker<Json> checker(where);
+Json parse(const std::string& text, const std::string& where, bool zero_bytes) {
+  Checker<Json> checker(where, zero_bytes);
   try {
     return Json::parse(
         text, [&](int depth, auto event, Json& value) { return checker(depth, event, value); },
@@ -63,11 +70,11 @@ Json parse(const std::string& text, const std::string& where) {
 }  // namespace
 
 nlohmann::json parse_json(const std::string& text, const std::string& where) {
-  return parse<nlohmann::json>(text, where);
+  return parse<nlohmann::json>(text, where, false);
 }
 
 nlohmann::ordered_json parse_ordered_json(const std::string& text, const std::string& where) {
-  return parse<nlohmann::ordered_json>(text, where);
+  return parse<nlohmann::ordered_json>(text, where, true);
 }
 
 }  // namespace raymoval

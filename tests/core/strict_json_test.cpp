@@ -45,3 +45,10 @@ TEST_CASE("Levels are limited, so that nothing overflows the stack") {
   CHECK_THROWS_AS(parse_json(nested(kMostJsonDepth + 1), "f.json"), ConfigurationError);
   CHECK_THROWS_AS(parse_ordered_json(std::string(1'000'000, '['), "f.json"), ConfigurationError);
 }
+
+TEST_CASE("A text with a zero byte is no name, but a program may have printed it") {
+  CHECK_THROWS_WITH(parse_json(R"({"path": "a\u0000b"})", "f.json"), Contains("zero byte"));
+  CHECK(
+      parse_ordered_json(R"({"output": "a\u0000b"})", "f").at("output").get<std::string>().size() ==
+      3);
+}

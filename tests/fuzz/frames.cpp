@@ -19,7 +19,7 @@ const std::vector<NumberedFile>& ten_files() {
 
 /// Frame ranges, settings and the order of file names, as the command line takes them.
 void try_frames(std::string_view bytes) {
-  const std::string text(bytes);
+  const std::string text(bytes.substr(0, bytes.find('\0')));  // As a command line has it.
   fuzz::may_refuse([&] {
     const FrameRange range = parse_frame_range(text);
     const FrameRange again = parse_frame_range(frame_range_text(range));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/removal_files.h"
+#include "core/label_rule.h"
 #include "datasets/file_source.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"

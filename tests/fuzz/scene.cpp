@@ -8,7 +8,8 @@ namespace {
 using namespace raymoval;
 
 void try_scene(std::string_view bytes) {
-  const std::string text(bytes);
+  // Neither a command line nor a suite file can hold a zero byte.
+  const std::string text(bytes.substr(0, bytes.find('\0')));
   (void)names_scene(text);
   fuzz::may_refuse([&] {
     const SimulationOptions options = parse_scene(text);
