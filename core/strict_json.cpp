@@ -26,7 +26,8 @@ class Checker {
 
   bool operator()(int depth, typename Json::parse_event_t event, const Json& value) {
     using Event = typename Json::parse_event_t;
-    if (depth > kMostJsonDepth) {
+    const bool starts = event == Event::object_start || event == Event::array_start;
+    if (starts && depth >= kMostJsonDepth) {  // The outermost has depth 0.
       throw ConfigurationError(where_ + ": lists and objects stand more than " +
                                std::to_string(kMostJsonDepth) + " deep in one another.");
     }

@@ -207,9 +207,9 @@ touch labels/notes.txt
 expect 2 "no label file" "${online[@]}" -o new.pcd --labels labels --overwrite
 # A disk with room for 64 KiB in each file: the map stays as it was and nothing else is left.
 checks=$((checks + 1))
-(trap '' XFSZ; ulimit -f 64; "$raymoval" "${online[@]}" -o map.pcd --overwrite >out.txt 2>err.txt)
+(trap '' XFSZ; ulimit -f 64; "$raymoval" "${online[@]}" -o map.pcd --overwrite 2>full.txt)
 [[ $? -eq 2 ]] || complain "a full disk: exit code 2"
-holds "a full disk is told" grep -q "cannot be written" err.txt
+holds "a full disk is told" grep -q "cannot be written" full.txt
 holds "a full disk leaves the map" cmp map.pcd before.pcd
 holds "nothing is left beside the maps" test -z "$(find . -name '*.part*')"
 # Maps do not go among scans, nor labels over the truth.
@@ -227,7 +227,8 @@ expect 0 "2 scans" simulate town -o sim/town "${tiny[@]}" --seed 3 --threads 1
 for file in velodyne/000001.bin labels/000001.label poses.txt calib.txt sequence.json; do
   holds "a simulated sequence has $file" test -s sim/town/$file
 done
-expect 2 "the truth" clean sim/town --method noop --quiet -o town_map.pcd --labels sim/town/labels
+expect 2 "the truth" clean sim/town --method noop --quiet -o town_map.pcd \
+  --labels sim/town/labels --overwrite
 mkdir empty
 expect 0 "2 scans" simulate town -o empty "${tiny[@]}" --seed 3 --threads 2
 holds "the same options give the same bytes" diff -r sim/town empty
