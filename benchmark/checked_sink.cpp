@@ -7,14 +7,22 @@
 #include "core/text.h"
 
 namespace raymoval {
+namespace {
 
-void CheckedSink::accept(std::size_t scan, const Mask& mask) {
-  const std::string who = "method '" + method_ + "', scan " + std::to_string(scan) + ": ";
-  if (scan >= scans_.size()) {
-    throw MethodError(who + "there are only " + std::to_string(scans_.size()) +
+std::string place(const std::string& method, std::size_t scan) {
+  return "method '" + method + "', scan " + std::to_string(scan) + ": ";
+}
+
+}  // namespace
+
+void check_answer(const std::string& method, const TimedSource& scans, std::size_t scan,
+                  const Mask& mask) {
+  const std::string who = place(method, scan);
+  if (scan >= scans.size()) {
+    throw MethodError(who + "there are only " + std::to_string(scans.size()) +
                       " scans, counted from 0.");
   }
-  const std::size_t points = scans_.point_count(scan);
+  const std::size_t points = scans.point_count(scan);
   if (mask.size() != points) {
     throw MethodError(who + "the mask has " + grouped_text(mask.size()) +
                       " values, expected one for each of the scan's " + grouped_text(points) +
@@ -23,17 +31,27 @@ void CheckedSink::accept(std::size_t scan, const Mask& mask) {
   if (std::any_of(mask.begin(), mask.end(), [](std::uint8_t value) { return value > 1; })) {
     throw MethodError(who + "a mask value is neither 0 (kept) nor 1 (removed).");
   }
+}
+
+void throw_second_answer(const std::string& method, std::size_t scan) {
+  throw MethodError(place(method, scan) + "answered a second time, expected once.");
+}
+
+void throw_missing_answer(const std::string& method, std::size_t scan, std::size_t scans) {
+  throw MethodError("method '" + method + "' gave no mask for scan " + std::to_string(scan) +
+                    " of " + std::to_string(scans) + ", expected one for each.");
+}
+
+void CheckedSink::accept(std::size_t scan, const Mask& mask) {
+  check_answer(method_, scans_, scan, mask);
   const std::lock_guard lock(mutex_);
-  if (masks_.has(scan)) throw MethodError(who + "answered a second time, expected once.");
+  if (masks_.has(scan)) throw_second_answer(method_, scan);
   masks_.set(scan, mask);
 }
 
 const MaskStore& CheckedSink::finish() const {
   for (std::size_t scan = 0; scan < masks_.size(); ++scan) {
-    if (!masks_.has(scan)) {
-      throw MethodError("method '" + method_ + "' gave no mask for scan " + std::to_string(scan) +
-                        " of " + std::to_string(masks_.size()) + ", expected one for each.");
-    }
+    if (!masks_.has(scan)) throw_missing_answer(method_, scan, masks_.size());
   }
   return masks_;
 }

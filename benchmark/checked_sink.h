@@ -11,6 +11,13 @@
 
 namespace raymoval {
 
+/// @throws MethodError for an unknown scan, a wrong size, or a value that is neither 0 nor 1.
+void check_answer(const std::string& method, const TimedSource& scans, std::size_t scan,
+                  const Mask& mask);
+[[noreturn]] void throw_second_answer(const std::string& method, std::size_t scan);
+[[noreturn]] void throw_missing_answer(const std::string& method, std::size_t scan,
+                                       std::size_t scans);
+
 /// Keeps a method's masks and holds it to its contract.
 class CheckedSink : public RemovalSink {
  public:

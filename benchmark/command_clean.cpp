@@ -2,13 +2,11 @@
 #include <memory>
 
 #include "benchmark/cell.h"
-#include "benchmark/checked_sink.h"
+#include "benchmark/clean_outputs.h"
 #include "benchmark/commands.h"
-#include "benchmark/map_cleaner.h"
-#include "benchmark/removal_files.h"
+#include "benchmark/mask_spool.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "datasets/cloud_file.h"
 
 namespace raymoval {
 namespace {
@@ -18,24 +16,9 @@ struct CleanFlags {
   std::string method = "raymoval:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
+  bool overwrite = false;
   bool quiet = false;
 };
-
-/// Fails before the work if a cloud could not be written after it.
-void check_cloud_path(const std::string& text) {
-  const std::filesystem::path path(text);
-  const std::vector<std::string>& known = cloud_extensions();
-  if (std::find(known.begin(), known.end(), path.extension().string()) == known.end()) {
-    throw UsageError(text + ": expected a file name that ends in " + join(known, ", ") + ".");
-  }
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder)) {
-    throw UsageError(text + ": there is no folder " + folder.string() + ". Make it first.");
-  }
-  if (std::filesystem::is_directory(path)) {
-    throw UsageError(text + ": is a folder, expected a file name.");
-  }
-}
 
 ConfiguredMethod configured(const CleanFlags& flags) {
   Suite suite;
@@ -46,71 +29,66 @@ ConfiguredMethod configured(const CleanFlags& flags) {
   return suite.methods.front().method;
 }
 
-MaskStore find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
-                        const Sequence& sequence, Progress& progress) {
+void find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
+                   const Sequence& sequence, const TimedSource& scans, MaskSpool& masks,
+                   Progress& progress) {
   const int given = parse_threads(flags.threads);
   const auto remover = make_remover(method, sequence);
-  const TimedSource scans(*sequence.scans);
-  CheckedSink sink(method.full_name(), scans);
   RunContext context;
   context.threads = given > 0 ? given : hardware_threads();
   context.progress = &progress;
   context.cancel = &interrupt_flag();
-  remover->run(scans, sink, context);
-  return sink.finish();
+  remover->run(scans, masks, context);
+  masks.check_complete();
 }
 
-void write_map(const std::string& path, const MapCollector& map) {
-  if (!path.empty()) write_cloud(path, map.points(), map.reflectance());
-}
-
-void write_outputs(const CleanFlags& flags, const Sequence& sequence, const MaskStore& masks,
+void write_outputs(const ScanSource& scans, const MaskSpool& masks, CleanOutputs& outputs,
                    Progress& progress) {
-  const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
-  MapCollector kept(voxel);
-  MapCollector removed(voxel);
-  const ScanSource& scans = *sequence.scans;
-  progress.begin("building the map", scans.size());
+  progress.begin("writing the map", scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (interrupt_flag()) throw Cancelled();
-    const Scan scan = scans.load(i);
-    const Mask mask = masks.get(i);
-    kept.add(scan, mask, 0);
-    if (!flags.dynamic.empty()) removed.add(scan, mask, 1);
+    outputs.add(scans.load(i), masks.get(i));
     progress.advance();
   }
-  if (!flags.labels.empty()) {
-    progress.begin("writing labels", scans.size());
-    write_removals(flags.labels, scans, masks, [&] { progress.advance(); });
-  }
-  write_map(flags.dynamic, removed);
-  write_map(flags.output, kept);
+  outputs.commit();
   progress.end();
 }
 
-ExitCode clean(const CleanFlags& flags) {
+CleanPaths checked_paths(const CleanFlags& flags) {
   if (flags.path.empty()) throw UsageError("clean what? Expected `raymoval clean PATH -o FILE`.");
   if (flags.output.empty()) throw UsageError("-o FILE is missing: name the cleaned map's file.");
-  check_cloud_path(flags.output);
-  if (!flags.dynamic.empty()) check_cloud_path(flags.dynamic);
-  if (flags.output == flags.dynamic) throw UsageError("-o and --dynamic name the same file.");
-  if (!flags.voxel.empty()) (void)parse_positive("--voxel", flags.voxel);
-  const ConfiguredMethod method = configured(flags);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  CleanPaths paths{flags.output, flags.dynamic, flags.labels, flags.overwrite};
+  check_paths(paths);
+  return paths;
+}
+
+Sequence opened(const CleanFlags& flags, const CleanPaths& paths, Progress& progress) {
   const int given = parse_threads(flags.threads);
-  const Sequence sequence =
+  Sequence sequence =
       open_sequence(flags.path, flags.reading.options(),
                     {given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()});
   if (sequence.scans->size() == 0) {
     throw DataError("sequence '" + sequence.name + "' has no scan in the chosen frames (" +
                     sequence.frames + ").");
   }
-  const MaskStore masks = find_removals(flags, method, sequence, progress);
-  write_outputs(flags, sequence, masks, progress);
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < masks.size(); ++i) points += masks.point_count(i);
+  check_apart_from(sequence, paths);
+  return sequence;
+}
+
+ExitCode clean(const CleanFlags& flags) {
+  const CleanPaths paths = checked_paths(flags);
+  const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
+  const ConfiguredMethod method = configured(flags);
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  const Sequence sequence = opened(flags, paths, progress);
+  CleanOutputs outputs(paths, voxel);
+  const TimedSource scans(*sequence.scans);
+  MaskSpool masks(method.full_name(), scans, paths.map);
+  find_removals(flags, method, sequence, scans, masks, progress);
+  write_outputs(*sequence.scans, masks, outputs, progress);
   print(method.full_name() + " removed " + grouped_text(masks.removed_count()) + " of " +
-        grouped_text(points) + " points in " + grouped_text(masks.size()) + " scans.\n");
+        grouped_text(masks.point_count()) + " points in " + grouped_text(scans.size()) +
+        " scans; " + flags.output + " has " + grouped_text(outputs.map_points()) + " points.\n");
   return ExitCode::kDone;
 }
 
@@ -134,12 +112,15 @@ Command add_clean_command(CLI::App& program) {
       ->allow_extra_args(false);
   flags->reading.add_to(*app);
   app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)");
+  app->add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
       "Examples:\n"
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 "
-      "--method raymoval:online");
+      "--method raymoval:online\n"
+      "Memory does not grow with the number of scans, and every point is kept without --voxel. "
+      "Outputs\nappear when all is done; until then they stand in files *.part beside them.");
   return {app, [flags] { return clean(*flags); }};
 }
 

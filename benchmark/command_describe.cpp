@@ -27,7 +27,7 @@ const ProtocolEntry* find_protocol(const std::string& name) {
 
 /// A name that is both a method's and a protocol's means the method.
 Description description_of(const std::string& name) {
-  const MethodRegistry& registry = MethodRegistry::built_in();
+  const MethodRegistry& registry = program_methods();
   std::vector<std::string> names;
   const std::string method = name.substr(0, name.find(':'));
   for (const auto& entry : registry.entries()) {
@@ -44,7 +44,7 @@ Description description_of(const std::string& name) {
 }
 
 bool is_also_protocol(const std::string& name) {
-  for (const auto& entry : MethodRegistry::built_in().entries()) {
+  for (const auto& entry : program_methods().entries()) {
     if (entry->name == name) return find_protocol(name) != nullptr;
   }
   return false;

@@ -5,12 +5,27 @@
 
 namespace raymoval {
 
-void MapCollector::add(const Scan& scan, const Mask& mask, std::uint8_t wanted) {
-  if (scan.size() > 0 && scan.reflectance.empty()) has_reflectance_ = false;
+void MapWriter::start(bool with_reflectance) {
+  file_.start(with_reflectance);
+  started_ = true;
+}
+
+void MapWriter::write_buffer() {
+  file_.add(points_, reflectance_);
+  written_ += points_.size();
+  points_.clear();
+  reflectance_.clear();
+}
+
+void MapWriter::add(const Scan& scan, const Mask& mask, std::uint8_t wanted) {
+  if (scan.size() == 0) return;
+  const bool with_reflectance = !scan.reflectance.empty();
+  if (!with_reflectance) has_reflectance_ = false;
+  if (voxel_size_ <= 0.0 && !started_) start(with_reflectance);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (mask[i] != wanted) continue;
     const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
-    const float reflectance = scan.reflectance.empty() ? 0.0F : scan.reflectance[i];
+    const float reflectance = with_reflectance ? scan.reflectance[i] : 0.0F;
     if (voxel_size_ <= 0.0) {
       points_.push_back(world.cast<float>());
       reflectance_.push_back(reflectance);
@@ -21,36 +36,30 @@ void MapCollector::add(const Scan& scan, const Mask& mask, std::uint8_t wanted) 
     cell.reflectance += static_cast<double>(reflectance);
     ++cell.count;
   }
+  if (voxel_size_ <= 0.0) write_buffer();
 }
 
-std::vector<VoxelKey> MapCollector::sorted_keys() const {
+void MapWriter::write_cells() {
+  constexpr std::size_t kPiece = 65536;
   std::vector<VoxelKey> keys;
   keys.reserve(cells_.size());
   for (const auto& [key, cell] : cells_) keys.push_back(key);
   std::sort(keys.begin(), keys.end());
-  return keys;
+  for (const VoxelKey key : keys) {
+    const Cell& cell = cells_.at(key);
+    const auto count = static_cast<double>(cell.count);
+    points_.push_back((cell.sum / count).cast<float>());
+    reflectance_.push_back(static_cast<float>(cell.reflectance / count));
+    if (points_.size() == kPiece) write_buffer();
+  }
+  write_buffer();
 }
 
-std::vector<Eigen::Vector3f> MapCollector::points() const {
-  if (voxel_size_ <= 0.0) return points_;
-  std::vector<Eigen::Vector3f> points;
-  for (const VoxelKey key : sorted_keys()) {
-    const Cell& cell = cells_.at(key);
-    const Eigen::Vector3d mean = cell.sum / static_cast<double>(cell.count);
-    points.push_back(mean.cast<float>());
-  }
-  return points;
-}
-
-std::vector<float> MapCollector::reflectance() const {
-  if (!has_reflectance_) return {};
-  if (voxel_size_ <= 0.0) return reflectance_;
-  std::vector<float> reflectance;
-  for (const VoxelKey key : sorted_keys()) {
-    const Cell& cell = cells_.at(key);
-    reflectance.push_back(static_cast<float>(cell.reflectance / static_cast<double>(cell.count)));
-  }
-  return reflectance;
+std::uint64_t MapWriter::finish() {
+  if (!started_) start(has_reflectance_);
+  write_cells();
+  file_.finish();
+  return written_;
 }
 
 }  // namespace raymoval

@@ -2,28 +2,33 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "core/scan.h"
 #include "core/voxel_key.h"
+#include "datasets/cloud_writer.h"
 
 namespace raymoval {
 
-/// Collects points in the world frame. With a voxel size it keeps the mean of the points of each
-/// occupied cell, so that memory is bounded by the map and not by the number of scans; without one
-/// it keeps every point.
-class MapCollector {
+/// Writes a map in the world frame, scan by scan. With a voxel size it holds one sum per occupied
+/// cell, so that memory is bounded by the map; without one points go to the file as they come, and
+/// memory is bounded by a scan. Either way not by the number of scans.
+class MapWriter {
  public:
-  /// @param voxel_size metres; 0 keeps every point
-  explicit MapCollector(double voxel_size) : voxel_size_(voxel_size) {}
+  /// @param path a cloud file, see `CloudWriter`
+  /// @param voxel_size metres; 0 keeps every point, otherwise a cell gives the mean of its points
+  MapWriter(const std::filesystem::path& path, double voxel_size)
+      : file_(path), voxel_size_(voxel_size) {}
 
-  /// Adds the points of `scan` whose mask value is `wanted`.
+  /// Adds the points of `scan` whose mask value is `wanted`. Whether the map has reflectance is
+  /// told, with a voxel size, by all scans, else by the first that has a point; it is 0 where a
+  /// later one has none.
   void add(const Scan& scan, const Mask& mask, std::uint8_t wanted);
-
-  /// Points in metres in the world frame: in order of arrival, or by cell along x, y, z.
-  [[nodiscard]] std::vector<Eigen::Vector3f> points() const;
-  /// Reflectance of each point (the mean of a cell's); empty if a scan had none.
-  [[nodiscard]] std::vector<float> reflectance() const;
+  /// Ends the file: in order of arrival, or by cell along x, y, z. @return points written
+  std::uint64_t finish();
+  /// Gives the file its name, after `finish`.
+  void commit() { file_.commit(); }
 
  private:
   struct Cell {
@@ -31,12 +36,17 @@ class MapCollector {
     double reflectance = 0.0;
     std::uint64_t count = 0;
   };
-  [[nodiscard]] std::vector<VoxelKey> sorted_keys() const;
+  void start(bool with_reflectance);
+  void write_buffer();
+  void write_cells();
 
+  CloudWriter file_;
   double voxel_size_;
+  bool started_ = false;
   bool has_reflectance_ = true;
+  std::uint64_t written_ = 0;
   VoxelMap<Cell> cells_;
-  std::vector<Eigen::Vector3f> points_;
+  std::vector<Eigen::Vector3f> points_;  ///< To be written next.
   std::vector<float> reflectance_;
 };
 

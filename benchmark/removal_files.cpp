@@ -43,6 +43,15 @@ Mask read_mask(const std::filesystem::path& path, const Scan& scan) {
 
 }  // namespace
 
+void write_removal(const std::filesystem::path& folder, const Scan& scan, const Mask& mask) {
+  std::vector<std::uint32_t> words(scan.stored_point_count, kKeptLabel);
+  for (std::size_t point = 0; point < mask.size(); ++point) {
+    if (mask[point] != 0) words[scan.stored_position(point)] = kRemovedLabel;
+  }
+  write_atomically(label_file(folder, scan), {reinterpret_cast<const char*>(words.data()),
+                                              words.size() * sizeof(std::uint32_t)});
+}
+
 void write_removals(const std::filesystem::path& folder, const ScanSource& scans,
                     const MaskStore& masks, const std::function<void()>& after_scan) {
   std::error_code error;
@@ -52,14 +61,7 @@ void write_removals(const std::filesystem::path& folder, const ScanSource& scans
                     "). Choose another folder.");
   }
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    const Scan scan = scans.load(i);
-    const Mask mask = masks.get(i);
-    std::vector<std::uint32_t> words(scan.stored_point_count, kKeptLabel);
-    for (std::size_t point = 0; point < mask.size(); ++point) {
-      if (mask[point] != 0) words[scan.stored_position(point)] = kRemovedLabel;
-    }
-    write_atomically(label_file(folder, scan), {reinterpret_cast<const char*>(words.data()),
-                                                words.size() * sizeof(std::uint32_t)});
+    write_removal(folder, scans.load(i), masks.get(i));
     after_scan();
   }
 }

@@ -15,6 +15,10 @@ inline constexpr std::uint16_t kRemovedLabel = 251;
 inline constexpr std::uint16_t kLastRemovedLabel = 259;
 inline constexpr std::uint16_t kKeptLabel = 9;
 
+/// Writes the file `<scan name>.label` of one scan into `folder`, which is there; see
+/// `write_removals`.
+void write_removal(const std::filesystem::path& folder, const Scan& scan, const Mask& mask);
+
 /// Writes a file `<scan name>.label` per scan into `folder` (made if missing): one 32-bit
 /// little-endian word per point of the scan's file, non-finite ones included; 251 = removed, 9 =
 /// kept.

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/strict_json.h"
 
 namespace raymoval {
 namespace {
@@ -13,6 +14,15 @@ using nlohmann::ordered_json;
 
 std::string checksum_of(const ordered_json& json) {
   return content_hash(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+/// Null if `text` is no JSON.
+ordered_json parsed(const std::string& text, const std::filesystem::path& path) {
+  try {
+    return parse_ordered_json(text, path.string());
+  } catch (const ConfigurationError&) {
+    return nullptr;
+  }
 }
 
 }  // namespace
@@ -29,8 +39,7 @@ void write_sealed(const std::filesystem::path& path, ordered_json json) {
 
 ordered_json read_sealed(const std::filesystem::path& path) {
   const std::string remedy = " Run `raymoval run` again with the same --out to make it anew.";
-  const std::string text = read_text(path);
-  ordered_json json = ordered_json::parse(text, nullptr, /*allow_exceptions=*/false);
+  ordered_json json = parsed(read_text(path), path);
   if (!json.is_object() || !json.contains("checksum") || !json["checksum"].is_string()) {
     throw DataError(path.string() +
                     ": not a whole result file of raymoval (JSON object with a "

@@ -13,6 +13,8 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/file_writer.h"
+#include "core/strict_json.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -25,18 +27,15 @@ std::string system_reason() {
 /// A file descriptor that closes itself.
 class Descriptor {
  public:
-  Descriptor(const std::filesystem::path& path, int flags, mode_t mode = 0644)
-      : value_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {}
-  ~Descriptor() { close(); }
+  Descriptor(const std::filesystem::path& path, int flags)
+      : value_(::open(path.c_str(), flags | O_CLOEXEC)) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   [[nodiscard]] bool valid() const { return value_ >= 0; }
   [[nodiscard]] int get() const { return value_; }
-  bool close() {
-    const int old = value_;
-    value_ = -1;
-    return old < 0 || ::close(old) == 0;
-  }
 
  private:
   int value_;
@@ -63,21 +62,6 @@ Container read_all(const std::filesystem::path& path) {
   return content;
 }
 
-[[noreturn]] void throw_write_error(const std::filesystem::path& path) {
-  throw DataError(path.string() + ": cannot be written (" + system_reason() +
-                  "). Nothing was changed; free space or choose another --out.");
-}
-
-void write_all(const Descriptor& file, std::string_view content,
-               const std::filesystem::path& path) {
-  while (!content.empty()) {
-    const ssize_t put = ::write(file.get(), content.data(), content.size());
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) throw_write_error(path);
-    content.remove_prefix(static_cast<std::size_t>(put));
-  }
-}
-
 }  // namespace
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
@@ -91,35 +75,13 @@ std::string read_text(const std::filesystem::path& path) {
 }
 
 void write_atomically(const std::filesystem::path& path, std::string_view content) {
-  const std::filesystem::path temporary =
-      path.string() + "." + std::to_string(::getpid()) + ".part";
-  Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.valid()) throw_write_error(path);
-  try {
-    write_all(file, content, path);
-    if (::fsync(file.get()) != 0 || !file.close()) throw_write_error(path);
-    if (::rename(temporary.c_str(), path.c_str()) != 0) throw_write_error(path);
-  } catch (...) {
-    ::unlink(temporary.c_str());
-    throw;
-  }
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  const Descriptor parent(folder, O_RDONLY | O_DIRECTORY);
-  if (parent.valid()) ::fsync(parent.get());
+  FileWriter file(path);
+  file.append(content);
+  file.commit();
 }
 
 nlohmann::json read_json(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
-  try {
-    return nlohmann::json::parse(text, nullptr, true, /*ignore_comments=*/true);
-  } catch (const nlohmann::json::parse_error& error) {
-    const std::size_t byte = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(byte), '\n');
-    const std::size_t line_start = byte == 0 ? 0 : text.rfind('\n', byte - 1) + 1;
-    throw ConfigurationError(path.string() + ": line " + std::to_string(line) + ", column " +
-                             std::to_string(byte - line_start + 1) +
-                             ": not valid JSON (a comma or a quote is missing or surplus there).");
-  }
+  return parse_json(read_text(path), path.string());
 }
 
 void check_keys(const nlohmann::json& json, const std::vector<std::string>& allowed,

@@ -14,6 +14,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "datasets/cloud_header.h"
+#include "datasets/cloud_writer.h"
 #include "datasets/poses.h"
 
 // Of PCL only the LZF decoder is used. Its readers trust counts in a header (a damaged file ends
@@ -236,37 +237,6 @@ Cloud read_bin(const std::filesystem::path& path) {
   return cloud;
 }
 
-std::string records(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& intensity,
-                    bool with_intensity) {
-  std::string bytes;
-  bytes.reserve(points.size() * kBinRow);
-  const auto append = [&bytes](float value) {
-    std::array<char, sizeof value> raw;
-    std::memcpy(raw.data(), &value, sizeof value);
-    bytes.append(raw.data(), raw.size());
-  };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (const float coordinate : points[i]) append(coordinate);
-    if (with_intensity) append(intensity.empty() ? 0.0F : intensity[i]);
-  }
-  return bytes;
-}
-
-std::string pcd_header(std::size_t points, bool with_intensity) {
-  const std::string count = std::to_string(points);
-  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z" +
-         std::string(with_intensity ? " intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
-                                    : "\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n") +
-         "WIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count +
-         "\nDATA binary\n";
-}
-
-std::string ply_header(std::size_t points, bool with_intensity) {
-  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points) +
-         "\nproperty float x\nproperty float y\nproperty float z\n" +
-         (with_intensity ? "property float intensity\n" : "") + "end_header\n";
-}
-
 [[noreturn]] void throw_unknown_extension(const std::filesystem::path& path) {
   throw UsageError(path.string() + ": '" + path.extension().string() +
                    "' is no known cloud format. Supported are: " + join(cloud_extensions()) + ".");
@@ -324,21 +294,11 @@ Pose read_viewpoint(const std::filesystem::path& path) {
 
 void write_cloud(const std::filesystem::path& path, const std::vector<Eigen::Vector3f>& points,
                  const std::vector<float>& intensity) {
-  if (!intensity.empty() && intensity.size() != points.size()) {
-    throw InternalError("write_cloud: " + std::to_string(points.size()) + " points, but " +
-                        std::to_string(intensity.size()) + " intensities");
-  }
-  const std::string extension = path.extension().string();
-  const bool with_intensity = !intensity.empty() || extension == ".bin";
-  std::string content;
-  if (extension == ".pcd") {
-    content = pcd_header(points.size(), with_intensity);
-  } else if (extension == ".ply") {
-    content = ply_header(points.size(), with_intensity);
-  } else if (extension != ".bin") {
-    throw_unknown_extension(path);
-  }
-  write_atomically(path, content + records(points, intensity, with_intensity));
+  CloudWriter file(path);
+  file.start(!intensity.empty());
+  file.add(points, intensity);
+  file.finish();
+  file.commit();
 }
 
 }  // namespace raymoval

@@ -126,7 +126,7 @@ std::vector<std::uint32_t> LabelFileSource::labels(const Scan& scan) const {
                     "with --frames.");
   }
   std::vector<std::uint32_t> stored(scan.stored_point_count);
-  std::memcpy(stored.data(), bytes.data(), bytes.size());
+  if (!bytes.empty()) std::memcpy(stored.data(), bytes.data(), bytes.size());
   return of_kept_points(scan, stored);
 }
 

@@ -26,7 +26,7 @@ void for_each_line(const std::string& text, Visit&& visit) {
   for (std::string_view line : split(text, '\n')) {
     ++number;
     if (line.ends_with('\r')) line.remove_suffix(1);
-    const std::size_t start = line.find_first_not_of(" \t");
+    const std::size_t start = line.find_first_not_of(" \t\r");
     if (start != std::string_view::npos && line[start] != '#') visit(line, number);
   }
 }

@@ -70,11 +70,18 @@ std::string Fields::choice(const std::string& key, const std::string& fallback,
   return value;
 }
 
-Interval Fields::interval(const std::string& key, Interval fallback) const {
+Interval Fields::interval(const std::string& key, Interval fallback, double lowest,
+                          double highest) const {
   if (!has(key)) return fallback;
-  if (json_.at(key).is_number()) return {number(key, 0), number(key, 0)};
+  if (json_.at(key).is_number()) {
+    const double value = number(key, 0.0, lowest, highest);
+    return {value, value};
+  }
   const std::vector<double> values = numbers(key);
   if (values.size() != 2 || values[0] > values[1]) fail(key, "a number or [low, high]");
+  if (values[0] < lowest || values[1] > highest) {
+    fail(key, "numbers from " + number_text(lowest) + " to " + number_text(highest));
+  }
   return {values[0], values[1]};
 }
 
@@ -106,7 +113,12 @@ std::vector<std::pair<double, double>> Fields::pairs(const std::string& key) con
 
 std::vector<Eigen::Vector2d> Fields::points(const std::string& key) const {
   std::vector<Eigen::Vector2d> values;
-  for (const auto& [x, y] : pairs(key)) values.emplace_back(x, y);
+  for (const auto& [x, y] : pairs(key)) {
+    if (std::abs(x) > kWorldReach || std::abs(y) > kWorldReach) {
+      fail(key, "points at most " + number_text(kWorldReach) + " m from the origin");
+    }
+    values.emplace_back(x, y);
+  }
   return values;
 }
 

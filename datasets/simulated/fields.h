@@ -16,6 +16,9 @@ struct Interval {
   double high = 0.0;
 };
 
+/// Metres from the origin along x or y, either way, within which all of a world lies.
+inline constexpr double kWorldReach = 1e5;
+
 /// Reads the members of a JSON object by name; what is missing keeps its default. Every error is a
 /// ConfigurationError that names the place ("town.json: roads[0]"), the key and what was expected.
 class Fields {
@@ -33,11 +36,14 @@ class Fields {
   /// Text that must be one of `choices`.
   [[nodiscard]] std::string choice(const std::string& key, const std::string& fallback,
                                    const std::vector<std::string>& choices) const;
-  /// [low, high], or one number for both.
-  [[nodiscard]] Interval interval(const std::string& key, Interval fallback) const;
+  /// [low, high], or one number for both; both within `lowest` and `highest`.
+  [[nodiscard]] Interval interval(const std::string& key, Interval fallback,
+                                  double lowest = -std::numeric_limits<double>::max(),
+                                  double highest = std::numeric_limits<double>::max()) const;
   [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
   /// [[a, b], ...]
   [[nodiscard]] std::vector<std::pair<double, double>> pairs(const std::string& key) const;
+  /// The same as places, at most `kWorldReach` from the origin along each axis.
   [[nodiscard]] std::vector<Eigen::Vector2d> points(const std::string& key) const;
   /// Members of the list `key` with their places; empty if it is missing.
   [[nodiscard]] std::vector<std::pair<const nlohmann::json*, std::string>> list(

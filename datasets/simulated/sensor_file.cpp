@@ -16,9 +16,14 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
+/// More than any sensor takes; what a sweep holds in memory is bounded by it.
+constexpr double kMostShots = 1e7;
 
 std::vector<double> read_beams(const Fields& f) {
   std::vector<double> beams = f.numbers("elevations_deg");
+  for (const double beam : beams) {
+    if (std::abs(beam) > 90.0) f.fail("elevations_deg", "numbers from -90 to 90");
+  }
   for (const auto& [item, where] : f.list("banks")) {
     const Fields bank(*item, where, {"from_deg", "to_deg", "count"});
     const int count = bank.integer("count", 0, 2, 1024);
@@ -43,8 +48,8 @@ void read_pattern(const Fields& f, SensorFile& sensor) {
     sensor.elevations = read_beams(f);
     sensor.azimuth_step = f.number("azimuth_step_deg", 0.2, 0.01, 10.0) * kDegree;
   } else if (sensor.kind == Kind::kRaster) {
-    const Interval azimuth = f.interval("azimuth_deg", {-60.0, 60.0});
-    const Interval elevation = f.interval("elevation_deg", {-17.5, 17.5});
+    const Interval azimuth = f.interval("azimuth_deg", {-60.0, 60.0}, -360.0, 360.0);
+    const Interval elevation = f.interval("elevation_deg", {-17.5, 17.5}, -90.0, 90.0);
     sensor.azimuth = {azimuth.low * kDegree, azimuth.high * kDegree};
     sensor.elevation = {elevation.low * kDegree, elevation.high * kDegree};
     sensor.columns = f.integer("columns", 600, 2, 10000);
@@ -53,8 +58,21 @@ void read_pattern(const Fields& f, SensorFile& sensor) {
     sensor.points = f.integer("points", 24000, 1, 10000000);
     sensor.half_angle = f.number("half_angle_deg", 35.0, 0.1, 89.0) * kDegree;
     const std::vector<double> prisms = f.numbers("prism_hz");
-    if (prisms.size() != 2) f.fail("prism_hz", "two speeds, the second negative if against");
+    if (prisms.size() != 2 || std::abs(prisms[0]) > 1e6 || std::abs(prisms[1]) > 1e6) {
+      f.fail("prism_hz", "two speeds, the second negative if against");
+    }
     sensor.prism_hz = {prisms[0], prisms[1]};
+  }
+}
+
+/// @throws ConfigurationError if a sweep has more than `kMostShots`
+void check_size(const Fields& f, const SensorFile& s) {
+  if (s.kind == SensorFile::Kind::kSpinning &&
+      static_cast<double>(s.elevations.size()) * 2.0 * kPi / s.azimuth_step > kMostShots) {
+    f.fail("azimuth_step_deg", "a step that gives at most 10,000,000 shots a sweep");
+  }
+  if (static_cast<double>(s.rows) * s.columns > kMostShots) {
+    f.fail("columns", "at most 10,000,000 shots a sweep (columns x rows)");
   }
 }
 
@@ -189,6 +207,7 @@ SensorFile sensor_from_json(const nlohmann::json& json, const std::string& name)
   sensor.name = name;
   sensor.description = f.text("description", "");
   read_pattern(f, sensor);
+  check_size(f, sensor);
   sensor.period_s = f.number("period_s", sensor.period_s, 1e-3, 100.0);
   sensor.range_m = f.interval("range_m", sensor.range_m);
   if (sensor.range_m.low < 0.0 || sensor.range_m.high <= sensor.range_m.low) {

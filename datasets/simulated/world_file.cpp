@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/simulated/world_file.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "datasets/simulated/bodies.h"
 
 namespace raymoval::simulated {
@@ -59,6 +61,11 @@ Road read_road(const nlohmann::json& json, const std::string& where) {
 SpeedProfile read_speed(const Fields& f, const std::string& key) {
   if (!f.has(key)) return {};
   if (f.member(key).is_number()) return SpeedProfile({{0.0, f.number(key, 0.0, 0.0, 100.0)}});
+  for (const auto& [time, speed] : f.pairs(key)) {
+    if (std::abs(time) > 1e6 || std::abs(speed) > 100.0) {
+      f.fail(key, "pairs of seconds and metres a second, [0, 8], at most 1e6 and 100");
+    }
+  }
   return at_place(f.place(key), [&] { return SpeedProfile(f.pairs(key)); });
 }
 
@@ -105,11 +112,10 @@ RowSpec read_row(const nlohmann::json& json, const std::string& where) {
   row.right = side != "left";
   row.from_m = f.number("from_m", 0.0, 0.0, 1e5);
   row.to_m = f.number("to_m", -1.0, -1.0, 1e5);
-  row.offset_m = f.interval("offset_m", {6.0, 6.0});
-  row.spacing_m = f.interval("spacing_m", {10.0, 10.0});
-  if (row.spacing_m.low < 0.5) f.fail("spacing_m", "at least 0.5");
+  row.offset_m = f.interval("offset_m", {6.0, 6.0}, -1000.0, 1000.0);
+  row.spacing_m = f.interval("spacing_m", {10.0, 10.0}, 0.5, 500.0);
   row.share = f.number("share", 1.0, 0.0, 1.0);
-  row.turn_rad = f.number("turn_deg", 0.0) * kDegree;
+  row.turn_rad = f.number("turn_deg", 0.0, -360.0, 360.0) * kDegree;
   row.part = read_part(f);
   return row;
 }
@@ -118,9 +124,11 @@ PlaceSpec read_place(const nlohmann::json& json, const std::string& where) {
   const Fields f(json, where, {"part", "at", "yaw_deg", "length_m", "width_m", "height_m"});
   PlaceSpec place;
   const std::vector<double> at = f.numbers("at");
-  if (at.size() != 2) f.fail("at", "[x, y] in metres");
+  if (at.size() != 2 || std::abs(at[0]) > kWorldReach || std::abs(at[1]) > kWorldReach) {
+    f.fail("at", "[x, y] in metres, at most " + number_text(kWorldReach) + " from the origin");
+  }
   place.at = {at[0], at[1]};
-  place.yaw_rad = f.number("yaw_deg", 0.0) * kDegree;
+  place.yaw_rad = f.number("yaw_deg", 0.0, -360.0, 360.0) * kDegree;
   place.part = read_part(f);
   return place;
 }
@@ -139,9 +147,8 @@ FlowSpec read_flow(const nlohmann::json& json, const std::string& where) {
                  with_route_keys({"kinds", "speed_mps", "gap_m", "group", "from_m", "to_m"}));
   FlowSpec flow;
   flow.route = read_route(f, "");
-  flow.speed_mps = f.interval("speed_mps", {8.0, 8.0});
-  flow.gap_m = f.interval("gap_m", {20.0, 60.0});
-  if (flow.gap_m.low < 1.0) f.fail("gap_m", "at least 1");
+  flow.speed_mps = f.interval("speed_mps", {8.0, 8.0}, 0.0, 100.0);
+  flow.gap_m = f.interval("gap_m", {20.0, 60.0}, 1.0, kWorldReach);
   flow.group = f.integer("group", 1, 1, 20);
   if (f.has("from_m")) flow.from_m = f.number("from_m", 0.0, -1e5, 1e5);
   flow.to_m = f.number("to_m", -1.0, -1.0, 1e5);
@@ -183,7 +190,7 @@ WorldFile world_from_json(const nlohmann::json& json, const std::string& name) {
   world.description = f.text("description", "");
   world.sensor = f.text("sensor", "hdl64e");
   world.scans = f.integer("scans", world.scans, 1, 100000);
-  world.range_m = f.interval("range_m", world.range_m);
+  world.range_m = f.interval("range_m", world.range_m, 0.0, 1e4);
   world.seed = static_cast<std::uint64_t>(f.integer("seed", 1, 0, 1000000000));
   if (f.has("terrain")) world.terrain = read_terrain(f.member("terrain"), f.place("terrain"));
   for (const auto& [item, where] : f.list("roads")) world.roads.push_back(read_road(*item, where));
@@ -197,6 +204,9 @@ WorldFile world_from_json(const nlohmann::json& json, const std::string& name) {
   for (const auto& [item, where] : f.list("flows")) world.flows.push_back(read_flow(*item, where));
   world.ego = read_ego(f.member("ego"), f.place("ego"));
   if (world.roads.empty()) f.fail("roads", "at least one road");
+  double length = 0.0;
+  for (const Road& road : world.roads) length += road.path.length();
+  if (length > 2.0 * kWorldReach) f.fail("roads", "at most 200 km together");
   return world;
 }
 

@@ -196,6 +196,31 @@ expect 2 ".pcd" clean street -o map.xyz
 expect 2 "--voxel" clean street -o map2.pcd --voxel 0
 expect 2 "same file" clean street -o map2.pcd --dynamic map2.pcd
 holds "no refused map was written" test ! -e map2.pcd
+expect 2 "same file" clean street -o map2.pcd --dynamic ./map2.pcd
+# What is there stays, unless it is to be replaced; the same run gives the same bytes.
+online=(clean street --frames 0:2 --quiet --method raymoval:online)
+expect 2 "--overwrite" "${online[@]}" -o map.pcd
+expect 2 "--overwrite" "${online[@]}" -o new.pcd --dynamic map.ply
+expect 2 "--overwrite" "${online[@]}" -o new.pcd --labels labels
+cp map.pcd before.pcd
+expect 0 "removed" "${online[@]}" -o map.pcd --labels labels --overwrite --threads 2
+holds "the same run gives the same map" cmp map.pcd before.pcd
+touch labels/notes.txt
+expect 2 "no label file" "${online[@]}" -o new.pcd --labels labels --overwrite
+# A disk with room for 64 KiB in each file: the map stays as it was and nothing else is left.
+checks=$((checks + 1))
+(trap '' XFSZ; ulimit -f 64; "$raymoval" "${online[@]}" -o map.pcd --overwrite 2>full.txt)
+[[ $? -eq 2 ]] || complain "a full disk: exit code 2"
+holds "a full disk is told" grep -q "cannot be written" full.txt
+holds "a full disk leaves the map" cmp map.pcd before.pcd
+holds "nothing is left beside the maps" test -z "$(find . -name '*.part*')"
+# Maps do not go among scans, nor labels over the truth.
+mkdir scans && cp map.bin scans/1.bin && echo "1 0 0 0 0 1 0 0 0 0 1 0" >scans/poses.txt
+expect 2 "among the scans" clean scans --quiet --method noop -o scans/static.pcd
+expect 0 "removed" clean scans --quiet --method noop -o of_scans.pcd
+# 16 bytes a point in both, and less than 400 for the head.
+more=$(($(stat -c %s of_scans.pcd) - $(stat -c %s map.bin)))
+holds "the map has every point of its scan" test $more -gt 200 -a $more -lt 400
 
 # Simulated scenes: written to a folder, and used by name through the cache.
 export RAYMOVAL_CACHE=$work/cache
@@ -204,6 +229,8 @@ expect 0 "2 scans" simulate town -o sim/town "${tiny[@]}" --seed 3 --threads 1
 for file in velodyne/000001.bin labels/000001.label poses.txt calib.txt sequence.json; do
   holds "a simulated sequence has $file" test -s sim/town/$file
 done
+expect 2 "the truth" clean sim/town --method noop --quiet -o town_map.pcd \
+  --labels sim/town/labels --overwrite
 mkdir empty
 expect 0 "2 scans" simulate town -o empty "${tiny[@]}" --seed 3 --threads 2
 holds "the same options give the same bytes" diff -r sim/town empty

@@ -118,3 +118,10 @@ TEST_CASE("a calibration row is found by its key", "[poses]") {
   check_says(error("\nTr: 1 0 o 0\n"), {"line 2, column 9", "'o'"});
   check_says(error("Tr: 2 0 0 0 0 1 0 0 0 0 1 0\n"), {"line 1: Tr", "no rotation"});
 }
+
+TEST_CASE("a line of nothing but carriage returns is an empty line", "[poses]") {
+  const TemporaryFolder folder;
+  const auto path = folder.write("poses.txt", "\r\r\r\n" + test::kIdentityRow);
+  CHECK(read_pose_file(path).rows.size() == 1);
+  CHECK_THROWS_AS(read_pose_file(folder.write("none.txt", "\r\r\r\n")), DataError);
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/clean_outputs.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "benchmark/removal_files.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/cloud_file.h"
+#include "datasets/file_source.h"
+
+namespace raymoval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The one way to write a path, so that two can be compared.
+fs::path plain(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
+  const fs::path& known = error ? path : whole;
+  return known.has_filename() ? known : known.parent_path();
+}
+
+void check_cloud_path(const fs::path& path, bool overwrite) {
+  const std::vector<std::string>& known = cloud_extensions();
+  if (std::find(known.begin(), known.end(), path.extension().string()) == known.end()) {
+    throw UsageError(path.string() + ": expected a file name that ends in " + join(known) + ".");
+  }
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw UsageError(path.string() + ": there is no folder " + folder.string() +
+                     ". Make it first.");
+  }
+  const fs::file_status there = fs::status(path, error);
+  if (fs::is_directory(there)) {
+    throw UsageError(path.string() + ": is a folder, expected a file name.");
+  }
+  if (fs::exists(there) && !fs::is_regular_file(there)) {
+    throw UsageError(path.string() + ": is no plain file; choose another name.");
+  }
+  if (fs::exists(there) && !overwrite) {
+    throw UsageError(path.string() +
+                     ": is there already; choose another name, or replace it with --overwrite.");
+  }
+}
+
+void check_label_folder(const fs::path& path, bool overwrite) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return;
+  if (!fs::is_directory(path, error)) {
+    throw UsageError(path.string() + ": is no folder; --labels writes a file per scan into one.");
+  }
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    if (!overwrite) {
+      throw UsageError(path.string() + ": holds " + entry.path().filename().string() +
+                       " already; choose a new folder, or replace its label files with "
+                       "--overwrite.");
+    }
+    if (!entry.is_regular_file(error) || entry.path().extension() != ".label") {
+      throw UsageError(entry.path().string() +
+                       ": is no label file, and --overwrite replaces the whole folder; choose a "
+                       "new one.");
+    }
+  }
+  if (error) throw UsageError(path.string() + ": cannot be listed (" + error.message() + ").");
+}
+
+}  // namespace
+
+void check_paths(const CleanPaths& paths) {
+  check_cloud_path(paths.map, paths.overwrite);
+  if (!paths.removed.empty()) {
+    check_cloud_path(paths.removed, paths.overwrite);
+    if (plain(paths.map) == plain(paths.removed)) {
+      throw UsageError("-o and --dynamic name the same file.");
+    }
+  }
+  if (!paths.labels.empty()) check_label_folder(paths.labels, paths.overwrite);
+}
+
+void check_apart_from(const Sequence& sequence, const CleanPaths& paths) {
+  const auto* files = dynamic_cast<const FileScanSource*>(sequence.scans.get());
+  if (files == nullptr || files->frames().empty()) return;
+  const FrameEntry& frame = files->frames().front();
+  const fs::path scans = plain(frame.path).parent_path();
+  for (const fs::path& path : {paths.map, paths.removed}) {
+    if (path.empty() || plain(path).parent_path() != scans) continue;
+    throw UsageError(path.string() +
+                     ": lies among the scans of the sequence and would be taken for one of them; "
+                     "choose another folder.");
+  }
+  if (paths.labels.empty()) return;
+  const fs::path labels = plain(paths.labels);
+  if (labels == scans || labels == scans / "labels" || labels == scans.parent_path() / "labels") {
+    throw UsageError(paths.labels.string() +
+                     ": is where the sequence's own labels stand, which are the truth; choose "
+                     "another folder.");
+  }
+}
+
+LabelFolder::LabelFolder(const fs::path& path) : path_(plain(path)) {
+  const std::string process = "." + std::to_string(::getpid());
+  temporary_ = path_.string() + process + ".part";
+  old_ = path_.string() + process + ".old.part";
+  std::error_code error;
+  fs::create_directories(temporary_, error);
+  if (error) fail(error.message());
+}
+
+LabelFolder::~LabelFolder() {
+  std::error_code error;
+  if (!temporary_.empty()) fs::remove_all(temporary_, error);
+}
+
+void LabelFolder::fail(const std::string& reason) const {
+  throw DataError(path_.string() + ": cannot be made (" + reason +
+                  "). Nothing was changed; choose another folder.");
+}
+
+void LabelFolder::add(const Scan& scan, const Mask& mask) {
+  write_removal(temporary_, scan, mask);
+}
+
+void LabelFolder::commit() {
+  std::error_code error;
+  const bool replaces = fs::exists(path_, error);
+  if (replaces) fs::rename(path_, old_, error);
+  if (error) fail(error.message());
+  fs::rename(temporary_, path_, error);
+  if (error) {
+    const std::string reason = error.message();
+    if (replaces) fs::rename(old_, path_, error);
+    fail(reason);
+  }
+  temporary_.clear();
+  if (replaces) fs::remove_all(old_, error);
+}
+
+CleanOutputs::CleanOutputs(const CleanPaths& paths, double voxel_size)
+    : map_(paths.map, voxel_size) {
+  if (!paths.removed.empty()) removed_.emplace(paths.removed, voxel_size);
+  if (!paths.labels.empty()) labels_.emplace(paths.labels);
+}
+
+void CleanOutputs::add(const Scan& scan, const Mask& mask) {
+  map_.add(scan, mask, 0);
+  if (removed_) removed_->add(scan, mask, 1);
+  if (labels_) labels_->add(scan, mask);
+}
+
+void CleanOutputs::commit() {
+  map_points_ = map_.finish();
+  if (removed_) removed_->finish();
+  if (labels_) labels_->commit();
+  if (removed_) removed_->commit();
+  map_.commit();
+}
+
+}  // namespace raymoval

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "core/file_writer.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+
+namespace raymoval {
+
+FileWriter::FileWriter(std::filesystem::path path)
+    : path_(std::move(path)),
+      temporary_(path_.string() + "." + std::to_string(::getpid()) + ".part"),
+      file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {
+  if (file_ < 0) fail();
+}
+
+FileWriter::~FileWriter() {
+  if (file_ >= 0) ::close(file_);
+  if (!committed_) ::unlink(temporary_.c_str());
+}
+
+void FileWriter::fail() const {
+  throw DataError(path_.string() + ": cannot be written (" +
+                  std::generic_category().message(errno) +
+                  "). Nothing was changed; free space or choose another place.");
+}
+
+void FileWriter::put(std::string_view content, std::uint64_t offset) {
+  synced_ = false;
+  while (!content.empty()) {
+    const ssize_t done =
+        ::pwrite(file_, content.data(), content.size(), static_cast<off_t>(offset));
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) fail();
+    content.remove_prefix(static_cast<std::size_t>(done));
+    offset += static_cast<std::uint64_t>(done);
+  }
+}
+
+void FileWriter::append(std::string_view content) {
+  put(content, size_);
+  size_ += content.size();
+}
+
+void FileWriter::overwrite(std::uint64_t offset, std::string_view content) {
+  if (offset + content.size() > size_) {
+    throw InternalError(path_.string() + ": overwrites what was not written");
+  }
+  put(content, offset);
+}
+
+void FileWriter::sync() {
+  if (!synced_ && ::fsync(file_) != 0) fail();
+  synced_ = true;
+}
+
+void FileWriter::commit() {
+  sync();
+  const int file = std::exchange(file_, -1);
+  if (::close(file) != 0) fail();
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
+  committed_ = true;
+  const auto folder = path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
+  const int parent = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (parent < 0) return;
+  ::fsync(parent);  // A file system that cannot do this has its own ways.
+  ::close(parent);
+}
+
+}  // namespace raymoval

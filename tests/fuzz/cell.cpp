@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include <nlohmann/json.hpp>
+
+#include "benchmark/result_sets.h"
+#include "benchmark/sealed_json.h"
+#include "tests/fuzz/input_file.h"
+#include "tests/fuzz/target.h"
+
+namespace {
+
+using namespace raymoval;
+using nlohmann::ordered_json;
+
+/// A whole file of results around one cell.
+ordered_json results_of(const ordered_json& cell) {
+  return {{"schema_version", 1},
+          {"run",
+           {{"suite",
+             {{"name", "run"},
+              {"sequences", {{{"name", "street"}}}},
+              {"methods", {{{"name", "noop"}}}},
+              {"protocols", {{{"name", "erasor"}}}}}}}},
+          {"controls", {{"problems", ordered_json::array()}}},
+          {"cells", {cell}}};
+}
+
+/// The file as it stands, then its content with the checksum made good, as a cell and in results.
+void try_cell(std::string_view bytes) {
+  const auto path = fuzz::input_file("cell.json", bytes);
+  fuzz::may_refuse([&] { (void)read_sealed(path); });
+  fuzz::may_refuse([&] { (void)read_result_set(path); });
+  const ordered_json cell = ordered_json::parse(bytes, nullptr, /*allow_exceptions=*/false);
+  if (!cell.is_object() || bytes.size() > 100'000) return;
+  fuzz::may_refuse([&] {
+    const auto results = fuzz::input_file("results.json", "");
+    write_sealed(results, results_of(cell));
+    (void)read_sealed(results);
+    (void)read_result_set(results);
+  });
+}
+
+}  // namespace
+
+RAYMOVAL_FUZZ_TARGET(cell, try_cell)
