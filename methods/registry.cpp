@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "methods/controls/controls.h"
 #include "methods/raymoval/raymoval.h"
+#include "methods/raymoval_plus/raymoval_plus.h"
 
 namespace raymoval {
 
@@ -14,6 +15,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(remove_all_entry());
     methods.add(oracle_entry());
     methods.add(raymoval_entry());
+    methods.add(raymoval_plus_entry());
     return methods;
   }();
   return registry;

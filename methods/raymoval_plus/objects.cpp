@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/voxel_key.h"
+
+namespace raymoval {
+namespace {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t root(std::uint32_t element) {
+    while (parent_[element] != element) {
+      parent_[element] = parent_[parent_[element]];
+      element = parent_[element];
+    }
+    return element;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[std::max(a, b)] = std::min(a, b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Points of one cell; `first` and `last` index the points in order of cells.
+struct Cell {
+  VoxelIndex index;
+  std::uint32_t first, last;
+  Eigen::Array3f low, high;
+  float nearest;
+};
+
+/// Half of the cells around the origin, nearest first, so that each pair is looked at once.
+std::vector<VoxelIndex> half_neighbourhood(int reach) {
+  std::vector<VoxelIndex> offsets;
+  for (int z = -reach; z <= reach; ++z) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        if (z > 0 || (z == 0 && (y > 0 || (y == 0 && x > 0)))) offsets.emplace_back(x, y, z);
+      }
+    }
+  }
+  std::stable_sort(offsets.begin(), offsets.end(), [](const VoxelIndex& a, const VoxelIndex& b) {
+    return a.squaredNorm() < b.squaredNorm();
+  });
+  return offsets;
+}
+
+/// Squared distance of two cells that lie `offset` apart, in cell edges.
+int squared_gap(const VoxelIndex& offset) {
+  return (offset.cwiseAbs().array() - 1).max(0).square().sum();
+}
+
+class Clustering {
+ public:
+  Clustering(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& ranges,
+             float gap, float growth)
+      : points_(points), ranges_(ranges), gap_(gap), growth_(growth), edge_(gap / std::sqrt(3.0F)) {
+    sort_into_cells();
+  }
+
+  std::vector<int> run() {
+    DisjointSets sets(cells_.size());
+    const float farthest = *std::max_element(ranges_.begin(), ranges_.end());
+    const auto offsets =
+        half_neighbourhood(static_cast<int>(std::ceil((gap_ + growth_ * farthest) / edge_)));
+    for (std::uint32_t a = 0; a < cells_.size(); ++a) {
+      // The pair's reach is that of the nearer point, which is at most this cell's own plus the
+      // growth over one gap.
+      const float reach = (gap_ + growth_ * cells_[a].nearest) * (1.0F + growth_) / edge_ + 1e-3F;
+      const int limit = static_cast<int>(std::ceil(std::sqrt(3.0F) + reach));
+      for (const VoxelIndex& offset : offsets) {
+        if (offset.squaredNorm() > limit * limit) break;
+        if (static_cast<float>(squared_gap(offset)) > reach * reach) continue;
+        const auto found = at_.find(voxel_key(cells_[a].index + offset));
+        if (found == at_.end()) continue;
+        const std::uint32_t root_a = sets.root(a), root_b = sets.root(found->second);
+        if (root_a != root_b && touch(cells_[a], cells_[found->second])) {
+          sets.join(root_a, root_b);
+        }
+      }
+    }
+    return numbered(sets);
+  }
+
+ private:
+  void sort_into_cells() {
+    const double scale = 1.0 / edge_;
+    std::vector<VoxelKey> keys(points_.size());
+    order_.resize(points_.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      keys[i] = voxel_key(voxel_index(points_[i].cast<double>(), scale));
+    }
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
+    });
+    for (std::uint32_t i = 0; i < order_.size(); ++i) {
+      const std::uint32_t point = order_[i];
+      if (i == 0 || keys[point] != keys[order_[i - 1]]) {
+        at_[keys[point]] = static_cast<std::uint32_t>(cells_.size());
+        cells_.push_back({voxel_index(keys[point]), i, i, points_[point].array(),
+                          points_[point].array(), ranges_[point]});
+      }
+      Cell& cell = cells_.back();
+      cell.last = i + 1;
+      cell.low = cell.low.min(points_[point].array());
+      cell.high = cell.high.max(points_[point].array());
+      cell.nearest = std::min(cell.nearest, ranges_[point]);
+    }
+  }
+
+  [[nodiscard]] bool touch(const Cell& a, const Cell& b) const {
+    const float widest = gap_ + growth_ * (std::min(a.nearest, b.nearest) + edge_ * 2.0F);
+    const Eigen::Array3f apart = (a.low - b.high).max(b.low - a.high).max(0.0F);
+    if (apart.square().sum() > widest * widest) return false;
+    for (std::uint32_t i = a.first; i < a.last; ++i) {
+      const std::uint32_t p = order_[i];
+      for (std::uint32_t j = b.first; j < b.last; ++j) {
+        const std::uint32_t q = order_[j];
+        const float reach = gap_ + growth_ * std::min(ranges_[p], ranges_[q]);
+        if ((points_[p] - points_[q]).squaredNorm() <= reach * reach) return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<int> numbered(DisjointSets& sets) {
+    std::vector<std::uint32_t> root(points_.size());
+    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+      const std::uint32_t of_cell = sets.root(c);
+      for (std::uint32_t i = cells_[c].first; i < cells_[c].last; ++i) root[order_[i]] = of_cell;
+    }
+    std::vector<int> number_of(cells_.size(), -1), numbers(points_.size());
+    int next = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      int& number = number_of[root[i]];
+      if (number < 0) number = next++;
+      numbers[i] = number;
+    }
+    return numbers;
+  }
+
+  const std::vector<Eigen::Vector3f>& points_;
+  const std::vector<float>& ranges_;
+  float gap_, growth_, edge_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Cell> cells_;
+  VoxelMap<std::uint32_t> at_;
+};
+
+}  // namespace
+
+std::vector<int> euclidean_clusters(const std::vector<Eigen::Vector3f>& points,
+                                    const std::vector<float>& ranges, float gap, float growth) {
+  if (points.empty()) return {};
+  return Clustering(points, ranges, gap, growth).run();
+}
+
+}  // namespace raymoval

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/parameters.h"
+
+namespace raymoval {
+
+/// Values of raymoval_plus; units, ranges and meanings are in `raymoval_plus_parameters()`.
+struct RaymovalPlusParameters {
+  bool offline = true;
+  // Terrain.
+  bool terrain = true;
+  double terrain_cell = 0.4;
+  double terrain_quantile = 0.05;
+  double terrain_drop = 0.5;
+  double terrain_slope = 0.2;
+  double terrain_reach = 1.2;
+  double ground_height = 0.07;
+  // Evidence.
+  double voxel_size = 0.2;
+  double minimum_range = 0.5;
+  double evidence_range_min = 2.0;
+  double evidence_range_max = 45.0;
+  double azimuth_bin = 0.0;
+  double elevation_bin = 0.0;
+  int window_columns = 1;
+  int window_rows = 2;
+  double agree_constant = 0.2;
+  double agree_slope = 0.01;
+  double occluded_constant = 0.3;
+  double occluded_slope = 0.02;
+  double free_constant = 1.0;
+  double free_per_agree = 0.3;
+  int static_agree = 2;
+  // Vote.
+  int vote_radius = 3;
+  double vote_share = 0.5;
+  // Objects.
+  bool objects = true;
+  double object_height = 0.3;
+  double cluster_gap = 0.3;
+  double cluster_growth = 0.01;
+  double object_dynamic_share = 0.5;
+  double object_static_share = 0.1;
+  int object_points = 3;
+  // Tracks.
+  bool tracks = true;
+  // Low points.
+  bool low_points = true;
+};
+
+const ParameterTable<RaymovalPlusParameters>& raymoval_plus_parameters();
+
+}  // namespace raymoval
