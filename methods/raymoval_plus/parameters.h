@@ -20,7 +20,7 @@ struct RaymovalPlusParameters {
   double voxel_size = 0.2;
   double minimum_range = 0.5;
   double evidence_range_min = 2.0;
-  double evidence_range_max = 45.0;
+  double evidence_range_max = 80.0;
   double azimuth_bin = 0.0;
   double elevation_bin = 0.0;
   int window_columns = 1;
