@@ -68,6 +68,8 @@ void EvidenceMap::freeze() {
   }
   free_scans.assign(keys_.size(), 0);
   agree_scans.assign(keys_.size(), 0);
+  leading_free.assign(keys_.size(), 0);
+  trailing_free.assign(keys_.size(), 0);
   evidence.assign(keys_.size(), Evidence::kUndecided);
   index_tiles_and_bricks();
 }

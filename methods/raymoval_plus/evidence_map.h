@@ -68,6 +68,7 @@ class EvidenceMap {
 
   std::vector<std::uint16_t> free_scans;   ///< Scans that saw through the voxel.
   std::vector<std::uint16_t> agree_scans;  ///< Scans with a return at the voxel.
+  std::vector<std::uint16_t> leading_free, trailing_free;
   std::vector<Evidence> evidence;
 
  private:

@@ -62,6 +62,11 @@ void add_groups(Table& table) {
                {"voxels", 0, 8, "", "Half width of the cube of voxels that vote; 0 for no vote."})
       .number("vote_share", &P::vote_share,
               {"", 0, 1, "", "Share of dynamic voxels that makes a voxel dynamic."})
+      .number("vote_keep", &P::vote_keep,
+              {"", 0, 1, "", "Share of dynamic voxels below which a dynamic voxel is not."})
+      .integer("run_scans", &P::run_scans,
+               {"scans", 0, 1000, "", "Scans in a row that see through a voxel at one end of its story make it dynamic; 0 for off."})
+      .number("run_range", &P::run_range, {"m", 0, 500, "", "Range up to which those count."})
       .flag("objects", &P::objects, {.sentence = "Judge clusters of a scan as one."})
       .number("object_height", &P::object_height,
               {"m", 0, 5, "", "Clusters consist of points at least this high."})

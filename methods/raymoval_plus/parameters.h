@@ -26,15 +26,18 @@ struct RaymovalPlusParameters {
   int window_columns = 1;
   int window_rows = 2;
   double agree_constant = 0.2;
-  double agree_slope = 0.01;
-  double occluded_constant = 0.3;
-  double occluded_slope = 0.02;
+  double agree_slope = 0.005;
+  double occluded_constant = 0.25;
+  double occluded_slope = 0.005;
   double free_constant = 1.0;
   double free_per_agree = 0.3;
   int static_agree = 2;
   // Vote.
   int vote_radius = 3;
   double vote_share = 0.5;
+  double vote_keep = 0.5;
+  int run_scans = 0;
+  double run_range = 20.0;
   // Objects.
   bool objects = true;
   double object_height = 0.3;

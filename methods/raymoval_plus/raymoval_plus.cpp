@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "core/parallel.h"
 #include "methods/raymoval_plus/evidence_map.h"
@@ -105,8 +107,17 @@ class RaymovalPlusRemover : public Remover {
           const double distance = (centroids_[voxel] - center).norm();
           if (distance > range || distance < parameters_.evidence_range_min) return;
           const Seen seen = image.test((T_sensor_world * centroids_[voxel]).cast<float>());
-          if (seen == Seen::kAgree) count_up(map_.agree_scans[voxel]);
-          if (seen == Seen::kFree) count_up(map_.free_scans[voxel]);
+          if (seen == Seen::kAgree) {
+            count_up(map_.agree_scans[voxel]);
+            map_.trailing_free[voxel] = 0;
+          }
+          if (seen == Seen::kFree) {
+            count_up(map_.free_scans[voxel]);
+            if (distance <= parameters_.run_range) {
+              count_up(map_.trailing_free[voxel]);
+              if (map_.agree_scans[voxel] == 0) count_up(map_.leading_free[voxel]);
+            }
+          }
         });
       });
     });
@@ -118,7 +129,16 @@ class RaymovalPlusRemover : public Remover {
   void decide(const RunContext& context) {
     const StageScope timed(context.times, "decision");
     decide_voxels(map_, parameters_);
+    const auto before = map_.evidence;  // DEBUG
     vote(map_, parameters_, context.threads);
+    if (const char* path = std::getenv("PLUS_DUMP")) {  // DEBUG
+      FILE* f = std::fopen(path, "wb");
+      for (std::size_t v = 0; v < map_.size(); ++v) {
+        const std::uint64_t row[5] = {map_.key(v), map_.free_scans[v], map_.agree_scans[v], (std::uint64_t)before[v], (std::uint64_t)map_.evidence[v]};
+        std::fwrite(row, 8, 5, f);
+      }
+      std::fclose(f);
+    }
   }
 
   void answer(const ScanSource& scans, RemovalSink& sink, const RunContext& context) {

@@ -70,7 +70,9 @@ std::uint32_t vote_of(Evidence evidence) {
 void decide_voxels(EvidenceMap& map, const RaymovalPlusParameters& parameters) {
   for (std::size_t i = 0; i < map.size(); ++i) {
     const double needed = parameters.free_constant + parameters.free_per_agree * map.agree_scans[i];
-    if (map.free_scans[i] >= needed) {
+    const bool left = parameters.run_scans > 0 && (map.leading_free[i] >= parameters.run_scans ||
+                                                   map.trailing_free[i] >= parameters.run_scans);
+    if (left || map.free_scans[i] >= needed) {
       map.evidence[i] = Evidence::kDynamic;
     } else if (map.agree_scans[i] >= parameters.static_agree) {
       map.evidence[i] = Evidence::kStatic;
@@ -103,7 +105,7 @@ void vote(EvidenceMap& map, const RaymovalPlusParameters& parameters, int thread
         const std::uint32_t votes = ballot.around(voxel_index(map.key(v)) - corner);
         const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
         elected[v] = decided == 0                                 ? Evidence::kUndecided
-                     : dynamic >= parameters.vote_share * decided ? Evidence::kDynamic
+                     : dynamic >= (map.evidence[v] == Evidence::kDynamic ? parameters.vote_keep : parameters.vote_share) * decided ? Evidence::kDynamic
                                                                   : Evidence::kStatic;
       }
     }
