@@ -80,6 +80,8 @@ void add_groups(Table& table) {
               {"", 0, 1, "", "Share of dynamic points up to which a cluster is static."})
       .integer("object_points", &P::object_points,
                {"points", 1, 1000, "", "Smallest cluster judged dynamic as one."})
+      .integer("group_points", &P::group_points,
+               {"points", 1, 1000000, "", "A group of dynamic points this large stays dynamic in a static cluster."})
       .flag("tracks", &P::tracks, {.sentence = "Follow dynamic clusters over scans."})
       .flag("low_points", &P::low_points,
             {.sentence = "Points near the ground follow what stands above them."});

@@ -35,8 +35,8 @@ struct RaymovalPlusParameters {
   // Vote.
   int vote_radius = 3;
   double vote_share = 0.5;
-  double vote_keep = 0.5;
-  int run_scans = 0;
+  double vote_keep = 0.3;
+  int run_scans = 4;
   double run_range = 20.0;
   // Objects.
   bool objects = true;
@@ -46,6 +46,7 @@ struct RaymovalPlusParameters {
   double object_dynamic_share = 0.5;
   double object_static_share = 0.1;
   int object_points = 3;
+  int group_points = 20;
   // Tracks.
   bool tracks = true;
   // Low points.

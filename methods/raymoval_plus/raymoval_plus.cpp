@@ -191,7 +191,34 @@ class RaymovalPlusRemover : public Remover {
       ++clusters[c].points;
       if (verdict[chosen[i]] == Evidence::kDynamic) ++clusters[c].dynamic;
     }
+    // Dynamic points that hang together keep their verdict even where they touch something large.
+    std::vector<std::size_t> lone;
+    std::vector<Eigen::Vector3f> lone_points;
+    std::vector<float> lone_ranges;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const Cluster& cluster = clusters[static_cast<std::size_t>(number[i])];
+      if (verdict[chosen[i]] != Evidence::kDynamic ||
+          cluster.dynamic > parameters_.object_static_share * cluster.points) {
+        continue;
+      }
+      lone.push_back(i);
+      lone_points.push_back(points[i]);
+      lone_ranges.push_back(ranges[i]);
+    }
+    const std::vector<int> group =
+        euclidean_clusters(lone_points, lone_ranges, static_cast<float>(parameters_.cluster_gap),
+                           static_cast<float>(parameters_.cluster_growth));
+    std::vector<int> group_size;
+    for (const int g : group) {
+      if (static_cast<std::size_t>(g) >= group_size.size()) group_size.resize(static_cast<std::size_t>(g) + 1);
+      ++group_size[static_cast<std::size_t>(g)];
+    }
+    std::vector<std::uint8_t> spared(chosen.size(), 0);
+    for (std::size_t k = 0; k < lone.size(); ++k) {
+      spared[lone[k]] = group_size[static_cast<std::size_t>(group[k])] >= parameters_.group_points ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (spared[i] != 0) continue;
       const Cluster& cluster = clusters[static_cast<std::size_t>(number[i])];
       const double share = static_cast<double>(cluster.dynamic) / cluster.points;
       if (share >= parameters_.object_dynamic_share &&
