@@ -36,25 +36,24 @@ struct Cell {
   float nearest;
 };
 
-/// Half of the cells around the origin, nearest first, so that each pair is looked at once.
-std::vector<VoxelIndex> half_neighbourhood(int reach) {
-  std::vector<VoxelIndex> offsets;
-  for (int z = -reach; z <= reach; ++z) {
-    for (int y = -reach; y <= reach; ++y) {
-      for (int x = -reach; x <= reach; ++x) {
-        if (z > 0 || (z == 0 && (y > 0 || (y == 0 && x > 0)))) offsets.emplace_back(x, y, z);
-      }
+/// Columns of cells beside and before a cell's own, nearest first, so that each pair is met once.
+struct ColumnOffset {
+  int x, y;
+  int squared_gap;  ///< Of two cells whose columns lie so apart, in cell edges.
+};
+
+std::vector<ColumnOffset> half_neighbourhood(int reach) {
+  const auto gap = [](int cells) { return std::max(std::abs(cells) - 1, 0); };
+  std::vector<ColumnOffset> offsets;
+  for (int y = 0; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      if (y > 0 || x >= 0) offsets.push_back({x, y, gap(x) * gap(x) + gap(y) * gap(y)});
     }
   }
-  std::stable_sort(offsets.begin(), offsets.end(), [](const VoxelIndex& a, const VoxelIndex& b) {
-    return a.squaredNorm() < b.squaredNorm();
-  });
+  std::stable_sort(
+      offsets.begin(), offsets.end(),
+      [](const ColumnOffset& a, const ColumnOffset& b) { return a.squared_gap < b.squared_gap; });
   return offsets;
-}
-
-/// Squared distance of two cells that lie `offset` apart, in cell edges.
-int squared_gap(const VoxelIndex& offset) {
-  return (offset.cwiseAbs().array() - 1).max(0).square().sum();
 }
 
 class Clustering {
@@ -68,22 +67,14 @@ class Clustering {
   std::vector<int> run() {
     DisjointSets sets(cells_.size());
     const float farthest = *std::max_element(ranges_.begin(), ranges_.end());
-    const auto offsets =
-        half_neighbourhood(static_cast<int>(std::ceil((gap_ + growth_ * farthest) / edge_)));
+    const auto offsets = half_neighbourhood(
+        static_cast<int>(std::ceil((gap_ + growth_ * farthest) * (1.0F + growth_) / edge_)) + 1);
     for (std::uint32_t a = 0; a < cells_.size(); ++a) {
-      // The pair's reach is that of the nearer point, which is at most this cell's own plus the
-      // growth over one gap.
-      const float reach = (gap_ + growth_ * cells_[a].nearest) * (1.0F + growth_) / edge_ + 1e-3F;
-      const int limit = static_cast<int>(std::ceil(std::sqrt(3.0F) + reach));
-      for (const VoxelIndex& offset : offsets) {
-        if (offset.squaredNorm() > limit * limit) break;
-        if (static_cast<float>(squared_gap(offset)) > reach * reach) continue;
-        const auto found = at_.find(voxel_key(cells_[a].index + offset));
-        if (found == at_.end()) continue;
-        const std::uint32_t root_a = sets.root(a), root_b = sets.root(found->second);
-        if (root_a != root_b && touch(cells_[a], cells_[found->second])) {
-          sets.join(root_a, root_b);
-        }
+      // The reach is that of the nearer point of a pair, so at most this cell's own.
+      const float reach = (gap_ + growth_ * (cells_[a].nearest + 2.0F * edge_)) / edge_;
+      for (const ColumnOffset& offset : offsets) {
+        if (static_cast<float>(offset.squared_gap) > reach * reach) break;
+        join_with_column(a, offset, static_cast<int>(reach) + 1, sets);
       }
     }
     return numbered(sets);
@@ -96,7 +87,8 @@ class Clustering {
     order_.resize(points_.size());
     std::iota(order_.begin(), order_.end(), 0U);
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      keys[i] = voxel_key(voxel_index(points_[i].cast<double>(), scale));
+      const VoxelIndex cell = voxel_index(points_[i].cast<double>(), scale);
+      keys[i] = voxel_key(cell.z(), cell.x(), cell.y());  // Sorted keys run up a column.
     }
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
       return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
@@ -104,15 +96,36 @@ class Clustering {
     for (std::uint32_t i = 0; i < order_.size(); ++i) {
       const std::uint32_t point = order_[i];
       if (i == 0 || keys[point] != keys[order_[i - 1]]) {
-        at_[keys[point]] = static_cast<std::uint32_t>(cells_.size());
-        cells_.push_back({voxel_index(keys[point]), i, i, points_[point].array(),
-                          points_[point].array(), ranges_[point]});
+        const VoxelIndex turned = voxel_index(keys[point]);
+        const VoxelIndex index(turned.y(), turned.z(), turned.x());
+        const auto number = static_cast<std::uint32_t>(cells_.size());
+        const auto column =
+            columns_.emplace(voxel_key(index.x(), index.y(), 0), std::pair{number, number});
+        column.first.value().second = number + 1;
+        cells_.push_back(
+            {index, i, i, points_[point].array(), points_[point].array(), ranges_[point]});
       }
       Cell& cell = cells_.back();
       cell.last = i + 1;
       cell.low = cell.low.min(points_[point].array());
       cell.high = cell.high.max(points_[point].array());
       cell.nearest = std::min(cell.nearest, ranges_[point]);
+    }
+  }
+
+  void join_with_column(std::uint32_t a, const ColumnOffset& offset, int reach,
+                        DisjointSets& sets) const {
+    const VoxelIndex& at = cells_[a].index;
+    const auto column = columns_.find(voxel_key(at.x() + offset.x, at.y() + offset.y, 0));
+    if (column == columns_.end()) return;
+    const bool own = offset.x == 0 && offset.y == 0;
+    const auto [first, last] = column->second;
+    for (std::uint32_t b = own ? a + 1 : first; b < last; ++b) {
+      const int above = cells_[b].index.z() - at.z();
+      if (above < -reach) continue;
+      if (above > reach) break;
+      const std::uint32_t root_a = sets.root(a), root_b = sets.root(b);
+      if (root_a != root_b && touch(cells_[a], cells_[b])) sets.join(root_a, root_b);
     }
   }
 
@@ -152,7 +165,7 @@ class Clustering {
   float gap_, growth_, edge_;
   std::vector<std::uint32_t> order_;
   std::vector<Cell> cells_;
-  VoxelMap<std::uint32_t> at_;
+  VoxelMap<std::pair<std::uint32_t, std::uint32_t>> columns_;  ///< Cells of each column.
 };
 
 }  // namespace

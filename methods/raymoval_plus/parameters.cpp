@@ -65,7 +65,9 @@ void add_groups(Table& table) {
       .number("vote_keep", &P::vote_keep,
               {"", 0, 1, "", "Share of dynamic voxels below which a dynamic voxel is not."})
       .integer("run_scans", &P::run_scans,
-               {"scans", 0, 1000, "", "Scans in a row that see through a voxel at one end of its story make it dynamic; 0 for off."})
+               {"scans", 0, 1000, "",
+                "Scans in a row that see through a voxel at one end of its story make it dynamic; "
+                "0 for off."})
       .number("run_range", &P::run_range, {"m", 0, 500, "", "Range up to which those count."})
       .flag("objects", &P::objects, {.sentence = "Judge clusters of a scan as one."})
       .number("object_height", &P::object_height,
@@ -81,7 +83,8 @@ void add_groups(Table& table) {
       .integer("object_points", &P::object_points,
                {"points", 1, 1000, "", "Smallest cluster judged dynamic as one."})
       .integer("group_points", &P::group_points,
-               {"points", 1, 1000000, "", "A group of dynamic points this large stays dynamic in a static cluster."})
+               {"points", 1, 1000000, "",
+                "A group of dynamic points this large stays dynamic in a static cluster."})
       .flag("tracks", &P::tracks, {.sentence = "Follow dynamic clusters over scans."})
       .flag("low_points", &P::low_points,
             {.sentence = "Points near the ground follow what stands above them."});

@@ -134,7 +134,8 @@ class RaymovalPlusRemover : public Remover {
     if (const char* path = std::getenv("PLUS_DUMP")) {  // DEBUG
       FILE* f = std::fopen(path, "wb");
       for (std::size_t v = 0; v < map_.size(); ++v) {
-        const std::uint64_t row[5] = {map_.key(v), map_.free_scans[v], map_.agree_scans[v], (std::uint64_t)before[v], (std::uint64_t)map_.evidence[v]};
+        const std::uint64_t row[5] = {map_.key(v), map_.free_scans[v], map_.agree_scans[v],
+                                      (std::uint64_t)before[v], (std::uint64_t)map_.evidence[v]};
         std::fwrite(row, 8, 5, f);
       }
       std::fclose(f);
@@ -210,12 +211,14 @@ class RaymovalPlusRemover : public Remover {
                            static_cast<float>(parameters_.cluster_growth));
     std::vector<int> group_size;
     for (const int g : group) {
-      if (static_cast<std::size_t>(g) >= group_size.size()) group_size.resize(static_cast<std::size_t>(g) + 1);
+      if (static_cast<std::size_t>(g) >= group_size.size())
+        group_size.resize(static_cast<std::size_t>(g) + 1);
       ++group_size[static_cast<std::size_t>(g)];
     }
     std::vector<std::uint8_t> spared(chosen.size(), 0);
     for (std::size_t k = 0; k < lone.size(); ++k) {
-      spared[lone[k]] = group_size[static_cast<std::size_t>(group[k])] >= parameters_.group_points ? 1 : 0;
+      spared[lone[k]] =
+          group_size[static_cast<std::size_t>(group[k])] >= parameters_.group_points ? 1 : 0;
     }
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (spared[i] != 0) continue;

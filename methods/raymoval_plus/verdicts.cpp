@@ -104,9 +104,12 @@ void vote(EvidenceMap& map, const RaymovalPlusParameters& parameters, int thread
       for (std::uint32_t v = brick.first; v < brick.last; ++v) {
         const std::uint32_t votes = ballot.around(voxel_index(map.key(v)) - corner);
         const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
-        elected[v] = decided == 0                                 ? Evidence::kUndecided
-                     : dynamic >= (map.evidence[v] == Evidence::kDynamic ? parameters.vote_keep : parameters.vote_share) * decided ? Evidence::kDynamic
-                                                                  : Evidence::kStatic;
+        elected[v] = decided == 0 ? Evidence::kUndecided
+                     : dynamic >= (map.evidence[v] == Evidence::kDynamic ? parameters.vote_keep
+                                                                         : parameters.vote_share) *
+                                      decided
+                         ? Evidence::kDynamic
+                         : Evidence::kStatic;
       }
     }
   });
