@@ -86,6 +86,14 @@ void add_groups(Table& table) {
                {"points", 1, 1000000, "",
                 "A group of dynamic points this large stays dynamic in a static cluster."})
       .flag("tracks", &P::tracks, {.sentence = "Follow dynamic clusters over scans."})
+      .number("track_dynamic_share", &P::track_dynamic_share,
+              {"", 0, 1, "", "Share of a track's clusters that must be dynamic."})
+      .number(
+          "track_slack", &P::track_slack,
+          {"", 0, 10, "", "How much longer than its length explains scans may agree on an object."})
+      .number("track_width", &P::track_width, {"m", 0, 100, "", "Wider clusters are not followed."})
+      .integer("track_points", &P::track_points,
+               {"points", 1, 1000, "", "Smaller clusters are not followed."})
       .flag("low_points", &P::low_points,
             {.sentence = "Points near the ground follow what stands above them."});
 }

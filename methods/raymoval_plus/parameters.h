@@ -49,6 +49,10 @@ struct RaymovalPlusParameters {
   int group_points = 20;
   // Tracks.
   bool tracks = true;
+  double track_dynamic_share = 0.5;
+  double track_slack = 1.0;
+  double track_width = 15.0;
+  int track_points = 4;
   // Low points.
   bool low_points = true;
 };

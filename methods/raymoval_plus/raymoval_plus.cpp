@@ -16,13 +16,6 @@
 namespace raymoval {
 namespace {
 
-/// Points of a scan in the world, with their heights above the ground.
-struct WorldScan {
-  Scan scan;
-  std::vector<Eigen::Vector3d> points;
-  std::vector<float> height;
-};
-
 class RaymovalPlusRemover : public Remover {
  public:
   explicit RaymovalPlusRemover(const RaymovalPlusParameters& parameters)
@@ -33,6 +26,7 @@ class RaymovalPlusRemover : public Remover {
     collect_voxels(scans, context);
     gather_evidence(scans, context);
     decide(context);
+    if (parameters_.objects && parameters_.tracks) follow_objects(scans, context);
     answer(scans, sink, context);
   }
 
@@ -142,138 +136,61 @@ class RaymovalPlusRemover : public Remover {
     }
   }
 
+  /// The scan with the verdicts of its voxels.
+  WorldScan judged(Scan scan, const RunContext& context) const {
+    WorldScan world = in_world(std::move(scan), context);
+    const StageScope timed(context.times, "answer");
+    world.voxel.resize(world.points.size());
+    world.verdict.resize(world.points.size());
+    parallel_for(context.threads, world.points.size(), 8192, [&](std::size_t k) {
+      const bool ground = is_ground(world.height[k]);
+      const std::uint32_t voxel =
+          ground ? EvidenceMap::kNone : map_.find(voxel_key(map_.index_of(world.points[k])));
+      world.voxel[k] = voxel;
+      world.verdict[k] = ground ? Evidence::kStatic : map_.evidence[voxel];
+    });
+    return world;
+  }
+
+  void follow_objects(const ScanSource& scans, const RunContext& context) {
+    std::vector<std::vector<ObjectSummary>> found(scans.size());
+    for_each_scan("raymoval_plus, tracks", scans, context, [&](Scan scan) {
+      const WorldScan world = judged(std::move(scan), context);
+      const StageScope timed(context.times, "objects");
+      found[world.scan.index] =
+          summaries(find_objects(world, parameters_), world, map_, parameters_);
+    });
+    const StageScope timed(context.times, "tracks");
+    marks_ = objects_on_tracks(found, parameters_);
+  }
+
   void answer(const ScanSource& scans, RemovalSink& sink, const RunContext& context) {
+    static const std::vector<std::uint8_t> kNoMarks;
     for_each_scan("raymoval_plus, answers", scans, context, [&](Scan scan) {
-      const WorldScan world = in_world(std::move(scan), context);
-      const std::size_t count = world.points.size();
-      std::vector<Evidence> verdict(count, Evidence::kStatic);
-      {
-        const StageScope timed(context.times, "answer");
-        for (std::size_t k = 0; k < count; ++k) {
-          if (is_ground(world.height[k])) continue;
-          const std::uint32_t voxel = map_.find(voxel_key(map_.index_of(world.points[k])));
-          verdict[k] = map_.evidence[voxel];
-        }
+      WorldScan world = judged(std::move(scan), context);
+      if (parameters_.objects) {
+        const StageScope timed(context.times, "objects");
+        const ScanObjects objects = find_objects(world, parameters_);
+        judge_objects(objects, marks_.empty() ? kNoMarks : marks_[world.scan.index], parameters_,
+                      world);
       }
-      if (parameters_.objects) judge_objects(world, verdict, context);
-      if (parameters_.low_points && parameters_.terrain) judge_low_points(world, verdict, context);
-      Mask removed(count);
-      for (std::size_t k = 0; k < count; ++k) removed[k] = verdict[k] == Evidence::kDynamic ? 1 : 0;
+      if (parameters_.low_points && parameters_.terrain) {
+        const StageScope timed(context.times, "low points");
+        judge_low_points(parameters_, world);
+      }
+      Mask removed(world.points.size());
+      for (std::size_t k = 0; k < removed.size(); ++k) {
+        removed[k] = world.verdict[k] == Evidence::kDynamic ? 1 : 0;
+      }
       sink.accept(world.scan.index, removed);
     });
-  }
-
-  void judge_objects(const WorldScan& world, std::vector<Evidence>& verdict,
-                     const RunContext& context) const {
-    const StageScope timed(context.times, "objects");
-    std::vector<std::size_t> chosen;
-    std::vector<Eigen::Vector3f> points;
-    std::vector<float> ranges;
-    for (std::size_t k = 0; k < world.points.size(); ++k) {
-      const float range = world.scan.points[k].norm();
-      if (parameters_.terrain &&
-          !(world.height[k] >= static_cast<float>(parameters_.object_height)))
-        continue;
-      if (range > parameters_.evidence_range_max) continue;
-      chosen.push_back(k);
-      points.push_back(world.scan.points[k]);
-      ranges.push_back(range);
-    }
-    const std::vector<int> number =
-        euclidean_clusters(points, ranges, static_cast<float>(parameters_.cluster_gap),
-                           static_cast<float>(parameters_.cluster_growth));
-    struct Cluster {
-      int points = 0, dynamic = 0;
-    };
-    std::vector<Cluster> clusters;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      const auto c = static_cast<std::size_t>(number[i]);
-      if (c >= clusters.size()) clusters.resize(c + 1);
-      ++clusters[c].points;
-      if (verdict[chosen[i]] == Evidence::kDynamic) ++clusters[c].dynamic;
-    }
-    // Dynamic points that hang together keep their verdict even where they touch something large.
-    std::vector<std::size_t> lone;
-    std::vector<Eigen::Vector3f> lone_points;
-    std::vector<float> lone_ranges;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      const Cluster& cluster = clusters[static_cast<std::size_t>(number[i])];
-      if (verdict[chosen[i]] != Evidence::kDynamic ||
-          cluster.dynamic > parameters_.object_static_share * cluster.points) {
-        continue;
-      }
-      lone.push_back(i);
-      lone_points.push_back(points[i]);
-      lone_ranges.push_back(ranges[i]);
-    }
-    const std::vector<int> group =
-        euclidean_clusters(lone_points, lone_ranges, static_cast<float>(parameters_.cluster_gap),
-                           static_cast<float>(parameters_.cluster_growth));
-    std::vector<int> group_size;
-    for (const int g : group) {
-      if (static_cast<std::size_t>(g) >= group_size.size())
-        group_size.resize(static_cast<std::size_t>(g) + 1);
-      ++group_size[static_cast<std::size_t>(g)];
-    }
-    std::vector<std::uint8_t> spared(chosen.size(), 0);
-    for (std::size_t k = 0; k < lone.size(); ++k) {
-      spared[lone[k]] =
-          group_size[static_cast<std::size_t>(group[k])] >= parameters_.group_points ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      if (spared[i] != 0) continue;
-      const Cluster& cluster = clusters[static_cast<std::size_t>(number[i])];
-      const double share = static_cast<double>(cluster.dynamic) / cluster.points;
-      if (share >= parameters_.object_dynamic_share &&
-          cluster.points >= parameters_.object_points) {
-        verdict[chosen[i]] = Evidence::kDynamic;
-      } else if (share <= parameters_.object_static_share) {
-        verdict[chosen[i]] = Evidence::kStatic;
-      }
-    }
-  }
-
-  void judge_low_points(const WorldScan& world, std::vector<Evidence>& verdict,
-                        const RunContext& context) const {
-    const StageScope timed(context.times, "low points");
-    struct Standing {
-      int dynamic = 0, fixed = 0;
-    };
-    VoxelMap<Standing> columns;
-    const auto column = [&](const Eigen::Vector3d& point) {
-      VoxelIndex index = map_.index_of(point);
-      index.z() = 0;
-      return index;
-    };
-    const auto low = static_cast<float>(parameters_.object_height);
-    for (std::size_t k = 0; k < world.points.size(); ++k) {
-      if (!(world.height[k] >= low) || world.height[k] >= 1.0F) continue;
-      Standing& standing = columns[voxel_key(column(world.points[k]))];
-      (verdict[k] == Evidence::kDynamic ? standing.dynamic : standing.fixed) += 1;
-    }
-    for (std::size_t k = 0; k < world.points.size(); ++k) {
-      if (is_ground(world.height[k]) || world.height[k] >= low) continue;
-      const VoxelIndex center = column(world.points[k]);
-      Standing sum;
-      for (int n = 0; n < 9; ++n) {
-        const auto found =
-            columns.find(voxel_key(center.x() + n % 3 - 1, center.y() + n / 3 - 1, 0));
-        if (found == columns.end()) continue;
-        sum.dynamic += found->second.dynamic;
-        sum.fixed += found->second.fixed;
-      }
-      if (sum.dynamic > 0 && sum.dynamic >= 2 * sum.fixed) {
-        verdict[k] = Evidence::kDynamic;
-      } else if (sum.fixed > 0 && sum.fixed >= 2 * sum.dynamic) {
-        verdict[k] = Evidence::kStatic;
-      }
-    }
   }
 
   RaymovalPlusParameters parameters_;
   Terrain terrain_;
   EvidenceMap map_;
   std::vector<Eigen::Vector3d> centroids_;
+  std::vector<std::vector<std::uint8_t>> marks_;  ///< By scan and cluster: moved at some time.
 };
 
 }  // namespace
