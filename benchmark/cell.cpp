@@ -2,76 +2,21 @@
 #include "benchmark/cell.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <new>
 #include <nlohmann/json.hpp>
 
 #include "benchmark/checked_sink.h"
-#include "benchmark/machine.h"
+#include "benchmark/method_process.h"
 #include "benchmark/removal_files.h"
+#include "benchmark/score_json.h"
 #include "benchmark/sealed_json.h"
 #include "core/files.h"
-#include "methods/controls/controls.h"
 
 namespace raymoval {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Value below which `share` of the sorted values lie (nearest rank); null without values.
-ordered_json quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return nullptr;
-  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
-  return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
-
-struct MethodRun {
-  MaskStore masks;
-  ordered_json measured;
-};
-
-/// @param seconds wall time of the method without its waiting for scans
-ordered_json measured_record(const StageTimes& times, const TimedSource& scans, double seconds,
-                             int threads, bool peak_is_own) {
-  std::vector<double> by_scan = times.seconds_by_scan();
-  std::sort(by_scan.begin(), by_scan.end());
-  ordered_json record;
-  record["threads"] = threads;
-  record["seconds_per_scan"]["mean"] = seconds / static_cast<double>(scans.size());
-  record["seconds_per_scan"]["median"] = quantile(by_scan, 0.5);
-  record["seconds_per_scan"]["p90"] = quantile(by_scan, 0.9);
-  record["seconds_total"] = seconds;
-  record["seconds_load"] = scans.waited_seconds();
-  record["stages"] = ordered_json::array();
-  for (const StageTimes::Stage& stage : times.stages()) {
-    record["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
-  }
-  const auto peak = peak_memory_mib();
-  record["peak_memory_mib"] = peak && peak_is_own ? ordered_json(*peak) : nullptr;
-  return record;
-}
-
-MethodRun run_method(const CellTask& task) {
-  SequenceBench& bench = *task.bench;
-  const ConfiguredMethod& method = task.request->method;
-  const auto remover = make_remover(method, bench.sequence());
-  const TimedSource scans(*bench.sequence().scans);
-  CheckedSink sink(task.request->name, scans);
-  StageTimes times;
-  RunContext context;
-  context.threads = bench.threads();
-  context.progress = bench.progress();
-  context.times = &times;
-  context.cancel = task.cancel;
-  const bool peak_is_own = reset_peak_memory();
-  const auto started = std::chrono::steady_clock::now();
-  remover->run(scans, sink, context);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-  const double seconds = std::max(0.0, wall.count() - scans.waited_seconds());
-  ordered_json measured = measured_record(times, scans, seconds, bench.threads(), peak_is_own);
-  return {sink.finish(), std::move(measured)};
-}
 
 ordered_json method_record(const MethodRequest& request) {
   const MethodEntry& entry = *request.method.entry;
@@ -109,6 +54,7 @@ void score_all(const CellTask& task, const MaskStore& masks, ordered_json& cell)
     record.update(to_json(task.bench->score(i, masks)));
     cell["protocols"].push_back(std::move(record));
   }
+  cell["columns"] = columns_record(task.bench->columns(masks));
 }
 
 /// Everything of a cell that is known before the method runs.
@@ -124,6 +70,7 @@ ordered_json cell_head(const std::string& sequence, const MethodRequest& request
   cell["method"] = method_record(request);
   cell["data"] = nullptr;
   cell["protocols"] = ordered_json::array();
+  cell["columns"] = nullptr;
   cell["masks"] = nullptr;
   cell["measured"] = nullptr;
   return cell;
@@ -133,55 +80,146 @@ void fail(ordered_json& cell, const char* status, const std::string& reason) {
   cell["status"] = status;
   cell["reason"] = reason;
   cell["protocols"] = ordered_json::array();
+  cell["columns"] = nullptr;
 }
 
-void fill_cell(const CellTask& task, ordered_json& cell) {
-  MethodRun run = run_method(task);
-  cell["measured"] = std::move(run.measured);
-  cell["masks"]["digest"] = mask_digest(run.masks);
-  cell["masks"]["removed"] = run.masks.removed_count();
-  score_all(task, run.masks, cell);
-  if (task.removals.empty()) return;
+void write_cell_removals(const CellTask& task, const MaskStore& masks) {
   Progress* progress = task.bench->progress();
   const ScanSource& scans = *task.bench->sequence().scans;
   if (progress != nullptr) progress->begin("writing removals", scans.size());
-  write_removals(task.removals, scans, run.masks, [&] {
+  write_removals(task.removals, scans, masks, [&] {
+    if (task.cancel != nullptr && task.cancel->load()) throw Cancelled();
     if (progress != nullptr) progress->advance();
   });
 }
 
+/// Whether a mask per scan came back from the child, each as long as the scan it is for.
+void check_masks(const MethodAnswer& answer, const ScanSource& scans) {
+  if (answer.masks.size() == scans.size()) return;
+  throw MethodError("answered for " + std::to_string(answer.masks.size()) + " scans, expected " +
+                    std::to_string(scans.size()) + "; the data changed while it ran");
+}
+
+void fill_cell(const CellTask& task, const MethodAnswer& answer, ordered_json& cell) {
+  check_masks(answer, *task.bench->sequence().scans);
+  cell["measured"] = to_json(answer.measured);
+  cell["masks"]["digest"] = mask_digest(answer.masks);
+  cell["masks"]["removed"] = answer.masks.removed_count();
+  score_all(task, answer.masks, cell);
+}
+
+/// "parameter tau0 was 0.2, is 0.4" for the first part of `wanted` that `stored` has otherwise.
+std::string first_change(const std::string& what, const ordered_json& stored,
+                         const ordered_json& wanted) {
+  for (const auto& [key, value] : wanted.items()) {
+    const std::string name = what.empty() ? key : what + " " + key;
+    if (!stored.contains(key)) return name + " is new";
+    if (value.is_object() && stored[key].is_object()) {
+      const std::string inner = first_change(name, stored[key], value);
+      if (!inner.empty()) return inner;
+    } else if (stored[key] != value) {
+      return name + " was " + stored[key].dump() + ", is " + value.dump();
+    }
+  }
+  return "";
+}
+
+/// The same, also for what only `stored` has.
+std::string first_difference(const std::string& what, const ordered_json& stored,
+                             const ordered_json& wanted) {
+  const std::string change = first_change(what, stored, wanted);
+  if (!change.empty()) return change;
+  for (const auto& [key, value] : stored.items()) {
+    if (!wanted.contains(key)) return what + " " + key + " is no more";
+  }
+  return "";
+}
+
+std::string protocol_difference(const ordered_json& stored, const ordered_json& wanted) {
+  std::vector<std::string> names;
+  for (const ordered_json& protocol : wanted) {
+    const auto name = protocol.at("name").get<std::string>();
+    names.push_back(name);
+    const auto known = std::find_if(stored.begin(), stored.end(),
+                                    [&](const auto& item) { return item.at("name") == name; });
+    if (known == stored.end()) return "protocol " + name + " is new";
+    ordered_json identity;  // Without counts and rates.
+    for (const auto& [key, value] : protocol.items()) identity[key] = known->value(key, value);
+    const std::string inner = first_difference("protocol " + name, identity, protocol);
+    if (!inner.empty()) return inner;
+  }
+  for (const ordered_json& protocol : stored) {
+    const auto name = protocol.at("name").get<std::string>();
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      return "protocol " + name + " is no more asked for";
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
-std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence) {
-  if (!method.entry->needs_truth) return method.make();
-  check_has_labels(sequence);
-  return make_replay([labels = sequence.labels, rule = sequence.label_rule](const Scan& scan) {
-    const std::vector<std::uint32_t> words = labels->labels(scan);
-    Mask mask(words.size());
-    std::transform(words.begin(), words.end(), mask.begin(), [&](std::uint32_t word) {
-      return static_cast<std::uint8_t>(rule.classify(word) == LabelClass::kMoving);
-    });
-    return mask;
-  });
-}
-
-std::string cell_key(const CellTask& task) {
+ordered_json cell_identity(SequenceBench& bench, const MethodRequest& request) {
   ordered_json identity;
   identity["schema_version"] = kSchemaVersion;
-  identity["method"] = method_record(*task.request);
-  identity["data"] = data_record(*task.bench);
-  for (std::size_t i = 0; i < task.bench->protocol_count(); ++i) {
-    identity["protocols"].push_back(protocol_record(*task.bench, i));
+  identity["method"] = method_record(request);
+  identity["data"] = data_record(bench);
+  identity["columns"]["version"] = kColumnsVersion;
+  for (std::size_t i = 0; i < bench.protocol_count(); ++i) {
+    identity["protocols"].push_back(protocol_record(bench, i));
   }
-  return content_hash(json_text(identity));
+  return identity;
 }
+
+std::string cell_key(SequenceBench& bench, const MethodRequest& request) {
+  return content_hash(json_text(cell_identity(bench, request)));
+}
+
+std::string identity_difference(const ordered_json& stored, const ordered_json& wanted) {
+  try {
+    // What a reader knows comes before hashes.
+    const ordered_json& method = wanted.at("method");
+    std::string found = first_difference("parameter", stored.at("method").at("parameters"),
+                                         method.at("parameters"));
+    if (found.empty()) found = first_difference("method", stored.at("method"), method);
+    if (found.empty()) {
+      found = protocol_difference(stored.at("protocols"), wanted.at("protocols"));
+    }
+    if (found.empty()) found = first_difference("data", stored.at("data"), wanted.at("data"));
+    if (found.empty()) {
+      ordered_json rest = wanted;
+      for (const char* known : {"method", "data", "protocols"}) rest.erase(known);
+      found = first_change("", stored, rest);
+    }
+    return found.empty() ? "it was made otherwise" : found;
+  } catch (const ordered_json::exception&) {
+    return "its file is of another layout";
+  }
+}
+
+namespace {
+
+MethodAnswer method_answer(const CellTask& task) {
+  const MethodTask method{&task.bench->sequence(), task.request, task.bench->threads(),
+                          task.bench->progress(), task.cancel};
+  return task.place == nullptr ? run_method(method)
+                               : run_method_apart(method, *task.place, task.limits);
+}
+
+}  // namespace
 
 ordered_json execute_cell(const CellTask& task) {
   ordered_json cell = cell_head(task.bench->sequence().name, *task.request);
-  cell["key"] = cell_key(task);
+  cell["key"] = cell_key(*task.bench, *task.request);
   cell["data"] = data_record(*task.bench);
+  const MethodAnswer answer = method_answer(task);
+  cell["output_tail"] = answer.output_tail;
+  if (answer.status != "ok") {
+    fail(cell, answer.status.c_str(), answer.reason);
+    return cell;
+  }
   try {
-    fill_cell(task, cell);
+    fill_cell(task, answer, cell);
   } catch (const Cancelled&) {
     throw;
   } catch (const DataError& error) {
@@ -190,10 +228,14 @@ ordered_json execute_cell(const CellTask& task) {
     fail(cell, "out_of_memory", "there was not enough memory");
   } catch (const std::exception& error) {
     fail(cell, "failed", error.what());
-  } catch (...) {
-    fail(cell, "failed", "the method threw something that is no std::exception");
   }
+  // A disk that is full is no fault of the method: it ends the run.
+  if (cell["status"] == "ok" && !task.removals.empty()) write_cell_removals(task, answer.masks);
   return cell;
+}
+
+MethodAnswer repeat_cell(const CellTask& task) {
+  return method_answer(task);
 }
 
 ordered_json unreadable_cell(const std::string& sequence, const MethodRequest& request,
@@ -215,6 +257,7 @@ ordered_json to_json(const ProtocolResult& result) {
     if (!defined) record["undefined"][rate.name] = rate.undefined_reason;
   }
   record["warnings"] = result.warnings;
+  if (result.intervals) record["intervals"] = to_json(*result.intervals);
   return record;
 }
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "benchmark/child_process.h"
+#include "benchmark/method_run.h"
 #include "benchmark/sequence_bench.h"
 #include "benchmark/suite.h"
 
@@ -20,24 +22,35 @@ struct CellTask {
   const MethodRequest* request = nullptr;
   std::filesystem::path removals;  ///< Folder for label files; empty: none are written.
   const std::atomic<bool>* cancel = nullptr;
+  const SequenceRequest* place = nullptr;  ///< Where a process of its own opens the sequence; null:
+                                           ///< the method runs in this process.
+  ChildLimits limits;
 };
 
-/// Identity of a cell: everything that its counts depend on. Any change changes the key.
-std::string cell_key(const CellTask& task);
+/// All that the counts of a cell depend on: method with its parameters and version, data, protocols
+/// with their options and versions.
+nlohmann::ordered_json cell_identity(SequenceBench& bench, const MethodRequest& request);
+
+/// Hash of the identity. Any change changes the key.
+std::string cell_key(SequenceBench& bench, const MethodRequest& request);
+
+/// Why a cell with the parts `stored` of an identity is not one with `wanted`: "parameter tau0 was
+/// 0.2, is 0.4"; empty if nothing differs.
+std::string identity_difference(const nlohmann::ordered_json& stored,
+                                const nlohmann::ordered_json& wanted);
 
 /// Runs the method, checks its answer and scores it. Never throws for a fault of the method or the
 /// data: that is a cell with a status and a reason.
 /// @return the content of cell.json; all that varies from run to run stands below "measured"
-/// @throws Cancelled
+/// @throws Cancelled, or DataError if the removals cannot be written
 nlohmann::ordered_json execute_cell(const CellTask& task);
+
+/// The method once more, for its time. @throws Cancelled
+MethodAnswer repeat_cell(const CellTask& task);
 
 /// The cell of a sequence that cannot be read: status "bad_data".
 nlohmann::ordered_json unreadable_cell(const std::string& sequence, const MethodRequest& request,
                                        const std::string& reason);
-
-/// The remover of `method`; one that needs the truth answers from the labels.
-/// @throws DataError if it needs labels and there are none
-std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence);
 
 /// Counts and rates as JSON; an undefined rate is null, its reason stands below "undefined".
 nlohmann::ordered_json to_json(const ProtocolResult& result);

@@ -39,7 +39,7 @@ void check_cloud_path(const std::string& text) {
 
 ConfiguredMethod configured(const CleanFlags& flags) {
   Suite suite;
-  add_method(suite, flags.method, "", MethodRegistry::built_in());
+  add_method(suite, flags.method, "", program_methods());
   std::vector<Setting> settings;
   for (const std::string& text : flags.settings) settings.push_back(parse_setting(text));
   apply_settings(suite, settings);

@@ -17,7 +17,7 @@ struct DescribeFlags {
 };
 
 Description description_of(const std::string& name) {
-  const MethodRegistry& registry = MethodRegistry::built_in();
+  const MethodRegistry& registry = program_methods();
   std::vector<std::string> names;
   for (const ProtocolEntry& entry : protocol_entries()) {
     if (entry.name == name) return describe_protocol(entry);

@@ -14,6 +14,7 @@
 namespace raymoval {
 namespace {
 
+const MethodRegistry* known_methods = nullptr;
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
@@ -58,7 +59,7 @@ const Command& chosen_command(const CLI::App& program, const std::vector<Command
       check_nothing_left(program, "raymoval");
       return command;
     }
-    names.push_back(command.app->get_name());
+    if (!command.app->get_group().empty()) names.push_back(command.app->get_name());
   }
   const std::vector<std::string> left = program.remaining();
   if (left.empty()) throw UsageError("a command is missing: " + join(names) + ".");
@@ -86,9 +87,10 @@ ExitCode run_program(int argc, const char* const* argv) {
       "worse,\n"
       "2 cannot be done as asked, 3 internal error.");
   const std::vector<Command> commands = {
-      add_run_command(program),   add_table_command(program),    add_compare_command(program),
-      add_list_command(program),  add_describe_command(program), add_score_command(program),
-      add_clean_command(program), add_simulate_command(program)};
+      add_run_command(program),      add_plan_command(program),    add_run_method_command(program),
+      add_table_command(program),    add_compare_command(program), add_list_command(program),
+      add_describe_command(program), add_score_command(program),   add_clean_command(program),
+      add_simulate_command(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -107,6 +109,10 @@ ExitCode tell(const std::string& message, ExitCode code) {
 }
 
 }  // namespace
+
+const MethodRegistry& program_methods() {
+  return *known_methods;
+}
 
 const std::atomic<bool>& interrupt_flag() {
   std::signal(SIGINT, on_interrupt);
@@ -176,7 +182,10 @@ void print(const std::string& text) {
   }
 }
 
-int run_command_line(int argc, const char* const* argv) {
+int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods) {
+  known_methods = &methods;
+  // A file that outgrows its limit is then an error of writing, told like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   ExitCode code = ExitCode::kInternal;
   try {
     code = run_program(argc, argv);

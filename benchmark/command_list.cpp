@@ -9,6 +9,7 @@
 #include "datasets/semantickitti/semantickitti.h"
 #include "datasets/simulated/library.h"
 #include "datasets/simulated/scene_text.h"
+#include "eval/columns.h"
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -18,7 +19,7 @@ using Lines = std::vector<std::pair<std::string, std::string>>;
 
 Lines method_lines(bool variants) {
   Lines lines;
-  for (const auto& entry : MethodRegistry::built_in().entries()) {
+  for (const auto& entry : program_methods().entries()) {
     if (!variants) {
       lines.emplace_back(entry->name, entry->sentence);
       continue;
@@ -79,6 +80,18 @@ Lines sequence_lines() {
   return lines;
 }
 
+Lines column_lines() {
+  Lines lines;
+  for (const Column& column : general_columns()) {
+    const char* better =
+        column.better == Better::kHigher ? " (higher is better)" : " (lower is better)";
+    lines.emplace_back(column.name, column.description + better);
+  }
+  lines.emplace_back("rejection [CLASS, BAND]", "For each moving class that occurs.");
+  lines.emplace_back("preservation [CLASS, BAND]", "For each static class that occurs.");
+  return lines;
+}
+
 Lines suite_lines() {
   Lines lines;
   for (const std::string& name : shipped_suite_names())
@@ -103,6 +116,7 @@ ExitCode list(const std::string& what) {
       {"methods", [] { return method_lines(false); }},
       {"variants", [] { return method_lines(true); }},
       {"protocols", protocol_lines},
+      {"columns", column_lines},
       {"sensors", sensor_lines},
       {"sequences", sequence_lines},
       {"scenes", scene_lines},
@@ -128,7 +142,7 @@ Command add_list_command(CLI::App& program) {
       program.add_subcommand("list", "Names methods, protocols, sensors, scenes, suites");
   app->allow_extras();
   app->add_option("what", *what,
-                  "methods, variants, protocols, sensors, sequences, scenes, "
+                  "methods, variants, protocols, columns, sensors, sequences, scenes, "
                   "simulated-sensors or suites; all if empty")
       ->type_name("WHAT");
   app->footer("Examples:\n  raymoval list\n  raymoval list variants");

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "benchmark/commands.h"
+#include "benchmark/method_process.h"
 #include "benchmark/runner.h"
-#include "benchmark/shipped_suites.h"
+#include "benchmark/suite_flags.h"
 #include "core/files.h"
 #include "core/text.h"
 
@@ -12,93 +13,124 @@ namespace raymoval {
 namespace {
 
 struct RunFlags {
-  std::string suite, out, threads;
-  std::vector<std::string> sequences, methods, settings, protocols;
-  SequenceFlags sequence;
+  SuiteFlags what;
+  std::string out, shard, cell;
+  std::vector<std::string> only;
   bool keep_removals = false;
+  bool explain = false;
+  bool collect = false;
+  bool in_process = false;
   bool quiet = false;
 };
 
-/// What a suite file says cannot be said on the command line as well.
-void check_suite_alone(const RunFlags& flags) {
-  std::string given = flags.sequence.first_given();
-  if (!flags.protocols.empty()) given = "--protocol";
-  if (!flags.methods.empty()) given = "--method";
-  if (!flags.sequences.empty()) given = "--sequence";
-  if (given.empty()) return;
-  throw UsageError(given + " cannot be given together with the suite file " + flags.suite +
-                   "; write it into the file, or leave the file out.");
-}
-
-Suite suite_from_flags(const RunFlags& flags, const MethodRegistry& registry) {
-  if (flags.sequences.empty()) {
-    throw UsageError("nothing to run on: name a suite file, or a folder with --sequence PATH.");
-  }
-  if (flags.methods.empty()) {
-    throw UsageError(
-        "nothing to run: name a method with --method NAME[:variant] "
-        "(see `raymoval list methods`).");
-  }
-  if (flags.sequences.size() > 1 && !flags.sequence.name.empty()) {
-    throw UsageError("--name names one sequence, but there are " +
-                     std::to_string(flags.sequences.size()) + "; use a suite file.");
-  }
-  Suite suite;
-  const SequenceOptions options = flags.sequence.options();
-  for (const std::string& path : flags.sequences) suite.sequences.push_back({path, options});
-  for (const std::string& method : flags.methods) add_method(suite, method, "", registry);
-  for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");
-  return suite;
-}
-
-Suite resolved_suite(const RunFlags& flags) {
-  const MethodRegistry& registry = MethodRegistry::built_in();
-  if (!flags.suite.empty()) check_suite_alone(flags);
-  Suite suite = flags.suite.empty() ? suite_from_flags(flags, registry)
-                                    : read_suite(find_suite(flags.suite), registry);
-  std::vector<Setting> settings;
-  for (const std::string& text : flags.settings) settings.push_back(parse_setting(text));
-  apply_settings(suite, settings);
-  if (suite.protocols.empty()) add_protocol(suite, "erasor", "");
-  if (suite.controls) add_controls(suite, registry);
-  if (const int threads = parse_threads(flags.threads); threads > 0) suite.threads = threads;
-  return suite;
-}
-
-void tell_problems(const RunSummary& summary) {
+void tell_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
     std::fprintf(stderr, "raymoval: cell failed: %s\n", failure.c_str());
   }
   for (const std::string& problem : summary.controls) {
     std::fprintf(stderr, "raymoval: controls are off: %s\n", problem.c_str());
   }
+  if (collect && !summary.missing.empty()) {
+    std::fprintf(stderr, "raymoval: cells are missing: %s\n", join(summary.missing).c_str());
+  }
 }
 
-ExitCode run(const RunFlags& flags) {
+CellSelection selection_of(const RunFlags& flags) {
+  CellSelection selection;
+  selection.only = flags.only;
+  if (!flags.shard.empty()) parse_shard(flags.shard, selection);
+  return selection;
+}
+
+/// What a user may not ask for at once.
+void check_flags(const RunFlags& flags) {
   if (flags.out.empty()) {
     throw UsageError("--out DIR is missing: name the folder that is to hold the results.");
   }
-  const Suite suite = resolved_suite(flags);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
-  const RunOptions options{flags.out, flags.keep_removals, &progress, &interrupt_flag()};
-  RunSummary summary;
+  const bool selects = !flags.only.empty() || !flags.shard.empty();
+  if (!flags.cell.empty() && (selects || flags.collect || flags.explain)) {
+    throw UsageError("--cell goes without --only, --shard, --collect and --explain.");
+  }
+  if (flags.collect && selects) {
+    throw UsageError("--collect gathers all cells: leave out --only and --shard.");
+  }
+}
+
+ExitCode explain(const Suite& suite, const RunOptions& options) {
+  std::string text;
+  std::size_t to_run = 0;
+  const std::vector<PlannedCell> cells = plan_suite(suite, options);
+  for (const PlannedCell& cell : cells) {
+    to_run += cell.to_run ? 1 : 0;
+    text += (cell.to_run ? "run   " : "keep  ") + cell.sequence + " / " + cell.name +
+            (cell.why.empty() ? "" : ": " + cell.why) + "\n";
+  }
+  options.progress->end();
+  print(text + std::to_string(to_run) + " of " + std::to_string(cells.size()) +
+        " cells are to be run.\n");
+  return ExitCode::kDone;
+}
+
+/// Runs what is asked for; on a cancel nothing.
+std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
+                                    const RunOptions& options) {
   try {
-    summary = run_suite(suite, options);
+    return flags.cell.empty() ? run_suite(suite, options)
+                              : run_one_cell(suite, options, flags.cell);
   } catch (const Cancelled&) {
-    progress.end();
+    options.progress->end();
     std::fputs(
         "raymoval: cancelled. Finished cells are kept; the same command goes on with the "
         "rest.\n",
         stderr);
-    return ExitCode::kWorse;
+    return std::nullopt;
   } catch (...) {
-    progress.end();
+    options.progress->end();
     throw;
   }
+}
+
+ExitCode run(const RunFlags& flags) {
+  check_flags(flags);
+  const Suite suite = flags.what.resolved();
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  RunOptions options;
+  options.out = flags.out;
+  options.keep_removals = flags.keep_removals;
+  options.progress = &progress;
+  options.cancel = &interrupt_flag();
+  options.isolate = !flags.in_process;
+  options.selection = selection_of(flags);
+  options.collect = flags.collect;
+  if (flags.explain) return explain(suite, options);
+  const auto summary = run_asked(flags, suite, options);
+  if (!summary) return ExitCode::kWorse;
   progress.end();
-  print(read_text(options.out / "table.md"));
-  tell_problems(summary);
-  return summary.good() ? ExitCode::kDone : ExitCode::kWorse;
+  if (flags.cell.empty()) print(read_text(options.out / "table.md"));
+  tell_problems(*summary, flags.collect);
+  const bool whole = !flags.collect || summary->missing.empty();
+  return summary->good() && whole ? ExitCode::kDone : ExitCode::kWorse;
+}
+
+void add_options(CLI::App& app, RunFlags& flags) {
+  flags.what.add_to(app);
+  app.add_option("--out", flags.out, "Folder for the results")->type_name("DIR");
+  app.add_option(
+         "--only", flags.only,
+         "Run only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
+  app.add_option("--shard", flags.shard, "Run only part I of N equal parts, for several machines")
+      ->type_name("I/N");
+  app.add_option("--cell", flags.cell,
+                 "Run one cell: its key (see `raymoval plan`) or SEQUENCE/NAME; no tables")
+      ->type_name("CELL");
+  app.add_flag("--collect", flags.collect, "Run nothing, make tables of the cells that are there");
+  app.add_flag("--explain", flags.explain, "Run nothing, tell which cells would be and why");
+  app.add_flag("--keep-removals", flags.keep_removals, "Keep what each method removed, per scan");
+  app.add_flag("--in-process", flags.in_process,
+               "Run methods within this process, for a debugger: a crash ends all");
+  app.add_flag("--quiet", flags.quiet, "No progress");
 }
 
 }  // namespace
@@ -107,37 +139,30 @@ Command add_run_command(CLI::App& program) {
   auto flags = std::make_shared<RunFlags>();
   CLI::App* app = program.add_subcommand("run", "Runs methods on sequences and scores them");
   app->allow_extras();
-  app->add_option("suite", flags->suite,
-                  "Suite file (JSON, comments allowed), or name of a shipped suite")
-      ->type_name("SUITE");
-  app->add_option("--sequence", flags->sequences, "Sequence folder, ROOT:05, `street`, or a scene")
-      ->type_name("PATH")
-      ->allow_extra_args(false);
-  app->add_option("--method", flags->methods, "Method to run, NAME or NAME:variant")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  app->add_option("--set", flags->settings, "Parameter: METHOD.key=value or METHOD:variant.key=...")
-      ->type_name("SETTING")
-      ->allow_extra_args(false);
-  app->add_option("--protocol", flags->protocols, "Protocol to score by (default: erasor)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  flags->sequence.add_to(*app);
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)");
-  app->add_option("--out", flags->out, "Folder for the results")->type_name("DIR");
-  app->add_flag("--keep-removals", flags->keep_removals, "Keep what each method removed, per scan");
-  app->add_flag("--quiet", flags->quiet, "No progress");
+  add_options(*app, *flags);
   app->footer(
       "The controls noop, remove-all and oracle are added and checked. A cell that is there "
-      "already "
-      "is not run again.\nExamples:\n"
+      "already\nis not run again. Each method runs in a process of its own: one that crashes or "
+      "exceeds a limit\nis a failed cell, and the rest goes on.\nExamples:\n"
       "  raymoval run --sequence street --method raymoval:online --out out/street\n"
       "  raymoval run --sequence data/05 --frames 0:100 --method raymoval --set raymoval.tau0=0.2 "
       "--out out/05\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"
       "  raymoval run simulated --out out/simulated\n"
-      "  raymoval run suite.json --out out/suite --threads 2");
+      "  raymoval run simulated --out out/simulated --explain\n"
+      "  raymoval run simulated --out out/part2 --shard 2/3\n"
+      "  raymoval run suite.json --out out/suite --threads 2 --only 'town/raymoval:*'");
   return {app, [flags] { return run(*flags); }};
+}
+
+Command add_run_method_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand(kMethodCommand, "");
+  app->group("");  // Not shown.
+  app->allow_extras();
+  return {app, [] {
+            serve_method(program_methods());
+            return ExitCode::kDone;
+          }};
 }
 
 }  // namespace raymoval

@@ -1,87 +1,215 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "benchmark/cell.h"
+#include "benchmark/cleaned_cloud.h"
 #include "benchmark/commands.h"
 #include "benchmark/removal_files.h"
 #include "benchmark/results.h"
+#include "benchmark/score_json.h"
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_bench.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "core/text.h"
 
 namespace raymoval {
 namespace {
 
+using nlohmann::ordered_json;
+
 struct ScoreFlags {
-  std::string sequence, predictions, json, threads;
-  std::vector<std::string> protocols;
+  std::string sequence, predictions, cloud, voxel, json, threads;
+  std::vector<std::string> protocols, settings;
   SequenceFlags reading;
   bool quiet = false;
 };
+
+/// "PR 99.422 (99.131 to 99.689)".
+std::string rate_line(const Rate& rate, const ProtocolResult& result) {
+  std::string text = "  " + rate.name + " ";
+  if (!rate.value) return text + "n/a (" + rate.undefined_reason + ")\n";
+  text += rate_text(rate.name, *rate.value);
+  if (!result.intervals) return text + "\n";
+  for (const Interval& interval : result.intervals->rates) {
+    if (interval.name != rate.name || !interval.low || !interval.high) continue;
+    text += " (" + rate_text(rate.name, *interval.low) + " to " +
+            rate_text(rate.name, *interval.high) + ")";
+  }
+  return text + "\n";
+}
 
 std::string result_text(const std::string& name, const ProtocolResult& result) {
   std::string text = "protocol " + name + "\n";
   for (const auto& [count, value] : result.counts) {
     text += "  " + count + " " + std::to_string(value) + "\n";
   }
-  for (const Rate& rate : result.rates) {
-    text +=
-        "  " + rate.name + " " +
-        (rate.value ? rate_text(rate.name, *rate.value) : "n/a (" + rate.undefined_reason + ")") +
-        "\n";
-  }
+  for (const Rate& rate : result.rates) text += rate_line(rate, result);
   for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
   return text;
 }
 
-nlohmann::ordered_json score_record(SequenceBench& bench, const ScoreFlags& flags,
-                                    Progress& progress) {
-  const ScanSource& scans = *bench.sequence().scans;
-  progress.begin("reading predictions", scans.size());
-  const std::atomic<bool>& cancelled = interrupt_flag();
-  const MaskStore masks = read_removals(flags.predictions, scans, [&] {
-    progress.advance();
-    if (cancelled) throw Cancelled();
-  });
-  nlohmann::ordered_json record;
-  record["schema_version"] = kSchemaVersion;
-  record["data"] = bench.sequence().record();
-  record["data"]["scans"] = scans.size();
-  record["protocols"] = nlohmann::ordered_json::array();
-  std::string text;
-  for (std::size_t i = 0; i < bench.protocol_count(); ++i) {
-    const ProtocolResult result = bench.score(i, masks);
-    nlohmann::ordered_json scored;
-    scored["name"] = bench.protocol_name(i);
-    scored["protocol"] = bench.protocol(i).name();
-    scored["version"] = bench.protocol(i).version();
-    scored["options"] = to_json(bench.protocol(i).options());
-    scored.update(to_json(result));
-    record["protocols"].push_back(std::move(scored));
-    text += result_text(bench.protocol_name(i), result);
+/// Columns without a band, as "precision 61.662 (25796 of 41835)".
+std::string columns_text(const std::vector<ColumnValue>& columns) {
+  std::string text = "points\n";
+  for (const ColumnValue& column : columns) {
+    if (column.name.find("range ") != std::string::npos ||
+        column.name.find("height ") != std::string::npos) {
+      continue;
+    }
+    const auto percent = column.share.percent();
+    text += "  " + column.name + " " +
+            (percent ? fixed_text(*percent, 3) + " (" + std::to_string(column.share.part) + " of " +
+                           std::to_string(column.share.whole) + ")"
+                     : "n/a (" + column.undefined_reason + ")") +
+            "\n";
   }
-  progress.end();
-  print(text);
-  return record;
+  return text;
 }
 
-ExitCode score(const ScoreFlags& flags) {
-  if (flags.sequence.empty()) throw UsageError("--sequence PATH is missing.");
-  if (flags.predictions.empty()) {
-    throw UsageError("--predictions DIR is missing: the folder with a label file for each scan.");
+std::string ceiling_text(const ProtocolResult& result) {
+  std::string text = "  ceiling (the oracle's cloud scored in the same way):";
+  for (const Rate& rate : result.rates) {
+    text += " " + rate.name + " " + (rate.value ? rate_text(rate.name, *rate.value) : "n/a");
   }
+  return text + "\n";
+}
+
+/// What is scored, and what it is scored by.
+class Scoring {
+ public:
+  Scoring(SequenceBench& bench, const ScoreFlags& flags, Progress& progress)
+      : bench_(bench), flags_(flags), progress_(progress) {
+    record_["schema_version"] = kSchemaVersion;
+    record_["data"] = bench.sequence().record();
+    record_["data"]["scans"] = bench.sequence().scans->size();
+  }
+
+  ordered_json run() {
+    record_["labels"] = flags_.cloud.empty() ? "index" : "nearest";
+    record_["protocols"] = ordered_json::array();
+    const MaskStore masks = flags_.cloud.empty() ? score_predictions() : score_cloud();
+    const std::vector<ColumnValue> columns = bench_.columns(masks);
+    record_["columns"] = columns_record(columns);
+    text_ += columns_text(columns);
+    progress_.end();
+    print(text_);
+    return std::move(record_);
+  }
+
+ private:
+  MaskStore score_predictions() {
+    const ScanSource& scans = *bench_.sequence().scans;
+    progress_.begin("reading predictions", scans.size());
+    const std::atomic<bool>& cancelled = interrupt_flag();
+    MaskStore masks = read_removals(flags_.predictions, scans, [&] {
+      progress_.advance();
+      if (cancelled) throw Cancelled();
+    });
+    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
+      add_result(i, bench_.score(i, masks), nullptr);
+    }
+    return masks;
+  }
+
+  MaskStore score_cloud() {
+    const double voxel = flags_.voxel.empty() ? 0.0 : parse_positive("--voxel", flags_.voxel);
+    const CleanedCloud cloud = read_cleaned_cloud(flags_.cloud);
+    record_["cloud"]["points"] = cloud.stored;
+    record_["cloud"]["non_finite"] = cloud.non_finite;
+    record_["cloud"]["ceiling_voxel_m"] = voxel;
+    record_["cloud"]["warnings"] = cloud.warnings();
+    text_ += "cloud of " + grouped_text(cloud.stored) +
+             " points: labels by nearest neighbour, points present within 0.05 m; not to be "
+             "compared with scores by index\n";
+    for (const std::string& warning : cloud.warnings()) text_ += "  warning: " + warning + "\n";
+    const std::vector<ProtocolResult> ceilings = oracle_results(voxel);
+    const CloudEstimate estimate(cloud.points);
+    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
+      if (interrupt_flag()) throw Cancelled();
+      add_result(i, bench_.score_cloud(i, estimate), &ceilings[i]);
+    }
+    return bench_.cloud_masks(estimate);
+  }
+
+  /// What the oracle's cloud scores by each protocol.
+  std::vector<ProtocolResult> oracle_results(double voxel) {
+    const CleanedCloud oracle = oracle_cloud(bench_.sequence(), voxel, &progress_);
+    const CloudEstimate estimate(oracle.points);
+    std::vector<ProtocolResult> results;
+    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
+      if (interrupt_flag()) throw Cancelled();
+      results.push_back(bench_.score_cloud(i, estimate));
+    }
+    return results;
+  }
+
+  /// @param ceiling what the oracle's cloud scored; null where labels go by index
+  void add_result(std::size_t i, const ProtocolResult& result, const ProtocolResult* ceiling) {
+    ordered_json scored;
+    scored["name"] = bench_.protocol_name(i);
+    scored["protocol"] = bench_.protocol(i).name();
+    scored["version"] = bench_.protocol(i).version();
+    scored["options"] = to_json(bench_.protocol(i).options());
+    scored.update(to_json(result));
+    text_ += result_text(bench_.protocol_name(i), result);
+    if (ceiling != nullptr) {
+      scored["ceiling"] = to_json(*ceiling)["rates"];
+      text_ += ceiling_text(*ceiling);
+    }
+    record_["protocols"].push_back(std::move(scored));
+  }
+
+  SequenceBench& bench_;
+  const ScoreFlags& flags_;
+  Progress& progress_;
+  ordered_json record_;
+  std::string text_;
+};
+
+void check_flags(const ScoreFlags& flags) {
+  if (flags.sequence.empty()) throw UsageError("--sequence PATH is missing.");
+  if (flags.predictions.empty() && flags.cloud.empty()) {
+    throw UsageError(
+        "--predictions DIR is missing: the folder with a label file for each scan (or a map with "
+        "--cloud FILE).");
+  }
+  if (!flags.predictions.empty() && !flags.cloud.empty()) {
+    throw UsageError("--predictions and --cloud exclude each other; score them one by one.");
+  }
+  if (flags.cloud.empty() && !flags.voxel.empty()) {
+    throw UsageError("--voxel goes with --cloud: it says how the cloud was thinned.");
+  }
+}
+
+/// The protocols asked for. A cloud stands where the poses put it and has no labels.
+std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
   Suite suite;
   for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");
   if (suite.protocols.empty()) add_protocol(suite, "erasor", "");
+  for (ProtocolRequest& request : suite.protocols) {
+    if (flags.cloud.empty() || request.protocol != "erasor") continue;
+    set_parameter(request.options, "label_mode", std::string("nearest"));
+    set_parameter(request.options, "lift", 0.0);
+  }
+  for (const std::string& text : flags.settings) {
+    set_protocol_option(suite.protocols, parse_setting(text));
+  }
+  return suite.protocols;
+}
+
+ExitCode score(const ScoreFlags& flags) {
+  check_flags(flags);
+  const std::vector<ProtocolRequest> protocols = requested_protocols(flags);
   const int given = parse_threads(flags.threads);
   const int threads = given > 0 ? given : hardware_threads();
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   SequenceBench bench(open_sequence(flags.sequence, flags.reading.options(),
                                     {threads, &progress, &interrupt_flag()}),
-                      suite.protocols, threads, &progress);
-  const nlohmann::ordered_json record = score_record(bench, flags, progress);
+                      protocols, threads, &progress);
+  const ordered_json record = Scoring(bench, flags, progress).run();
   if (!flags.json.empty()) write_atomically(flags.json, json_text(record));
   return ExitCode::kDone;
 }
@@ -90,23 +218,37 @@ ExitCode score(const ScoreFlags& flags) {
 
 Command add_score_command(CLI::App& program) {
   auto flags = std::make_shared<ScoreFlags>();
-  CLI::App* app = program.add_subcommand("score", "Scores label files made by any program");
+  CLI::App* app =
+      program.add_subcommand("score", "Scores label files or a cleaned map made by any program");
   app->allow_extras();
   app->add_option("--sequence", flags->sequence, "Sequence folder, ROOT:05, `street`, or a scene")
       ->type_name("PATH");
   app->add_option("--predictions", flags->predictions,
                   "Folder of NNNNNN.label files: 251 to 259 = removed, others kept")
       ->type_name("DIR");
+  app->add_option("--cloud", flags->cloud,
+                  "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses")
+      ->type_name("FILE");
+  app->add_option("--voxel", flags->voxel,
+                  "Voxel in metres to which the cloud was thinned; thins the oracle's likewise")
+      ->type_name("SIZE");
   app->add_option("--protocol", flags->protocols, "Protocol to score by (default: erasor)")
       ->type_name("NAME")
+      ->allow_extra_args(false);
+  app->add_option("--set", flags->settings, "Option of a protocol: PROTOCOL.key=value")
+      ->type_name("SETTING")
       ->allow_extra_args(false);
   flags->reading.add_to(*app);
   app->add_option("--json", flags->json, "Write counts and rates to this file")->type_name("FILE");
   app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
-      "Examples:\n"
+      "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "
+      "perfect\ncleaner below 100. What the oracle's cloud scores in the same way is shown as the "
+      "ceiling.\nExamples:\n"
       "  raymoval score --sequence data/05 --predictions out/labels\n"
+      "  raymoval score --sequence data/05 --cloud static.pcd --voxel 0.1 --protocol erasor "
+      "--protocol dynamicmap\n"
       "  raymoval score --sequence street --predictions "
       "out/street/cells/street/raymoval-online/removals --json score.json");
   return {app, [flags] { return score(*flags); }};

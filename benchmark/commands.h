@@ -22,6 +22,8 @@ struct Command {
 
 /// One function per command, each in its own file command_<name>.cpp.
 Command add_run_command(CLI::App& program);
+Command add_plan_command(CLI::App& program);
+Command add_run_method_command(CLI::App& program);  ///< The child's side of `run`; not shown.
 Command add_table_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_list_command(CLI::App& program);
@@ -29,6 +31,9 @@ Command add_describe_command(CLI::App& program);
 Command add_score_command(CLI::App& program);
 Command add_clean_command(CLI::App& program);
 Command add_simulate_command(CLI::App& program);
+
+/// The methods that this program knows, see `run_command_line`.
+const MethodRegistry& program_methods();
 
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {

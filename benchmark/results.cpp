@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/results.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cell.h"
+#include "benchmark/score_json.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -42,6 +44,7 @@ void add_rows(const ordered_json& cell, RunResults& results) {
       for (const auto& [name, value] : scored.at("rates").items()) {
         row.rates[name] = number_or_nothing(value);
       }
+      add_intervals(scored, row);
     }
     results.rows.push_back(std::move(row));
   }
@@ -66,15 +69,44 @@ void add_times(const ordered_json& cell, RunResults& results) {
     if (known.cell == name) times = &known;
   }
   if (times == nullptr) {
-    results.times.push_back({name, 0, 0.0, 0.0, {}});
+    results.times.push_back({name, 0, 0.0, 0.0, {}, 1});
     times = &results.times.back();
   }
   times->scans += cell.at("data").at("scans").get<std::size_t>();
   times->seconds += measured.at("seconds_total").get<double>();
   times->load_seconds += measured.at("seconds_load").get<double>();
+  if (measured.contains("repeats")) {
+    times->repeats = static_cast<int>(measured.at("repeats").size());
+  }
   for (const ordered_json& stage : measured.at("stages")) {
     add_stage(*times, stage.at("name").get<std::string>(), stage.at("seconds").get<double>());
   }
+}
+
+/// The last line of `text` that holds anything, without what would steer a terminal.
+std::string last_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  text.erase(0, text.rfind('\n') + 1);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  return text;
+}
+
+void add_failure(const ordered_json& cell, RunResults& results) {
+  const auto status = cell.at("status").get<std::string>();
+  if (status == "ok") return;
+  results.failures.push_back(
+      {cell.at("sequence").get<std::string>(), cell.at("name").get<std::string>(), status,
+       cell.at("reason").get<std::string>(), last_line(cell.at("output_tail").get<std::string>())});
+}
+
+SweptCell swept_cell(const ordered_json& method) {
+  SweptCell swept{
+      method.at("name").get<std::string>(), method.at("sweep").at("of").get<std::string>(), {}};
+  for (const auto& [key, value] : method.at("sweep").at("values").items()) {
+    swept.values.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return swept;
 }
 
 RunResults parse(const ordered_json& json) {
@@ -86,14 +118,18 @@ RunResults parse(const ordered_json& json) {
   }
   for (const ordered_json& item : suite.at("methods")) {
     results.cells.push_back(item.at("name").get<std::string>());
+    if (item.contains("sweep")) results.sweeps.push_back(swept_cell(item));
   }
   for (const ordered_json& item : suite.at("protocols")) {
     results.protocols.push_back(item.at("name").get<std::string>());
   }
   for (const ordered_json& cell : json.at("cells")) {
     add_rows(cell, results);
+    add_columns(cell, results);
     add_times(cell, results);
+    add_failure(cell, results);
   }
+  if (json.contains("missing")) json.at("missing").get_to(results.missing);
   results.control_problems = json.at("controls").at("problems").get<std::vector<std::string>>();
   return results;
 }
@@ -116,6 +152,11 @@ const ResultRow* RunResults::find(const std::string& sequence, const std::string
     if (row.sequence == sequence && row.cell == cell && row.protocol == protocol) return &row;
   }
   return nullptr;
+}
+
+bool RunResults::is_swept(const std::string& cell) const {
+  return std::any_of(sweeps.begin(), sweeps.end(),
+                     [&](const SweptCell& swept) { return swept.cell == cell; });
 }
 
 RunResults parse_results(const ordered_json& results, const std::string& where) {
@@ -153,6 +194,21 @@ std::string results_csv(const RunResults& results) {
     csv += "," + csv_text(row.cell) + "\n";
   }
   return csv;
+}
+
+void choose_protocols(RunResults& results, const std::vector<std::string>& protocols) {
+  const auto wanted = [&](const std::string& name) {
+    return std::find(protocols.begin(), protocols.end(), name) != protocols.end();
+  };
+  for (const std::string& protocol : protocols) {
+    const auto& known = results.protocols;
+    if (std::find(known.begin(), known.end(), protocol) != known.end()) continue;
+    throw UsageError("--protocol " + protocol + ": this run was not scored by it." +
+                     suggestion(protocol, known));
+  }
+  if (protocols.empty()) return;
+  std::erase_if(results.protocols, [&](const auto& name) { return !wanted(name); });
+  std::erase_if(results.rows, [&](const ResultRow& row) { return !wanted(row.protocol); });
 }
 
 }  // namespace raymoval

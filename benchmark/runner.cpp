@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/runner.h"
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "benchmark/cell.h"
+#include "benchmark/cell_store.h"
 #include "benchmark/checked_sink.h"
 #include "benchmark/controls_check.h"
-#include "benchmark/machine.h"
-#include "benchmark/removal_files.h"
+#include "benchmark/folder_lock.h"
 #include "benchmark/results.h"
+#include "benchmark/run_folder.h"
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_bench.h"
-#include "benchmark/tables.h"
-#include "core/files.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -23,26 +23,10 @@ namespace {
 using nlohmann::ordered_json;
 using std::filesystem::path;
 
-void make_folder(const path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw DataError(folder.string() + ": cannot be made (" + error.message() +
-                    "). Choose another --out.");
-  }
-}
-
-/// Refuses to spread results over a folder that holds something else.
-void prepare_run_folder(const path& out) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(out, ignored) && !std::filesystem::is_empty(out, ignored) &&
-      !std::filesystem::exists(out / "run.json", ignored)) {
-    throw UsageError("--out " + out.string() +
-                     ": the folder holds other files and no run.json. Name a new or empty folder, "
-                     "or that of an earlier run to go on with it.");
-  }
-  make_folder(out);
-}
+// A method that needs more than this for a scan is no use; a short sequence gets time to start.
+constexpr double kSecondsPerScan = 30.0;
+constexpr double kLeastSeconds = 600.0;
+constexpr double kShareOfMemory = 0.9;
 
 std::vector<Sequence> open_sequences(const Suite& suite, const OpenContext& context) {
   std::vector<Sequence> sequences;
@@ -59,175 +43,330 @@ std::vector<Sequence> open_sequences(const Suite& suite, const OpenContext& cont
   return sequences;
 }
 
-ordered_json suite_record(const Suite& suite, const std::vector<Sequence>& sequences) {
-  ordered_json record;
-  record["name"] = suite.name;
-  record["sequences"] = ordered_json::array();
-  for (const Sequence& sequence : sequences) record["sequences"].push_back(sequence.record());
-  record["methods"] = ordered_json::array();
-  for (const MethodRequest& request : suite.methods) {
-    ordered_json method;
-    method["name"] = request.name;
-    method["method"] = request.method.full_name();
-    method["version"] = request.method.entry->version;
-    method["parameters"] = to_json(request.method.configuration);
-    record["methods"].push_back(std::move(method));
-  }
-  record["protocols"] = ordered_json::array();
-  for (const ProtocolRequest& request : suite.protocols) {
-    ordered_json protocol;
-    protocol["name"] = request.name;
-    protocol["protocol"] = request.protocol;
-    protocol["options"] = to_json(request.options);
-    record["protocols"].push_back(std::move(protocol));
-  }
-  record["controls"] = suite.controls;
-  return record;
+ChildLimits limits_for(const Suite& suite, std::size_t scans) {
+  ChildLimits limits;
+  limits.seconds = suite.time_limit_s > 0.0
+                       ? suite.time_limit_s
+                       : std::max(kLeastSeconds, kSecondsPerScan * static_cast<double>(scans));
+  limits.memory_mib =
+      suite.memory_limit_mib > 0.0 ? suite.memory_limit_mib : kShareOfMemory * machine_memory_mib();
+  return limits;
 }
 
-/// Runs the cells of a suite one after another.
+/// "PR 98.123, RR 91.000, F1 0.9443 (12.3 ms per scan)", or what went wrong.
+std::string outcome(const ordered_json& cell) {
+  if (cell["status"] != "ok") {
+    return cell["status"].get<std::string>() + ", " + cell["reason"].get<std::string>();
+  }
+  std::string text;
+  for (const ordered_json& protocol : cell["protocols"]) {
+    for (const auto& [rate, value] : protocol["rates"].items()) {
+      text += text.empty() ? "" : ", ";
+      text += rate + " " + (value.is_null() ? "n/a" : rate_text(rate, value.get<double>()));
+    }
+  }
+  return text + " (" +
+         fixed_text(cell["measured"]["seconds_per_scan"]["mean"].get<double>() * 1000.0, 1) +
+         " ms per scan)";
+}
+
+/// The cells of a suite, one after another.
 class Runner {
  public:
   Runner(const Suite& suite, const RunOptions& options)
       : suite_(suite),
         options_(options),
-        threads_(suite.threads > 0 ? suite.threads : hardware_threads()) {}
-
-  RunSummary run() {
-    std::vector<Sequence> sequences =
-        open_sequences(suite_, {threads_, options_.progress, options_.cancel});
+        store_(options.out),
+        threads_(suite.threads > 0 ? suite.threads : hardware_threads()) {
+    sequences_ = open_sequences(suite_, {threads_, options_.progress, options_.cancel});
     for (const ProtocolRequest& request : suite_.protocols) {
       (void)make_protocol(request.protocol, request.options);  // Bad options show before the work.
     }
+    std::vector<std::string> names;
+    for (const Sequence& sequence : sequences_) {
+      for (const MethodRequest& request : suite_.methods) {
+        names.push_back(sequence.name + "/" + request.name);
+      }
+    }
+    selected_ = select_cells(options_.selection, names);
+    cells_.resize(names.size());
+  }
+
+  RunSummary run_all() {
     prepare_run_folder(options_.out);
-    ordered_json record;
-    record["schema_version"] = kSchemaVersion;
-    record["suite"] = suite_record(suite_, sequences);
-    record["build"] = build_record();
-    record["machine"] = machine_record();
-    record["machine"]["threads"] = threads_;
+    const FolderLock lock(options_.out / kLockFile, FolderLock::Mode::kExclusive);
+    store_.sweep();
+    const ordered_json record = run_record(suite_, sequences_, threads_);
     write_sealed(options_.out / "run.json", record);
-    for (Sequence& sequence : sequences) run_sequence(std::move(sequence));
-    if (unreadable_ == sequences.size()) throw DataError(first_unreadable_);
+    for (std::size_t i = 0; i < sequences_.size(); ++i) run_sequence(i);
+    if (unreadable_ == sequences_.size()) throw DataError(first_unreadable_);
     finish(record);
     return summary_;
   }
 
+  RunSummary run_one(const std::string& wanted) {
+    const auto [sequence, method] = find_cell(wanted);
+    const path folder = folder_of(sequence, method);
+    prepare_run_folder(options_.out);
+    const FolderLock run_lock(options_.out / kLockFile, FolderLock::Mode::kShared);
+    make_folder(folder);
+    const FolderLock cell_lock(folder / kLockFile, FolderLock::Mode::kExclusive);
+    selected_.assign(selected_.size(), false);
+    selected_[sequence * suite_.methods.size() + method] = true;
+    alone_ = true;
+    run_sequence(sequence);
+    return summary_;
+  }
+
+  std::vector<PlannedCell> plan() {
+    std::vector<PlannedCell> planned;
+    for (std::size_t i = 0; i < sequences_.size(); ++i) plan_sequence(i, planned);
+    return planned;
+  }
+
  private:
-  void run_sequence(Sequence sequence) {
-    const std::string name = sequence.name;
-    SequenceBench bench(std::move(sequence), suite_.protocols, threads_, options_.progress);
+  [[nodiscard]] path folder_of(std::size_t sequence, std::size_t method) const {
+    return store_.folder(sequences_[sequence].name, suite_.methods[method]);
+  }
+  [[nodiscard]] bool is_selected(std::size_t sequence, std::size_t method) const {
+    return selected_[sequence * suite_.methods.size() + method];
+  }
+  [[nodiscard]] ordered_json& cell_at(std::size_t sequence, std::size_t method) {
+    return cells_[sequence * suite_.methods.size() + method];
+  }
+  [[nodiscard]] SequenceBench bench_of(std::size_t sequence) const {
+    return {sequences_[sequence], suite_.protocols, threads_, options_.progress};
+  }
+
+  /// Whether anything of a sequence is to be run or may be there: else its data is not read.
+  [[nodiscard]] bool is_needed(std::size_t sequence) const {
+    std::error_code ignored;
+    for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
+      if (is_selected(sequence, method) ||
+          std::filesystem::exists(folder_of(sequence, method) / "cell.json", ignored)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void run_sequence(std::size_t sequence) {
+    if (!is_needed(sequence)) return;
+    SequenceBench bench = bench_of(sequence);
     try {
       (void)bench.data_fingerprint();
     } catch (const DataError& error) {
       if (unreadable_++ == 0) first_unreadable_ = error.what();
-      for (const MethodRequest& request : suite_.methods) {
-        keep(name, request, unreadable_cell(name, request, error.what()));
+      for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
+        if (!is_selected(sequence, method)) continue;
+        keep(sequence, method,
+             unreadable_cell(bench.sequence().name, suite_.methods[method], error.what()));
       }
       return;
     }
-    for (const MethodRequest& request : suite_.methods) run_cell(bench, request);
+    for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
+      run_cell(bench, sequence, method);
+    }
+    // Method after method in each round, so that a machine that slows down slows all of them.
+    for (int round = 2; round <= suite_.repeats; ++round) {
+      for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
+        repeat(bench, sequence, method, round);
+      }
+    }
   }
 
-  void run_cell(SequenceBench& bench, const MethodRequest& request) {
+  [[nodiscard]] CellTask task_for(SequenceBench& bench, std::size_t sequence,
+                                  std::size_t method) const {
+    CellTask task{&bench, &suite_.methods[method], {}, options_.cancel, nullptr, {}};
+    if (options_.keep_removals) task.removals = store_.new_removals(folder_of(sequence, method));
+    if (options_.isolate) {
+      task.place = &suite_.sequences[sequence];
+      task.limits = limits_for(suite_, bench.sequence().scans->size());
+    }
+    return task;
+  }
+
+  void run_cell(SequenceBench& bench, std::size_t sequence, std::size_t method) {
     if (options_.cancel != nullptr && options_.cancel->load()) throw Cancelled();
-    const std::string& sequence = bench.sequence().name;
-    const path folder = cell_folder(sequence, request);
-    CellTask task{&bench, &request, {}, options_.cancel};
-    if (options_.keep_removals) task.removals = folder / "removals";
-    if (auto stored = stored_cell(task, folder)) {
+    if (alone_ && !is_selected(sequence, method)) return;
+    StoredCell stored = store_.find(bench, suite_.methods[method], options_.keep_removals);
+    const bool selected = is_selected(sequence, method);
+    const bool may_fail = options_.collect || !selected;
+    if (stored.state == StoredCell::State::kFresh ||
+        (may_fail && stored.state == StoredCell::State::kFailed)) {
       ++summary_.reused;
-      keep_in_memory(sequence, request, std::move(*stored));
-      return;
+      keep_in_memory(sequence, method, std::move(*stored.cell));
+    } else if (selected && !options_.collect) {
+      store_.prepare(folder_of(sequence, method));
+      keep(sequence, method, execute_cell(task_for(bench, sequence, method)));
     }
-    std::error_code ignored;
-    std::filesystem::remove(folder / "cell.json", ignored);
-    std::filesystem::remove_all(folder / "removals", ignored);
-    keep(sequence, request, execute_cell(task));
   }
 
-  [[nodiscard]] path cell_folder(const std::string& sequence, const MethodRequest& request) const {
-    return options_.out / "cells" / folder_name(sequence) / folder_name(request.name);
-  }
-
-  /// The cell of an earlier run if it is this very cell, whole, and all that is asked for is there.
-  [[nodiscard]] std::optional<ordered_json> stored_cell(const CellTask& task,
-                                                        const path& folder) const {
-    try {
-      ordered_json cell = read_sealed(folder / "cell.json");
-      if (cell.value("status", "") != "ok" || cell.value("key", "") != cell_key(task)) return {};
-      if (!task.removals.empty()) {
-        const MaskStore masks = read_removals(task.removals, *task.bench->sequence().scans, [] {});
-        if (mask_digest(masks) != cell.at("masks").at("digest")) return {};
+  void repeat(SequenceBench& bench, std::size_t sequence, std::size_t method, int round) {
+    const MethodRequest& request = suite_.methods[method];
+    ordered_json& cell = cell_at(sequence, method);
+    if (cell.is_null() || cell["status"] != "ok" || is_control(request.method.entry->name)) return;
+    const std::string& name = bench.sequence().name;
+    const auto key = cell["key"].get<std::string>();
+    auto stored = store_.find_repeat(name, request, round, key);
+    if (!stored && is_selected(sequence, method) && !options_.collect) {
+      if (options_.cancel != nullptr && options_.cancel->load()) throw Cancelled();
+      const MethodAnswer answer = repeat_cell(task_for(bench, sequence, method));
+      if (answer.status != "ok") {
+        return fail_repeat(sequence, method, round, answer.status, answer.reason);
       }
-      return cell;
-    } catch (const DataError&) {
-      return {};
-    } catch (const ordered_json::exception&) {
-      return {};
+      stored = StoredRepeat{mask_digest(answer.masks), answer.measured};
+      store_.keep_repeat(folder_of(sequence, method), round, key, *stored);
     }
+    if (!stored) return;
+    if (stored->digest != cell["masks"]["digest"]) {
+      return fail_repeat(sequence, method, round, "failed",
+                         "it removed other points than before, and must always remove the same");
+    }
+    repeats_[&cell].push_back(stored->measured);
   }
 
-  void keep(const std::string& sequence, const MethodRequest& request, ordered_json cell) {
-    const path folder = cell_folder(sequence, request);
+  void fail_repeat(std::size_t sequence, std::size_t method, int round, const std::string& status,
+                   const std::string& reason) {
+    ordered_json& cell = cell_at(sequence, method);
+    cell["status"] = status;
+    cell["reason"] = "repeat " + std::to_string(round) + ": " + reason;
+    cell["protocols"] = ordered_json::array();
+    store_.keep(folder_of(sequence, method), cell);
+    summary_.failures.push_back(failure_text(cell));
+  }
+
+  void keep(std::size_t sequence, std::size_t method, ordered_json cell) {
+    const path folder = folder_of(sequence, method);
     make_folder(folder);
-    write_sealed(folder / "cell.json", cell);
-    keep_in_memory(sequence, request, std::move(cell));
+    store_.keep(folder, cell);
+    keep_in_memory(sequence, method, std::move(cell));
   }
 
-  void keep_in_memory(const std::string& sequence, const MethodRequest& request,
-                      ordered_json cell) {
+  static std::string failure_text(const ordered_json& cell) {
+    return cell["sequence"].get<std::string>() + " / " + cell["name"].get<std::string>() + ": " +
+           cell["reason"].get<std::string>();
+  }
+
+  void keep_in_memory(std::size_t sequence, std::size_t method, ordered_json cell) {
     ++summary_.cells;
-    std::string line = "[" + std::to_string(summary_.cells) + "/" +
-                       std::to_string(suite_.sequences.size() * suite_.methods.size()) + "] " +
-                       request.name + " on " + sequence + ": " + outcome(cell);
-    if (cell["status"] != "ok") {
-      summary_.failures.push_back(sequence + " / " + request.name + ": " +
-                                  cell["reason"].get<std::string>());
-    }
-    cells_.push_back(std::move(cell));
+    const std::string line = "[" + std::to_string(summary_.cells) + "/" +
+                             std::to_string(cells_.size()) + "] " +
+                             cell["name"].get<std::string>() + " on " +
+                             cell["sequence"].get<std::string>() + ": " + outcome(cell);
+    if (cell["status"] != "ok") summary_.failures.push_back(failure_text(cell));
+    cell_at(sequence, method) = std::move(cell);
     if (options_.progress == nullptr) return;
     options_.progress->end();
     options_.progress->say(line);
   }
 
-  static std::string outcome(const ordered_json& cell) {
-    if (cell["status"] != "ok") {
-      return cell["status"].get<std::string>() + ", " + cell["reason"].get<std::string>();
-    }
-    std::string text;
-    for (const ordered_json& protocol : cell["protocols"]) {
-      for (const auto& [rate, value] : protocol["rates"].items()) {
-        text += text.empty() ? "" : ", ";
-        text += rate + " " + (value.is_null() ? "n/a" : rate_text(rate, value.get<double>()));
-      }
-    }
-    return text + " (" +
-           fixed_text(cell["measured"]["seconds_per_scan"]["mean"].get<double>() * 1000.0, 1) +
-           " ms per scan)";
+  /// The run of median time stands for all of them; the others' times stand beside it.
+  void merge_repeats(ordered_json& cell) const {
+    const auto found = repeats_.find(&cell);
+    if (found == repeats_.end() || cell["status"] != "ok") return;
+    std::vector<Measurement> runs = found->second;
+    runs.insert(runs.begin(), measurement_from(cell["measured"]));
+    ordered_json means = ordered_json::array();
+    for (const Measurement& run : runs) means.push_back(run.mean_seconds);
+    std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
+      return a.total_seconds < b.total_seconds;
+    });
+    cell["measured"] = to_json(runs[(runs.size() - 1) / 2]);
+    cell["measured"]["repeats"] = std::move(means);
   }
 
   void finish(const ordered_json& record) {
-    if (suite_.controls) summary_.controls = check_controls(cells_);
-    ordered_json results;
-    results["schema_version"] = kSchemaVersion;
-    results["run"] = record;
-    results["controls"]["checked"] = suite_.controls;
-    results["controls"]["problems"] = summary_.controls;
-    results["cells"] = cells_;
-    const RunResults parsed = parse_results(results, "results");
-    const std::vector<TextTable> tables = make_tables(parsed);
-    write_atomically(options_.out / "results.csv", results_csv(parsed));
-    write_atomically(options_.out / "table.md", tables_markdown(parsed, tables));
-    write_atomically(options_.out / "table.tex", tables_latex(tables));
-    write_sealed(options_.out / "results.json", std::move(results));
+    std::vector<ordered_json> there;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (!cells_[i].is_null()) {
+        merge_repeats(cells_[i]);
+        there.push_back(cells_[i]);
+        continue;
+      }
+      summary_.missing.push_back(sequences_[i / suite_.methods.size()].name + " / " +
+                                 suite_.methods[i % suite_.methods.size()].name);
+    }
+    if (suite_.controls) summary_.controls = check_controls(there);
+    write_results(options_.out,
+                  {&record, &there, suite_.controls, summary_.controls, summary_.missing});
+  }
+
+  void plan_sequence(std::size_t sequence, std::vector<PlannedCell>& planned) const {
+    SequenceBench bench = bench_of(sequence);
+    std::string unreadable;
+    try {
+      (void)bench.data_fingerprint();
+    } catch (const DataError& error) {
+      unreadable = error.what();
+    }
+    for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
+      const MethodRequest& request = suite_.methods[method];
+      PlannedCell cell;
+      cell.sequence = bench.sequence().name;
+      cell.name = request.name;
+      cell.method = request.method.full_name();
+      cell.folder = CellStore("").folder(cell.sequence, request);
+      cell.scans = bench.sequence().scans->size();
+      cell.why = "is not there yet";
+      if (!unreadable.empty()) {
+        cell.why = "its data cannot be read: " + unreadable;
+      } else {
+        cell.key = cell_key(bench, request);
+        if (!options_.out.empty()) judge(bench, request, cell);
+      }
+      if (!is_selected(sequence, method)) {
+        cell.to_run = false;
+        cell.why = "is not selected";
+      }
+      planned.push_back(std::move(cell));
+    }
+  }
+
+  void judge(SequenceBench& bench, const MethodRequest& request, PlannedCell& cell) const {
+    const StoredCell stored = store_.find(bench, request, options_.keep_removals);
+    cell.why = stored.why;
+    cell.to_run = stored.state != StoredCell::State::kFresh;
+    for (int round = 2; round <= suite_.repeats && !cell.to_run; ++round) {
+      if (is_control(request.method.entry->name)) break;
+      if (store_.find_repeat(cell.sequence, request, round, cell.key)) continue;
+      cell.to_run = true;
+      cell.why = "repeat " + std::to_string(round) + " is not there yet";
+    }
+  }
+
+  /// By "SEQUENCE/NAME" without reading data, else by key.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> find_cell(const std::string& wanted) const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const std::size_t sequence = i / suite_.methods.size(), method = i % suite_.methods.size();
+      names.push_back(sequences_[sequence].name + "/" + suite_.methods[method].name);
+      if (names.back() == wanted) return {sequence, method};
+    }
+    if (wanted.find('/') == std::string::npos) {
+      for (std::size_t sequence = 0; sequence < sequences_.size(); ++sequence) {
+        SequenceBench bench = bench_of(sequence);
+        for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
+          if (cell_key(bench, suite_.methods[method]) == wanted) return {sequence, method};
+        }
+      }
+    }
+    throw UsageError("--cell " + wanted +
+                     ": this suite has no such cell. A key changes with parameters, data, "
+                     "protocols and versions: see `raymoval plan`." +
+                     suggestion(wanted, names));
   }
 
   const Suite& suite_;
   const RunOptions& options_;
+  CellStore store_;
   int threads_;
-  std::vector<ordered_json> cells_;
+  std::vector<Sequence> sequences_;
+  std::vector<bool> selected_;       ///< By sequence, then method.
+  std::vector<ordered_json> cells_;  ///< The same; null: not there.
+  std::map<const ordered_json*, std::vector<Measurement>> repeats_;
   RunSummary summary_;
+  bool alone_ = false;  ///< One cell only: the others are not looked at.
   std::size_t unreadable_ = 0;
   std::string first_unreadable_;
 };
@@ -235,7 +374,15 @@ class Runner {
 }  // namespace
 
 RunSummary run_suite(const Suite& suite, const RunOptions& options) {
-  return Runner(suite, options).run();
+  return Runner(suite, options).run_all();
+}
+
+RunSummary run_one_cell(const Suite& suite, const RunOptions& options, const std::string& cell) {
+  return Runner(suite, options).run_one(cell);
+}
+
+std::vector<PlannedCell> plan_suite(const Suite& suite, const RunOptions& options) {
+  return Runner(suite, options).plan();
 }
 
 }  // namespace raymoval

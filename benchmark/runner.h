@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/cell_selection.h"
 #include "benchmark/suite.h"
 #include "core/progress.h"
 
@@ -18,6 +19,11 @@ struct RunOptions {
   bool keep_removals = false;  ///< Whether label files are kept beside each cell.
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
+  /// Whether each method runs in a child process, with the suite's limits. The child is this very
+  /// program, which has to know `kMethodCommand` (benchmark/method_process.h).
+  bool isolate = false;
+  CellSelection selection = {};
+  bool collect = false;  ///< Nothing is run: results are made of the cells that are there.
 };
 
 struct RunSummary {
@@ -25,13 +31,37 @@ struct RunSummary {
   std::size_t reused = 0;             ///< Cells that were there already and are right.
   std::vector<std::string> failures;  ///< "sequence / method: reason", one for each failed cell.
   std::vector<std::string> controls;  ///< What is wrong with the controls; empty if all is well.
+  std::vector<std::string> missing;   ///< "sequence / method" of cells that were not run.
   [[nodiscard]] bool good() const { return failures.empty() && controls.empty(); }
 };
 
-/// Runs every cell of `suite` that is not yet in the run folder with the right key, then writes
-/// results and tables. A cell that fails is recorded, and the rest goes on.
-/// @throws UsageError, DataError or ConfigurationError if the suite cannot start, or none of its
-/// sequences can be read; Cancelled (finished cells stay and are used again next time)
+/// Runs every selected cell of `suite` that is not yet in the run folder with the right key, then
+/// writes results and tables of all cells that are there. A cell that fails is recorded, and the
+/// rest goes on. The folder is locked meanwhile.
+/// @throws UsageError, DataError or ConfigurationError if the suite cannot start, none of its
+/// sequences can be read, or results cannot be written; Cancelled (finished cells stay and are used
+/// again next time)
 RunSummary run_suite(const Suite& suite, const RunOptions& options);
+
+/// Runs one cell and writes nothing but its folder; several may be run at once in one run folder.
+/// @param cell its key, or "SEQUENCE/NAME"
+/// @throws as run_suite; UsageError if the suite has no such cell, or somebody else runs it
+RunSummary run_one_cell(const Suite& suite, const RunOptions& options, const std::string& cell);
+
+/// What a run would do with a cell.
+struct PlannedCell {
+  std::string key;  ///< Empty if the sequence cannot be read.
+  std::string sequence;
+  std::string name;
+  std::string method;            ///< With its variant.
+  std::filesystem::path folder;  ///< Within the run folder.
+  std::size_t scans = 0;
+  bool to_run = true;
+  std::string why;  ///< Why it has to be run; why it is not selected.
+};
+
+/// All cells in their order; nothing is run and nothing written (but simulated scenes go to the
+/// cache). Without `options.out` every cell is to be run.
+std::vector<PlannedCell> plan_suite(const Suite& suite, const RunOptions& options);
 
 }  // namespace raymoval

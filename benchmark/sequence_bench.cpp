@@ -41,10 +41,28 @@ EvaluationInput SequenceBench::input() const {
   return input;
 }
 
-ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
+std::vector<ColumnValue> SequenceBench::columns(const MaskStore& masks) const {
+  return column_values(tally_removals(input(), masks));
+}
+
+const SequenceBench::Scorer& SequenceBench::prepared(std::size_t i) {
   Scorer& scorer = scorers_[i];
   if (scorer.truth == nullptr) scorer.truth = scorer.protocol->prepare(input());
+  return scorer;
+}
+
+ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
+  const Scorer& scorer = prepared(i);
   return scorer.protocol->score(input(), *scorer.truth, masks);
+}
+
+ProtocolResult SequenceBench::score_cloud(std::size_t i, const CloudEstimate& cloud) {
+  const Scorer& scorer = prepared(i);
+  return scorer.protocol->score_cloud(input(), *scorer.truth, cloud);
+}
+
+const MaskStore& SequenceBench::cloud_masks(const CloudEstimate& cloud) const {
+  return cloud.masks(input(), kCloudDistance);
 }
 
 }  // namespace raymoval

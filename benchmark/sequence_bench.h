@@ -8,6 +8,8 @@
 #include "benchmark/suite.h"
 #include "core/progress.h"
 #include "datasets/sequence.h"
+#include "eval/cloud_masks.h"
+#include "eval/columns.h"
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -33,6 +35,15 @@ class SequenceBench {
   /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
   ProtocolResult score(std::size_t i, const MaskStore& masks);
 
+  /// Scores a cleaned cloud by protocol `i`.
+  ProtocolResult score_cloud(std::size_t i, const CloudEstimate& cloud);
+
+  /// Which points of the scans are not found again in a cleaned cloud (see `masks_of_cloud`).
+  [[nodiscard]] const MaskStore& cloud_masks(const CloudEstimate& cloud) const;
+
+  /// Figures on the removed points by class, range and height.
+  [[nodiscard]] std::vector<ColumnValue> columns(const MaskStore& masks) const;
+
  private:
   struct Scorer {
     std::string name;
@@ -40,6 +51,7 @@ class SequenceBench {
     std::unique_ptr<TruthMap> truth;
   };
   [[nodiscard]] EvaluationInput input() const;
+  const Scorer& prepared(std::size_t i);
 
   Sequence sequence_;
   int threads_;

@@ -22,6 +22,8 @@ struct SequenceRequest {
 struct MethodRequest {
   std::string name;  ///< Unique in the suite: "raymoval:online", or what "as" says.
   ConfiguredMethod method;
+  std::string sweep_of = {};  ///< Name without the swept values, if this is one point of a sweep.
+  Configuration sweep = {};   ///< The swept values of this point.
 };
 
 /// A protocol of a suite with its effective options.
@@ -37,8 +39,11 @@ struct Suite {
   std::vector<SequenceRequest> sequences;
   std::vector<MethodRequest> methods;
   std::vector<ProtocolRequest> protocols;
-  bool controls = true;  ///< Whether the controls are added and checked.
-  int threads = 0;       ///< 0: as many as the machine has.
+  bool controls = true;           ///< Whether the controls are added and checked.
+  int threads = 0;                ///< 0: as many as the machine has.
+  int repeats = 1;                ///< How often each method runs, for its time; controls run once.
+  double time_limit_s = 0.0;      ///< Of a cell; 0: the usual, by the number of scans.
+  double memory_limit_mib = 0.0;  ///< Of a cell; 0: the usual, by what the machine has.
 };
 
 /// `--set raymoval:online.tau0=0.2`, taken apart.
@@ -52,14 +57,19 @@ struct Setting {
 Setting parse_setting(const std::string& text);
 
 /// Reads a suite file (JSON with comments). Relative paths are looked up beside the suite file
-/// first, then from the working folder.
-/// @throws ConfigurationError naming the file, the key and the nearest legal one.
-Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry);
+/// first, then from the working folder; "{data}" at the start of a path stands for `data`.
+/// @throws ConfigurationError naming the file, the key and the nearest legal one; UsageError if the
+/// file asks for `data` and there is none, or the other way round
+Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry,
+                 const std::string& data = "");
 
 /// Adds "raymoval:online" under its own name, or under `as` if that is not empty.
 /// @throws UsageError if the name is taken or unknown.
 MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
                           const MethodRegistry& registry);
+
+/// Options of a protocol. @throws UsageError suggesting the nearest protocol
+const std::vector<ParameterSpec>& protocol_parameters(const std::string& name);
 
 /// Adds a protocol with its default options. @throws UsageError if the name is taken or unknown.
 ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as);
@@ -67,6 +77,10 @@ ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const s
 /// Applies settings: those for a method to all its variants, then those that name a cell.
 /// @throws UsageError if one names no method of the suite, or the same value is set twice.
 void apply_settings(Suite& suite, const std::vector<Setting>& settings);
+
+/// Sets an option of the protocol that `setting` names.
+/// @throws UsageError if it is not among `protocols`, ConfigurationError for a key or value
+void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting);
 
 /// Puts `noop`, `remove-all` and `oracle` in front, unless listed already.
 void add_controls(Suite& suite, const MethodRegistry& registry);

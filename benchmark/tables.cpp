@@ -5,6 +5,8 @@
 #include <optional>
 #include <set>
 
+#include "benchmark/column_tables.h"
+#include "benchmark/sweep_tables.h"
 #include "core/text.h"
 #include "eval/averages.h"
 
@@ -39,6 +41,7 @@ std::vector<Column> run_columns(const RunResults& results, const std::string& pr
                                 bool controls) {
   std::vector<Column> columns;
   for (const std::string& cell : results.cells) {
+    if (results.is_swept(cell)) continue;  // Shown in a table of its own.
     Column column{cell, {}, {}, false};
     bool wanted = false;
     for (const std::string& sequence : results.sequences) {
@@ -189,6 +192,15 @@ TextTable rate_table(const std::vector<std::string>& sequences, const std::strin
   return table;
 }
 
+/// What the rates of a table are.
+std::string rate_words(const std::vector<std::string>& rates) {
+  if (has(rates, "F1")) {
+    return "Rates in percent, F1 as a fraction. mean_F1 is the mean of the F1 values; F1_of_means "
+           "is the F1 of mean PR and mean RR.";
+  }
+  return "Rates in percent; AA is the geometric and HA the harmonic mean of SA and DA.";
+}
+
 TextTable method_table(const RunResults& results, const std::string& protocol,
                        const std::vector<OutsideColumn>& outside) {
   const std::vector<std::string> rates = rates_of(results, protocol);
@@ -196,10 +208,9 @@ TextTable method_table(const RunResults& results, const std::string& protocol,
   if (has(rates, "PR") && has(rates, "RR")) add_outside(results, outside, columns);
   TextTable table =
       rate_table(results.sequences, "Accuracy by protocol " + protocol, columns, rates, true);
-  table.notes.push_back(
-      "Rates in percent, F1 as a fraction. mean_F1 is the mean of the F1 values; F1_of_means is "
-      "the F1 of mean PR and mean RR. n/a: undefined or not run; (4/5): the mean is over the 4 of "
-      "5 sequences that have a value.");
+  table.notes.push_back(rate_words(rates) +
+                        " n/a: undefined or not run; (4/5): the mean is over the 4 of 5 sequences "
+                        "that have a value.");
   return table;
 }
 
@@ -225,6 +236,31 @@ TextTable published_table(const std::vector<OutsideColumn>& outside) {
   return table;
 }
 
+/// At most so much of a text that somebody else wrote, cut between characters.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + " ...";
+}
+
+/// What became of the cells that have no result.
+TextTable failure_table(const RunResults& results) {
+  TextTable table{
+      "Cells without a result", "cell", {{"", {"status", "reason", "last line printed"}}}, {}, {}};
+  for (const FailedCell& failed : results.failures) {
+    table.rows.push_back(
+        {failed.sequence + " / " + failed.cell,
+         {{failed.status}, {shortened(failed.reason)}, {shortened(failed.last_output)}},
+         false});
+  }
+  for (const std::string& cell : results.missing) {
+    table.rows.push_back({cell, {{"not run"}, {""}, {""}}, false});
+  }
+  return table;
+}
+
 TextTable stage_table(const MethodTimes& times) {
   TextTable table{"Time of " + times.cell, "stage", {{"", {"ms per scan", "share in %"}}}, {}, {}};
   const double scans = static_cast<double>(std::max<std::size_t>(times.scans, 1));
@@ -243,6 +279,9 @@ TextTable stage_table(const MethodTimes& times) {
   table.notes.push_back("Mean over " + grouped_text(times.scans) +
                         " scans. Reading scans (load) took another " +
                         fixed_text(1000.0 * times.load_seconds / scans, 3) + " ms per scan.");
+  if (times.repeats > 1) {
+    table.notes.push_back("The median of " + std::to_string(times.repeats) + " runs.");
+  }
   return table;
 }
 
@@ -262,12 +301,23 @@ std::vector<TextTable> make_tables(const RunResults& results,
     TextTable methods = method_table(results, protocol, outside);
     if (!methods.groups.empty()) tables.push_back(std::move(methods));
   }
+  for (TextTable& sweep : sweep_tables(results)) tables.push_back(std::move(sweep));
   if (!outside.empty()) tables.push_back(published_table(outside));
+  const auto append = [&tables](std::vector<TextTable> more) {
+    for (TextTable& table : more) tables.push_back(std::move(table));
+  };
+  append(ranking_tables(results));
+  append(compact_column_tables(results));
   for (const std::string& protocol : results.protocols) {
     TextTable controls = control_table(results, protocol);
     if (!controls.groups.empty()) tables.push_back(std::move(controls));
   }
-  for (const MethodTimes& times : results.times) tables.push_back(stage_table(times));
+  if (!results.failures.empty() || !results.missing.empty()) {
+    tables.push_back(failure_table(results));
+  }
+  for (const MethodTimes& times : results.times) {
+    if (!results.is_swept(times.cell)) tables.push_back(stage_table(times));
+  }
   return tables;
 }
 

@@ -19,8 +19,9 @@ struct OutsideColumn {
 };
 
 /// The tables of a run in the order in which they are shown: for each protocol sequence x method
-/// (the paper's Table 2: best bold, second underlined, averages), the controls, then the time of
-/// each stage (the paper's Table 3).
+/// (the paper's Table 2: best bold, second underlined, averages), where the protocols' rankings
+/// differ, what the removed points were, the controls, then the time of each stage (the paper's
+/// Table 3).
 /// @param outside columns set beside those of the run where the protocol has PR and RR and a
 ///   sequence is in both; a table of all of them follows
 std::vector<TextTable> make_tables(const RunResults& results,

@@ -11,7 +11,9 @@ foreach(room core datasets methods eval)
 endforeach()
 install(DIRECTORY benchmark/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
         FILES_MATCHING PATTERN "*.json")
-install(DIRECTORY results/published DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval)
+install(DIRECTORY results/published results/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval)
+install(DIRECTORY scripts/workflow DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
+        USE_SOURCE_PERMISSIONS PATTERN "test_slurm.sh" EXCLUDE)
 install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir})
 configure_package_config_file(cmake/raymovalConfig.cmake.in raymovalConfig.cmake
                               INSTALL_DESTINATION ${config_dir})

@@ -47,15 +47,15 @@ void Progress::advance(std::size_t steps) {
 
 void Progress::end() {
   const std::lock_guard lock(mutex_);
-  if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stderr);
+  if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stream_);
   total_ = 0;
 }
 
 void Progress::say(const std::string& line) {
   if (style_ == ProgressStyle::kQuiet) return;
   const std::lock_guard lock(mutex_);
-  if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stderr);
-  std::fprintf(stderr, "%s\n", line.c_str());
+  if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stream_);
+  std::fprintf(stream_, "%s\n", line.c_str());
 }
 
 std::string Progress::status(Clock::time_point now) const {
@@ -70,13 +70,13 @@ std::string Progress::status(Clock::time_point now) const {
 
 void Progress::print_terminal(Clock::time_point now) {
   printed_ = now;
-  std::fprintf(stderr, "\r\x1b[K%s", status(now).c_str());
-  std::fflush(stderr);
+  std::fprintf(stream_, "\r\x1b[K%s", status(now).c_str());
+  std::fflush(stream_);
 }
 
 void Progress::print_log(Clock::time_point now) {
   printed_ = now;
-  std::fprintf(stderr, "%s\n", status(now).c_str());
+  std::fprintf(stream_, "%s\n", status(now).c_str());
 }
 
 }  // namespace raymoval

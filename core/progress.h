@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdio>
 #include <mutex>
 #include <string>
 
@@ -21,7 +22,10 @@ ProgressStyle progress_style_of_stderr();
 /// Tells how far a long task is. Thread-safe.
 class Progress {
  public:
-  explicit Progress(ProgressStyle style = ProgressStyle::kQuiet) : style_(style) {}
+  /// @param stream where it is told; stays open as long as this lives
+  explicit Progress(ProgressStyle style = ProgressStyle::kQuiet, std::FILE* stream = stderr)
+      : style_(style), stream_(stream) {}
+  [[nodiscard]] ProgressStyle style() const { return style_; }
   /// Starts a task of `total` steps, such as "raymoval:online on 05".
   void begin(const std::string& task, std::size_t total);
   void advance(std::size_t steps = 1);
@@ -37,6 +41,7 @@ class Progress {
   [[nodiscard]] std::string status(Clock::time_point now) const;
 
   ProgressStyle style_;
+  std::FILE* stream_;
   std::mutex mutex_;
   std::string task_;
   std::size_t total_ = 0;

@@ -29,9 +29,9 @@ bool higher_is_better(std::string_view rate) {
 
 /// Counts that follow from scans and labels, so that no mask can change them.
 bool is_of_truth(std::string_view count) {
-  return is_one_of(count,
-                   {"static_voxels", "dynamic_voxels", "mixed_label_ties", "evaluated_points",
-                    "out_of_range_points", "ignored_points", "cropped_points"});
+  return is_one_of(count, {"static_voxels", "dynamic_voxels", "mixed_voxels", "static_points",
+                           "dynamic_points", "ego_points", "mixed_label_ties", "evaluated_points",
+                           "out_of_range_points", "ignored_points", "cropped_points"});
 }
 
 template <class Value>

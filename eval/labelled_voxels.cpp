@@ -56,7 +56,7 @@ Eigen::Vector3d centroid(const LabelledCloud& cloud, const Cells& cells, std::si
 /// @return number of mixed-label ties
 std::int64_t fill_voxels(const LabelledCloud& cloud, const Cells& cells, double voxel_size,
                          const LabelClasses& classes, std::size_t begin, std::size_t end,
-                         LabelledCloud& voxels) {
+                         LabelledVoxels& voxels) {
   std::int64_t mixed_ties = 0;
   CellNeighbours neighbours(cells.keys, voxel_size);
   LabelVote vote;
@@ -73,8 +73,9 @@ std::int64_t fill_voxels(const LabelledCloud& cloud, const Cells& cells, double 
         });
     const LabelVote::Result result =
         vote.decide([&](std::uint32_t point) { return classes.moving(cloud.labels[point]); });
-    voxels.points[cell] = mean;
-    voxels.labels[cell] = cloud.labels[result.point];
+    voxels.cloud.points[cell] = mean;
+    voxels.cloud.labels[cell] = cloud.labels[result.point];
+    voxels.label_points[cell] = result.point;
     mixed_ties += result.mixed_tie ? 1 : 0;
   }
   return mixed_ties;
@@ -102,9 +103,10 @@ LabelledVoxels voxelise(const LabelledCloud& cloud, double voxel_size, const Lab
   LabelledVoxels voxels;
   voxels.cloud.points.resize(cells.keys.size());
   voxels.cloud.labels.resize(cells.keys.size());
+  voxels.label_points.resize(cells.keys.size());
   std::vector<std::int64_t> ties(cells.keys.size() / kGrain + 1, 0);
   parallel_chunks(threads, cells.keys.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    ties[begin / kGrain] = fill_voxels(cloud, cells, voxel_size, classes, begin, end, voxels.cloud);
+    ties[begin / kGrain] = fill_voxels(cloud, cells, voxel_size, classes, begin, end, voxels);
   });
   for (const std::int64_t count : ties) voxels.mixed_label_ties += count;
   voxels.keys = std::move(cells.keys);

@@ -29,6 +29,8 @@ struct LabelledCloud {
 struct LabelledVoxels {
   std::vector<VoxelKey> keys;
   LabelledCloud cloud;  ///< Centroid and label of each cell.
+  /// Input point that gave each cell its label.
+  std::vector<std::uint32_t> label_points;
   /// Cells whose label was decided by input order between a moving and a static point.
   std::int64_t mixed_label_ties = 0;
 

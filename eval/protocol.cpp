@@ -4,6 +4,8 @@
 #include <functional>
 
 #include "core/text.h"
+#include "eval/dynamicmap/dynamicmap.h"
+#include "eval/dynamicmap/strict.h"
 #include "eval/erasor/erasor.h"
 
 namespace raymoval {
@@ -17,6 +19,8 @@ struct Maker {
 const std::vector<Maker>& makers() {
   static const std::vector<Maker> all = {
       {erasor_protocol_entry(), make_erasor_protocol},
+      {dynamicmap_protocol_entry(), make_dynamicmap_protocol},
+      {strict_protocol_entry(), make_strict_protocol},
   };
   return all;
 }
@@ -31,6 +35,12 @@ const Maker& find_maker(const std::string& name) {
 }
 
 }  // namespace
+
+Rate percent_rate(const std::string& name, std::int64_t part, std::int64_t whole,
+                  const std::string& reason) {
+  if (whole == 0) return {name, std::nullopt, reason};
+  return {name, 100.0 * static_cast<double>(part) / static_cast<double>(whole)};
+}
 
 std::int64_t ProtocolResult::count(const std::string& name) const {
   for (const auto& [key, value] : counts) {
@@ -53,6 +63,10 @@ const std::vector<ProtocolEntry>& protocol_entries() {
     return list;
   }();
   return entries;
+}
+
+const ProtocolEntry& protocol_entry(const std::string& name) {
+  return find_maker(name).entry;
 }
 
 Configuration protocol_defaults(const std::string& name) {

@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/range_limits.h"
 #include "core/scan_source.h"
+#include "eval/bootstrap.h"
 
 namespace raymoval {
 
@@ -34,18 +35,26 @@ struct Rate {
   std::string undefined_reason = "";
 };
 
+/// 100 part / whole as a rate; undefined for `reason` where `whole` is 0.
+Rate percent_rate(const std::string& name, std::int64_t part, std::int64_t whole,
+                  const std::string& reason);
+
 /// Integer counts first, the rates that follow from them second.
 struct ProtocolResult {
   std::string protocol;
   std::vector<std::pair<std::string, std::int64_t>> counts;
   std::vector<Rate> rates;
   std::vector<std::string> warnings;
+  /// Of the protocol's main rates, by block bootstrap over scans; none if it does not draw any.
+  std::optional<Intervals> intervals = std::nullopt;
 
   /// @throws InternalError if there is no such count.
   [[nodiscard]] std::int64_t count(const std::string& name) const;
   /// The rate called `name`; no value if it is undefined or not part of this protocol.
   [[nodiscard]] std::optional<double> rate(const std::string& name) const;
 };
+
+class CloudEstimate;
 
 /// What depends on scans and labels only, built once for a sequence and shared by all methods.
 class TruthMap {
@@ -66,6 +75,13 @@ class Protocol {
   /// @param masks one mask per scan, as long as the scan has points
   [[nodiscard]] virtual ProtocolResult score(const EvaluationInput& input, const TruthMap& truth,
                                              const MaskStore& masks) const = 0;
+  /// Scores a cleaned map without labels that was made elsewhere; labels are found again by nearest
+  /// neighbour. Not to be mixed with scores by masks in one table.
+  /// @param cloud points in the world frame of the scans' poses
+  /// @throws UsageError if the options rule it out
+  [[nodiscard]] virtual ProtocolResult score_cloud(const EvaluationInput& input,
+                                                   const TruthMap& truth,
+                                                   const CloudEstimate& cloud) const = 0;
 };
 
 /// Names, options and makers of the protocols; `make_protocol("erasor", options)`.
@@ -75,6 +91,8 @@ struct ProtocolEntry {
   std::vector<ParameterSpec> parameters;
 };
 const std::vector<ProtocolEntry>& protocol_entries();
+/// The protocol called `name`. @throws UsageError suggesting the nearest name.
+const ProtocolEntry& protocol_entry(const std::string& name);
 /// Options of `name` at their defaults. @throws UsageError suggesting the nearest name.
 Configuration protocol_defaults(const std::string& name);
 std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configuration& options);

@@ -3,8 +3,13 @@
 
 #include "core/text.h"
 #include "methods/controls/controls.h"
+#include "methods/dufomap/dufomap.h"
+#include "methods/erasor/erasor.h"
+#include "methods/octomap/octomap.h"
+#include "methods/peopleremover/peopleremover.h"
 #include "methods/raymoval/raymoval.h"
 #include "methods/raymoval_plus/raymoval_plus.h"
+#include "methods/removert/removert.h"
 
 namespace raymoval {
 
@@ -16,6 +21,11 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(oracle_entry());
     methods.add(raymoval_entry());
     methods.add(raymoval_plus_entry());
+    methods.add(octomap_entry());
+    methods.add(peopleremover_entry());
+    methods.add(removert_entry());
+    methods.add(erasor_entry());
+    methods.add(dufomap_entry());
     return methods;
   }();
   return registry;

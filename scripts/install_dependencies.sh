@@ -2,6 +2,11 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian 12 packages that raymoval is built with. Only what is missing is installed; a
 # second run changes nothing.
+#
+#   scripts/install_dependencies.sh            what building and running needs
+#   scripts/install_dependencies.sh --tests    also what the tests and the Snakemake workflow need
+#                                              (23 MB to fetch, 680 MB installed: Debian's snakemake
+#                                              depends on the clients of all clouds)
 set -euo pipefail
 
 packages=(
@@ -9,6 +14,11 @@ packages=(
   catch2 libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
   libembree-dev libpng-dev librapidcheck-dev libxxhash-dev
 )
+case ${1:-} in
+  "") ;;
+  --tests) packages+=(snakemake python3-jsonschema) ;;
+  *) echo "install_dependencies.sh: '$1' is unknown; expected nothing or --tests." >&2; exit 2 ;;
+esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "install_dependencies.sh: this needs Debian 12 or a relative of it (apt-get, dpkg-query)." >&2

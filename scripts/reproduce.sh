@@ -3,6 +3,9 @@
 # From a fresh clone to a comparison table: installs, builds, runs, prints.
 #
 #   scripts/reproduce.sh                             the suite `simulated`: six simulated scenes
+#   scripts/reproduce.sh semantickitti ROOT          the paper's Tables 2 and 3 from SemanticKITTI;
+#                                                    ROOT holds sequences/00, 01, 02, 05 and 07
+#   scripts/reproduce.sh semantickitti ROOT --check  only says what is there and what is missing
 #   RAYMOVAL_DATA=/data/kitti:kitti-05 scripts/reproduce.sh    your own sequence, see
 #                                                    `raymoval list sequences`
 #   RAYMOVAL_OUT=DIR                                 where results go (default: results/run-...)
@@ -10,15 +13,89 @@ set -euo pipefail
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-scripts/install_dependencies.sh
-cmake --preset release
-cmake --build --preset release --target raymoval_program
-
 # Paths are meant from where the script was called.
 from_caller() {
   if [[ $1 == /* ]]; then echo "$1"; else echo "$caller/$1"; fi
 }
-if [[ -n ${RAYMOVAL_DATA:-} ]]; then
+
+# check_segment ROOT SEQUENCE FIRST LAST STRIDE: prints what is missing, a line each.
+check_segment() {
+  local folder=$1/sequences/$2 frame kind extension missing first_missing=
+  if [[ ! -d $folder ]]; then
+    echo "$folder/ (sequence $2, frames $3 to $4)"
+    return
+  fi
+  for kind in poses.txt calib.txt; do
+    [[ -s $folder/$kind ]] || echo "$folder/$kind"
+  done
+  for kind in velodyne:bin labels:label; do
+    extension=${kind#*:}
+    kind=${kind%:*}
+    missing=0
+    for ((frame = $3; frame <= $4; frame += $5)); do
+      local file
+      printf -v file '%s/%s/%06d.%s' "$folder" "$kind" "$frame" "$extension"
+      [[ -s $file ]] && continue
+      [[ $missing -gt 0 ]] || first_missing=$file
+      missing=$((missing + 1))
+    done
+    case $missing in
+      0) ;;
+      1) echo "$first_missing" ;;
+      *) echo "$first_missing and $((missing - 1)) more of $kind/ up to frame $4" ;;
+    esac
+  done
+}
+
+# Checks all that the suite `semantickitti` reads. Exit code 2 if anything is missing.
+check_semantickitti() {
+  local root=$1 found missing=0 segment
+  # The segments of the ERASOR protocol, ends included.
+  for segment in "00 4390 4530 2" "01 150 250 1" "02 860 950 2" "05 2350 2670 2" "07 630 820 2"; do
+    read -r sequence first last stride <<<"$segment"
+    found=$(check_segment "$root" "$sequence" "$first" "$last" "$stride")
+    if [[ -z $found ]]; then
+      echo "reproduce.sh: sequence $sequence, frames $first:$last:$stride: all there"
+    else
+      missing=1
+      sed 's/^/reproduce.sh: missing: /' <<<"$found" >&2
+    fi
+  done
+  [[ $missing -eq 0 ]] && return
+  cat >&2 <<'END'
+reproduce.sh: SemanticKITTI comes in three downloads, all unpacked to one folder so that
+ROOT/sequences/00/ holds velodyne/, labels/, poses.txt and calib.txt:
+  velodyne/  "KITTI Odometry Benchmark Velodyne point clouds" (80 GB), from the KITTI web site
+  calib.txt  "KITTI Odometry Benchmark calibration data", from the KITTI web site
+  labels/ and poses.txt  "SemanticKITTI label data", from the SemanticKITTI web site
+END
+  exit 2
+}
+
+what=()
+if [[ ${1:-} == semantickitti ]]; then
+  if [[ -z ${2:-} ]]; then
+    echo "reproduce.sh: say where the data is: scripts/reproduce.sh semantickitti ROOT" >&2
+    exit 2
+  fi
+  root=$(from_caller "$2")
+  check_semantickitti "$root"
+  [[ ${3:-} == --check ]] && exit
+  data="SemanticKITTI in $root"
+  label=semantickitti
+  what=(semantickitti --data "$root")
+elif [[ $# -gt 0 ]]; then
+  echo "reproduce.sh: '$1' is unknown; expected nothing, or semantickitti ROOT." >&2
+  exit 2
+fi
+
+scripts/install_dependencies.sh
+cmake --preset release
+cmake --build --preset release --target raymoval_program
+
+if [[ ${#what[@]} -gt 0 ]]; then
+  :
+elif [[ -n ${RAYMOVAL_DATA:-} ]]; then
   data=$RAYMOVAL_DATA
   # Names of built-in scenes stay as they are.
   scene=${data%%:*}
@@ -36,4 +113,11 @@ out=results/run-$label
 [[ -z ${RAYMOVAL_OUT:-} ]] || out=$(from_caller "$RAYMOVAL_OUT")
 
 echo "reproduce.sh: running on $data, results go to $out"
-build/release/raymoval run "${what[@]}" --out "$out"
+if [[ $label != semantickitti ]]; then
+  exec build/release/raymoval run "${what[@]}" --out "$out"
+fi
+status=0
+build/release/raymoval run "${what[@]}" --out "$out" >/dev/null || status=$?
+# Table 2 with the paper's own rows beside ours; Table 3 are the stage times at its end.
+[[ ! -e $out/results.json ]] || build/release/raymoval table "$out" --with-published
+exit $status

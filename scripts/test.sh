@@ -67,7 +67,7 @@ check_consumer() {
   return $status
 }
 
-step "dependencies" scripts/install_dependencies.sh
+step "dependencies" scripts/install_dependencies.sh --tests
 step "includes" scripts/check_includes.sh
 step "format" check_format
 step "release build" build release -DRAYMOVAL_WERROR=ON

@@ -2,42 +2,14 @@
 #include "eval/erasor/accumulate.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/parallel.h"
-#include "core/text.h"
+#include "eval/checked_scan.h"
 
 namespace raymoval::erasor {
 namespace {
 
 constexpr std::uint16_t kMovingTruck = 258;
-
-Mask checked_mask(const MaskStore& masks, const Scan& scan, std::size_t index) {
-  if (index >= masks.size() || !masks.has(index)) {
-    throw MethodError("scan " + std::to_string(index) + " (" + scan.name +
-                      ") has no mask: expected one per scan. The method must answer for every "
-                      "scan, also for an empty one.");
-  }
-  Mask mask = masks.get(index);
-  if (mask.size() != scan.size()) {
-    throw MethodError("scan " + std::to_string(index) + " (" + scan.name + "): its mask has " +
-                      grouped_text(mask.size()) + " values and the scan " +
-                      grouped_text(scan.size()) +
-                      " points; expected as many. Were the masks made from the same data?");
-  }
-  return mask;
-}
-
-std::vector<std::uint32_t> checked_labels(const LabelSource& source, const Scan& scan,
-                                          std::size_t index) {
-  std::vector<std::uint32_t> labels = source.labels(scan);
-  if (labels.size() != scan.size()) {
-    throw DataError("scan " + std::to_string(index) + " (" + scan.name + "): " +
-                    grouped_text(labels.size()) + " labels for " + grouped_text(scan.size()) +
-                    " points; expected as many. Check that labels and scans belong together.");
-  }
-  return labels;
-}
 
 /// Which of the counts a point belongs to.
 std::int64_t PointCounts::*fate_of(const Eigen::Vector3d& point, LabelClass label_class,
@@ -56,9 +28,9 @@ struct PlacedScan {
 
 PlacedScan place_scan(const EvaluationInput& input, const Options& options,
                       const LabelClasses& classes, const MaskStore* masks, std::size_t index) {
-  const Scan scan = input.scans->load(index);
-  const std::vector<std::uint32_t> labels = checked_labels(*input.labels, scan, index);
-  const Mask mask = masks != nullptr ? checked_mask(*masks, scan, index) : Mask{};
+  const CheckedScan loaded = load_checked(input, masks, index);
+  const Scan& scan = loaded.scan;
+  const std::vector<std::uint32_t>& labels = loaded.labels;
   PlacedScan placed;
   placed.cloud.points.reserve(scan.size());
   placed.cloud.labels.reserve(scan.size());
@@ -68,7 +40,7 @@ PlacedScan place_scan(const EvaluationInput& input, const Options& options,
     ++(placed.points.*fate);
     if (fate != &PointCounts::evaluated) continue;
     if (semantic_id(labels[i]) == kMovingTruck) ++placed.points.trucks;
-    if (!mask.empty() && mask[i] != 0) {
+    if (loaded.removed(i)) {
       ++placed.points.removed;
       continue;
     }
@@ -89,6 +61,11 @@ PointCounts& PointCounts::operator+=(const PointCounts& other) {
   removed += other.removed;
   trucks += other.trucks;
   return *this;
+}
+
+std::uint32_t DenseMap::scan_of(std::uint32_t point) const {
+  const auto end = std::upper_bound(scan_ends.begin(), scan_ends.end(), std::size_t{point});
+  return static_cast<std::uint32_t>(end - scan_ends.begin());
 }
 
 LabelRule effective_rule(const LabelRule& rule, const Options& options) {
@@ -119,6 +96,7 @@ DenseMap accumulate(const EvaluationInput& input, const Options& options,
       dense.cloud.append(part.voxels.cloud);
       dense.mixed_label_ties += part.voxels.mixed_label_ties;
       dense.points += part.points;
+      dense.scan_ends.push_back(dense.cloud.size());
     }
   }
   if (input.progress != nullptr) input.progress->end();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/mask_store.h"
 #include "eval/erasor/options.h"
@@ -29,6 +30,10 @@ struct DenseMap {
   LabelledCloud cloud;
   std::int64_t mixed_label_ties = 0;
   PointCounts points;
+  std::vector<std::size_t> scan_ends;  ///< For each scan, how many points lie before its end.
+
+  /// Scan from which point `point` of the cloud comes.
+  [[nodiscard]] std::uint32_t scan_of(std::uint32_t point) const;
 };
 
 /// The label rule as the options want it: without id 258 among the moving ones unless

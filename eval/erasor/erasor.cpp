@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/text.h"
+#include "eval/checked_scan.h"
+#include "eval/cloud_masks.h"
 #include "eval/erasor/accumulate.h"
 #include "eval/erasor/matching.h"
 #include "eval/erasor/options.h"
@@ -20,30 +22,19 @@ class ErasorTruth : public TruthMap {
  public:
   LabelledVoxels map;
   PointCounts points;
+  /// For each voxel of the map the scan whose point gave it its label.
+  std::vector<std::uint32_t> scan_of_voxel;
   /// The dense map, searchable; only kept where labels are taken from it again.
   std::unique_ptr<NearestLabels> dense;
 };
 
-void check_input(const EvaluationInput& input) {
-  if (input.scans == nullptr) throw InternalError("protocol erasor was given no scans");
-  if (input.labels == nullptr) {
-    throw DataError(
-        "protocol erasor needs a label for each point and the sequence has none: expected label "
-        "files. Choose labelled data.");
-  }
-}
-
-Rate rate_of(const std::string& name, std::int64_t part, std::int64_t whole,
-             const std::string& reason) {
-  if (whole == 0) return {name, std::nullopt, reason};
-  return {name, 100.0 * static_cast<double>(part) / static_cast<double>(whole)};
-}
-
 void add_rates(const MatchCounts& counts, const std::string& suffix, std::vector<Rate>& rates) {
-  const Rate preservation = rate_of("PR" + suffix, counts.preserved_static, counts.static_voxels,
-                                    "the ground truth has no static voxel");
-  const Rate rejection = rate_of("RR" + suffix, counts.dynamic_voxels - counts.remaining_dynamic,
-                                 counts.dynamic_voxels, "the ground truth has no dynamic voxel");
+  const Rate preservation =
+      percent_rate("PR" + suffix, counts.preserved_static, counts.static_voxels,
+                   "the ground truth has no static voxel");
+  const Rate rejection =
+      percent_rate("RR" + suffix, counts.dynamic_voxels - counts.remaining_dynamic,
+                   counts.dynamic_voxels, "the ground truth has no dynamic voxel");
   Rate f1{"F1" + suffix, std::nullopt};
   if (preservation.value && rejection.value) {
     f1.value = f1_from_percent(*preservation.value, *rejection.value);
@@ -59,6 +50,19 @@ void add_counts(const MatchCounts& counts, const std::string& suffix, ProtocolRe
   result.counts.emplace_back("dynamic_voxels" + suffix, counts.dynamic_voxels);
   result.counts.emplace_back("preserved_static" + suffix, counts.preserved_static);
   result.counts.emplace_back("remaining_dynamic" + suffix, counts.remaining_dynamic);
+}
+
+Intervals intervals_of(const std::vector<MatchCounts>& scans) {
+  std::vector<std::vector<std::int64_t>> counts;
+  for (const MatchCounts& scan : scans) {
+    counts.push_back(
+        {scan.static_voxels, scan.dynamic_voxels, scan.preserved_static, scan.remaining_dynamic});
+  }
+  return bootstrap(counts, [](const std::vector<std::int64_t>& sums) {
+    std::vector<Rate> rates;
+    add_rates({sums[0], sums[1], sums[2], sums[3]}, "", rates);
+    return rates;
+  });
 }
 
 /// How the estimate lies in the truth, looked at the other way round.
@@ -91,13 +95,16 @@ class ErasorProtocol : public Protocol {
   [[nodiscard]] Configuration options() const override { return option_table().write(options_); }
 
   [[nodiscard]] std::unique_ptr<TruthMap> prepare(const EvaluationInput& input) const override {
-    check_input(input);
+    check_input(input, name());
     const LabelClasses classes(effective_rule(input.label_rule, options_));
     DenseMap dense = accumulate(input, options_, classes, nullptr, "ground truth map");
     auto truth = std::make_unique<ErasorTruth>();
     truth->map = voxelise(dense.cloud, options_.voxel_size, classes, input.threads);
     truth->map.mixed_label_ties += dense.mixed_label_ties;
     truth->points = dense.points;
+    for (const std::uint32_t point : truth->map.label_points) {
+      truth->scan_of_voxel.push_back(dense.scan_of(point));
+    }
     if (truth->map.size() == 0) throw_empty_truth(dense.points);
     if (options_.label_mode == LabelMode::kNearest) {
       truth->dense = std::make_unique<NearestLabels>(std::move(dense.cloud));
@@ -107,19 +114,34 @@ class ErasorProtocol : public Protocol {
 
   [[nodiscard]] ProtocolResult score(const EvaluationInput& input, const TruthMap& truth_map,
                                      const MaskStore& masks) const override {
-    check_input(input);
+    check_input(input, name());
     const auto* truth = dynamic_cast<const ErasorTruth*>(&truth_map);
     if (truth == nullptr || (options_.label_mode == LabelMode::kNearest && !truth->dense)) {
       throw InternalError("protocol erasor was given a truth map that it did not prepare");
     }
-    if (masks.size() != input.scans->size()) {
-      throw MethodError(std::to_string(masks.size()) + " masks for " +
-                        std::to_string(input.scans->size()) + " scans; expected one per scan.");
-    }
+    check_mask_count(input, masks);
     const LabelClasses classes(effective_rule(input.label_rule, options_));
     PointCounts points;
     const LabelledVoxels estimate = estimate_map(input, *truth, classes, masks, points);
     return result_of(input, *truth, estimate, classes, points);
+  }
+
+  [[nodiscard]] ProtocolResult score_cloud(const EvaluationInput& input, const TruthMap& truth_map,
+                                           const CloudEstimate& cloud) const override {
+    check_input(input, name());
+    const auto* truth = dynamic_cast<const ErasorTruth*>(&truth_map);
+    if (truth == nullptr) {
+      throw InternalError("protocol erasor was given a truth map that it did not prepare");
+    }
+    if (options_.label_mode != LabelMode::kNearest) {
+      throw UsageError("a cloud has no labels by index: expected label_mode = nearest.");
+    }
+    const LabelClasses classes(effective_rule(input.label_rule, options_));
+    const LabelledVoxels estimate = cloud_map(input, classes, cloud.points());
+    ProtocolResult result = result_of(input, *truth, estimate, classes, truth->points);
+    std::erase_if(result.counts, [](const auto& count) { return count.first == "removed_points"; });
+    result.counts.emplace_back("cloud_points", static_cast<std::int64_t>(cloud.points().size()));
+    return result;
   }
 
  private:
@@ -145,6 +167,31 @@ class ErasorProtocol : public Protocol {
     return map;
   }
 
+  /// The voxelised cloud, each voxel with the label of its nearest point in the dense map. Points
+  /// of ignored labels stand in that map too, and what lies nearest to one is ignored likewise.
+  [[nodiscard]] LabelledVoxels cloud_map(const EvaluationInput& input, const LabelClasses& classes,
+                                         const std::vector<Eigen::Vector3f>& points) const {
+    LabelledCloud cloud;
+    for (const Eigen::Vector3f& point : points) cloud.points.push_back(point.cast<double>());
+    cloud.labels.resize(points.size());
+    const LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes, input.threads);
+    if (all.size() == 0) return all;
+    EvaluationInput whole = input;
+    whole.label_rule.ignored.clear();
+    const LabelClasses whole_classes(effective_rule(whole.label_rule, options_));
+    const NearestLabels dense(
+        accumulate(whole, options_, whole_classes, nullptr, "points for labels").cloud);
+    const std::vector<std::uint32_t> labels = dense.labels_of(all.cloud.points, input.threads);
+    LabelledVoxels map;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (classes.of(labels[i]) == LabelClass::kIgnored) continue;
+      map.keys.push_back(all.keys[i]);
+      map.cloud.points.push_back(all.cloud.points[i]);
+      map.cloud.labels.push_back(labels[i]);
+    }
+    return map;
+  }
+
   [[nodiscard]] ProtocolResult result_of(const EvaluationInput& input, const ErasorTruth& truth,
                                          const LabelledVoxels& estimate,
                                          const LabelClasses& classes,
@@ -159,6 +206,9 @@ class ErasorProtocol : public Protocol {
     add_rates(counts, "", result.rates);
     add_map_counts(truth, estimate, overlap, points, result);
     add_no_truck(input, truth, estimate, partners, result);
+    result.intervals =
+        intervals_of(count_matches_by_scan(truth.map, estimate, partners, truth.scan_of_voxel,
+                                           input.scans->size(), classes, options_));
     add_warnings(estimate, overlap, result);
     return result;
   }

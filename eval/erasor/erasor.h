@@ -16,6 +16,11 @@ namespace raymoval {
 /// static, a moving one remains if that moves. PR = preserved / static, RR = 1 - remaining /
 /// moving (percent), F1 their harmonic mean (fraction).
 ///
+/// Intervals of PR, RR and F1: block bootstrap over scans, for which each voxel of the truth
+/// belongs to the one scan whose point gave it its label, that is the point nearest to its
+/// centroid. Among the scans that saw a voxel this is none in particular, so voxels spread over
+/// them; each counts once, and the counts of all scans add up to those of the map.
+///
 /// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic; estimate_voxels;
 /// estimate_voxels_without_partner (no truth voxel within the same reach; never penalised);
 /// mixed_label_ties and estimate_mixed_label_ties (voxels whose class hung on input order);
@@ -23,6 +28,11 @@ namespace raymoval {
 /// (those of them that were flagged); out_of_range_points, ignored_points, cropped_points. If
 /// moving trucks (id 258) occur and move, the first four and the rates come again as `..._no_truck`
 /// with trucks counted as static, as in the scripts behind early published tables.
+///
+/// A cleaned cloud (with `label_mode` nearest, and `lift` 0 unless the cloud was lifted likewise)
+/// is voxelised once; each voxel takes the label of the nearest point of the dense map, however far
+/// away. Static voxels beside removed objects so become dynamic and RR has a ceiling below 100:
+/// score the cloud of an oracle to see it. `cloud_points` then stands for `removed_points`.
 ProtocolEntry erasor_protocol_entry();
 std::unique_ptr<Protocol> make_erasor_protocol(const Configuration& options);
 

@@ -49,6 +49,19 @@ bool unlabelled(std::uint32_t word) {
   return semantic_id(word) <= 1;
 }
 
+void count_voxel(const LabelledVoxels& truth, const LabelledVoxels& estimate,
+                 const std::vector<std::uint32_t>& partners, const LabelClasses& classes,
+                 const Options& options, std::size_t i, MatchCounts& counts) {
+  const std::uint32_t word = truth.cloud.labels[i];
+  const bool moving = classes.moving(word);
+  if (options.ignore_0_1 && !moving && unlabelled(word)) return;
+  ++(moving ? counts.dynamic_voxels : counts.static_voxels);
+  if (partners[i] == kNoPartner) return;
+  const bool same_class = classes.moving(estimate.cloud.labels[partners[i]]) == moving;
+  if (options.label_rule == LabelRuleOption::kBoth && !same_class) return;
+  ++(moving ? counts.remaining_dynamic : counts.preserved_static);
+}
+
 }  // namespace
 
 double matching_bound(double voxel_size) {
@@ -76,14 +89,20 @@ MatchCounts count_matches(const LabelledVoxels& truth, const LabelledVoxels& est
                           const Options& options) {
   MatchCounts counts;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const std::uint32_t word = truth.cloud.labels[i];
-    const bool moving = classes.moving(word);
-    if (options.ignore_0_1 && !moving && unlabelled(word)) continue;
-    ++(moving ? counts.dynamic_voxels : counts.static_voxels);
-    if (partners[i] == kNoPartner) continue;
-    const bool same_class = classes.moving(estimate.cloud.labels[partners[i]]) == moving;
-    if (options.label_rule == LabelRuleOption::kBoth && !same_class) continue;
-    ++(moving ? counts.remaining_dynamic : counts.preserved_static);
+    count_voxel(truth, estimate, partners, classes, options, i, counts);
+  }
+  return counts;
+}
+
+std::vector<MatchCounts> count_matches_by_scan(const LabelledVoxels& truth,
+                                               const LabelledVoxels& estimate,
+                                               const std::vector<std::uint32_t>& partners,
+                                               const std::vector<std::uint32_t>& scan_of_voxel,
+                                               std::size_t scans, const LabelClasses& classes,
+                                               const Options& options) {
+  std::vector<MatchCounts> counts(scans);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    count_voxel(truth, estimate, partners, classes, options, i, counts[scan_of_voxel[i]]);
   }
   return counts;
 }

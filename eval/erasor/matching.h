@@ -40,4 +40,13 @@ MatchCounts count_matches(const LabelledVoxels& truth, const LabelledVoxels& est
                           const std::vector<std::uint32_t>& partners, const LabelClasses& classes,
                           const Options& options);
 
+/// The same, apart for each scan.
+/// @param scan_of_voxel scan to which each voxel of the truth belongs, below `scans`
+std::vector<MatchCounts> count_matches_by_scan(const LabelledVoxels& truth,
+                                               const LabelledVoxels& estimate,
+                                               const std::vector<std::uint32_t>& partners,
+                                               const std::vector<std::uint32_t>& scan_of_voxel,
+                                               std::size_t scans, const LabelClasses& classes,
+                                               const Options& options);
+
 }  // namespace raymoval::erasor

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "core/scan.h"
+#include "core/voxel_key.h"
+#include "methods/raymoval/simd.h"
 
 namespace raymoval {
 
@@ -61,12 +64,19 @@ class DirectionTable {
 /// A scan sorted into the bins of a grid.
 struct ProjectedScan {
   std::vector<float> range;          ///< Of each point, metres.
-  std::vector<int> bin;              ///< Of each point; -1 = in no bin.
+  std::vector<std::int32_t> bin;     ///< Of each point; -1 = in no bin.
   std::vector<float> minimum_range;  ///< Of each bin (d_scan, eq. 10); infinite if empty.
 };
 
 /// Eqs 1-3 and 10. Points nearer than `minimum_range` (the ego vehicle) go to no bin.
-ProjectedScan project(const Scan& scan, const AngularGrid& grid, double minimum_range);
+/// @param projected replaced; its memory is used again
+/// @param set which kernels to use; the answer is the same for all
+void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
+             ProjectedScan& projected, InstructionSet set = InstructionSet::kBest);
+
+/// Voxel of each point in the world lattice. @throws DataError as `voxel_index`
+void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
+                 std::vector<VoxelIndex>& voxels, InstructionSet set = InstructionSet::kBest);
 
 /// Columns `i + offset` of a full circle.
 inline int wrap_azimuth(int i, int azimuth_bins) {

@@ -2,6 +2,7 @@
 #include "methods/raymoval/clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace raymoval {
@@ -55,44 +56,161 @@ void for_neighbours(const VoxelIndex& cell, int reach, Visit&& visit) {
 
 }  // namespace
 
+namespace {
+
+/// Points that are so near to each other that they are joined whatever their ranges.
+struct Clump {
+  VoxelIndex cell;
+  int first = -1;         ///< Its points are a chain, see `next_`.
+  double farthest = 0.0;  ///< Largest range of its points, metres.
+};
+
+/// Joins points as `range_adaptive_clusters` says. Clumps save nearly all comparisons: what is in
+/// one is joined, and of two clumps only the first pair near enough has to be found.
+class Clustering {
+ public:
+  Clustering(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& ranges,
+             double gap, double growth)
+      : points_(points), ranges_(ranges), gap_(gap), growth_(growth), sets_(points.size()) {
+    // The diagonal of a clump is as long as the smallest reach, a rounding less.
+    side_ = gap / std::numbers::sqrt3 * (1.0 - 1e-9);
+    collect_clumps();
+    collect_blocks();
+  }
+
+  std::vector<int> run() {
+    for (const Block& block : blocks_) {
+      for (std::size_t i = 1; i < block.clumps.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) join(block.clumps[i], block.clumps[j]);
+      }
+      join_with_neighbours(block);
+    }
+    return sets_.numbers();
+  }
+
+ private:
+  /// Clumps within a cube as wide as the widest reach: partners are in the same or the next one.
+  struct Block {
+    VoxelIndex at;
+    std::vector<int> clumps;
+  };
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  static int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+  [[nodiscard]] double reach(double range) const { return gap_ + growth_ * range; }
+
+  void collect_clumps() {
+    VoxelMap<int> numbers;
+    next_.assign(points_.size(), -1);
+    const double scale = 1.0 / side_;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const VoxelIndex cell = voxel_index(points_[i], scale);
+      const auto [found, is_new] =
+          numbers.try_emplace(voxel_key(cell), static_cast<int>(clumps_.size()));
+      if (is_new) clumps_.push_back({cell, -1, 0.0});
+      Clump& clump = clumps_[index(found->second)];
+      if (clump.first >= 0) sets_.join(clump.first, static_cast<int>(i));
+      next_[i] = clump.first;
+      clump.first = static_cast<int>(i);
+      clump.farthest = std::max(clump.farthest, ranges_[i]);
+    }
+  }
+
+  void collect_blocks() {
+    const double widest = reach(*std::max_element(ranges_.begin(), ranges_.end()));
+    const int side = static_cast<int>(std::ceil(widest / side_)) + 1;
+    for (std::size_t c = 0; c < clumps_.size(); ++c) {
+      const VoxelIndex& cell = clumps_[c].cell;
+      const VoxelIndex at(floor_divide(cell.x(), side), floor_divide(cell.y(), side),
+                          floor_divide(cell.z(), side));
+      const auto [found, is_new] =
+          block_numbers_.try_emplace(voxel_key(at), static_cast<int>(blocks_.size()));
+      if (is_new) blocks_.push_back({at, {}});
+      blocks_[index(found->second)].clumps.push_back(static_cast<int>(c));
+    }
+  }
+
+  void join_with_neighbours(const Block& block) {
+    const VoxelKey own = voxel_key(block.at);
+    for_neighbours(block.at, 1, [&](VoxelKey key) {
+      if (key <= own) return;  // Every pair once.
+      const auto found = block_numbers_.find(key);
+      if (found == block_numbers_.end()) return;
+      for (const int a : block.clumps) {
+        for (const int b : blocks_[index(found->second)].clumps) join(a, b);
+      }
+    });
+  }
+
+  /// Joins two clumps if any pair of their points is near enough.
+  void join(int one, int other) {
+    const Clump& a = clumps_[index(one)];
+    const Clump& b = clumps_[index(other)];
+    const double longest = reach(std::min(a.farthest, b.farthest));
+    const Eigen::Vector3i cells = ((a.cell - b.cell).cwiseAbs().array() - 1).max(0).matrix();
+    if (cells.squaredNorm() * side_ * side_ > longest * longest * (1.0 + 1e-9)) return;
+    if (sets_.root(a.first) == sets_.root(b.first)) return;
+    for (int i = a.first; i >= 0; i = next_[index(i)]) {
+      for (int j = b.first; j >= 0; j = next_[index(j)]) {
+        const double near_enough = reach(std::min(ranges_[index(i)], ranges_[index(j)]));
+        if ((points_[index(i)] - points_[index(j)]).squaredNorm() <= near_enough * near_enough) {
+          sets_.join(i, j);
+          return;
+        }
+      }
+    }
+  }
+
+  const std::vector<Eigen::Vector3d>& points_;
+  const std::vector<double>& ranges_;
+  double gap_, growth_, side_;
+  DisjointSets sets_;
+  std::vector<Clump> clumps_;
+  std::vector<int> next_;
+  std::vector<Block> blocks_;
+  VoxelMap<int> block_numbers_;
+};
+
+}  // namespace
+
 std::vector<int> range_adaptive_clusters(const std::vector<Eigen::Vector3d>& points,
                                          const std::vector<double>& ranges, double gap,
                                          double growth) {
-  DisjointSets sets(points.size());
   if (points.empty()) return {};
-  // Cells as wide as the widest gap: partners of a point are in its own cell or a neighbouring one.
-  const double widest = gap + growth * *std::max_element(ranges.begin(), ranges.end());
-  const double scale = 1.0 / std::max(widest, 1e-3);
-  VoxelMap<std::vector<int>> cells;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const VoxelIndex cell = voxel_index(points[i], scale);
-    for_neighbours(cell, 1, [&](VoxelKey key) {
-      const auto found = cells.find(key);
-      if (found == cells.end()) return;
-      for (const int j : found->second) {
-        const auto other = static_cast<std::size_t>(j);
-        const double reach = gap + growth * std::min(ranges[i], ranges[other]);
-        if ((points[i] - points[other]).squaredNorm() <= reach * reach) {
-          sets.join(static_cast<int>(i), j);
-        }
-      }
-    });
-    cells[voxel_key(cell)].push_back(static_cast<int>(i));
-  }
-  return sets.numbers();
+  return Clustering(points, ranges, gap, growth).run();
 }
 
 std::vector<int> voxel_components(const std::vector<VoxelKey>& voxels, int gap) {
   DisjointSets sets(voxels.size());
   VoxelMap<int> seen;
   for (std::size_t i = 0; i < voxels.size(); ++i) {
-    for_neighbours(voxel_index(voxels[i]), gap, [&](VoxelKey key) {
+    const auto [first, is_new] = seen.emplace(voxels[i], static_cast<int>(i));
+    if (!is_new) sets.join(static_cast<int>(i), first->second);
+  }
+  for (const auto& [voxel, element] : seen) {
+    for_neighbours(voxel_index(voxel), gap, [&, own = voxel, i = element](VoxelKey key) {
+      if (key <= own) return;  // Every pair once.
       const auto found = seen.find(key);
-      if (found != seen.end()) sets.join(static_cast<int>(i), found->second);
+      if (found != seen.end()) sets.join(i, found->second);
     });
-    seen.emplace(voxels[i], static_cast<int>(i));
   }
   return sets.numbers();
+}
+
+std::vector<int> joined_groups(const std::vector<int>& cluster_of,
+                               const std::vector<int>& component_of) {
+  DisjointSets components(component_of.size());
+  const int last =
+      cluster_of.empty() ? -1 : *std::max_element(cluster_of.begin(), cluster_of.end());
+  std::vector<int> first_component(static_cast<std::size_t>(last + 1), -1);
+  for (std::size_t i = 0; i < cluster_of.size(); ++i) {
+    int& first = first_component[static_cast<std::size_t>(cluster_of[i])];
+    if (first < 0) first = component_of[i];
+    components.join(first, component_of[i]);
+  }
+  std::vector<int> group(component_of.size());
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = components.root(component_of[i]);
+  return group;
 }
 
 std::vector<std::vector<int>> members_of(const std::vector<int>& numbers) {

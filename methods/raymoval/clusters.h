@@ -33,6 +33,11 @@ std::vector<int> range_adaptive_clusters(const std::vector<Eigen::Vector3d>& poi
 /// joined if they lie within `gap` cells of each other (Chebyshev).
 std::vector<int> voxel_components(const std::vector<VoxelKey>& voxels, int gap);
 
+/// Group number of each element: clusters that have elements in a common component are one group,
+/// numbered by its lowest component.
+std::vector<int> joined_groups(const std::vector<int>& cluster_of,
+                               const std::vector<int>& component_of);
+
 /// Members of each of the numbered sets that has any, sets and members ascending.
 std::vector<std::vector<int>> members_of(const std::vector<int>& numbers);
 

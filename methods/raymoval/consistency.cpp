@@ -2,19 +2,25 @@
 #include "methods/raymoval/consistency.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "core/parallel.h"
+#include "methods/raymoval/scan_kernels.h"
 
 namespace raymoval {
 
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
-                       const RangeMargin& margin) {
+                       const RangeMargin& margin, int threads) {
   Mask dynamic(scan.range.size(), 0);
-  for (std::size_t k = 0; k < dynamic.size(); ++k) {
-    if (scan.bin[k] < 0) continue;
-    const float reference = map_reference[static_cast<std::size_t>(scan.bin[k])];
-    if (reference == kNoRange) continue;
-    dynamic[k] = reference - scan.range[k] > margin.at(scan.range[k]) ? 1 : 0;
-  }
+  parallel_for(threads, dynamic.size(), 8192, [&](std::size_t k) {
+    // Without branches: which points have a reference is anyone's guess.
+    const bool has_bin = scan.bin[k] >= 0;
+    const float reference = map_reference[has_bin ? static_cast<std::size_t>(scan.bin[k]) : 0];
+    const float range = scan.range[k];
+    const bool before = reference - range > margin.at(range);
+    dynamic[k] = static_cast<std::uint8_t>(has_bin & (reference != kNoRange) & before);
+  });
   return dynamic;
 }
 
@@ -22,22 +28,45 @@ double grazing_distance(double vertical, double height, double limit) {
   return std::min(limit, height / std::max(std::abs(vertical), 1e-9));
 }
 
-std::vector<int> find_seen_through(const ProjectedScan& scan,
-                                   const std::vector<float>& nearest_return,
-                                   const FirstHitImage& first_hit,
-                                   const std::vector<float>& map_reference,
-                                   const RangeMargin& margin) {
-  std::vector<int> bins;
-  for (std::size_t bin = 0; bin < map_reference.size(); ++bin) {
-    if (scan.minimum_range[bin] == kNoRange || first_hit.range[bin] == kNoRange) continue;
+std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
+                                           const std::vector<float>& nearest_return,
+                                           const FirstHitImage& first_hit,
+                                           const std::vector<float>& map_reference,
+                                           const RangeMargin& margin, int threads) {
+  constexpr std::size_t kGrain = 8192;
+  constexpr double kRounding = 1e-3;  // Of the quick test in float, generously.
+  const std::size_t bins = scan.minimum_range.size();
+  std::vector<std::vector<SeenThrough>> parts((bins + kGrain - 1) / kGrain);
+  const auto check = [&](std::size_t bin, std::vector<SeenThrough>& found) {
+    if (scan.minimum_range[bin] == kNoRange || first_hit.range[bin] == kNoRange) return;
     const double reference = map_reference[bin];
     const double seen_to = nearest_return[bin];
     if (seen_to - reference > margin.at(reference) &&
         seen_to - first_hit.range[bin] > margin.tau0) {
-      bins.push_back(static_cast<int>(bin));
+      found.push_back({static_cast<int>(bin), nearest_return[bin]});
     }
-  }
-  return bins;
+  };
+  const kernels::Kernels kernel = kernels::kernels_for(InstructionSet::kBest);
+  kernels::SuspectSearch search;
+  search.own = scan.minimum_range.data();
+  search.nearest = nearest_return.data();
+  search.first_hit = first_hit.range.data();
+  search.reference = map_reference.data();
+  search.tau0 = static_cast<float>(margin.tau0 - kRounding);
+  search.tau1 = static_cast<float>(margin.tau1 * (1.0 - kRounding));
+  parallel_chunks(threads, bins, kGrain, [&](std::size_t begin, std::size_t end) {
+    auto& found = parts[begin / kGrain];
+    std::size_t bin = begin;
+    for (; bin + 16 <= end; bin += 16) {
+      for (std::uint32_t left = kernel.suspects(search, bin); left != 0; left &= left - 1) {
+        check(bin + static_cast<std::size_t>(std::countr_zero(left)), found);
+      }
+    }
+    for (; bin < end; ++bin) check(bin, found);
+  });
+  std::vector<SeenThrough> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 std::vector<int> find_no_return(const std::vector<float>& nearest_return,

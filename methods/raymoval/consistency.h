@@ -20,7 +20,7 @@ struct RangeMargin {
 /// than the point by more than the margin at the point's range. Points in no bin, and bins without
 /// a map reference, give 0.
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
-                       const RangeMargin& margin);
+                       const RangeMargin& margin, int threads = 1);
 
 /// Distance that a ray takes to change its height by `height` metres, but at most `limit`: a return
 /// nearer than that behind a first hit may be the same ground, seen at a grazing angle through the
@@ -28,16 +28,22 @@ Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_
 /// @param vertical z of the ray's unit direction in the world
 double grazing_distance(double vertical, double height, double limit);
 
+/// A bin through which a scan sees.
+struct SeenThrough {
+  int bin;
+  float nearest_return;  ///< Of the bin's neighbourhood, metres.
+};
+
 /// The opposite case, "erase" in the paper's overview: bins through which the scan sees. The
 /// nearest return of the bin's neighbourhood lies beyond the map reference by more than the margin
 /// at the map's range, and beyond the bin's own first hit by more than the margin's constant part.
 /// Only bins with a return of their own.
 /// @param nearest_return smallest range of the scan in each bin's neighbourhood
-std::vector<int> find_seen_through(const ProjectedScan& scan,
-                                   const std::vector<float>& nearest_return,
-                                   const FirstHitImage& first_hit,
-                                   const std::vector<float>& map_reference,
-                                   const RangeMargin& margin);
+std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
+                                           const std::vector<float>& nearest_return,
+                                           const FirstHitImage& first_hit,
+                                           const std::vector<float>& map_reference,
+                                           const RangeMargin& margin, int threads);
 
 /// No-return evidence: bins whose whole neighbourhood has no return although the sensor looks there
 /// and the map has a surface within `maximum_range`.

@@ -1,183 +1,276 @@
 // SPDX-License-Identifier: MIT
-// Voxel traversal after Amanatides and Woo (1987) on two levels: bricks of 8^3 voxels that are not
-// in the map are crossed in one step.
 #include "methods/raymoval/first_hit.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/parallel.h"
+#include "methods/raymoval/first_hit_sweep.h"
 
 namespace raymoval {
 namespace {
 
-/// Walks a ray from cell to cell. Distances are in cells (a ray of unit direction in voxel units).
-class Walk {
+using sweep::BrickList;
+using sweep::Frame;
+using sweep::GridTables;
+using sweep::kGroup;
+
+constexpr double kSteep = 1.55;  // Beyond this elevation the tangent is as good as infinite.
+
+GridTables tables_for(const AngularGrid& grid) {
+  GridTables tables;
+  tables.columns = grid.azimuth_bins;
+  tables.rows = grid.elevation_bins;
+  const auto group = static_cast<int>(kGroup);
+  tables.padded_rows = (grid.elevation_bins + group - 1) / group * group;
+  tables.elevation_min = static_cast<float>(grid.elevation_min);
+  tables.inverse_elevation_step = static_cast<float>(1.0 / grid.elevation_step());
+  tables.inverse_azimuth_step = static_cast<float>(1.0 / grid.azimuth_step());
+  for (int i = 0; i < grid.azimuth_bins; ++i) {
+    tables.azimuth_cosine.push_back(std::cos(grid.azimuth_centre(i)));
+    tables.azimuth_sine.push_back(std::sin(grid.azimuth_centre(i)));
+  }
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  const double margin = 0.05 * grid.elevation_step();
+  for (int j = 0; j < tables.padded_rows; ++j) {
+    const double elevation = grid.elevation_centre(std::min(j, grid.elevation_bins - 1));
+    tables.elevation_cosine.push_back(std::cos(elevation));
+    tables.elevation_sine.push_back(std::sin(elevation));
+    const double below = elevation - margin, above = elevation + margin;
+    tables.tangent_below.push_back(
+        below < -kSteep ? -kInfinite : static_cast<float>(std::tan(std::min(below, kSteep))));
+    tables.tangent_above.push_back(
+        above > kSteep ? kInfinite : static_cast<float>(std::tan(std::max(above, -kSteep))));
+  }
+  return tables;
+}
+
+/// Voxel walls around a sensor: `wall(k, c)` of lattice plane c along axis k.
+class WallTables {
  public:
-  Walk(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
-      : origin_(origin), direction_(direction) {
+  void build(const OccupancyMap& map, const Eigen::Vector3d& position, double range) {
+    constexpr int kMargin = 2 * OccupancyMap::kBrickSide;
+    const VoxelIndex cell = map.voxel_of(position);
+    const int reach = static_cast<int>(std::ceil(range * map.inverse_voxel_size())) + 1;
     for (int k = 0; k < 3; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      cell_[axis] = static_cast<int>(std::floor(origin[k]));
-      inverse_[axis] = direction[k] == 0.0 ? 0.0 : 1.0 / direction[k];
-      step_[axis] = direction[k] > 0.0 ? 1 : (direction[k] < 0.0 ? -1 : 0);
-      // A ray along the negative axis that starts on a wall is in the lower cell at once, but for
-      // the start itself.
-      next_[axis] = exit_distance(axis, cell_[axis], 1);
-    }
-  }
-
-  [[nodiscard]] const std::array<int, 3>& cell() const { return cell_; }
-  [[nodiscard]] double distance() const { return distance_; }
-
-  void step_voxel() {
-    advance(next_[0] < next_[1] ? (next_[0] < next_[2] ? 0 : 2) : (next_[1] < next_[2] ? 1 : 2));
-  }
-
-  /// Goes to the first cell outside the present brick.
-  void leave_brick() {
-    constexpr int kSide = OccupancyMap::kBrickSide;
-    std::size_t first = 0;
-    std::array<double, 3> exits;
-    for (std::size_t k = 0; k < 3; ++k) {
-      exits[k] = exit_distance(k, cell_[k] & ~(kSide - 1), kSide);
-      if (exits[k] < exits[first]) first = k;
-    }
-    distance_ = std::max(distance_, exits[first]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int low = cell_[k] & ~(kSide - 1);
-      if (k == first) {
-        cell_[k] = step_[k] > 0 ? low + kSide : low - 1;
-      } else if (step_[k] != 0) {
-        const auto axis = static_cast<Eigen::Index>(k);
-        const int at = static_cast<int>(std::floor(origin_[axis] + distance_ * direction_[axis]));
-        cell_[k] = std::clamp(at, low, low + kSide - 1);
+      low_[k] = cell[k] - reach;
+      high_[k] = cell[k] + reach;
+      first_[k] = low_[k] - kMargin;
+      auto& walls = walls_[static_cast<std::size_t>(k)];
+      walls.resize(static_cast<std::size_t>(2 * (reach + kMargin) + 1));
+      for (std::size_t i = 0; i < walls.size(); ++i) {
+        const int plane = first_[k] + static_cast<int>(i);
+        walls[i] = static_cast<float>(plane * map.voxel_size() - position[k]);
       }
-      next_[k] = exit_distance(k, cell_[k], 1);
     }
+  }
+  [[nodiscard]] const float* data(std::size_t axis) const { return walls_[axis].data(); }
+  /// First and last voxel within the range.
+  [[nodiscard]] const Eigen::Vector3i& low() const { return low_; }
+  [[nodiscard]] const Eigen::Vector3i& high() const { return high_; }
+  /// Where the walls of a brick begin; it has a voxel within low .. high.
+  [[nodiscard]] std::int32_t brick_offset(Eigen::Index axis, std::int32_t brick) const {
+    return brick * OccupancyMap::kBrickSide - first_[axis];
   }
 
  private:
-  /// Distance at which the ray leaves the block of `side` cells from `low` along an axis.
-  [[nodiscard]] double exit_distance(std::size_t axis, int low, int side) const {
-    if (step_[axis] == 0) return std::numeric_limits<double>::infinity();
-    const double plane = step_[axis] > 0 ? low + side : low;
-    return (plane - origin_[static_cast<Eigen::Index>(axis)]) * inverse_[axis];
-  }
-  void advance(std::size_t axis) {
-    distance_ = std::max(distance_, next_[axis]);
-    cell_[axis] += step_[axis];
-    next_[axis] = exit_distance(axis, cell_[axis], 1);
-  }
-
-  Eigen::Vector3d origin_, direction_;
-  std::array<int, 3> cell_{}, step_{};
-  std::array<double, 3> inverse_{}, next_{};
-  double distance_ = 0.0;
+  std::array<std::vector<float>, 3> walls_;
+  Eigen::Vector3i low_, high_, first_;
 };
 
-}  // namespace
-
-namespace {
-
-/// Eq. 7 with `find_brick(brick coordinates)` as the way to the map.
-template <class FindBrick>
-std::optional<FirstHit> walk_to_first_hit(const FindBrick& find_brick, double voxel_size,
-                                          const Ray& ray, double minimum_range,
-                                          double maximum_range) {
-  const double scale = 1.0 / voxel_size;
-  const double nearest = minimum_range * scale;
-  const double farthest = maximum_range * scale;
-  Walk walk(ray.origin * scale, ray.direction);
-  while (walk.distance() <= farthest) {
-    const VoxelIndex entry(walk.cell()[0], walk.cell()[1], walk.cell()[2]);
-    const Eigen::Vector3i brick_at = OccupancyMap::brick_of(entry);
-    const OccupancyMap::Brick* brick = find_brick(brick_at);
-    if (brick == nullptr) {
-      walk.leave_brick();
-      continue;
+/// Adds the tile's bricks that are within range.
+void gather_tile(std::span<const OccupancyMap::BrickHead> heads, const WallTables& walls,
+                 float range, BrickList& bricks) {
+  bricks.require(bricks.count + heads.size());
+  const Eigen::Vector3i low = OccupancyMap::brick_of(walls.low());
+  const Eigen::Vector3i high = OccupancyMap::brick_of(walls.high());
+  for (const OccupancyMap::BrickHead& head : heads) {
+    if (head.is_empty) continue;
+    const std::size_t i = bricks.count;
+    float squared = 0.0F;
+    bool within = true;
+    for (std::size_t k = 0; k < 3 && within; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      within = head.at[k] >= low[axis] && head.at[k] <= high[axis];
+      if (!within) break;
+      const std::int32_t offset = walls.brick_offset(axis, head.at[k]);
+      const float* wall = walls.data(k) + offset;
+      const float near = wall[head.bounds.first(k)], far = wall[head.bounds.last(k) + 1];
+      const float gap = std::max({near, -far, 0.0F});
+      squared += gap * gap;
+      bricks.low[k][i] = near;
+      bricks.high[k][i] = far;
+      bricks.plane[k][i] = offset;
     }
-    while (walk.distance() <= farthest) {
-      const auto& [x, y, z] = walk.cell();
-      if (OccupancyMap::brick_of({x, y, z}) != brick_at) break;
-      if (walk.distance() >= nearest && brick->contains(x, y, z)) {
-        return FirstHit{walk.distance() * voxel_size, {x, y, z}};
-      }
-      walk.step_voxel();
-    }
+    if (!within || squared > range * range) continue;
+    bricks.slot[i] = head.slot;
+    ++bricks.count;
   }
-  return std::nullopt;
 }
 
-/// The bricks within reach of a sensor in a dense block, so that rays find them without hashing.
-/// Filled by look-ups around the sensor: its cost depends on the range and not on the map.
-class LocalBricks {
- public:
-  static constexpr std::int64_t kLargest = 8'000'000;
-
-  LocalBricks(const OccupancyMap& map, const Eigen::Vector3d& position, double range) : map_(map) {
-    const double side = map.voxel_size() * OccupancyMap::kBrickSide;
-    const int reach = static_cast<int>(std::min(std::ceil(range / side) + 1.0, 1e6));
-    low_ = OccupancyMap::brick_of(map.voxel_of(position)).array() - reach;
-    high_ = low_.array() + 2 * reach;
-    low_ = low_.cwiseMax(map.lowest_brick());
-    high_ = high_.cwiseMin(map.highest_brick());
-    size_ = (high_ - low_).array() + 1;
-    if ((size_.array() <= 0).any()) return;
-    if (size_.cast<std::int64_t>().prod() > kLargest) return;
-    bricks_.reserve(static_cast<std::size_t>(size_.prod()));
-    for (int z = low_.z(); z <= high_.z(); ++z) {
-      for (int y = low_.y(); y <= high_.y(); ++y) {
-        for (int x = low_.x(); x <= high_.x(); ++x) bricks_.push_back(map.find_brick({x, y, z}));
+void gather_bricks(const OccupancyMap& map, const WallTables& walls, float range,
+                   BrickList& bricks) {
+  bricks.count = 0;
+  const Eigen::Vector2i low = OccupancyMap::tile_of(OccupancyMap::brick_of(walls.low()));
+  const Eigen::Vector2i high = OccupancyMap::tile_of(OccupancyMap::brick_of(walls.high()));
+  const std::int64_t within = std::int64_t{high.x() - low.x() + 1} * (high.y() - low.y() + 1);
+  if (within > static_cast<std::int64_t>(map.tile_count())) {
+    for (std::size_t i = 0; i < map.tile_count(); ++i) {
+      gather_tile(map.tile(i), walls, range, bricks);
+    }
+  } else {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        gather_tile(map.tile(x, y), walls, range, bricks);
       }
     }
   }
-
-  [[nodiscard]] const OccupancyMap::Brick* operator()(const Eigen::Vector3i& brick) const {
-    const Eigen::Vector3i at = brick - low_;
-    if ((at.array() < 0).any() || (at.array() >= size_.array()).any()) return nullptr;
-    if (bricks_.empty()) return map_.find_brick(brick);
-    return bricks_[static_cast<std::size_t>((at.z() * size_.y() + at.y()) * size_.x() + at.x())];
+  // The padding is measured too; it only has to be numbers.
+  bricks.require(bricks.count);
+  for (std::size_t i = bricks.count; i % kGroup != 0; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) bricks.low[k][i] = bricks.high[k][i] = 1.0F;
   }
-
- private:
-  const OccupancyMap& map_;
-  Eigen::Vector3i low_, high_, size_;
-  std::vector<const OccupancyMap::Brick*> bricks_;
-};
-
-}  // namespace
-
-std::optional<FirstHit> cast_ray(const OccupancyMap& map, const Ray& ray, double minimum_range,
-                                 double maximum_range) {
-  const auto find_brick = [&](const Eigen::Vector3i& brick) { return map.find_brick(brick); };
-  return walk_to_first_hit(find_brick, map.voxel_size(), ray, minimum_range, maximum_range);
 }
 
-FirstHitImage cast_first_hits(const OccupancyMap& map, const Pose& T_world_sensor,
-                              const AngularGrid& grid, double minimum_range, double maximum_range,
-                              int threads) {
-  FirstHitImage image;
-  const auto bins = static_cast<std::size_t>(grid.size());
-  image.range.assign(bins, kNoRange);
-  image.voxel.assign(bins, 0);
-  if (map.size() == 0) return image;
-  const Eigen::Vector3d origin = T_world_sensor.translation();
-  const LocalBricks bricks(map, origin, maximum_range);
-  const DirectionTable directions(grid);
-  const auto rows = static_cast<std::size_t>(grid.elevation_bins);
-  const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
-  parallel_for(threads, rows, 8, [&](std::size_t row) {
-    for (std::size_t i = 0; i < columns; ++i) {
-      const Ray ray{origin, T_world_sensor.linear() * directions.at(i, row)};
-      const auto hit =
-          walk_to_first_hit(bricks, map.voxel_size(), ray, minimum_range, maximum_range);
-      if (!hit) continue;
-      image.range[row * columns + i] = static_cast<float>(hit->range);
-      image.voxel[row * columns + i] = voxel_key(hit->voxel);
-    }
+/// Front to back, in steps of 1/8 m: the depth test then closes most rows early.
+void sort_by_distance(const BrickList& bricks, std::vector<std::uint32_t>& starts,
+                      std::vector<std::uint32_t>& order) {
+  constexpr float kStepsPerMetre = 8.0F;
+  const auto is_seen = [&](std::size_t i) {
+    return bricks.first_column[i] <= bricks.last_column[i];
+  };
+  const auto step_of = [&](std::size_t i) {
+    return static_cast<std::size_t>(bricks.nearest[i] * kStepsPerMetre) + 1;
+  };
+  starts.clear();
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < bricks.count; ++i) {
+    if (!is_seen(i)) continue;
+    if (starts.size() <= step_of(i)) starts.resize(step_of(i) + 1, 0);
+    ++starts[step_of(i)];
+    ++count;
+  }
+  order.resize(count);
+  for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+  for (std::size_t i = 0; i < bricks.count; ++i) {
+    if (is_seen(i)) order[starts[step_of(i) - 1]++] = static_cast<std::uint32_t>(i);
+  }
+}
+
+/// The two world axes that are the farthest from the sensor's up axis.
+std::array<int, 2> level_axes(const std::array<double, 3>& up) {
+  std::array<int, 3> axes = {0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) {
+    return std::abs(up[static_cast<std::size_t>(a)]) < std::abs(up[static_cast<std::size_t>(b)]);
   });
+  return {axes[0], axes[1]};
+}
+
+}  // namespace
+
+class FirstHitCaster::State {
+ public:
+  State(const AngularGrid& grid, const RayLimits& limits, InstructionSet set)
+      : grid_(grid),
+        limits_(limits),
+        tables_(tables_for(grid)),
+        kernels_(sweep::kernels_for(set)) {}
+
+  void cast(OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
+    map.update_boxes(threads);
+    image.grid = grid_;
+    image.T_world_sensor = T_world_sensor;
+    image.limits = limits_;
+    image.directions = directions_;
+    image.range.resize(static_cast<std::size_t>(grid_.size()));
+    const Frame frame = start_frame(map, T_world_sensor);
+    gather_bricks(map, walls_, frame.maximum_range, bricks_);
+    kernels_.measure_bricks(frame);
+    sort_by_distance(bricks_, starts_, order_);
+    sweep(frame, threads, image.range.data());
+  }
+
+ private:
+  Frame start_frame(const OccupancyMap& map, const Pose& T_world_sensor) {
+    walls_.build(map, T_world_sensor.translation(), limits_.maximum_range);
+    Frame frame;
+    frame.map = &map;
+    frame.grid = &tables_;
+    frame.bricks = &bricks_;
+    frame.order = &order_;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      frame.x_axis[k] = T_world_sensor.linear()(axis, 0);
+      frame.y_axis[k] = T_world_sensor.linear()(axis, 1);
+      frame.up[k] = T_world_sensor.linear()(axis, 2);
+      frame.planes[k] = walls_.data(k);
+    }
+    frame.level_axes = level_axes(frame.up);
+    frame.minimum_range = static_cast<float>(limits_.minimum_range);
+    frame.maximum_range = static_cast<float>(limits_.maximum_range);
+    frame.slack = static_cast<float>(1e-4 + 2e-6 * limits_.maximum_range);
+    return frame;
+  }
+
+  /// One part of the circle for one thread, a few parts a thread for several: a brick that lies in
+  /// two parts is expanded twice.
+  void sweep(const Frame& frame, int threads, float* range) {
+    const auto columns = static_cast<std::size_t>(grid_.azimuth_bins);
+    const std::size_t parts = threads <= 1 ? 1 : 4 * static_cast<std::size_t>(threads);
+    std::size_t grain = (columns + parts - 1) / parts;
+    grain = (grain + kGroup - 1) / kGroup * kGroup;
+    scratch_.resize(std::max(scratch_.size(), (columns + grain - 1) / grain));
+    parallel_chunks(threads, columns, grain, [&](std::size_t begin, std::size_t end) {
+      kernels_.sweep_columns(frame, static_cast<int>(begin), static_cast<int>(end),
+                             scratch_[begin / grain], range);
+    });
+  }
+
+  AngularGrid grid_;
+  RayLimits limits_;
+  std::shared_ptr<const DirectionTable> directions_ = std::make_shared<DirectionTable>(grid_);
+  GridTables tables_;
+  sweep::Kernels kernels_;
+  WallTables walls_;
+  BrickList bricks_;
+  std::vector<std::uint32_t> starts_, order_;
+  std::vector<sweep::Scratch> scratch_;
+};
+
+FirstHitCaster::FirstHitCaster(const AngularGrid& grid, const RayLimits& limits, InstructionSet set)
+    : state_(std::make_unique<State>(grid, limits, set)) {}
+FirstHitCaster::~FirstHitCaster() = default;
+FirstHitCaster::FirstHitCaster(FirstHitCaster&&) noexcept = default;
+FirstHitCaster& FirstHitCaster::operator=(FirstHitCaster&&) noexcept = default;
+
+void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, int threads,
+                          FirstHitImage& image) {
+  state_->cast(map, T_world_sensor, threads, image);
+}
+
+FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
+                              const AngularGrid& grid, const RayLimits& limits, int threads,
+                              InstructionSet set) {
+  FirstHitImage image;
+  FirstHitCaster(grid, limits, set).cast(map, T_world_sensor, threads, image);
   return image;
+}
+
+Ray FirstHitImage::ray(int bin) const {
+  return {
+      T_world_sensor.translation(),
+      T_world_sensor.linear() * directions->at(static_cast<std::size_t>(grid.azimuth_of(bin)),
+                                               static_cast<std::size_t>(grid.elevation_of(bin)))};
+}
+
+std::optional<VoxelIndex> FirstHitImage::voxel(const OccupancyMap& map, int bin) const {
+  const double hit = range[static_cast<std::size_t>(bin)];
+  if (!(hit <= limits.maximum_range)) return std::nullopt;
+  // Float ranges are off by less than this; what lies before it is known to be empty.
+  const double rounding = 1e-3 * map.voxel_size() + 1e-6 * hit;
+  const auto found = cast_ray(map, ray(bin), limits, std::max(0.0, hit - rounding));
+  if (!found) return std::nullopt;
+  return found->voxel;
 }
 
 }  // namespace raymoval

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "methods/raymoval/scan_kernels.h"
 
 namespace raymoval {
 namespace {
@@ -22,10 +23,14 @@ void for_window(const std::vector<float>& values, const AngularGrid& grid, int i
   }
 }
 
+int percentile_rank(int count, double quantile) {
+  return static_cast<int>(quantile * (count - 1) + 0.5);
+}
+
 }  // namespace
 
 float percentile_of_sorted(const float* sorted, int count, double quantile) {
-  return sorted[static_cast<int>(quantile * (count - 1) + 0.5)];
+  return sorted[percentile_rank(count, quantile)];
 }
 
 std::vector<float> windowed_percentile(const std::vector<float>& values, const AngularGrid& grid,
@@ -48,26 +53,88 @@ std::vector<float> windowed_percentile(const std::vector<float>& values, const A
   return result;
 }
 
-std::vector<float> windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
-                                    int azimuth_radius, int elevation_radius, int threads) {
-  // The minimum over a rectangle is the minimum over rows of the minima over columns.
-  std::vector<float> along_rows(values.size()), result(values.size());
+void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
+                          const AngularGrid& grid, int radius,
+                          const std::array<double, 2>& quantiles, int threads,
+                          WindowPercentiles& percentiles, InstructionSet set) {
+  const kernels::Kernels kernel = kernels::kernels_for(set);
+  if (radius != 1 || grid.azimuth_bins < kernel.row_lanes) {
+    percentiles.first = windowed_percentile(values, grid, radius, quantiles[0], threads);
+    percentiles.second = windowed_percentile(values, grid, radius, quantiles[1], threads);
+    return;
+  }
+  percentiles.first.resize(values.size());
+  percentiles.second.resize(values.size());
+  const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
   const auto rows = static_cast<std::size_t>(grid.elevation_bins);
-  const auto pass = [&](const std::vector<float>& from, std::vector<float>& to, int columns,
-                        int lines) {
-    parallel_for(threads, rows, 8, [&](std::size_t row) {
-      for (int i = 0; i < grid.azimuth_bins; ++i) {
-        float smallest = kNoRange;
-        for_window(from, grid, i, static_cast<int>(row), columns, lines,
-                   [&](float value) { smallest = std::min(smallest, value); });
-        to[row * static_cast<std::size_t>(grid.azimuth_bins) + static_cast<std::size_t>(i)] =
-            smallest;
-      }
-    });
-  };
-  pass(values, along_rows, azimuth_radius, 0);
-  pass(along_rows, result, 0, elevation_radius);
-  return result;
+  const std::vector<float> beyond(columns, kNoRange);
+  kernels::WindowRow shared;
+  shared.columns = grid.azimuth_bins;
+  for (std::size_t q = 0; q < 2; ++q) {
+    for (int count = 1; count <= 9; ++count) {
+      shared.ranks[q][static_cast<std::size_t>(count)] = percentile_rank(count, quantiles[q]);
+    }
+  }
+  parallel_chunks(threads, rows, 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> scratch(3 * (columns + 2));
+    kernels::WindowRow job = shared;
+    job.scratch = scratch.data();
+    for (std::size_t row = begin; row < end; ++row) {
+      const float* here = values.data() + row * columns;
+      job.values = {row == 0 ? beyond.data() : here - columns, here,
+                    row + 1 == rows ? beyond.data() : here + columns};
+      job.wanted = wanted.data() + row * columns;
+      job.results = {percentiles.first.data() + row * columns,
+                     percentiles.second.data() + row * columns};
+      kernel.percentiles(job);
+    }
+  });
+}
+
+namespace {
+
+/// For grids too narrow for vectors.
+void slow_windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
+                           int azimuth_radius, int elevation_radius, std::vector<float>& minimum) {
+  for (int bin = 0; bin < grid.size(); ++bin) {
+    float& smallest = minimum[static_cast<std::size_t>(bin)];
+    smallest = kNoRange;
+    for_window(values, grid, grid.azimuth_of(bin), grid.elevation_of(bin), azimuth_radius,
+               elevation_radius, [&](float value) { smallest = std::min(smallest, value); });
+  }
+}
+
+}  // namespace
+
+void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
+                      int elevation_radius, int threads, std::vector<float>& minimum,
+                      InstructionSet set) {
+  const kernels::Kernels kernel = kernels::kernels_for(set);
+  minimum.resize(values.size());
+  if (grid.azimuth_bins < kernel.row_lanes + azimuth_radius) {
+    slow_windowed_minimum(values, grid, azimuth_radius, elevation_radius, minimum);
+    return;
+  }
+  kernels::WindowMinimum shared;
+  shared.values = values.data();
+  shared.result = minimum.data();
+  shared.columns = grid.azimuth_bins;
+  shared.rows = grid.elevation_bins;
+  shared.azimuth_radius = azimuth_radius;
+  shared.elevation_radius = elevation_radius;
+  const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
+  const auto lanes = static_cast<std::size_t>(kernel.row_lanes);
+  const std::size_t strips = (columns + lanes - 1) / lanes;
+  parallel_chunks(threads, strips, 8, [&](std::size_t begin, std::size_t end) {
+    AlignedArray<float> scratch;
+    scratch.require(lanes * static_cast<std::size_t>(grid.elevation_bins + 2 * elevation_radius));
+    kernels::WindowMinimum job = shared;
+    job.scratch = scratch.data();
+    for (std::size_t strip = begin; strip < end; ++strip) {
+      const std::size_t first = std::min(strip * lanes, columns - lanes);
+      kernel.minimum(job, static_cast<int>(first), static_cast<int>(strip * lanes - first));
+    }
+  });
 }
 
 }  // namespace raymoval

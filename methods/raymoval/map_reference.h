@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "methods/raymoval/angular_grid.h"
@@ -19,8 +20,24 @@ float percentile_of_sorted(const float* sorted, int count, double quantile);
 std::vector<float> windowed_percentile(const std::vector<float>& values, const AngularGrid& grid,
                                        int radius, double quantile, int threads);
 
+/// Two percentiles of the same windows.
+struct WindowPercentiles {
+  std::vector<float> first, second;
+};
+
+/// Eqs 8-9 as `windowed_percentile`, for two quantiles at once and only for the bins where `wanted`
+/// is finite; what the others hold means nothing.
+/// @param percentiles replaced; their memory is used again
+void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
+                          const AngularGrid& grid, int radius,
+                          const std::array<double, 2>& quantiles, int threads,
+                          WindowPercentiles& percentiles,
+                          InstructionSet set = InstructionSet::kBest);
+
 /// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
-std::vector<float> windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
-                                    int azimuth_radius, int elevation_radius, int threads);
+/// @param minimum replaced; its memory is used again
+void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
+                      int elevation_radius, int threads, std::vector<float>& minimum,
+                      InstructionSet set = InstructionSet::kBest);
 
 }  // namespace raymoval

@@ -174,6 +174,7 @@ MethodEntry raymoval_entry() {
       "Raycasting against the map: flags what stands in front of it, erases what is "
       "seen through, validates clusters against what remains.";
   entry.source = "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping";
+  entry.version = "2";
   entry.notes = {
       "The paper leaves the erase test's margin, the origin of its map, and all cluster and "
       "coverage values open; the variants called table1 use every printed value in both tests.",

@@ -48,7 +48,6 @@ int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
 struct PreparedScan {
   Scan scan;
   std::vector<VoxelIndex> voxels;  ///< Of each point, in the world lattice.
-  VoxelSet own_voxels;             ///< Voxels in which the scan itself has a point.
   ProjectedScan projected;
 };
 
@@ -80,121 +79,186 @@ class RaymovalPass {
         context_(context),
         grid_(grid_for(sensor, parameters)),
         map_(parameters.voxel_size, parameters.permanent_erase),
-        erase_rows_(rows_of_a_beam(sensor, grid_, parameters)) {}
+        erase_rows_(rows_of_a_beam(sensor, grid_, parameters)),
+        caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {}
 
   [[nodiscard]] StaticMap& map() { return map_; }
 
   /// Section 3 for one scan. @return 1 for each point found dynamic now (the online answer).
   Mask process(const PreparedScan& prepared) {
-    const FirstHitImage first_hit = cast(prepared.scan.T_world_sensor);  // eqs 4-7
-    const Mask candidates = find_candidates(prepared, first_hit);        // eqs 8-9, 11
-    const Mask dynamic = validate(prepared, candidates);                 // eqs 12-15
-    erase_seen_through(prepared, first_hit);
-    erase_without_return(prepared, first_hit);
+    cast(prepared);                                     // eqs 4-7
+    find_references(prepared);                          // eqs 8-9
+    const Mask candidates = find_candidates(prepared);  // eq. 11
+    Mask dynamic;                                       // eqs 12-15
+    Evidence evidence;                                  // Of what is seen through.
+    side_by_side([&](StageTimes* times) { dynamic = validate(prepared, candidates, times); },
+                 [&](StageTimes* times) { evidence = find_evidence(prepared, times); });
+    erase(evidence);
     integrate(prepared, dynamic);
     return dynamic;
   }
 
   /// Finds the voxel of each point and projects it (eqs 1-3, 10).
-  [[nodiscard]] PreparedScan prepare(Scan scan) const {
+  void prepare(Scan scan, PreparedScan& prepared) const {
     const StageScope timed(context_.times, "binning");
-    PreparedScan prepared;
-    prepared.voxels.resize(scan.size());
-    parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
-      prepared.voxels[k] = map_.voxel_of(scan.T_world_sensor * scan.points[k].cast<double>());
-    });
-    prepared.own_voxels.reserve(scan.size() / 2);
-    for (const VoxelIndex& voxel : prepared.voxels) prepared.own_voxels.insert(voxel_key(voxel));
-    prepared.projected = project(scan, grid_, parameters_.minimum_range);
     prepared.scan = std::move(scan);
-    return prepared;
+    find_voxels(prepared.scan, map_.occupied().inverse_voxel_size(), context_.threads,
+                prepared.voxels);
+    project(prepared.scan, grid_, parameters_.minimum_range, context_.threads, prepared.projected);
   }
 
  private:
-  FirstHitImage cast(const Pose& T_world_sensor) {
-    const StageScope timed(context_.times, "raycasting");
-    return cast_first_hits(map_.occupied(), T_world_sensor, grid_, parameters_.minimum_range,
-                           parameters_.maximum_range, context_.threads);
+  /// Voxels to erase.
+  struct Evidence {
+    std::vector<VoxelIndex> seen_through, without_return;
+  };
+
+  /// Two steps that only read the map: with several threads one is done beside the other, and they
+  /// are timed as one stage.
+  template <class Validate, class FindEvidence>
+  void side_by_side(Validate&& validate_step, FindEvidence&& evidence_step) {
+    const bool together = context_.threads > 1;
+    const StageScope timed(together ? context_.times : nullptr, "validation and erase");
+    StageTimes* times = together ? nullptr : context_.times;
+    parallel_for(context_.threads, 2, 1, [&](std::size_t task) {
+      if (task == 0) {
+        validate_step(times);
+      } else {
+        evidence_step(times);
+      }
+    });
   }
 
-  /// Eq. 11 on the map reference of eqs 8-9; also points where the map was seen through before.
-  Mask find_candidates(const PreparedScan& prepared, const FirstHitImage& first_hit) {
+  void cast(const PreparedScan& prepared) {
+    const StageScope timed(context_.times, "raycasting");
+    caster_.cast(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
+  }
+
+  /// The map reference of both tests, where the scan has a return.
+  void find_references(const PreparedScan& prepared) {
     const StageScope timed(context_.times, "classification");
-    Mask candidates(prepared.scan.size(), 0);
+    windowed_percentiles(
+        first_hit_.range, prepared.projected.minimum_range, grid_, parameters_.neighbourhood,
+        {parameters_.percentile, parameters_.erase_percentile}, context_.threads, references_);
+    map_.occupied().find_slots(prepared.voxels, context_.threads, slots_);
+  }
+
+  /// Eq. 11; also points where the map was seen through before.
+  Mask find_candidates(const PreparedScan& prepared) {
+    const StageScope timed(context_.times, "classification");
     // In a map of all scans every point is its own first hit, and the answer comes at the end.
-    if (parameters_.map_source == MapSource::kNaive) return candidates;
+    if (parameters_.map_source == MapSource::kNaive) return Mask(prepared.scan.size(), 0);
+    Mask candidates;
     if (parameters_.forward_test) {
-      const std::vector<float> reference =
-          windowed_percentile(first_hit.range, grid_, parameters_.neighbourhood,
-                              parameters_.percentile, context_.threads);
-      candidates =
-          check_consistency(prepared.projected, reference, {parameters_.tau0, parameters_.tau1});
+      candidates = check_consistency(prepared.projected, references_.first,
+                                     {parameters_.tau0, parameters_.tau1}, context_.threads);
+    } else {
+      candidates.assign(prepared.scan.size(), 0);
     }
     if (!parameters_.permanent_erase) return candidates;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (map_.was_erased(prepared.voxels[k])) candidates[k] = 1;
-    }
+    parallel_for(context_.threads, candidates.size(), 8192, [&](std::size_t k) {
+      if (map_.was_erased(slots_[k], prepared.voxels[k])) candidates[k] = 1;
+    });
     return candidates;
   }
 
-  Mask validate(const PreparedScan& prepared, const Mask& candidates) {
+  Mask validate(const PreparedScan& prepared, const Mask& candidates, StageTimes* times) {
     if (!parameters_.validate || parameters_.map_source == MapSource::kNaive) return candidates;
-    const StageScope timed(context_.times, "validation");
+    const StageScope timed(times, "validation");
     return validate_scan(prepared.scan, prepared.voxels, candidates, map_.occupied(), parameters_);
+  }
+
+  /// Both kinds of evidence are read off the same map before any of it is erased.
+  Evidence find_evidence(const PreparedScan& prepared, StageTimes* times) {
+    Evidence evidence;
+    if (parameters_.erase) {
+      const StageScope timed(times, "erase");
+      evidence.seen_through = voxels_seen_through(prepared);
+    }
+    if (parameters_.no_return) {
+      const StageScope timed(times, "no-return evidence");
+      evidence.without_return = voxels_without_return(prepared);
+    }
+    return evidence;
+  }
+
+  void erase(const Evidence& evidence) {
+    for (const VoxelIndex& voxel : evidence.seen_through) map_.erase(voxel);
+    for (const VoxelIndex& voxel : evidence.without_return) map_.erase(voxel);
+  }
+
+  std::vector<VoxelIndex> voxels_seen_through(const PreparedScan& prepared) {
+    std::vector<VoxelIndex> voxels;
+    windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.erase_azimuth_window,
+                     erase_rows_, context_.threads, nearest_return_);
+    for (const SeenThrough& through :
+         find_seen_through(prepared.projected, nearest_return_, first_hit_, references_.second,
+                           {parameters_.erase_tau0, parameters_.erase_tau1}, context_.threads)) {
+      const float first_hit = first_hit_.range[static_cast<std::size_t>(through.bin)];
+      const bool along_surface = through.nearest_return - first_hit <
+                                 grazing_distance(first_hit_.ray(through.bin).direction.z(),
+                                                  parameters_.erase_height * parameters_.voxel_size,
+                                                  parameters_.erase_height_limit);
+      if (along_surface) continue;
+      const auto voxel = first_hit_.voxel(map_.occupied(), through.bin);
+      if (voxel) voxels.push_back(*voxel);
+    }
+    drop_own_voxels(prepared, voxels);
+    return voxels;
   }
 
   /// A ray may pass through the empty part of a voxel: one in which the scan itself has a point is
   /// not seen through.
-  void erase_seen_through(const PreparedScan& prepared, const FirstHitImage& first_hit) {
-    if (!parameters_.erase) return;
-    const StageScope timed(context_.times, "erase");
-    const std::vector<float> reference =
-        windowed_percentile(first_hit.range, grid_, parameters_.neighbourhood,
-                            parameters_.erase_percentile, context_.threads);
-    const std::vector<float> nearest_return =
-        windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.erase_azimuth_window,
-                         erase_rows_, context_.threads);
-    for (const int bin : find_seen_through(prepared.projected, nearest_return, first_hit, reference,
-                                           {parameters_.erase_tau0, parameters_.erase_tau1})) {
-      const auto at = static_cast<std::size_t>(bin);
-      const Eigen::Vector3d direction =
-          prepared.scan.T_world_sensor.linear() * grid_.direction(bin);
-      const bool along_surface =
-          nearest_return[at] - first_hit.range[at] <
-          grazing_distance(direction.z(), parameters_.erase_height * parameters_.voxel_size,
-                           parameters_.erase_height_limit);
-      if (along_surface || prepared.own_voxels.contains(first_hit.voxel[at])) continue;
-      map_.erase(voxel_index(first_hit.voxel[at]));
+  void drop_own_voxels(const PreparedScan& prepared, std::vector<VoxelIndex>& voxels) {
+    if (voxels.empty()) return;
+    const auto slot_of = [&](const VoxelIndex& voxel) {
+      return map_.occupied().find_slot(OccupancyMap::brick_of(voxel));
+    };
+    std::vector<OccupancyMap::Slot> bricks;
+    number_of_.resize(map_.occupied().brick_count(), 0);
+    for (const VoxelIndex& voxel : voxels) {
+      std::uint32_t& number = number_of_[slot_of(voxel)];
+      if (number != 0) continue;
+      bricks.push_back(slot_of(voxel));
+      number = static_cast<std::uint32_t>(bricks.size());
     }
+    std::vector<Brick> own(bricks.size());  // The scan's voxels in these bricks.
+    for (std::size_t k = 0; k < slots_.size(); ++k) {
+      if (slots_[k] == OccupancyMap::kNoBrick || number_of_[slots_[k]] == 0) continue;
+      const VoxelIndex& voxel = prepared.voxels[k];
+      own[number_of_[slots_[k]] - 1].add(voxel.x(), voxel.y(), voxel.z());
+    }
+    std::erase_if(voxels, [&](const VoxelIndex& voxel) {
+      return own[number_of_[slot_of(voxel)] - 1].contains(voxel.x(), voxel.y(), voxel.z());
+    });
+    for (const OccupancyMap::Slot slot : bricks) number_of_[slot] = 0;
   }
 
-  void erase_without_return(const PreparedScan& prepared, const FirstHitImage& first_hit) {
-    if (!parameters_.no_return) return;
-    const StageScope timed(context_.times, "no-return evidence");
-    const std::vector<float> nearest_return = windowed_minimum(
-        prepared.projected.minimum_range, grid_, parameters_.no_return_azimuth_window,
-        parameters_.no_return_elevation_window, context_.threads);
+  std::vector<VoxelIndex> voxels_without_return(const PreparedScan& prepared) {
+    std::vector<VoxelIndex> erased;
+    windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.no_return_azimuth_window,
+                     parameters_.no_return_elevation_window, context_.threads, nearest_return_);
     std::vector<VoxelKey> voxels;
     for (const int bin :
-         find_no_return(nearest_return, first_hit, grid_, sensor_, parameters_.no_return_range)) {
-      voxels.push_back(first_hit.voxel[static_cast<std::size_t>(bin)]);
+         find_no_return(nearest_return_, first_hit_, grid_, sensor_, parameters_.no_return_range)) {
+      const auto voxel = first_hit_.voxel(map_.occupied(), bin);
+      if (voxel) voxels.push_back(voxel_key(*voxel));
     }
     // However many of its bins a scan misses, it is one witness.
     std::sort(voxels.begin(), voxels.end());
     voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
     for (const VoxelKey voxel : voxels) {
       if (++scans_without_return_[voxel] >= parameters_.no_return_scans) {
-        map_.erase(voxel_index(voxel));
+        erased.push_back(voxel_index(voxel));
       }
     }
+    return erased;
   }
 
   void integrate(const PreparedScan& prepared, const Mask& dynamic) {
     if (parameters_.map_source == MapSource::kNaive) return;
     const StageScope timed(context_.times, "integration");
-    for (std::size_t k = 0; k < dynamic.size(); ++k) {
-      if (dynamic[k] == 0) map_.integrate(prepared.voxels[k]);
-    }
+    map_.integrate(prepared.voxels, slots_, dynamic);
   }
 
   const RaymovalParameters& parameters_;
@@ -203,7 +267,14 @@ class RaymovalPass {
   AngularGrid grid_;
   StaticMap map_;
   int erase_rows_;
+  FirstHitCaster caster_;
   VoxelMap<int> scans_without_return_;
+  // Of the present scan; kept for their memory.
+  FirstHitImage first_hit_;
+  WindowPercentiles references_;
+  std::vector<OccupancyMap::Slot> slots_;  ///< Brick of each point.
+  std::vector<std::uint32_t> number_of_;   ///< Of each brick that may be seen through; else 0.
+  std::vector<float> nearest_return_;
 };
 
 class RaymovalRemover : public Remover {
@@ -236,22 +307,25 @@ class RaymovalRemover : public Remover {
 
   void run_online(RaymovalPass& pass, const ScanSource& scans, RemovalSink& sink,
                   const RunContext& context) {
+    PreparedScan prepared;
     for_each_scan("raymoval", scans, context, false, [&](Scan scan) {
       const std::size_t index = scan.index;
-      sink.accept(index, pass.process(pass.prepare(std::move(scan))));
+      pass.prepare(std::move(scan), prepared);
+      sink.accept(index, pass.process(prepared));
     });
   }
 
   void run_offline(RaymovalPass& pass, const ScanSource& scans, RemovalSink& sink,
                    const RunContext& context) {
     if (parameters_.map_source == MapSource::kNaive) collect_naive_map(pass, scans, context);
-    for_each_scan("raymoval", scans, context, false, [&](Scan scan) {
-      const PreparedScan prepared = pass.prepare(std::move(scan));
+    PreparedScan prepared;
+    const auto process = [&](Scan scan) {
+      pass.prepare(std::move(scan), prepared);
       pass.process(prepared);
-    });
+    };
+    for_each_scan("raymoval", scans, context, false, process);
     if (parameters_.backward_pass) {
-      for_each_scan("raymoval, backward", scans, context, true,
-                    [&](Scan scan) { pass.process(pass.prepare(std::move(scan))); });
+      for_each_scan("raymoval, backward", scans, context, true, process);
     }
     answer_from_map(pass.map(), scans, sink, context);
   }
@@ -260,7 +334,9 @@ class RaymovalRemover : public Remover {
     for_each_scan("raymoval, naive map", scans, context, false, [&](const Scan& scan) {
       const StageScope timed(context.times, "integration");
       const std::vector<VoxelIndex> voxels = voxels_of(pass.map(), scan, context.threads);
-      for (const VoxelIndex& voxel : voxels) pass.map().integrate(voxel);
+      std::vector<OccupancyMap::Slot> slots;
+      pass.map().occupied().find_slots(voxels, context.threads, slots);
+      pass.map().integrate(voxels, slots, Mask(voxels.size(), 0));
     });
   }
 
@@ -282,16 +358,17 @@ class RaymovalRemover : public Remover {
                                  const RunContext& context) {
     const StageScope timed(context.times, "answer");
     Mask off(voxels.size(), 0);
-    parallel_for(context.threads, voxels.size(), 8192,
-                 [&](std::size_t k) { off[k] = map.occupied().contains(voxels[k]) ? 0 : 1; });
+    std::vector<OccupancyMap::Slot> slots;
+    map.occupied().find_slots(voxels, context.threads, slots);
+    parallel_for(context.threads, voxels.size(), 8192, [&](std::size_t k) {
+      off[k] = map.occupied().contains(slots[k], voxels[k]) ? 0 : 1;
+    });
     return off;
   }
 
   static std::vector<VoxelIndex> voxels_of(const StaticMap& map, const Scan& scan, int threads) {
-    std::vector<VoxelIndex> voxels(scan.size());
-    parallel_for(threads, scan.size(), 8192, [&](std::size_t k) {
-      voxels[k] = map.voxel_of(scan.T_world_sensor * scan.points[k].cast<double>());
-    });
+    std::vector<VoxelIndex> voxels;
+    find_voxels(scan, map.occupied().inverse_voxel_size(), threads, voxels);
     return voxels;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/scan.h"
 #include "methods/raymoval/occupancy_map.h"
 
 namespace raymoval {
@@ -9,27 +10,46 @@ namespace raymoval {
 /// through. Memory is bounded by the number of observed voxels.
 class StaticMap {
  public:
+  using Slot = OccupancyMap::Slot;
+
   /// @param permanent_erase a voxel once seen through is never filled again
   StaticMap(double voxel_size, bool permanent_erase)
       : occupied_(voxel_size), permanent_erase_(permanent_erase) {}
 
   [[nodiscard]] const OccupancyMap& occupied() const { return occupied_; }
+  [[nodiscard]] OccupancyMap& occupied() { return occupied_; }
   [[nodiscard]] VoxelIndex voxel_of(const Eigen::Vector3d& world) const {
     return occupied_.voxel_of(world);
   }
   [[nodiscard]] bool was_erased(const VoxelIndex& voxel) const {
-    return erased_.contains(voxel_key(voxel));
+    return was_erased(occupied_.find_slot(OccupancyMap::brick_of(voxel)), voxel);
+  }
+  /// The same for a voxel of the brick `slot`, which may be kNoBrick.
+  [[nodiscard]] bool was_erased(Slot slot, const VoxelIndex& voxel) const {
+    if (slot >= erased_of_.size() || erased_of_[slot] == kNothingErased) return false;
+    return erased_[erased_of_[slot]].contains(voxel.x(), voxel.y(), voxel.z());
   }
 
   /// Adds a static point's voxel, unless it was erased for good.
-  void integrate(const VoxelIndex& voxel);
+  void integrate(const VoxelIndex& voxel) {
+    integrate(occupied_.make_brick(OccupancyMap::brick_of(voxel)), voxel);
+  }
+  void integrate(Slot slot, const VoxelIndex& voxel);
+  /// Adds the voxels of all points that are not dynamic.
+  /// @param slots of the voxels' bricks as `find_slots` gave them
+  void integrate(const std::vector<VoxelIndex>& voxels, const std::vector<Slot>& slots,
+                 const Mask& dynamic);
   /// Removes a voxel that a scan saw through.
   void erase(const VoxelIndex& voxel);
 
  private:
+  static constexpr std::uint32_t kNothingErased = ~std::uint32_t{0};
+
   OccupancyMap occupied_;
   bool permanent_erase_;
-  VoxelSet erased_;
+  /// Erased voxels of each brick: number in `erased_`. Few bricks have any.
+  std::vector<std::uint32_t> erased_of_;
+  std::vector<Brick> erased_;
 };
 
 }  // namespace raymoval

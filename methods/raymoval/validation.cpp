@@ -2,6 +2,7 @@
 #include "methods/raymoval/validation.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace raymoval {
 namespace {
@@ -72,29 +73,6 @@ std::vector<VoxelKey> keys_of(const std::vector<VoxelIndex>& voxels) {
   return keys;
 }
 
-/// Joins clusters that have voxels in common components: numbers of the merged groups by member.
-std::vector<int> merge_into_groups(const std::vector<int>& cluster_of,
-                                   const std::vector<int>& component_of) {
-  // Clusters and components together are a graph with one edge a member; its connected parts are
-  // the groups. A few sweeps settle it, since components are local.
-  std::vector<int> group = component_of;
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (const auto* numbers : {&cluster_of, &component_of}) {
-      for (const std::vector<int>& members : members_of(*numbers)) {
-        int lowest = group[at(members.front())];
-        for (const int member : members) lowest = std::min(lowest, group[at(member)]);
-        for (const int member : members) {
-          changed |= group[at(member)] != lowest;
-          group[at(member)] = lowest;
-        }
-      }
-    }
-  }
-  return group;
-}
-
 }  // namespace
 
 double cluster_points_at(double range, const RaymovalParameters& parameters) {
@@ -116,8 +94,12 @@ bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& po
 double coverage(const std::vector<int>& members, const ScanPoints& points,
                 const OccupancyMap& static_map, int dilation) {
   int inside = 0;
+  VoxelMap<bool> near;  // Points share voxels.
   for (const int member : members) {
-    inside += static_map.contains_near(points.voxel[at(member)], dilation) ? 1 : 0;
+    const VoxelIndex& voxel = points.voxel[at(member)];
+    const auto [found, is_new] = near.try_emplace(voxel_key(voxel), false);
+    if (is_new) found.value() = static_map.contains_near(voxel, dilation);
+    inside += found->second ? 1 : 0;
   }
   return members.empty() ? 0.0 : inside / static_cast<double>(members.size());
 }
@@ -130,17 +112,24 @@ bool belongs_to_static(double group_coverage, double thinnest_side,
           thinnest_side <= parameters.thin_side + kRounding);
 }
 
-double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const VoxelSet& removed,
+double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const OccupancyMap& removed,
                int dilation) {
+  const VoxelIndex low = voxel.array() - dilation, high = voxel.array() + dilation;
+  const Eigen::Vector3i first = OccupancyMap::brick_of(low), last = OccupancyMap::brick_of(high);
   int in_map = 0, in_removed = 0;
-  for (int dz = -dilation; dz <= dilation; ++dz) {
-    for (int dy = -dilation; dy <= dilation; ++dy) {
-      for (int dx = -dilation; dx <= dilation; ++dx) {
-        const VoxelIndex near = voxel + VoxelIndex(dx, dy, dz);
-        if (static_map.contains(near)) {
-          ++in_map;
-        } else if (removed.contains(voxel_key(near))) {
-          ++in_removed;
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const Brick* kept = static_map.find_brick({x, y, z});
+        const Brick* gone = removed.find_brick({x, y, z});
+        if (kept == nullptr && gone == nullptr) continue;
+        const BrickPart part = BrickPart::within({x, y, z}, low, high);
+        for (int word = part.first_word; word <= part.last_word; ++word) {
+          const auto at = static_cast<std::size_t>(word);
+          const std::uint64_t map_bits = kept == nullptr ? 0 : kept->occupied[at] & part.mask;
+          const std::uint64_t removed_bits = gone == nullptr ? 0 : gone->occupied[at] & part.mask;
+          in_map += std::popcount(map_bits);
+          in_removed += std::popcount(removed_bits & ~map_bits);
         }
       }
     }
@@ -151,13 +140,17 @@ double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const Vo
 std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
                                      const OccupancyMap& static_map,
                                      const RaymovalParameters& parameters) {
-  VoxelSet removed;
-  for (const int member : cluster) removed.insert(voxel_key(points.voxel[at(member)]));
+  OccupancyMap removed(static_map.voxel_size());
+  for (const int member : cluster) removed.insert(points.voxel[at(member)]);
   std::vector<int> unsupported;
+  VoxelMap<double> support_of;  // Points share voxels.
   for (const int member : cluster) {
-    const double share =
-        support(points.voxel[at(member)], static_map, removed, parameters.support_dilation);
-    if (share < parameters.support_share) unsupported.push_back(member);
+    const VoxelIndex& voxel = points.voxel[at(member)];
+    const auto [found, is_new] = support_of.try_emplace(voxel_key(voxel), 0.0);
+    if (is_new) {
+      found.value() = support(voxel, static_map, removed, parameters.support_dilation);
+    }
+    if (found.value() < parameters.support_share) unsupported.push_back(member);
   }
   return unsupported;
 }
@@ -177,7 +170,7 @@ Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& stati
   std::vector<int> cluster_of;
   for (const int i : screened) cluster_of.push_back(cluster_numbers[at(i)]);
   const std::vector<int> group_of =
-      merge_into_groups(cluster_of, voxel_components(keys_of(points.voxel), parameters.group_gap));
+      joined_groups(cluster_of, voxel_components(keys_of(points.voxel), parameters.group_gap));
   const Mask in_dynamic_group = check_groups(group_of, points, static_map, parameters);
   Mask dynamic(candidates.size(), 0);
   for (const std::vector<int>& cluster : members_of(cluster_of)) {

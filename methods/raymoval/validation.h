@@ -40,7 +40,7 @@ bool belongs_to_static(double group_coverage, double thinnest_side,
 
 /// Share of static voxels among the static and the removed ones within `dilation` cells of `voxel`
 /// (itself included); 0 where there are none.
-double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const VoxelSet& removed,
+double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const OccupancyMap& removed,
                int dilation);
 
 /// Members of a dynamic cluster that do not stand among static voxels: their support, with the

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "benchmark/column_tables.h"
+#include "core/error.h"
 #include "core/files.h"
 
 using namespace raymoval;
@@ -121,4 +123,110 @@ TEST_CASE("Stage times are means per scan with the rest named") {
   CHECK(tables[0].rows[1].label == "other");
   CHECK(tables[0].rows[1].cells[0].text == "125.000");
   CHECK(tables[0].rows[2].cells[0].text == "500.000");
+}
+
+namespace {
+
+/// Method x on s1 and s2 and y_1 on s1, by points: rates of another protocol on the same cells.
+void add_points_protocol(RunResults& results) {
+  results.protocols.push_back("dynamicmap");
+  const auto add = [&](const std::string& sequence, const std::string& cell, double sa, double da) {
+    ResultRow added = row(sequence, cell, {}, {}, {});
+    added.protocol = "dynamicmap";
+    added.rates = {{"SA", sa}, {"DA", da}, {"AA", 1.0}, {"HA", 2.0 * sa * da / (sa + da)}};
+    results.rows.push_back(added);
+  };
+  add("s1", "x", 50.0, 50.0);
+  add("s2", "x", 40.0, 60.0);
+  add("s1", "y_1", 75.0, 25.0);
+}
+
+}  // namespace
+
+TEST_CASE("A protocol with SA and DA has a table with its columns, and can be asked for alone") {
+  RunResults results = two_by_two();
+  add_points_protocol(results);
+  const std::vector<TextTable> tables = make_tables(results);
+  REQUIRE(tables.size() >= 2);
+  CHECK(tables[1].title == "Accuracy by protocol dynamicmap");
+  REQUIRE(tables[1].groups.size() == 2);
+  CHECK(tables[1].groups[0].columns == std::vector<std::string>{"SA", "DA", "AA", "HA"});
+  CHECK(tables[1].rows[1].cells[3].text == "48.000");  // 2 40 60 / 100.
+  CHECK(tables[1].rows[0].cells[4].mark == Mark::kBest);
+  CHECK(tables[1].rows[0].cells[7].text == "37.500");
+  CHECK_THAT(results_csv(results),
+             Contains("\ns2,x,v,dynamicmap,ok,,,,40.000,60.000,1.000,48.000"));
+  choose_protocols(results, {"dynamicmap"});
+  CHECK(results.rows.size() == 3);
+  REQUIRE(make_tables(results).size() == 1);
+  CHECK(make_tables(results)[0].title == "Accuracy by protocol dynamicmap");
+  CHECK_THROWS_WITH(choose_protocols(results, {"dynamicmpa"}), Contains("'dynamicmap'"));
+}
+
+TEST_CASE("The ranking says where protocols put the methods in another order") {
+  RunResults results = two_by_two();
+  CHECK(ranking_tables(results).empty());  // One protocol.
+  add_points_protocol(results);
+  const std::vector<TextTable> tables = ranking_tables(results);
+  REQUIRE(tables.size() == 1);
+  const std::vector<TableRow>& rows = tables[0].rows;
+  REQUIRE(tables[0].groups.size() == 3);  // s1, s2, mean.
+  CHECK(tables[0].groups[0].columns ==
+        std::vector<std::string>{"erasor F1", "dynamicmap HA", "change"});
+  // s1: F1 0.72 against 0.80, but HA 50 against 37.5.
+  CHECK(rows[0].cells[0].text == "2");
+  CHECK(rows[0].cells[1].text == "1");
+  CHECK(rows[0].cells[2].text == "+1");
+  CHECK(rows[1].cells[2].text == "-1");
+  CHECK_THAT(tables[0].notes[1],
+             Contains("s1: y_1 before x by F1 (erasor), after it by HA (dynamicmap)"));
+  // s2 and the mean: y_1 has no F1 on s2, and no cell there by points.
+  CHECK(rows[0].cells[5].text == "=");
+  CHECK(rows[1].cells[3].text == "-");
+  CHECK(rows[1].cells[5].text == "-");
+  CHECK(rows[1].cells[6].text == "-");
+  CHECK(tables[0].notes.size() == 2);
+}
+
+TEST_CASE("Methods that are displayed alike share a rank") {
+  RunResults results = two_by_two();
+  add_points_protocol(results);
+  results.rows[2].rates["F1"] = 0.72001;
+  const std::vector<TextTable> tables = ranking_tables(results);
+  CHECK(tables[0].rows[0].cells[0].text == "1");
+  CHECK(tables[0].rows[1].cells[0].text == "1");
+  CHECK(tables[0].rows[1].cells[2].text == "-1");
+  CHECK(tables[0].notes.back() == "No pair of methods changes places.");
+}
+
+TEST_CASE("Column tables name the worst classes and add sequences up") {
+  RunResults results = two_by_two();
+  results.columns = {{"x",
+                      false,
+                      2,
+                      {{"precision", {3, 4}},
+                       {"recall", {0, 0}},
+                       {"rejection [range 0-10 m]", {0, 1000}},
+                       {"rejection [moving-car]", {50, 100}},
+                       {"rejection [moving-car, range 0-10 m]", {0, 100}},
+                       {"rejection [moving-bus]", {60, 200}},
+                       {"rejection [moving-person]", {0, 99}},
+                       {"preservation [road]", {99, 100}}}}};
+  results.rows[0].intervals = {{"PR", {89.0, 91.5}}, {"F1", {0.7, 0.74}}};
+  const std::vector<TextTable> compact = compact_column_tables(results);
+  REQUIRE(compact.size() == 1);
+  const std::vector<TableCell>& cells = compact[0].rows[0].cells;
+  CHECK(cells[0].text == "75.000");
+  CHECK(cells[1].text == "n/a");
+  // Neither a band, nor a band of a class, nor a class of 99 points.
+  CHECK(cells[4].text == "moving-bus 30.000");
+  CHECK(cells[5].text == "road 99.000");
+  const std::vector<TextTable> full = full_column_tables(results);
+  REQUIRE(full.size() == 4);
+  CHECK(full[0].rows.size() == 3);  // precision, recall, rejection by range.
+  CHECK(full[1].rows.size() == 4);
+  CHECK(full[2].rows.size() == 1);
+  CHECK(full[3].groups[0].columns == std::vector<std::string>{"PR", "F1"});
+  CHECK(full[3].rows[0].cells[0].text == "89.000 to 91.500");
+  CHECK(full[3].rows[0].cells[1].text == "0.7000 to 0.7400");
 }

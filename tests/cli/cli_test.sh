@@ -4,49 +4,16 @@
 # Usage: cli_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-checks=0
-failures=0
-
-complain() {
-  failures=$((failures + 1))
-  echo "FAILED: $1"
-  sed 's/^/  out: /' out.txt | head -5
-  sed 's/^/  err: /' err.txt | head -5
-}
-
-# expect CODE TEXT ARGUMENTS...: the exit code, and TEXT somewhere in what was printed.
-expect() {
-  local code=$1 text=$2 got
-  shift 2
-  checks=$((checks + 1))
-  "$raymoval" "$@" >out.txt 2>err.txt
-  got=$?
-  if [[ $got -ne $code ]]; then
-    complain "raymoval $*: exit code $got, expected $code"
-  elif ! cat out.txt err.txt | grep -qF -- "$text"; then
-    complain "raymoval $*: does not say '$text'"
-  elif [[ $code -ne 0 ]] && ! grep -q '^raymoval: ' err.txt; then
-    complain "raymoval $*: no 'raymoval: message' on standard error"
-  fi
-}
-
-# holds NAME COMMAND...: any other condition.
-holds() {
-  checks=$((checks + 1))
-  "${@:2}" >out.txt 2>err.txt || complain "$1"
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 short=(--sequence street --frames 0:2 --quiet)
 
 # Help and listings.
 expect 0 "Examples" --help
-for command in run table compare list describe score clean simulate; do expect 0 "Examples" "$command" --help; done
+for command in run plan table compare list describe score clean simulate; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
-for what in methods variants protocols sensors sequences scenes simulated-sensors \
+for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
   suites; do expect 0 "" list "$what"; done
 for name in raymoval raymoval:online noop erasor; do
   for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
@@ -80,6 +47,8 @@ expect 2 "" run --sequence street --frames nine --method noop --out o
 expect 2 "" run --sequence street --sensor nose --method noop --out o
 expect 2 "nowhere" run --sequence nowhere --method noop --out o
 expect 2 "nowhere" run nowhere.json --out o
+expect 2 "nothing to run on" plan
+expect 2 "Did you mean 'simulated'" plan simulatd
 expect 2 "no such run folder" table nowhere
 expect 2 "which run" table
 holds "no bad command line made a folder" test ! -e o
@@ -134,6 +103,21 @@ holds "score gives the counts of the run" diff <(counts score.json | tr -d ' ') 
 expect 2 "--predictions" score "${short[@]}"
 expect 2 "no such folder" score "${short[@]}" --predictions nowhere
 expect 2 "missing" score --sequence street --frames 0:3 --quiet --predictions $cell/removals
+expect 0 "SA" score "${short[@]}" --predictions $cell/removals --protocol dynamicmap \
+  --set dynamicmap.distance=0.1
+expect 2 "'distance'" score "${short[@]}" --predictions $cell/removals --protocol dynamicmap \
+  --set dynamicmap.distanc=0.1
+
+# A cleaned map has a ceiling; a broken one no points.
+expect 0 "removed" clean street --frames 0:2 --quiet -o clean.pcd
+expect 0 "ceiling" score "${short[@]}" --cloud clean.pcd --protocol erasor --protocol dynamicmap
+expect 0 "precision" score "${short[@]}" --cloud clean.pcd --voxel 0.1
+printf '\x00\x00\xc0\x7f%.0s' 1 2 3 4 >nan.bin
+expect 0 "no finite number" score "${short[@]}" --cloud nan.bin
+: >empty.bin
+expect 0 "PR 0.000" score "${short[@]}" --cloud empty.bin
+expect 2 "exclude" score "${short[@]}" --cloud clean.pcd --predictions $cell/removals
+expect 2 "--cloud" score "${short[@]}" --voxel 0.1 --predictions $cell/removals
 truncate -s -4 $cell/removals/000001.label
 expect 2 "000001.label" score "${short[@]}" --predictions $cell/removals
 
@@ -171,6 +155,21 @@ echo '{"sequences": ["street",], "methods": ["noop"]}' >bad.json
 expect 2 "line 1" run bad.json --out suite2
 echo '{"sequences": ["street", "street"], "methods": ["noop"]}' >bad.json
 expect 2 "two sequences" run bad.json --out suite2
+
+# Sweeps and data of one's own.
+cat >sweep.json <<'JSON'
+{ "sequences": [{"path": "street", "frames": "0:1"}],
+  "methods": [{"method": "raymoval:online", "set": {"tau1": {"sweep": [0.1, 0.35]}}}] }
+JSON
+expect 0 "Sweep of raymoval:online by protocol erasor" run sweep.json --quiet --out sweep
+holds "each point has a cell" test -s sweep/cells/street/raymoval-online-tau1=0.35/cell.json
+expect 0 "| 0.35 " table sweep
+expect 2 "sweeps this parameter" run sweep.json --set raymoval.tau1=0.2 --out sweep
+expect 2 "--data ROOT" run semantickitti --out kitti
+expect 2 "--data is given" run sweep.json --data . --out kitti
+expect 2 "--data goes with" run "${short[@]}" --method noop --data . --out kitti
+expect 2 "kitti-00" run semantickitti --data "$work" --out kitti
+holds "no refused run made a folder" test ! -e kitti
 
 # Threads never change what is stored outside "measured".
 for threads in 1 2; do
@@ -252,5 +251,4 @@ holds "an interrupted run exits with 1" test $? -eq 1
 holds "finished cells stay" test -s stopped/cells/street/oracle-default/cell.json
 holds "nothing claims to be complete" test ! -e stopped/results.json
 
-echo "cli: $((checks - failures)) of $checks checks hold"
-[[ $failures -eq 0 ]]
+finish cli

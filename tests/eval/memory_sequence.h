@@ -86,16 +86,26 @@ class MemorySequence : public ScanSource, public LabelSource {
 
 using Settings = std::vector<std::pair<std::string, ParameterValue>>;
 
+inline std::unique_ptr<Protocol> protocol_with(const std::string& name,
+                                               const Settings& settings = {}) {
+  Configuration options = protocol_defaults(name);
+  for (const auto& [key, value] : settings) set_parameter(options, key, value);
+  return make_protocol(name, options);
+}
+
+inline ProtocolResult score_by(const std::string& name, const EvaluationInput& input,
+                               const MaskStore& masks, const Settings& settings = {}) {
+  const auto protocol = protocol_with(name, settings);
+  return protocol->score(input, *protocol->prepare(input), masks);
+}
+
 inline std::unique_ptr<Protocol> erasor_protocol(const Settings& settings = {}) {
-  Configuration options = protocol_defaults("erasor");
-  for (const auto& [name, value] : settings) set_parameter(options, name, value);
-  return make_protocol("erasor", options);
+  return protocol_with("erasor", settings);
 }
 
 inline ProtocolResult score_erasor(const EvaluationInput& input, const MaskStore& masks,
                                    const Settings& settings = {}) {
-  const auto protocol = erasor_protocol(settings);
-  return protocol->score(input, *protocol->prepare(input), masks);
+  return score_by("erasor", input, masks, settings);
 }
 
 }  // namespace raymoval::test

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "core/error.h"
+
 using namespace raymoval;
 using std::numbers::pi;
 
@@ -63,9 +65,50 @@ TEST_CASE("eq. 10: a bin keeps its nearest range, the ego vehicle is in no bin")
   const AngularGrid grid = coarse_grid();
   Scan scan;
   scan.points = {{5, 1, 0.5F}, {3, 1, 0.5F}, {1, 0.1F, 0.1F}, {0, 0, 9}};
-  const ProjectedScan projected = project(scan, grid, 2.0);
-  CHECK(projected.bin == std::vector<int>{6, 6, -1, -1});
+  ProjectedScan projected;
+  project(scan, grid, 2.0, 1, projected);
+  CHECK(projected.bin == std::vector<std::int32_t>{6, 6, -1, -1});
   CHECK(projected.minimum_range[6] == Approx(std::sqrt(9 + 1 + 0.25)));
   CHECK(projected.range[0] == Approx(std::sqrt(25 + 1 + 0.25)));
   CHECK(projected.minimum_range[5] == kNoRange);
+}
+
+TEST_CASE("points on borders of bins and elsewhere go where the formulas say, on any processor") {
+  // Every point of a lattice with the axes, the diagonals and the origin on it, and loose ones.
+  Scan scan;
+  scan.T_world_sensor.translation() = Eigen::Vector3d(1234.5, -77.25, 3.125);
+  scan.T_world_sensor.linear() =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (int x = -4; x <= 4; ++x) {
+    for (int y = -4; y <= 4; ++y) {
+      for (int z = -4; z <= 4; ++z) scan.points.emplace_back(x, y, z);
+    }
+  }
+  for (int k = 0; k < 3000; ++k) {
+    const auto t = static_cast<float>(k);
+    scan.points.emplace_back(40 * std::sin(t), 40 * std::cos(1.7F * t), 6 * std::sin(0.3F * t));
+  }
+  const AngularGrid grid{360, 90, -pi / 4, pi / 4};
+  for (const InstructionSet set : supported_instruction_sets()) {
+    INFO(instruction_set_name(set));
+    ProjectedScan projected;
+    project(scan, grid, 2.0, 2, projected, set);
+    std::vector<VoxelIndex> voxels;
+    find_voxels(scan, 5.0, 2, voxels, set);
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      const Spherical at = to_spherical(scan.points[k].cast<double>());
+      const auto bin = grid.bin_of(at.azimuth, at.elevation);
+      REQUIRE(projected.bin[k] == (at.range < 2.0 ? -1 : bin.value_or(-1)));
+      REQUIRE(projected.range[k] == static_cast<float>(at.range));
+      REQUIRE(voxels[k] == voxel_index(scan.T_world_sensor * scan.points[k].cast<double>(), 5.0));
+    }
+  }
+}
+
+TEST_CASE("a point beyond the lattice is an error") {
+  Scan scan;
+  scan.points.assign(100, {1, 2, 3});
+  scan.points[50].x() = 1e9F;
+  std::vector<VoxelIndex> voxels;
+  CHECK_THROWS_AS(find_voxels(scan, 5.0, 1, voxels), DataError);
 }

@@ -35,7 +35,10 @@ TEST_CASE("a bin is seen through if its scan lies beyond the map by the margin a
   const std::vector<float> reference = {10, 10, 10, 10, 10, 10};
   // Bin 2 has no return of its own, bin 3 a neighbour on the surface, bin 4 no first hit, and the
   // first hit of bin 5 is the surface that the scan sees.
-  CHECK(find_seen_through(scan, nearest, hits, reference, {0.3, 0.1}) == std::vector<int>{1});
+  const auto found = find_seen_through(scan, nearest, hits, reference, {0.3, 0.1}, 1);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].bin == 1);
+  CHECK(found[0].nearest_return == 11.4F);
 }
 
 TEST_CASE("flat ground seen at a grazing angle is not seen through") {

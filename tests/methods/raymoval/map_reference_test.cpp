@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval/map_reference.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <random>
 
 using namespace raymoval;
 
@@ -51,8 +53,72 @@ TEST_CASE("the windowed minimum has its own reach along rows and columns") {
   const std::vector<float> ranges = {kInf, kInf, kInf, kInf,  //
                                      kInf, 5,    kInf, kInf,  //
                                      kInf, kInf, kInf, 7};
-  CHECK(windowed_minimum(ranges, grid, 1, 0, 1) ==
-        std::vector<float>{kInf, kInf, kInf, kInf, 5, 5, 5, kInf, 7, kInf, 7, 7});
-  CHECK(windowed_minimum(ranges, grid, 0, 1, 2) ==
+  const auto minimum = [&](int azimuth_radius, int elevation_radius) {
+    std::vector<float> result;
+    windowed_minimum(ranges, grid, azimuth_radius, elevation_radius, 1, result);
+    return result;
+  };
+  CHECK(minimum(1, 0) == std::vector<float>{kInf, kInf, kInf, kInf, 5, 5, 5, kInf, 7, kInf, 7, 7});
+  CHECK(minimum(0, 1) ==
         std::vector<float>{kInf, 5, kInf, kInf, kInf, 5, kInf, 7, kInf, 5, kInf, 7});
+}
+
+namespace {
+
+/// A third of the bins are empty.
+std::vector<float> random_image(const AngularGrid& grid, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<float> values;
+  for (int bin = 0; bin < grid.size(); ++bin) {
+    values.push_back(random() % 3 == 0 ? kInf : static_cast<float>(random() % 50));
+  }
+  return values;
+}
+
+/// Values of the window around a bin, infinite ones left out, ascending.
+std::vector<float> window_of(const std::vector<float>& values, const AngularGrid& grid, int bin,
+                             int columns, int rows) {
+  std::vector<float> window;
+  for (int dj = -rows; dj <= rows; ++dj) {
+    for (int di = -columns; di <= columns; ++di) {
+      const int j = grid.elevation_of(bin) + dj;
+      const int i = (grid.azimuth_of(bin) + di + grid.azimuth_bins) % grid.azimuth_bins;
+      if (j < 0 || j >= grid.elevation_bins) continue;
+      const float value = values[static_cast<std::size_t>(j * grid.azimuth_bins + i)];
+      if (value != kInf) window.push_back(value);
+    }
+  }
+  std::sort(window.begin(), window.end());
+  return window;
+}
+
+}  // namespace
+
+TEST_CASE("window percentiles and minima equal those of each window, on every instruction set") {
+  for (const int columns : {5, 16, 23, 64, 101}) {
+    for (const int rows : {1, 2, 3, 20}) {
+      const AngularGrid grid{columns, rows, 0.0, 0.3};
+      const std::vector<float> values = random_image(grid, 1), wanted = random_image(grid, 2);
+      for (const InstructionSet set : supported_instruction_sets()) {
+        INFO(instruction_set_name(set) << ", " << columns << " x " << rows);
+        WindowPercentiles found;
+        windowed_percentiles(values, wanted, grid, 1, {0.9, 0.1}, 2, found, set);
+        std::vector<float> smallest;
+        windowed_minimum(values, grid, 2, 7, 2, smallest, set);
+        for (int bin = 0; bin < grid.size(); ++bin) {
+          const auto at = static_cast<std::size_t>(bin);
+          const auto wide = window_of(values, grid, bin, 2, 7);
+          REQUIRE(smallest[at] == (wide.empty() ? kInf : wide.front()));
+          if (wanted[at] == kInf) continue;
+          const auto window = window_of(values, grid, bin, 1, 1);
+          const int count = static_cast<int>(window.size());
+          const auto expected = [&](double q) {
+            return count == 0 ? kInf : percentile_of_sorted(window.data(), count, q);
+          };
+          REQUIRE(found.first[at] == expected(0.9));
+          REQUIRE(found.second[at] == expected(0.1));
+        }
+      }
+    }
+  }
 }

@@ -168,11 +168,8 @@ TEST_CASE("supported points of a dynamic cluster are kept, and small remainders 
   const ScanPoints points = points_at(column, 1.0);
   // Cell 0 with reach 1: 17 static voxels below and beside it, 2 of the cluster: 0.89. Cell 1:
   // 8 static beside cell 0, 3 of the cluster: 0.73. Cell 2: none.
-  const VoxelSet own = [&] {
-    VoxelSet set;
-    for (const VoxelIndex& voxel : points.voxel) set.insert(voxel_key(voxel));
-    return set;
-  }();
+  OccupancyMap own(0.2);
+  for (const VoxelIndex& voxel : points.voxel) own.insert(voxel);
   CHECK(support({0, 0, 0}, map, own, 1) == Approx(17.0 / 19.0));
   CHECK(support({0, 0, 1}, map, own, 1) == Approx(8.0 / 11.0));
   CHECK(support({0, 0, 2}, map, own, 1) == 0.0);
@@ -187,4 +184,34 @@ TEST_CASE("supported points of a dynamic cluster are kept, and small remainders 
   parameters.minimum_points = 4;
   parameters.minimum_width = 0.1;  // The column has no width at all.
   CHECK(validate_candidates(points, map, parameters) == Mask(6, 0));
+}
+
+TEST_CASE("support equals a count voxel by voxel, across the borders of bricks") {
+  std::mt19937 random(4);
+  const auto pick = [&] { return static_cast<int>(random() % 24) - 12; };
+  OccupancyMap map(0.2), removed(0.2);
+  for (int k = 0; k < 3000; ++k) {
+    map.insert({pick(), pick(), pick()});
+    removed.insert({pick(), pick(), pick()});
+  }
+  for (int k = 0; k < 200; ++k) {
+    const VoxelIndex voxel(pick(), pick(), pick());
+    const int dilation = k % 6;
+    int in_map = 0, in_removed = 0;
+    for (int dx = -dilation; dx <= dilation; ++dx) {
+      for (int dy = -dilation; dy <= dilation; ++dy) {
+        for (int dz = -dilation; dz <= dilation; ++dz) {
+          const VoxelIndex near = voxel + VoxelIndex(dx, dy, dz);
+          if (map.contains(near)) {
+            ++in_map;
+          } else if (removed.contains(near)) {
+            ++in_removed;
+          }
+        }
+      }
+    }
+    const double expected =
+        in_map + in_removed == 0 ? 0.0 : static_cast<double>(in_map) / (in_map + in_removed);
+    REQUIRE(support(voxel, map, removed, dilation) == expected);
+  }
 }

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/cell_store.h"
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "benchmark/cell.h"
+#include "benchmark/checked_sink.h"
+#include "benchmark/removal_files.h"
+#include "benchmark/sealed_json.h"
+#include "core/error.h"
+#include "core/files.h"
+
+namespace raymoval {
+namespace {
+
+using nlohmann::ordered_json;
+using std::filesystem::path;
+
+path repeat_file(const path& folder, int number) {
+  return folder / ("timing-" + std::to_string(number) + ".json");
+}
+
+/// Whether the kept removals are those that the cell was scored by.
+bool has_removals(const path& folder, const ordered_json& cell, const ScanSource& scans) {
+  try {
+    const MaskStore masks = read_removals(folder / "removals", scans, [] {});
+    return mask_digest(masks) == cell.at("masks").at("digest");
+  } catch (const DataError&) {
+    return false;
+  }
+}
+
+/// What a result file says about itself, without the repetition of its path and the remedy.
+std::string damage(const path& file) {
+  return file.filename().string() + " is damaged or was changed by hand";
+}
+
+void remove_quietly(const path& what) {
+  std::error_code ignored;
+  std::filesystem::remove_all(what, ignored);
+}
+
+/// Files and folders called *.part in `folder`, not below.
+void sweep_folder(const path& folder) {
+  std::error_code error;
+  std::vector<path> parts;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".part") parts.push_back(entry.path());
+  }
+  for (const path& part : parts) remove_quietly(part);
+}
+
+std::vector<path> folders_in(const path& folder) {
+  std::vector<path> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.is_directory(error)) found.push_back(entry.path());
+  }
+  return found;
+}
+
+}  // namespace
+
+void make_folder(const path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw DataError(folder.string() + ": cannot be made (" + error.message() +
+                    "). Choose another --out.");
+  }
+}
+
+path CellStore::folder(const std::string& sequence, const MethodRequest& request) const {
+  return out_ / "cells" / folder_name(sequence) / folder_name(request.name);
+}
+
+path CellStore::new_removals(const path& folder) const {
+  return folder / "removals.part";
+}
+
+StoredCell CellStore::find(SequenceBench& bench, const MethodRequest& request,
+                           bool with_removals) const {
+  using State = StoredCell::State;
+  const path place = folder(bench.sequence().name, request);
+  const path file = place / "cell.json";
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return {State::kMissing, "is not there yet", {}};
+  try {
+    auto cell = std::make_shared<ordered_json>(read_sealed(file));
+    const auto status = cell->at("status").get<std::string>();
+    const bool same = cell->value("key", ordered_json()) == cell_key(bench, request);
+    if (status != "ok") {
+      const std::string why = "failed last time: " + cell->at("reason").get<std::string>();
+      return {same ? State::kFailed : State::kStale, why, same ? cell : nullptr};
+    }
+    if (!same) {
+      return {State::kStale, identity_difference(*cell, cell_identity(bench, request)), nullptr};
+    }
+    if (with_removals && !has_removals(place, *cell, *bench.sequence().scans)) {
+      return {State::kStale, "its removals are asked for and not there, or not whole", nullptr};
+    }
+    return {State::kFresh, "", cell};
+  } catch (const DataError&) {
+    return {State::kStale, damage(file), nullptr};
+  } catch (const ordered_json::exception&) {
+    return {State::kStale, damage(file), nullptr};
+  }
+}
+
+std::optional<StoredRepeat> CellStore::find_repeat(const std::string& sequence,
+                                                   const MethodRequest& request, int number,
+                                                   const std::string& key) const {
+  try {
+    const ordered_json json = read_sealed(repeat_file(folder(sequence, request), number));
+    if (json.at("key") != key) return std::nullopt;
+    return StoredRepeat{json.at("digest").get<std::string>(),
+                        measurement_from(json.at("measured"))};
+  } catch (const DataError&) {
+    return std::nullopt;
+  } catch (const ordered_json::exception&) {
+    return std::nullopt;
+  }
+}
+
+void CellStore::prepare(const path& folder) const {
+  make_folder(folder);
+  sweep_folder(folder);
+}
+
+void CellStore::keep(const path& folder, const ordered_json& cell) const {
+  const path part = new_removals(folder);
+  std::error_code error;
+  const bool had = std::filesystem::exists(folder / "removals", error);
+  const bool has = std::filesystem::exists(part, error);
+  if (had || has) {
+    // A cell never stands beside removals of another one.
+    std::filesystem::remove(folder / "cell.json", error);
+    remove_quietly(folder / "removals");
+  }
+  if (has) {
+    std::filesystem::rename(part, folder / "removals", error);
+    if (error) {
+      throw DataError((folder / "removals").string() + ": cannot be made (" + error.message() +
+                      ").");
+    }
+  }
+  write_sealed(folder / "cell.json", cell);
+}
+
+void CellStore::keep_repeat(const path& folder, int number, const std::string& key,
+                            const StoredRepeat& repeat) const {
+  ordered_json json;
+  json["schema_version"] = kSchemaVersion;
+  json["key"] = key;
+  json["repeat"] = number;
+  json["digest"] = repeat.digest;
+  json["measured"] = to_json(repeat.measured);
+  write_sealed(repeat_file(folder, number), std::move(json));
+}
+
+void CellStore::sweep() const {
+  sweep_folder(out_);
+  for (const path& sequence : folders_in(out_ / "cells")) {
+    for (const path& cell : folders_in(sequence)) sweep_folder(cell);
+  }
+}
+
+}  // namespace raymoval

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include <benchmark/benchmark.h>
+#include <octomap/OcTree.h>
+
+#include <functional>
+#include <map>
+
+#include "benchmark/kernels/ray_designs.h"
+#include "benchmark/kernels/registration.h"
+#include "benchmark/kernels/workloads.h"
+
+namespace raymoval::kernels_bench {
+namespace {
+
+/// Casts one image into the job's range. @return steps made, 0 if it does not count them
+using Design = std::function<std::int64_t(Workload&, const ImageJob&)>;
+
+/// The frame of an image (pose, limits, directions) with the right ranges.
+const FirstHitImage& frame_at(Workload& workload, std::size_t pose) {
+  static std::map<std::pair<const Workload*, std::size_t>, FirstHitImage> frames;
+  FirstHitImage& frame = frames[{&workload, pose}];
+  if (frame.range.empty()) {
+    frame = cast_first_hits(workload.map, workload.pose(pose), paper_grid(), kPaperLimits, 1);
+  }
+  return frame;
+}
+
+/// The bins in which the scan of the job's pose has a return.
+const std::vector<float>& returns_at(const Workload& workload, const ImageJob& job) {
+  static std::map<const FirstHitImage*, ProjectedScan> scans;
+  ProjectedScan& projected = scans[job.frame];
+  for (std::size_t view = 0; view < workload.views.size() && projected.bin.empty(); ++view) {
+    const Scan& scan = workload.sequence->scans[workload.views[view]];
+    if (!scan.T_world_sensor.isApprox(job.frame->T_world_sensor)) continue;
+    project(scan, paper_grid(), kPaperLimits.minimum_range, 1, projected);
+  }
+  return projected.minimum_range;
+}
+
+/// Bins in which two images differ by more than a millimetre.
+std::int64_t bins_off(const std::vector<float>& a, const std::vector<float>& b) {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    count += std::abs(a[i] - b[i]) > 1e-3F ? 1 : 0;
+  }
+  return count;
+}
+
+/// Whether a design gives the ranges of all bins, comparable with ours.
+enum class Answer { kExact, kOther };
+
+/// One iteration casts one image from each pose.
+void run_design(benchmark::State& state, Workload& workload, const Design& design, Answer answer) {
+  std::vector<float> range;
+  std::int64_t steps = 0, off = 0;
+  for (std::size_t pose = 0; pose < workload.views.size(); ++pose) {  // Also warms up.
+    const ImageJob job{&frame_at(workload, pose), &range, nullptr};
+    steps += design(workload, job);
+    off += bins_off(range, job.frame->range);
+  }
+  for (auto _ : state) {
+    for (std::size_t pose = 0; pose < workload.views.size(); ++pose) {
+      design(workload, {&frame_at(workload, pose), &range, nullptr});
+      benchmark::DoNotOptimize(range.data());
+    }
+  }
+  state.SetLabel(std::to_string(workload.map.size()) + " voxels");
+  const auto images = static_cast<double>(workload.views.size());
+  const double rays = images * paper_grid().size();
+  state.counters["images_per_iteration"] = images;
+  if (steps > 0) state.counters["steps_per_ray"] = static_cast<double>(steps) / rays;
+  if (answer == Answer::kExact) state.counters["bins_off_by_1_mm"] = static_cast<double>(off);
+}
+
+void add(const std::string& name, Workload& workload, const Design& design,
+         Answer answer = Answer::kExact) {
+  benchmark::RegisterBenchmark((name + "/" + workload.name).c_str(), [&workload, design, answer](
+                                                                         benchmark::State& state) {
+    try {
+      run_design(state, workload, design, answer);
+    } catch (const std::exception& error) {
+      state.SkipWithError(error.what());
+    }
+  })->Unit(benchmark::kMillisecond);
+}
+
+/// A structure made from a workload's map when it is first asked for.
+template <class Make>
+auto once(Make make) {
+  using Made = std::invoke_result_t<Make, const OccupancyMap&>;
+  return [make, held = std::make_shared<std::unique_ptr<Made>>()](Workload& workload) -> Made& {
+    if (!*held) *held = std::make_unique<Made>(make(workload.map));
+    return **held;
+  };
+}
+
+void add_rivals(Workload& workload) {
+  const auto bits = once([](const OccupancyMap& map) { return DenseBits(map); });
+  const auto set = once([](const OccupancyMap& map) { return hash_set_of(map); });
+  const auto tree = once([](const OccupancyMap& map) { return octree_of(map); });
+  const auto octomap = [tree](Workload& w, const ImageJob& job) {
+    octomap_cast_ray(*tree(w), job);
+    return std::int64_t{0};
+  };
+  add("dense_bitset_dda", workload,
+      [bits](Workload& w, const ImageJob& job) { return dense_bitset_dda(bits(w), job); });
+  // The slow ones need not be timed on every map.
+  if (workload.name == "drive_with_trails") return;
+  add("octomap_cast_ray", workload, octomap, Answer::kOther);  // Ranges of voxels' centres.
+  add("hash_set_dda", workload, [set](Workload& w, const ImageJob& job) {
+    return hash_set_dda(set(w), w.map.voxel_size(), job);
+  });
+  const auto asked = [bits](Workload& w, const ImageJob& job) {
+    ImageJob part = job;
+    part.wanted = &returns_at(w, job);
+    return dense_bitset_dda(bits(w), part);
+  };
+  add("dense_bitset_dda_where_returns_are", workload, asked, Answer::kOther);
+  add("packet_dda", workload, [bits](Workload& w, const ImageJob& job) {
+    packet_dda(bits(w), job);
+    return std::int64_t{0};
+  });
+  add("brick_hash_dda", workload, [](Workload& w, const ImageJob& job) {
+    brick_hash_dda(w.map, job);
+    return std::int64_t{0};
+  });
+}
+
+Design sweep_with(InstructionSet set, int threads) {
+  const auto caster = std::make_shared<FirstHitCaster>(paper_grid(), kPaperLimits, set);
+  const auto image = std::make_shared<FirstHitImage>();
+  return [caster, image, threads](Workload& workload, const ImageJob& job) {
+    caster->cast(workload.map, job.frame->T_world_sensor, threads, *image);
+    std::swap(image->range, *job.range);
+    return std::int64_t{0};
+  };
+}
+
+void add_ours(Workload& workload) {
+  add("first_hit_image", workload, sweep_with(InstructionSet::kBest, 1));
+  for (const InstructionSet set : supported_instruction_sets()) {
+    add(std::string("first_hit_image_") + instruction_set_name(set), workload, sweep_with(set, 1));
+  }
+  add("first_hit_image_2_threads", workload, sweep_with(InstructionSet::kBest, 2));
+  add("first_hit_image_and_all_voxels", workload, [](Workload& w, const ImageJob& job) {
+    static FirstHitCaster caster(paper_grid(), kPaperLimits);
+    static FirstHitImage image;
+    caster.cast(w.map, job.frame->T_world_sensor, 1, image);
+    for (int bin = 0; bin < image.grid.size(); ++bin) {
+      benchmark::DoNotOptimize(image.voxel(w.map, bin));
+    }
+    *job.range = image.range;
+    return std::int64_t{0};
+  });
+}
+
+}  // namespace
+
+void register_image_kernels() {
+  for (const auto& workload : workloads()) {
+    add_rivals(*workload);
+    add_ours(*workload);
+  }
+}
+
+}  // namespace raymoval::kernels_bench

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/kernels/ray_designs.h"
+
+#include <octomap/OcTree.h>
+
+#include <cmath>
+
+#include "benchmark/kernels/packet_walk.h"
+#include "core/error.h"
+
+namespace raymoval::kernels_bench {
+namespace {
+
+/// Calls `cast(ray, range)` for each bin that is asked for.
+template <class Cast>
+void for_rays(const ImageJob& job, Cast&& cast) {
+  const FirstHitImage& frame = *job.frame;
+  job.range->assign(static_cast<std::size_t>(frame.grid.size()), kNoRange);
+  for (int bin = 0; bin < frame.grid.size(); ++bin) {
+    const auto at = static_cast<std::size_t>(bin);
+    if (job.wanted != nullptr && (*job.wanted)[at] == kNoRange) continue;
+    (*job.range)[at] = cast(frame.ray(bin));
+  }
+}
+
+/// A walk in float from the minimum range on, in voxel units.
+struct FloatWalk {
+  std::array<int, 3> cell;
+  std::array<int, 3> step;
+  std::array<float, 3> next, delta;
+
+  FloatWalk(const Ray& ray, double minimum_range, double voxel_size) {
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      const double direction = ray.direction[k];
+      const double start = (ray.origin[k] + minimum_range * direction) / voxel_size;
+      cell[axis] = static_cast<int>(std::floor(start));
+      step[axis] = direction >= 0.0 ? 1 : -1;
+      const double inverse = 1.0 / std::max(std::abs(direction), 1e-12);
+      delta[axis] = static_cast<float>(inverse * voxel_size);
+      const double part = direction >= 0.0 ? cell[axis] + 1 - start : start - cell[axis];
+      next[axis] = static_cast<float>(minimum_range + part * inverse * voxel_size);
+    }
+  }
+  [[nodiscard]] std::size_t axis() const {
+    return next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+  }
+};
+
+}  // namespace
+
+DenseBits::DenseBits(const OccupancyMap& map) : voxel_size_(map.voxel_size()) {
+  low_ = Eigen::Vector3i::Constant(kVoxelLimit);
+  Eigen::Vector3i high = Eigen::Vector3i::Constant(-kVoxelLimit);
+  for_voxels(map, [&](const VoxelIndex& voxel) {
+    low_ = low_.cwiseMin(voxel);
+    high = high.cwiseMax(voxel);
+  });
+  size_ = (high - low_).array() + 1;
+  const std::int64_t bits = size_.cast<std::int64_t>().prod();
+  if (bits >= std::int64_t{1} << 31) {
+    throw DataError("the map is too wide for a dense block of bits (" + std::to_string(bits >> 23) +
+                    " MiB, at most 255); use a shorter sequence.");
+  }
+  words_.assign(static_cast<std::size_t>(bits / 32 + 1), 0);
+  const auto stride = strides();
+  for_voxels(map, [&](const VoxelIndex& voxel) {
+    const Eigen::Vector3i at = voxel - low_;
+    const std::int64_t bit = at.x() * stride[0] + at.y() * stride[1] + at.z();
+    words_[static_cast<std::size_t>(bit >> 5)] |= 1U << (bit & 31);
+  });
+}
+
+VoxelSet hash_set_of(const OccupancyMap& map) {
+  VoxelSet voxels;
+  voxels.reserve(map.size());
+  for_voxels(map, [&](const VoxelIndex& voxel) { voxels.insert(voxel_key(voxel)); });
+  return voxels;
+}
+
+std::unique_ptr<octomap::OcTree, void (*)(octomap::OcTree*)> octree_of(const OccupancyMap& map) {
+  std::unique_ptr<octomap::OcTree, void (*)(octomap::OcTree*)> tree(
+      new octomap::OcTree(map.voxel_size()), [](octomap::OcTree* gone) { delete gone; });
+  for_voxels(map, [&](const VoxelIndex& voxel) {
+    const Eigen::Vector3d centre = (voxel.cast<double>().array() + 0.5) * map.voxel_size();
+    tree->updateNode(centre.x(), centre.y(), centre.z(), true, true);
+  });
+  tree->updateInnerOccupancy();
+  tree->prune();
+  return tree;
+}
+
+std::int64_t dense_bitset_dda(const DenseBits& bits, const ImageJob& job) {
+  const auto [x_stride, y_stride, z_stride] = bits.strides();
+  const auto limits = job.frame->limits;
+  const auto farthest = static_cast<float>(limits.maximum_range);
+  std::int64_t steps = 0;
+  for_rays(job, [&](const Ray& ray) {
+    FloatWalk walk(ray, limits.minimum_range, bits.voxel_size());
+    const std::array<std::int64_t, 3> stride = {walk.step[0] * x_stride, walk.step[1] * y_stride,
+                                                walk.step[2] * z_stride};
+    std::array<int, 3> left;  // Steps until the ray leaves the block.
+    std::int64_t bit = 0;
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      const int at = walk.cell[k] - bits.low()[axis];
+      inside &= at >= 0 && at < bits.size()[axis];
+      left[k] = walk.step[k] > 0 ? bits.size()[axis] - 1 - at : at;
+    }
+    if (!inside) return kNoRange;
+    bit = (walk.cell[0] - bits.low().x()) * x_stride + (walk.cell[1] - bits.low().y()) * y_stride +
+          (walk.cell[2] - bits.low().z());
+    while (true) {
+      const std::size_t axis = walk.axis();
+      const float range = walk.next[axis];
+      if (range > farthest || left[axis] == 0) return kNoRange;
+      --left[axis];
+      walk.next[axis] += walk.delta[axis];
+      bit += stride[axis];
+      ++steps;
+      if (bits.contains(bit)) return range;
+    }
+  });
+  return steps;
+}
+
+std::int64_t hash_set_dda(const VoxelSet& voxels, double voxel_size, const ImageJob& job) {
+  const auto limits = job.frame->limits;
+  const auto farthest = static_cast<float>(limits.maximum_range);
+  std::int64_t steps = 0;
+  for_rays(job, [&](const Ray& ray) {
+    FloatWalk walk(ray, limits.minimum_range, voxel_size);
+    while (true) {
+      const std::size_t axis = walk.axis();
+      const float range = walk.next[axis];
+      if (range > farthest) return kNoRange;
+      walk.next[axis] += walk.delta[axis];
+      walk.cell[axis] += walk.step[axis];
+      ++steps;
+      if (voxels.contains(voxel_key(walk.cell[0], walk.cell[1], walk.cell[2]))) return range;
+    }
+  });
+  return steps;
+}
+
+void brick_hash_dda(const OccupancyMap& map, const ImageJob& job) {
+  for_rays(job, [&](const Ray& ray) {
+    const auto hit = cast_ray(map, ray, job.frame->limits);
+    return hit ? static_cast<float>(hit->range) : kNoRange;
+  });
+}
+
+namespace {
+
+/// Lane `lane` of a packet set to a ray; a ray that starts outside the block is not cast.
+void set_lane(const DenseBits& bits, const FirstHitImage& frame, int bin, std::size_t lane,
+              Packet& packet) {
+  const FloatWalk walk(frame.ray(bin), frame.limits.minimum_range, bits.voxel_size());
+  const auto strides = bits.strides();
+  std::int64_t bit = 0;
+  bool inside = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    const int at = walk.cell[k] - bits.low()[axis];
+    inside &= at >= 0 && at < bits.size()[axis];
+    bit += at * strides[k];
+    packet.next[k][lane] = walk.next[k];
+    packet.delta[k][lane] = walk.delta[k];
+    packet.stride[k][lane] = static_cast<std::int32_t>(walk.step[k] * strides[k]);
+    packet.left[k][lane] = walk.step[k] > 0 ? bits.size()[axis] - 1 - at : at;
+  }
+  packet.bit[lane] = inside ? static_cast<std::int32_t>(bit) : -1;
+}
+
+}  // namespace
+
+void packet_dda(const DenseBits& bits, const ImageJob& job) {
+  const FirstHitImage& frame = *job.frame;
+  job.range->resize(static_cast<std::size_t>(frame.grid.size()));
+  const auto farthest = static_cast<float>(frame.limits.maximum_range);
+  Packet packet;
+  for (int i = 0; i < frame.grid.azimuth_bins; ++i) {
+    for (int row = 0; row < frame.grid.elevation_bins; row += 16) {
+      const int rows = std::min(16, frame.grid.elevation_bins - row);
+      for (int lane = 0; lane < 16; ++lane) {
+        const int bin = (row + std::min(lane, rows - 1)) * frame.grid.azimuth_bins + i;
+        set_lane(bits, frame, bin, static_cast<std::size_t>(lane), packet);
+      }
+      walk_packet(bits.words().data(), farthest, packet);
+      for (int lane = 0; lane < rows; ++lane) {
+        (*job.range)[static_cast<std::size_t>((row + lane) * frame.grid.azimuth_bins + i)] =
+            packet.range[lane];
+      }
+    }
+  }
+}
+
+void octomap_cast_ray(const octomap::OcTree& tree, const ImageJob& job) {
+  const auto limits = job.frame->limits;
+  for_rays(job, [&](const Ray& ray) {
+    const Eigen::Vector3d start = ray.origin + limits.minimum_range * ray.direction;
+    octomap::point3d end;
+    const bool hit =
+        tree.castRay(octomap::point3d(static_cast<float>(start.x()), static_cast<float>(start.y()),
+                                      static_cast<float>(start.z())),
+                     octomap::point3d(static_cast<float>(ray.direction.x()),
+                                      static_cast<float>(ray.direction.y()),
+                                      static_cast<float>(ray.direction.z())),
+                     end, true, limits.maximum_range - limits.minimum_range);
+    if (!hit) return kNoRange;
+    const Eigen::Vector3d centre(end.x(), end.y(), end.z());
+    return static_cast<float>((centre - ray.origin).norm());  // The voxel's centre, not its face.
+  });
+}
+
+}  // namespace raymoval::kernels_bench

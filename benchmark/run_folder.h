@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmark/suite.h"
+
+namespace raymoval {
+
+/// Name of the lock of a run folder, and of a cell's folder.
+inline constexpr const char* kLockFile = "run.lock";
+
+/// Makes the folder of a run. @throws UsageError if it holds something else; DataError
+void prepare_run_folder(const std::filesystem::path& out);
+
+/// Content of run.json: the suite as resolved, build and machine.
+nlohmann::ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequences,
+                                  int threads);
+
+/// What results.json is made of.
+struct RunContent {
+  const nlohmann::ordered_json* record = nullptr;
+  const std::vector<nlohmann::ordered_json>* cells = nullptr;
+  bool controls_checked = true;
+  std::vector<std::string> control_problems;
+  std::vector<std::string> missing;  ///< "sequence / method".
+};
+
+/// Writes results.csv, table.md, table.tex and, last, results.json. @throws DataError
+void write_results(const std::filesystem::path& out, const RunContent& content);
+
+}  // namespace raymoval

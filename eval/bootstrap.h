@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace raymoval {
+
+struct Rate;
+
+/// How intervals are drawn. The seed is fixed, so the same counts give the same intervals, and all
+/// methods on a sequence see the same draws.
+struct BootstrapOptions {
+  int replicates = 1000;
+  double level = 0.95;
+  std::uint64_t seed = 20260101;
+};
+
+/// Where a rate lies between when other scans of the same drive had been taken.
+struct Interval {
+  std::string name;  ///< Of the rate.
+  std::optional<double> low, high;
+  std::string undefined_reason = "";
+};
+
+struct Intervals {
+  std::vector<Interval> rates;
+  std::size_t scans = 0;
+  std::size_t block_scans = 0;
+  BootstrapOptions options;
+};
+
+/// Scans of a block: the square root of their number, rounded up. Longer than the cube root that
+/// is best for short memory, since a place stays in view for many scans.
+std::size_t bootstrap_block(std::size_t scans);
+
+/// Circular block bootstrap over scans (Politis and Romano, 1992): each replicate strings blocks of
+/// consecutive scans with random starts together until it has as many scans as there are, adds
+/// their counts up and takes the rates of the sums; the interval holds the middle `level` of the
+/// replicates where the rate is defined (nearest rank).
+///
+/// What is counted per voxel belongs to one scan each, see the protocol. Verdicts, map and partners
+/// are those of the whole sequence: the interval says how much the rate hangs on which scans were
+/// counted, not how a method would do with other scans in its map.
+/// @param counts_by_scan for each scan in order the same counts
+/// @param rates_of the rates that follow from sums of these counts, always the same ones in order
+/// @return no interval for fewer than four scans, or where most replicates leave a rate undefined
+Intervals bootstrap(
+    const std::vector<std::vector<std::int64_t>>& counts_by_scan,
+    const std::function<std::vector<Rate>(const std::vector<std::int64_t>&)>& rates_of,
+    const BootstrapOptions& options = {});
+
+}  // namespace raymoval

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "eval/dynamicmap/truth_points.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "eval/rates.h"
+
+namespace raymoval::dynamicmap {
+
+PointCounts& PointCounts::operator+=(const PointCounts& other) {
+  static_points += other.static_points;
+  dynamic_points += other.dynamic_points;
+  ego += other.ego;
+  out_of_range += other.out_of_range;
+  ignored += other.ignored;
+  return *this;
+}
+
+TruthPoints::TruthPoints(const EvaluationInput& input, double maximum_range, double ego_range)
+    : input_(input),
+      classes_(input.label_rule),
+      maximum_range_(maximum_range > 0.0 ? maximum_range : std::numeric_limits<double>::infinity()),
+      ego_range_(ego_range) {
+  // Where 0 and 1 are the classes themselves, as in the benchmark's own files, the rule for the ego
+  // vehicle would destroy the truth.
+  if (classes_.moving(0) || classes_.moving(1)) ego_range_ = 0.0;
+}
+
+Kind TruthPoints::kind_of(const Eigen::Vector3f& point, std::uint32_t word,
+                          PointCounts& counts) const {
+  const double range = point.cast<double>().norm();
+  if (!input_.range_m.contains(range) || range >= maximum_range_) {
+    ++counts.out_of_range;
+    return Kind::kOutOfRange;
+  }
+  const LabelClass label_class = classes_.of(word);
+  if (label_class == LabelClass::kIgnored) {
+    ++counts.ignored;
+    return Kind::kIgnored;
+  }
+  const bool ego =
+      label_class == LabelClass::kStatic && semantic_id(word) <= 1 && range < ego_range_;
+  counts.ego += ego ? 1 : 0;
+  const bool moving = ego || label_class == LabelClass::kMoving;
+  ++(moving ? counts.dynamic_points : counts.static_points);
+  return moving ? Kind::kDynamic : Kind::kStatic;
+}
+
+std::vector<PointCounts> TruthPoints::count(const std::string& task) const {
+  std::vector<PointCounts> counts(input_.scans->size());
+  if (input_.progress != nullptr) input_.progress->begin(task, counts.size());
+  parallel_for(input_.threads, counts.size(), 1, [&](std::size_t i) {
+    counts[i] = read(i, nullptr, [](std::size_t, const Scan&, Kind, bool) {});
+    if (input_.progress != nullptr) input_.progress->advance();
+  });
+  if (input_.progress != nullptr) input_.progress->end();
+  PointCounts all;
+  for (const PointCounts& scan : counts) all += scan;
+  if (all.static_points + all.dynamic_points > 0) return counts;
+  throw DataError("nothing to score against: " + std::to_string(all.out_of_range) +
+                  " points are out of range and " + std::to_string(all.ignored) +
+                  " have ignored labels; expected at least one that is left. Check range_m, "
+                  "maximum_range and the label rule.");
+}
+
+std::vector<Rate> accuracy_rates(std::int64_t present_static, std::int64_t static_count,
+                                 std::int64_t removed_dynamic, std::int64_t dynamic_count,
+                                 const std::string& unit) {
+  const Rate SA =
+      percent_rate("SA", present_static, static_count, "the ground truth has no static " + unit);
+  const Rate DA =
+      percent_rate("DA", removed_dynamic, dynamic_count, "the ground truth has no dynamic " + unit);
+  const std::string& reason = SA.value ? DA.undefined_reason : SA.undefined_reason;
+  Rate AA{"AA", std::nullopt, reason};
+  Rate HA{"HA", std::nullopt, reason};
+  if (SA.value && DA.value) {
+    AA.value = std::sqrt(*SA.value * *DA.value);
+    HA.value = harmonic_mean(*SA.value, *DA.value);
+  }
+  return {SA, DA, AA, HA};
+}
+
+}  // namespace raymoval::dynamicmap

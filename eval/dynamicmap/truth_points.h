@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "eval/checked_scan.h"
+#include "eval/labelled_voxels.h"
+
+namespace raymoval::dynamicmap {
+
+/// Points of a scan by class and fate; they add up to the points read.
+struct PointCounts {
+  std::int64_t static_points = 0;
+  std::int64_t dynamic_points = 0;  ///< Ego points included.
+  std::int64_t ego = 0;             ///< Unlabelled and near the sensor, hence dynamic.
+  std::int64_t out_of_range = 0;
+  std::int64_t ignored = 0;
+
+  PointCounts& operator+=(const PointCounts& other);
+};
+
+/// What a point is to the protocol. An ignored one is of no class, but may stand in a map.
+enum class Kind { kOutOfRange, kIgnored, kStatic, kDynamic };
+
+inline bool is_truth(Kind kind) {
+  return kind == Kind::kStatic || kind == Kind::kDynamic;
+}
+
+/// Which points the benchmark's ground truth holds, and which of them move.
+class TruthPoints {
+ public:
+  TruthPoints(const EvaluationInput& input, double maximum_range, double ego_range);
+
+  /// Loads scan `index` and calls `visit(i, scan, kind, removed)` for each point i in range.
+  /// @throws MethodError, DataError as `load_checked`
+  template <class Visit>
+  PointCounts read(std::size_t index, const MaskStore* masks, Visit&& visit) const {
+    const CheckedScan loaded = load_checked(input_, masks, index);
+    PointCounts counts;
+    for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
+      const Kind kind = kind_of(loaded.scan.points[i], loaded.labels[i], counts);
+      if (kind != Kind::kOutOfRange) visit(i, loaded.scan, kind, loaded.removed(i));
+    }
+    return counts;
+  }
+
+  /// Counts of all scans, one each; progress is shown as `task`.
+  /// @throws DataError if no point at all is left
+  [[nodiscard]] std::vector<PointCounts> count(const std::string& task) const;
+
+  [[nodiscard]] const EvaluationInput& input() const { return input_; }
+
+ private:
+  Kind kind_of(const Eigen::Vector3f& point, std::uint32_t word, PointCounts& counts) const;
+
+  const EvaluationInput& input_;
+  LabelClasses classes_;
+  double maximum_range_;
+  double ego_range_;
+};
+
+/// SA, DA, AA and HA in percent, SA and DA first; undefined where a class is empty.
+/// SA = present / static, DA = gone / dynamic, AA = sqrt(SA DA), HA = 2 SA DA / (SA + DA).
+std::vector<Rate> accuracy_rates(std::int64_t present_static, std::int64_t static_count,
+                                 std::int64_t removed_dynamic, std::int64_t dynamic_count,
+                                 const std::string& unit);
+
+}  // namespace raymoval::dynamicmap

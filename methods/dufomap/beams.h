@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "core/scan.h"
+#include "methods/dufomap/parameters.h"
+#include "methods/dufomap/scan_grid.h"
+
+namespace raymoval::dufomap {
+
+/// Voxel of each point of `scan`. @throws DataError beyond the lattice.
+std::vector<VoxelIndex> voxels_of(const Scan& scan, double voxel_size);
+
+/// Step 1: the voxels that hold a point of `scan` not nearer than `minimum_range`, each once,
+/// ordered by direction around the sensor: neighbours on the list see the same voxels.
+/// @param voxels of each point; @param grid empty before and after
+std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex>& voxels,
+                                  const DufomapParameters& parameters, ScanGrid& grid);
+
+/// Steps 1-3 for one scan: fills `grid` (empty before) with the hits and free voxels of the scan.
+/// @throws DataError for a beam of more than 131,072 voxels
+void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends,
+                const DufomapParameters& parameters, ScanGrid& grid);
+
+}  // namespace raymoval::dufomap

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "methods/dufomap/parameters.h"
+#include "methods/registry.h"
+
+namespace raymoval {
+
+/// D. Duberg, Q. Zhang, M. Jia, P. Jensfelt: "DUFOMap: Efficient Dynamic Awareness Mapping", RA-L
+/// 2024. A voxel that one scan has once seen free for certain is a void; a point that ever falls in
+/// a void is dynamic. Per scan:
+///  1. Points nearer than `minimum_range` are dropped; one beam goes to the centre of each voxel
+///     that holds a point.
+///  2. Hits: the voxels on the last `hit_extension` (d_s) metres of each beam.
+///  3. Free: the voxels from the sensor to the first hit that the beam enters, and on until it has
+///     advanced `unknown_inflation` (d_p) voxels along one axis.
+///  4. Void: not a hit, and all (2 d_p + 1)^3 voxels around it free.
+///  5. Voids of all scans are united and never reset; a point is dynamic iff its voxel is a void.
+/// Decisions and deviations from the public code: `notes` of the entry.
+std::unique_ptr<Remover> make_dufomap(const DufomapParameters& parameters);
+
+MethodEntry dufomap_entry();
+
+}  // namespace raymoval

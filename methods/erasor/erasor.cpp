@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// "ERASOR: Egocentric Ratio of Pseudo Occupancy-based Dynamic Object Removal for Static 3D Point
+// Cloud Map Building", RA-L 2021, and the order of operations of its public program.
+#include "methods/erasor/erasor.h"
+
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/text.h"
+#include "methods/erasor/ground_fit.h"
+#include "methods/erasor/naive_map.h"
+#include "methods/erasor/polar_bins.h"
+#include "methods/erasor/scan_ratio_test.h"
+
+namespace raymoval {
+namespace {
+
+/// The points of a query by bin, after thinning.
+struct QueryBins {
+  std::vector<BinExtent> extents;
+  std::vector<int> bin_of_point;  ///< Of each raw point: the bin of its thinned point, or -1.
+};
+
+/// The map's voxels in the volume of interest by bin.
+struct MapBins {
+  struct Member {
+    VoxelNumber voxel;
+    int bin;
+    double height;
+  };
+  std::vector<BinExtent> extents;
+  std::vector<std::vector<Member>> members;  ///< Chunk by chunk, in order.
+};
+
+/// Points of one voxel of a scan that is thinned.
+struct ThinnedPoint {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int points = 0;
+};
+
+class ErasorRun {
+ public:
+  ErasorRun(const ErasorParameters& parameters, const ScanSource& scans, const RunContext& context)
+      : parameters_(parameters),
+        scans_(scans),
+        context_(context),
+        bins_(parameters),
+        actions_(bins_.size()) {}
+
+  /// The map of all scans.
+  NaiveMap collect_naive_map() {
+    NaiveMapBuilder builder;
+    context_.begin_pass("erasor, naive map", scans_.size());
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      context_.check_cancelled();
+      const Scan scan = scans_.load(i);
+      const ScanScope of_scan(context_.times, i);
+      const StageScope timed(context_.times, "naive map");
+      locate(scan, parameters_.minimum_range);
+      builder.add(keys_, world_);
+      context_.advance();
+    }
+    const StageScope timed(context_.times, "naive map");
+    return builder.finish();
+  }
+
+  /// Compares every n-th scan with the map that the earlier ones left.
+  void process_queries(NaiveMap& map) {
+    const auto interval = static_cast<std::size_t>(parameters_.removal_interval);
+    const std::size_t first =
+        parameters_.phase < 0 ? interval - 1 : static_cast<std::size_t>(parameters_.phase);
+    const std::size_t queries =
+        scans_.size() > first ? (scans_.size() - first - 1) / interval + 1 : 0;
+    context_.begin_pass("erasor, queries", queries);
+    for (std::size_t i = first; i < scans_.size(); i += interval) {
+      context_.check_cancelled();
+      const Scan scan = scans_.load(i);
+      const ScanScope of_scan(context_.times, i);
+      process(scan, map);
+      context_.advance();
+    }
+  }
+
+  /// A point is dynamic iff its voxel is out of the map.
+  void answer(const NaiveMap& map, RemovalSink& sink) {
+    context_.begin_pass("erasor, answers", scans_.size());
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      context_.check_cancelled();
+      const Scan scan = scans_.load(i);
+      Mask removed(scan.size(), 0);
+      {
+        const ScanScope of_scan(context_.times, i);
+        const StageScope timed(context_.times, "answer");
+        const double inverse = 1.0 / parameters_.map_voxel_size;
+        parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
+          const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
+          removed[k] = map.is_out(voxel_key(voxel_index(world, inverse))) ? 1 : 0;
+        });
+      }
+      sink.accept(i, removed);
+      context_.advance();
+    }
+  }
+
+ private:
+  void process(const Scan& scan, NaiveMap& map) {
+    const QueryBins query = describe(scan);                     // R-POD of the scan
+    const MapBins around = describe(map, scan.T_world_sensor);  // R-POD of the map
+    for (std::size_t b = 0; b < bins_.size(); ++b) {            // Scan ratio test
+      const BinFinding finding = compare_extents(around.extents[b], query.extents[b], parameters_);
+      actions_[b] = action_for(finding, around.extents[b], parameters_);
+    }
+    remove_above_ground(around, scan.T_world_sensor, map);  // R-GPF
+    reinsert(scan, query, map);
+  }
+
+  /// World point and map voxel of each point of `scan`; none for those nearer than `minimum_range`.
+  void locate(const Scan& scan, double minimum_range) {
+    keys_.resize(scan.size());
+    world_.resize(scan.size());
+    const double inverse = 1.0 / parameters_.map_voxel_size;
+    parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
+      world_[k] = scan.T_world_sensor * scan.points[k].cast<double>();
+      keys_[k] = is_own_car(scan.points[k], minimum_range)
+                     ? NaiveMapBuilder::kNoVoxel
+                     : voxel_key(voxel_index(world_[k], inverse));
+    });
+  }
+
+  static bool is_own_car(const Eigen::Vector3f& point, double minimum_range) {
+    return point.head<2>().cast<double>().squaredNorm() < minimum_range * minimum_range;
+  }
+
+  [[nodiscard]] Eigen::Vector3d body_of(const Eigen::Vector3d& sensor_point) const {
+    return {sensor_point.x(), sensor_point.y(), sensor_point.z() + parameters_.sensor_height};
+  }
+
+  /// Thins the scan in its own frame and sorts what is left into bins.
+  QueryBins describe(const Scan& scan) {
+    const StageScope timed(context_.times, "query bins");
+    QueryBins query;
+    query.extents.resize(bins_.size());
+    query.bin_of_point.assign(scan.size(), -1);
+    std::vector<int> slot_of_point;
+    const std::vector<ThinnedPoint> thinned = thin(scan, slot_of_point);
+    std::vector<int> bin_of_slot(thinned.size());
+    for (std::size_t s = 0; s < thinned.size(); ++s) {
+      const Eigen::Vector3d body = body_of(thinned[s].sum / thinned[s].points);
+      bin_of_slot[s] = bins_.bin_of(body);
+      if (bin_of_slot[s] >= 0)
+        query.extents[static_cast<std::size_t>(bin_of_slot[s])].add(body.z());
+    }
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      if (slot_of_point[k] < 0) continue;
+      query.bin_of_point[k] = bin_of_slot[static_cast<std::size_t>(slot_of_point[k])];
+    }
+    return query;
+  }
+
+  /// One point a voxel of the sensor frame, the own car's left out.
+  /// @param slot_of_point which thinned point stands for each raw one; -1 = none
+  std::vector<ThinnedPoint> thin(const Scan& scan, std::vector<int>& slot_of_point) const {
+    slot_of_point.assign(scan.size(), -1);
+    std::vector<ThinnedPoint> thinned;
+    VoxelMap<int> slots;
+    slots.reserve(scan.size() / 2);
+    const double inverse = 1.0 / parameters_.query_voxel_size;
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      if (is_own_car(scan.points[k], parameters_.minimum_range)) continue;
+      const Eigen::Vector3d point = scan.points[k].cast<double>();
+      const auto found = slots.try_emplace(voxel_key(voxel_index(point, inverse)),
+                                           static_cast<int>(thinned.size()));
+      if (found.second) thinned.emplace_back();
+      slot_of_point[k] = found.first->second;
+      ThinnedPoint& slot = thinned[static_cast<std::size_t>(slot_of_point[k])];
+      slot.sum += point;
+      ++slot.points;
+    }
+    return thinned;
+  }
+
+  /// Sorts the voxels that are in the map within the disc around the sensor into bins.
+  MapBins describe(const NaiveMap& map, const Pose& T_world_sensor) const {
+    const StageScope timed(context_.times, "map bins");
+    const Eigen::Vector3d centre = T_world_sensor.translation();
+    const std::vector<NaiveMap::Tile> tiles =
+        map.tiles_around(centre.x(), centre.y(), parameters_.maximum_range);
+    constexpr std::size_t kTilesAChunk = 16;
+    MapBins around;
+    around.members.resize(tiles.size() / kTilesAChunk + 1);
+    parallel_chunks(
+        context_.threads, tiles.size(), kTilesAChunk, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t t = begin; t < end; ++t) {
+            collect(map, tiles[t], T_world_sensor, around.members[begin / kTilesAChunk]);
+          }
+        });
+    around.extents.resize(bins_.size());
+    for (const auto& chunk : around.members) {
+      for (const MapBins::Member& member : chunk) {
+        around.extents[static_cast<std::size_t>(member.bin)].add(member.height);
+      }
+    }
+    return around;
+  }
+
+  void collect(const NaiveMap& map, const NaiveMap::Tile& tile, const Pose& T_world_sensor,
+               std::vector<MapBins::Member>& members) const {
+    const Pose T_sensor_world = T_world_sensor.inverse();
+    const double square_range = parameters_.maximum_range * parameters_.maximum_range;
+    for (VoxelNumber voxel = tile.begin; voxel < tile.end; ++voxel) {
+      if (!map.is_in(voxel)) continue;
+      const Eigen::Vector3d from_centre = map.point(voxel) - T_world_sensor.translation();
+      if (!(from_centre.head<2>().squaredNorm() < square_range)) continue;
+      const Eigen::Vector3d body = body_of(T_sensor_world * map.point(voxel));
+      const int bin = bins_.bin_of(body);
+      if (bin >= 0) members.push_back({voxel, bin, body.z()});
+    }
+  }
+
+  /// Takes what stands above the ground out of the bins in which the map is higher.
+  void remove_above_ground(const MapBins& around, const Pose& T_world_sensor, NaiveMap& map) const {
+    const StageScope timed(context_.times, "ground fit");
+    std::vector<std::vector<VoxelNumber>> chosen;
+    std::vector<int> place(bins_.size(), -1);
+    for (std::size_t b = 0; b < bins_.size(); ++b) {
+      if (!actions_[b].remove) continue;
+      place[b] = static_cast<int>(chosen.size());
+      chosen.emplace_back();
+    }
+    for (const auto& chunk : around.members) {
+      for (const MapBins::Member& member : chunk) {
+        const int at = place[static_cast<std::size_t>(member.bin)];
+        if (at >= 0) chosen[static_cast<std::size_t>(at)].push_back(member.voxel);
+      }
+    }
+    std::vector<Mask> ground(chosen.size());
+    const Pose T_sensor_world = T_world_sensor.inverse();
+    parallel_for(context_.threads, chosen.size(), 8, [&](std::size_t c) {
+      std::vector<Eigen::Vector3d> points;
+      for (const VoxelNumber voxel : chosen[c]) {
+        points.push_back(body_of(T_sensor_world * map.point(voxel)));
+      }
+      ground[c] = find_ground(points, parameters_);
+    });
+    for (std::size_t c = 0; c < chosen.size(); ++c) {
+      for (std::size_t i = 0; i < chosen[c].size(); ++i) {
+        if (ground[c][i] == 0) map.take_out(chosen[c][i]);
+      }
+    }
+  }
+
+  /// Puts back what the query sees in bins that take in its points. After all removals: a voxel of
+  /// the query may reach over the border of two bins.
+  void reinsert(const Scan& scan, const QueryBins& query, NaiveMap& map) const {
+    const StageScope timed(context_.times, "reinsertion");
+    const double inverse = 1.0 / parameters_.map_voxel_size;
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      const int bin = query.bin_of_point[k];
+      if (bin < 0 || !actions_[static_cast<std::size_t>(bin)].reinsert) continue;
+      const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
+      map.put_back(voxel_key(voxel_index(world, inverse)));
+    }
+  }
+
+  const ErasorParameters& parameters_;
+  const ScanSource& scans_;
+  const RunContext& context_;
+  PolarBins bins_;
+  std::vector<BinAction> actions_;
+  std::vector<VoxelKey> keys_;          ///< Of the scan at hand.
+  std::vector<Eigen::Vector3d> world_;  ///< Of the scan at hand.
+};
+
+class ErasorRemover : public Remover {
+ public:
+  explicit ErasorRemover(const ErasorParameters& parameters) : parameters_(parameters) {}
+
+  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    ErasorRun run(parameters_, scans, context);
+    NaiveMap map = run.collect_naive_map();
+    run.process_queries(map);
+    run.answer(map, sink);
+  }
+
+ private:
+  ErasorParameters parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Remover> make_erasor(const ErasorParameters& parameters) {
+  if (!(parameters.minimum_height < parameters.maximum_height)) {
+    throw ConfigurationError(
+        "erasor.min_h = " + number_text(parameters.minimum_height) +
+        " is not below erasor.max_h = " + number_text(parameters.maximum_height) +
+        ", so no point would be tested; lower min_h or raise max_h.");
+  }
+  if (!(parameters.minimum_range < parameters.maximum_range)) {
+    throw ConfigurationError(
+        "erasor.min_range = " + number_text(parameters.minimum_range) +
+        " is not below erasor.max_range = " + number_text(parameters.maximum_range) +
+        ", so no point would be tested; raise max_range.");
+  }
+  return std::make_unique<ErasorRemover>(parameters);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "methods/octomap/octomap.h"
+
+#include <atomic>
+#include <cmath>
+
+#include "core/mask_store.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "methods/octomap/occupancy_tree.h"
+#include "methods/octomap/point_filters.h"
+#include "methods/octomap/scan_cells.h"
+
+namespace raymoval {
+namespace {
+
+/// One run: the cells that matter, a map of all scans, then an answer for each point from the map.
+class OctomapRun {
+ public:
+  OctomapRun(const OctomapParameters& parameters, const ScanSource& scans,
+             const RunContext& context)
+      : parameters_(parameters),
+        scans_(scans),
+        context_(context),
+        lattice_(parameters.resolution),
+        cells_(parameters, context.threads),
+        map_(parameters),
+        kept_(scans.size()),
+        dropped_(scans.size()) {
+    if (scans.size() == 0) return;
+    // Rounded to whole cells, so that the tree's lattice is the world's.
+    const Eigen::Vector3d first = scans.pose(0).translation() / parameters.resolution;
+    centre_ = first.array().round().matrix() * parameters.resolution;
+  }
+
+  /// Only cells that hold a point are ever asked for, and no cell depends on another: the map is
+  /// kept to those. Free space without any point is most of a map.
+  void collect_cells() {
+    for_each_scan("octomap, cells", [this](const Scan& scan) {
+      const std::vector<octomap::point3d> points = in_tree_frame(scan);
+      const StageScope timed(context_.times, "cells");
+      for (const octomap::point3d& point : points) {
+        if (const std::optional<CellCode> cell = lattice_.cell_of(point)) wanted_.occupy(*cell);
+      }
+    });
+  }
+
+  void build_map() {
+    for_each_scan("octomap", [this](const Scan& scan) {
+      const std::vector<octomap::point3d> points = in_tree_frame(scan);
+      const std::vector<PointRole> roles = roles_of(scan.index, points);
+      find_cells(scan, points, roles);
+      const StageScope timed(context_.times, "map update");
+      map_.update(cells_.parts(), &wanted_);
+    });
+  }
+
+  void answer(RemovalSink& sink) {
+    for_each_scan("octomap, answers", [&](const Scan& scan) {
+      const std::vector<octomap::point3d> points = in_tree_frame(scan);
+      sink.accept(scan.index, removed(scan.index, points));
+    });
+    tell_outside();
+  }
+
+ private:
+  template <class Visit>
+  void for_each_scan(const char* what, Visit&& visit) {
+    context_.begin_pass(what, scans_.size());
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      context_.check_cancelled();
+      const Scan scan = scans_.load(i);
+      const ScanScope timed(context_.times, i);
+      visit(scan);
+      context_.advance();
+    }
+  }
+
+  [[nodiscard]] octomap::point3d rounded(const Eigen::Vector3d& point) const {
+    return {static_cast<float>(point.x()), static_cast<float>(point.y()),
+            static_cast<float>(point.z())};
+  }
+
+  /// World points relative to the tree's centre; computed in double, rounded once to float.
+  [[nodiscard]] std::vector<octomap::point3d> in_tree_frame(const Scan& scan) const {
+    const StageScope timed(context_.times, "transform");
+    std::vector<octomap::point3d> points(scan.size());
+    const Eigen::Matrix3d rotation = scan.T_world_sensor.linear();
+    const Eigen::Vector3d translation = scan.T_world_sensor.translation() - centre_;
+    parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
+      points[k] = rounded(rotation * scan.points[k].cast<double>() + translation);
+    });
+    return points;
+  }
+
+  std::vector<PointRole> roles_of(std::size_t scan, const std::vector<octomap::point3d>& points) {
+    std::vector<PointRole> roles(points.size(), PointRole::kSurface);
+    if (parameters_.noise) mark_noise(scan, points, roles);
+    if (parameters_.ground) mark_ground(scan, points, roles);
+    return roles;
+  }
+
+  void mark_noise(std::size_t scan, const std::vector<octomap::point3d>& points,
+                  std::vector<PointRole>& roles) {
+    const StageScope timed(context_.times, "noise filter");
+    const Mask noise = find_noise(points, parameters_, context_.threads);
+    const bool left_out = parameters_.noise_points == NoisePoints::kRemoved;
+    for (std::size_t k = 0; k < noise.size(); ++k) {
+      if (noise[k] != 0) roles[k] = left_out ? PointRole::kLeftOut : PointRole::kNoise;
+    }
+    if (left_out) dropped_.set(scan, noise);
+  }
+
+  /// The plane is looked for among the points that are no noise.
+  void mark_ground(std::size_t scan, const std::vector<octomap::point3d>& points,
+                   std::vector<PointRole>& roles) {
+    const StageScope timed(context_.times, "ground plane");
+    std::vector<octomap::point3d> candidates;
+    std::vector<std::size_t> chosen;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (roles[k] != PointRole::kSurface) continue;
+      candidates.push_back(points[k]);
+      chosen.push_back(k);
+    }
+    const Mask on_plane = find_ground(candidates, parameters_);
+    Mask ground(points.size(), 0);
+    for (std::size_t k = 0; k < on_plane.size(); ++k) {
+      if (on_plane[k] == 0) continue;
+      roles[chosen[k]] = PointRole::kGround;
+      ground[chosen[k]] = 1;
+    }
+    kept_.set(scan, ground);
+  }
+
+  void find_cells(const Scan& scan, const std::vector<octomap::point3d>& points,
+                  const std::vector<PointRole>& roles) {
+    const StageScope timed(context_.times, "beams");
+    cells_.compute(points, roles, rounded(scan.T_world_sensor.translation() - centre_));
+  }
+
+  [[nodiscard]] Mask removed(std::size_t scan, const std::vector<octomap::point3d>& points) {
+    const StageScope timed(context_.times, "answer");
+    Mask mask(points.size(), 0);
+    parallel_chunks(context_.threads, points.size(), 8192, [&](std::size_t begin, std::size_t end) {
+      TreeReader reader(map_.tree());
+      for (std::size_t k = begin; k < end; ++k) mask[k] = is_removed(points[k], reader) ? 1 : 0;
+    });
+    const Mask kept = kept_.get(scan), dropped = dropped_.get(scan);
+    for (std::size_t k = 0; k < kept.size(); ++k) mask[k] = kept[k] != 0 ? 0 : mask[k];
+    for (std::size_t k = 0; k < dropped.size(); ++k) mask[k] = dropped[k] != 0 ? 1 : mask[k];
+    return mask;
+  }
+
+  bool is_removed(const octomap::point3d& point, TreeReader& reader) {
+    const std::optional<CellCode> cell = lattice_.cell_of(point);
+    if (!cell) {
+      ++outside_;
+      return false;
+    }
+    const octomap::OcTreeNode* node = reader.find(*cell);
+    return node == nullptr ? parameters_.remove_unknown : !map_.tree().isNodeOccupied(node);
+  }
+
+  void tell_outside() const {
+    if (outside_ == 0 || context_.progress == nullptr) return;
+    const double reach = CellLattice::kCentre * parameters_.resolution;
+    context_.progress->say("octomap: " + grouped_text(outside_) + " points lie more than " +
+                           fixed_text(reach, 1) +
+                           " m from the first scan, outside the tree, and stay in the map "
+                           "unjudged; use a larger resolution, or fewer scans.");
+  }
+
+  const OctomapParameters& parameters_;
+  const ScanSource& scans_;
+  const RunContext& context_;
+  CellLattice lattice_;
+  ScanCells cells_;
+  CellBlocks wanted_;  ///< Cells in which any scan has a point.
+  OccupancyTree map_;
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< Of the tree, in the world.
+  MaskStore kept_;     ///< Points on the ground, which stay whatever their leaf says.
+  MaskStore dropped_;  ///< Points that the noise filter took out.
+  std::atomic<std::uint64_t> outside_{0};
+};
+
+class OctomapRemover : public Remover {
+ public:
+  explicit OctomapRemover(const OctomapParameters& parameters) : parameters_(parameters) {}
+
+  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    OctomapRun octomap_run(parameters_, scans, context);
+    octomap_run.collect_cells();
+    octomap_run.build_map();
+    octomap_run.answer(sink);
+  }
+
+ private:
+  OctomapParameters parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Remover> make_octomap(const OctomapParameters& parameters) {
+  if (parameters.maximum_range == 0.0) {
+    throw ConfigurationError(
+        "octomap.maximum_range = 0 leaves no beam; give a range in metres, or -1 for unlimited.");
+  }
+  return std::make_unique<OctomapRemover>(parameters);
+}
+
+}  // namespace raymoval

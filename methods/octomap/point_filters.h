@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <octomap/octomap_types.h>
+
+#include <vector>
+
+#include "core/scan.h"
+#include "methods/octomap/parameters.h"
+
+namespace raymoval {
+
+/// Points on the ground of a scan as the KTH port of OctoMap finds it: one plane by random sample
+/// consensus (Fischler and Bolles, 1981; PCL with its fixed seed) whose normal is within
+/// `ground_angle` of the z axis, refined by least squares.
+/// @param points world axes, metres
+/// @return 1 for each point within `ground_distance` of the plane; all 0 for fewer than
+/// `ground_points` points or where there is no such plane
+Mask find_ground(const std::vector<octomap::point3d>& points, const OctomapParameters& parameters);
+
+/// Statistical outliers (Rusu et al., 2008; as PCL's filter): points whose mean distance to their
+/// `noise_neighbours` nearest others is above the scan's mean by more than `noise_sigma` standard
+/// deviations. Scans with no more points than that have none.
+Mask find_noise(const std::vector<octomap::point3d>& points, const OctomapParameters& parameters,
+                int threads);
+
+}  // namespace raymoval

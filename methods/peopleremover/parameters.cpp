@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "methods/peopleremover/parameters.h"
+
+#include <cmath>
+
+#include "methods/peopleremover/peopleremover.h"
+
+namespace raymoval {
+namespace {
+
+using Table = ParameterTable<PeopleremoverParameters>;
+using P = PeopleremoverParameters;
+constexpr const char* kConstant = "a constant in 3DTK";
+
+Table make_table() {
+  Table table;
+  table
+      .number("voxel_size", &P::voxel_size,
+              {"m", 0.02, 10, "--voxel-size; 3DTK: 10 of its units, 0.1 m in centimetre data",
+               "Edge of a voxel."})
+      .choice("maxrange_method", &P::maxrange_method,
+              {{"none", MaxrangeMethod::kNone}, {"normals", MaxrangeMethod::kNormals}},
+              {.source = "--maxrange-method; 3DTK: none",
+               .sentence = "Beams go to their point, or end one voxel diagonal in front of the "
+                           "plane of the surface around it (point shadows)."})
+      .number("fuzz", &P::fuzz,
+              {"m", 0, 10, "--fuzz", "Beams end so much farther in front of the surface."})
+      .integer("diff", &P::diff,
+               {"scans", 0, 100000, "--diff",
+                "A voxel with points of a scan within so many of the beam's is not freed and stops "
+                "the beam."})
+      .integer("min_cluster_size", &P::min_cluster_size,
+               {"voxels", 0, 1e9, "--min-cluster-size",
+                "Smaller 26-connected clusters of freed voxels are discarded; 1 or less keeps "
+                "all."})
+      .flag("subvoxel_accuracy", &P::subvoxel_accuracy,
+            {.source = "--no-subvoxel-accuracy",
+             .sentence = "Remove, near a freed voxel, also the points of the scans that have "
+                         "points in it."})
+      .integer("half_voxel_radius", &P::half_voxel_radius,
+               {"voxels", 1, 8, kConstant, "How near is near for subvoxel_accuracy."})
+      .number("minimum_range", &P::minimum_range,
+              {"m", 0, 100, kConstant,
+               "Points this near are left out and stay static; 0 takes the voxel diagonal, as "
+               "3DTK does."})
+      .integer("reduce_points", &P::reduce_points,
+               {"points", 0, 1e9, "--reduce X:Y, X",
+                "Follow at most so many beams per cell of directions, chosen at random; 0 follows "
+                "all."})
+      .number("reduce_angle", &P::reduce_angle,
+              {"rad", 1e-4, 3.1415, "--reduce X:Y, Y",
+               "Such a cell has the solid angle of a cap of this half-angle."})
+      .integer("reduce_seed", &P::reduce_seed,
+               {"", 0, 1e9, "a constant in 3DTK", "Another seed chooses other beams."});
+  return table;
+}
+
+std::vector<std::string> notes() {
+  return {
+      "Sets of scan numbers per voxel are not kept but read off the scans' own points, which gives "
+      "the same verdicts; memory is bounded by the map.",
+      "maxrange_method = none follows whole beams, as 3DTK did before May 2020; its present "
+      "version "
+      "follows none there and removes nothing.",
+      "maxrange_method = normals is the default here and the choice of 3DTK's own example; 3DTK's "
+      "default is none.",
+      "Points within the minimum range, which 3DTK drops, are answered for: static.",
+      "A point within two voxel diagonals of the sensor has no beam; 3DTK takes the arc sine of a "
+      "value above 1 there.",
+      "The normal is towards the sensor where fewer than three points, or points on a line, would "
+      "decide it; no beam passes its own point.",
+      "A beam that crosses two voxel walls at once crosses them one by one, x before y before z; "
+      "3DTK steps along both at once.",
+      "reduce draws from cells of a cap's solid angle by seed, scan and point; 3DTK's threads "
+      "share "
+      "one generator.",
+      "normal-method (only angle works), normal-knearest (without effect), and the values of "
+      "maxrange-method that abort in 3DTK are left out.",
+  };
+}
+
+}  // namespace
+
+double PeopleremoverParameters::voxel_diagonal() const {
+  return std::sqrt(3.0) * voxel_size;
+}
+
+double PeopleremoverParameters::effective_minimum_range() const {
+  return minimum_range > 0.0 ? minimum_range : voxel_diagonal();
+}
+
+const ParameterTable<PeopleremoverParameters>& peopleremover_parameter_table() {
+  static const Table table = make_table();
+  return table;
+}
+
+MethodEntry peopleremover_entry() {
+  const std::string none = "none";
+  MethodEntry entry;
+  entry.name = "peopleremover";
+  entry.sentence =
+      "Frees voxels that a single beam of a scan passes through which has no point there, and "
+      "removes the points in them.";
+  entry.source =
+      "Schauer and Nuechter: The Peopleremover - Removing Dynamic Objects From 3-D Point Cloud "
+      "Data by Traversing a Voxel Occupancy Grid, RA-L 2018";
+  entry.notes = notes();
+  entry.parameters = peopleremover_parameter_table().specs();
+  entry.variants = {
+      {"normals", "Point shadows, voxels of 0.2 m: what its authors recommend.", false, {}},
+      {"fine",
+       "Point shadows, voxels of 0.1 m: 3DTK's default size.",
+       false,
+       {{"voxel_size", 0.1}}},
+      {"none",
+       "Whole beams, voxels of 0.2 m: nothing protects surfaces seen at a grazing angle.",
+       false,
+       {{"maxrange_method", none}}},
+      {"plain",
+       "Whole beams, voxels of 0.2 m, freed voxels only: comes nearest to the rows that papers "
+       "print.",
+       false,
+       {{"maxrange_method", none}, {"subvoxel_accuracy", false}}},
+      {"reduced",
+       "As normals, one beam per cap of 0.01 rad.",
+       false,
+       {{"reduce_points", std::int64_t{1}}, {"reduce_angle", 0.01}}},
+  };
+  entry.make = [](const Configuration& configuration) {
+    return make_peopleremover(peopleremover_parameter_table().read(configuration));
+  };
+  return entry;
+}
+
+}  // namespace raymoval

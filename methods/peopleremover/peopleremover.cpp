@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "methods/peopleremover/peopleremover.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "core/parallel.h"
+#include "methods/peopleremover/answer.h"
+#include "methods/peopleremover/beam_ends.h"
+#include "methods/peopleremover/bricks.h"
+#include "methods/peopleremover/freed_clusters.h"
+#include "methods/peopleremover/lattice_scan.h"
+#include "methods/peopleremover/thinning.h"
+#include "methods/peopleremover/traversal.h"
+#include "methods/peopleremover/workspaces.h"
+
+namespace raymoval {
+namespace peopleremover {
+namespace {
+
+/// The voxels of one scan as words of a map's bricks; a brick may come more than once.
+using OwnVoxels = std::vector<std::pair<BrickId, BrickWord>>;
+
+OwnVoxels own_voxels(const LatticeScan& scan, BrickFinder& finder) {
+  OwnVoxels own;
+  BrickIndex last = BrickIndex::Constant(kVoxelLimit);
+  for (const VoxelIndex& voxel : scan.voxels) {
+    const BrickIndex brick = brick_of(voxel);
+    if (brick != last) own.emplace_back(finder.find(brick), 0);
+    own.back().second |= voxel_bit(voxel);
+    last = brick;
+  }
+  return own;
+}
+
+/// The voxels of scan i and of those within `diff` of it, for one i after the other.
+class ScanWindow {
+ public:
+  ScanWindow(const ScanSource& scans, const PeopleremoverParameters& parameters)
+      : scans_(scans), parameters_(parameters), diff_(static_cast<std::size_t>(parameters.diff)) {}
+
+  /// Marks the voxels of the window around scan `i`, whose points are `points`.
+  void mark(std::size_t i, const LatticeScan& points, BrickFinder& finder, VoxelMarks& marks) {
+    marks.clear();
+    if (diff_ == 0) {
+      set(own_voxels(points, finder), marks);
+      return;
+    }
+    const std::size_t first = i - std::min(i, diff_);
+    const std::size_t last = std::min(i + diff_, scans_.size() - 1);
+    if (held_.empty()) next_ = first;
+    for (; next_ <= last; ++next_) {
+      put_on_lattice(scans_.load(next_), parameters_, read_);
+      held_.push_back(own_voxels(read_, finder));
+    }
+    while (held_.size() > last + 1 - first) held_.pop_front();
+    for (const OwnVoxels& own : held_) set(own, marks);
+  }
+
+ private:
+  static void set(const OwnVoxels& own, VoxelMarks& marks) {
+    for (const auto& [brick, voxels] : own) marks.set(brick, voxels);
+  }
+
+  const ScanSource& scans_;
+  const PeopleremoverParameters& parameters_;
+  std::size_t diff_;
+  std::deque<OwnVoxels> held_;
+  std::size_t next_ = 0;
+  LatticeScan read_;
+};
+
+/// What a thread needs to follow the beams of a scan.
+struct BeamWorkspace {
+  BeamWorkspace(const PeopleremoverParameters& parameters, const BrickMap& map, FreedVoxels& freed)
+      : ends(parameters), finder(map), own(map.size()), walker(map, freed, own) {}
+  LatticeScan points;
+  BeamEnds ends;
+  BrickFinder finder;
+  VoxelMarks own;
+  BeamWalker walker;
+};
+
+struct AnswerWorkspace {
+  AnswerWorkspace(const BrickMap& map, const std::vector<BrickWord>& freed, int radius)
+      : judge(map, freed, radius) {}
+  LatticeScan points;
+  ScanJudge judge;
+};
+
+/// One run over a sequence. Scans are read again in each step, never held.
+class Pass {
+ public:
+  Pass(const PeopleremoverParameters& parameters, const ScanSource& scans,
+       const RunContext& context)
+      : parameters_(parameters), scans_(scans), context_(context) {}
+
+  /// Steps 2.1 and 2.2: the voxels that hold a point of any scan.
+  BrickMap collect_occupied() {
+    BrickCollector collector;
+    Workspaces<LatticeScan> workspaces([] { return std::make_unique<LatticeScan>(); });
+    in_chunks("peopleremover, map", 1, workspaces, [&](LatticeScan& points) {
+      return [&](std::size_t i) {
+        const Scan scan = scans_.load(i);
+        const ScanScope of_scan(context_.times, i);
+        const StageScope timed(context_.times, "occupancy");
+        put_on_lattice(scan, parameters_, points);
+        VoxelMap<BrickWord> bricks;
+        for (const VoxelIndex& voxel : points.voxels) {
+          bricks[voxel_key(brick_of(voxel))] |= voxel_bit(voxel);
+        }
+        collector.add(bricks);
+      };
+    });
+    const StageScope timed(context_.times, "occupancy");
+    return collector.take();
+  }
+
+  /// Steps 2.3 to 2.7: the voxels that some beam passes through.
+  std::vector<BrickWord> free_voxels(const BrickMap& map) {
+    FreedVoxels freed(map.size());
+    Workspaces<BeamWorkspace> workspaces(
+        [&] { return std::make_unique<BeamWorkspace>(parameters_, map, freed); });
+    // Scans that follow each other share most of their windows.
+    const auto diff = static_cast<std::size_t>(parameters_.diff);
+    const std::size_t grain = diff == 0 ? 1 : std::max<std::size_t>(8, 4 * diff);
+    in_chunks("peopleremover, beams", grain, workspaces, [&](BeamWorkspace& workspace) {
+      return [&, window = ScanWindow(scans_, parameters_)](std::size_t i) mutable {
+        const Scan scan = scans_.load(i);
+        const ScanScope of_scan(context_.times, i);
+        put_on_lattice(scan, parameters_, workspace.points);
+        window.mark(i, workspace.points, workspace.finder, workspace.own);
+        follow_beams(scan, find_ends(workspace), workspace);
+      };
+    });
+    return std::move(freed.words());
+  }
+
+  /// Step 2.8.
+  void discard_small_clusters(const BrickMap& map, std::vector<BrickWord>& freed) {
+    context_.check_cancelled();
+    const StageScope timed(context_.times, "clusters");
+    peopleremover::discard_small_clusters(map, parameters_.min_cluster_size, freed);
+  }
+
+  /// Steps 2.9 and 2.10.
+  void answer(const BrickMap& map, const std::vector<BrickWord>& freed, RemovalSink& sink) {
+    const int radius = parameters_.subvoxel_accuracy ? parameters_.half_voxel_radius : 0;
+    Workspaces<AnswerWorkspace> workspaces(
+        [&] { return std::make_unique<AnswerWorkspace>(map, freed, radius); });
+    in_chunks("peopleremover, answers", 1, workspaces, [&](AnswerWorkspace& workspace) {
+      return [&](std::size_t i) {
+        const Scan scan = scans_.load(i);
+        const ScanScope of_scan(context_.times, i);
+        const StageScope timed(context_.times, "answer");
+        put_on_lattice(scan, parameters_, workspace.points);
+        sink.accept(i, workspace.judge.judge(workspace.points, scan.size()));
+      };
+    });
+  }
+
+ private:
+  /// Runs over all scans in chunks of `grain`: `begin_chunk(workspace)` gives what is called with
+  /// the number of each scan of a chunk in turn.
+  template <class Workspace, class BeginChunk>
+  void in_chunks(const char* what, std::size_t grain, Workspaces<Workspace>& workspaces,
+                 BeginChunk&& begin_chunk) {
+    context_.begin_pass(what, scans_.size());
+    parallel_chunks(context_.threads, scans_.size(), grain,
+                    [&](std::size_t begin, std::size_t end) {
+                      workspaces.with_one([&](Workspace& workspace) {
+                        auto work = begin_chunk(workspace);
+                        for (std::size_t i = begin; i < end; ++i) {
+                          context_.check_cancelled();
+                          work(i);
+                          context_.advance();
+                        }
+                      });
+                    });
+  }
+
+  const std::vector<double>& find_ends(BeamWorkspace& workspace) {
+    const StageScope timed(context_.times, "beam ends");
+    return workspace.ends.find(workspace.points.local);
+  }
+
+  void follow_beams(const Scan& scan, const std::vector<double>& lengths,
+                    BeamWorkspace& workspace) {
+    const StageScope timed(context_.times, "traversal");
+    const LatticeScan& points = workspace.points;
+    const double inverse = 1.0 / parameters_.voxel_size;
+    const std::vector<std::uint8_t> chosen =
+        choose_beams(points.local, scan.index,
+                     {parameters_.reduce_points, parameters_.reduce_angle,
+                      static_cast<std::uint64_t>(parameters_.reduce_seed)});
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (chosen[k] == 0) continue;
+      if (lengths[k] == kWholeBeam) {
+        workspace.walker.walk(points.sensor, points.world[k]);
+        continue;
+      }
+      const Eigen::Vector3d end = points.local[k] * (lengths[k] / points.local[k].norm());
+      workspace.walker.walk(points.sensor, (scan.T_world_sensor * end) * inverse);
+    }
+  }
+
+  const PeopleremoverParameters& parameters_;
+  const ScanSource& scans_;
+  const RunContext& context_;
+};
+
+}  // namespace
+}  // namespace peopleremover
+
+namespace {
+
+class Peopleremover : public Remover {
+ public:
+  explicit Peopleremover(const PeopleremoverParameters& parameters) : parameters_(parameters) {}
+
+  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    peopleremover::Pass pass(parameters_, scans, context);
+    const peopleremover::BrickMap map = pass.collect_occupied();
+    std::vector<peopleremover::BrickWord> freed = pass.free_voxels(map);
+    pass.discard_small_clusters(map, freed);
+    pass.answer(map, freed, sink);
+  }
+
+ private:
+  PeopleremoverParameters parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Remover> make_peopleremover(const PeopleremoverParameters& parameters) {
+  return std::make_unique<Peopleremover>(parameters);
+}
+
+}  // namespace raymoval

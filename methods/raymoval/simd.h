@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace raymoval {
+
+/// What a kernel runs on. Kernels are compiled once for each; all give the same numbers.
+enum class InstructionSet {
+  kBest,   ///< The best that this processor has, found at run time.
+  kPlain,  ///< One number at a time, nothing beyond what the whole program is compiled for.
+  kSse4,
+  kAvx2,
+  kAvx512,
+};
+
+/// "AVX2" and the like.
+const char* instruction_set_name(InstructionSet set);
+
+/// Those that this program was compiled with and this processor has, plainest first.
+std::vector<InstructionSet> supported_instruction_sets();
+
+inline constexpr std::size_t kSimdAlignment = 64;
+
+/// Numbers for vectors of any width: grown as needed and not initialised.
+template <class Value>
+class AlignedArray {
+  static_assert(std::is_trivially_copyable_v<Value>);
+
+ public:
+  /// Makes room for at least `size` values; what is there stays.
+  void require(std::size_t size) {
+    if (size <= size_) return;
+    const std::size_t wanted = size + size / 2;
+    std::unique_ptr<Value, Free> values(static_cast<Value*>(
+        ::operator new (wanted * sizeof(Value), std::align_val_t{kSimdAlignment})));
+    if (size_ > 0) std::memcpy(values.get(), values_.get(), size_ * sizeof(Value));
+    values_ = std::move(values);
+    size_ = wanted;
+  }
+  [[nodiscard]] Value* data() { return values_.get(); }
+  [[nodiscard]] const Value* data() const { return values_.get(); }
+  Value& operator[](std::size_t i) { return values_.get()[i]; }
+  const Value& operator[](std::size_t i) const { return values_.get()[i]; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  struct Free {
+    void operator()(Value* values) const {
+      ::operator delete (values, std::align_val_t{kSimdAlignment});
+    }
+  };
+  std::unique_ptr<Value, Free> values_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "methods/removert/map_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace raymoval::removert {
+namespace {
+
+constexpr double kBlockEdge = 0.8;  ///< Metres, at most (or one cell).
+constexpr int kGroupBits = 3;
+constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
+
+VoxelKey group_of(VoxelKey block) {
+  const VoxelIndex index = voxel_index(block);
+  return voxel_key(index.x() >> kGroupBits, index.y() >> kGroupBits, index.z() >> kGroupBits);
+}
+
+/// Blocks of a group are neighbours in this order.
+bool comes_first(VoxelKey a, VoxelKey b) {
+  const VoxelKey group_a = group_of(a), group_b = group_of(b);
+  return group_a != group_b ? group_a < group_b : a < b;
+}
+
+/// A little larger than it need be, so that rounding leaves no point outside.
+Ball ball_around(const Eigen::AlignedBox3d& box) {
+  return {box.center(), static_cast<float>(0.5 * box.diagonal().norm() * 1.0001 + 1e-5)};
+}
+
+Eigen::AlignedBox3d box_of(const MapPoints& points, const Block& block) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = block.begin; i < block.end; ++i) box.extend(points.position(block, i));
+  return box;
+}
+
+/// Opens a block like `model` at the end of `points`.
+void open_block(MapPoints& points, const Block& model) {
+  points.blocks.push_back({model.key, model.centre, points.size(), points.size(), {}});
+}
+
+/// Closes the block opened last; an empty one is dropped.
+void close_block(MapPoints& points) {
+  points.blocks.back().end = points.size();
+  if (points.blocks.back().begin == points.size()) points.blocks.pop_back();
+}
+
+}  // namespace
+
+void MapPoints::reserve(std::size_t points) {
+  for (auto* values : {&x, &y, &z}) values->reserve(points);
+  id.reserve(points);
+}
+
+void MapPoints::append(const MapPoints& from, std::size_t i) {
+  x.push_back(from.x[i]);
+  y.push_back(from.y[i]);
+  z.push_back(from.z[i]);
+  id.push_back(from.id[i]);
+}
+
+void MapPoints::close() {
+  groups.clear();
+  Eigen::AlignedBox3d group_box;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (b == 0 || group_of(blocks[b].key) != group_of(blocks[b - 1].key)) {
+      groups.push_back({b, b, {}});
+      group_box.setEmpty();
+    }
+    const Eigen::AlignedBox3d box = box_of(*this, blocks[b]);
+    blocks[b].ball = ball_around(box);
+    group_box.extend(box);
+    groups.back().end = b + 1;
+    groups.back().ball = ball_around(group_box);
+  }
+}
+
+MapPoints take_points(MapPoints& points, const std::vector<std::uint8_t>& taken) {
+  const auto left = std::count(taken.begin(), taken.end(), std::uint8_t{0});
+  const std::size_t count = taken.size() - static_cast<std::size_t>(left);
+  MapPoints out;
+  MapPoints kept;
+  out.reserve(count);
+  kept.reserve(points.size() - count);
+  for (const Block& block : points.blocks) {
+    open_block(out, block);
+    open_block(kept, block);
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      (taken[i] != 0 ? out : kept).append(points, i);
+    }
+    close_block(out);
+    close_block(kept);
+  }
+  out.close();
+  kept.close();
+  points = std::move(kept);
+  return out;
+}
+
+MapPoints united(const MapPoints& a, const MapPoints& b) {
+  MapPoints both;
+  both.reserve(a.size() + b.size());
+  const auto add_block = [&both](const MapPoints& from, const Block& block) {
+    if (both.blocks.empty() || both.blocks.back().key != block.key) open_block(both, block);
+    for (std::size_t i = block.begin; i < block.end; ++i) both.append(from, i);
+    both.blocks.back().end = both.size();
+  };
+  auto next_a = a.blocks.begin();
+  auto next_b = b.blocks.begin();
+  while (next_a != a.blocks.end() || next_b != b.blocks.end()) {
+    const bool from_a = next_b == b.blocks.end() ||
+                        (next_a != a.blocks.end() && !comes_first(next_b->key, next_a->key));
+    from_a ? add_block(a, *next_a++) : add_block(b, *next_b++);
+  }
+  both.close();
+  return both;
+}
+
+CellLattice::CellLattice(double voxel)
+    : merges_(voxel > 0.0), edge_(merges_ ? voxel : kBlockEdge), inverse_edge_(1.0 / edge_) {
+  while (edge_ * (2 << bits_) <= kBlockEdge * 1.0001) ++bits_;
+}
+
+CellLattice::Place CellLattice::place_of(const Eigen::Vector3d& world) const {
+  const VoxelIndex index = voxel_index(world, inverse_edge_);
+  const int mask = (1 << bits_) - 1;
+  const int cell =
+      ((index.z() & mask) << (2 * bits_)) | ((index.y() & mask) << bits_) | (index.x() & mask);
+  return {voxel_key(index.x() >> bits_, index.y() >> bits_, index.z() >> bits_),
+          static_cast<std::uint32_t>(cell), index};
+}
+
+VoxelIndex CellLattice::cell_index(VoxelKey block, std::uint32_t cell) const {
+  const int mask = (1 << bits_) - 1;
+  const int packed = static_cast<int>(cell);
+  return voxel_index(block) * (1 << bits_) +
+         VoxelIndex(packed & mask, (packed >> bits_) & mask, (packed >> (2 * bits_)) & mask);
+}
+
+Eigen::Vector3d CellLattice::cell_centre(const VoxelIndex& index) const {
+  return (index.cast<double>().array() + 0.5).matrix() * edge_;
+}
+
+Eigen::Vector3d CellLattice::block_centre(VoxelKey block) const {
+  const double cells = 1 << bits_;
+  return (voxel_index(block).cast<double>().array() + 0.5).matrix() * (edge_ * cells);
+}
+
+MapBuilder::MapBuilder(const CellLattice& lattice) : lattice_(lattice) {
+  if (lattice.merges()) slot_.assign(lattice.cells_per_block(), kNoSlot);
+}
+
+void MapBuilder::add(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_sensor,
+                     std::uint64_t first_number, int threads) {
+  if (!lattice_.merges() && first_number + points.size() >= kNoSlot) {
+    throw DataError("removert.map_voxel = 0 keeps every point, at most " + std::to_string(kNoSlot) +
+                    " of them; give a voxel size, such as 0.05, or fewer scans.");
+  }
+  std::vector<VoxelKey> keys(points.size());
+  std::vector<Entry> entries(points.size());
+  parallel_for(threads, points.size(), 8192, [&](std::size_t i) {
+    const Eigen::Vector3d world = T_world_sensor * points[i].cast<double>();
+    const CellLattice::Place place = lattice_.place_of(world);
+    keys[i] = place.block;
+    entries[i].id = lattice_.merges() ? place.cell : static_cast<std::uint32_t>(first_number + i);
+    entries[i].sum = (world - lattice_.cell_centre(place.index)).cast<float>();
+    entries[i].count = 1;
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) append(keys[i], entries[i]);
+}
+
+void MapBuilder::append(VoxelKey key, const Entry& entry) {
+  const auto [found, is_new] =
+      block_of_.try_emplace(key, static_cast<std::uint32_t>(blocks_.size()));
+  if (is_new) blocks_.push_back({key, {}, 0});
+  OpenBlock& block = blocks_[found->second];
+  block.entries.push_back(entry);
+  if (lattice_.merges() && block.entries.size() > block.merged + block.merged / 2 + 32) {
+    merge(block);
+  }
+}
+
+void MapBuilder::merge(OpenBlock& block) {
+  std::vector<Entry>& entries = block.entries;
+  for (std::size_t i = 0; i < block.merged; ++i) {
+    slot_[entries[i].id] = static_cast<std::uint32_t>(i);
+  }
+  for (std::size_t i = block.merged; i < entries.size(); ++i) {
+    std::uint32_t& slot = slot_[entries[i].id];
+    if (slot == kNoSlot) {
+      slot = static_cast<std::uint32_t>(block.merged);
+      entries[block.merged++] = entries[i];
+    } else {
+      entries[slot].sum += entries[i].sum;
+      entries[slot].count += entries[i].count;
+    }
+  }
+  entries.resize(block.merged);
+  for (const Entry& entry : entries) slot_[entry.id] = kNoSlot;
+}
+
+void MapBuilder::move_block(OpenBlock& from, MapPoints& to) const {
+  Block block;
+  block.key = from.key;
+  block.centre = lattice_.block_centre(from.key);
+  open_block(to, block);
+  std::sort(from.entries.begin(), from.entries.end(),
+            [](const Entry& a, const Entry& b) { return a.id < b.id; });
+  for (const Entry& entry : from.entries) {
+    const Eigen::Vector3d cell =
+        lattice_.cell_centre(lattice_.cell_index(from.key, lattice_.merges() ? entry.id : 0));
+    const Eigen::Vector3d offset =
+        cell - block.centre + entry.sum.cast<double>() / static_cast<double>(entry.count);
+    to.x.push_back(static_cast<float>(offset.x()));
+    to.y.push_back(static_cast<float>(offset.y()));
+    to.z.push_back(static_cast<float>(offset.z()));
+    to.id.push_back(entry.id);
+  }
+  close_block(to);
+  from.entries = {};
+}
+
+MapPoints MapBuilder::finish() {
+  if (lattice_.merges()) {
+    for (OpenBlock& block : blocks_) merge(block);
+  }
+  std::sort(blocks_.begin(), blocks_.end(),
+            [](const OpenBlock& a, const OpenBlock& b) { return comes_first(a.key, b.key); });
+  std::size_t count = 0;
+  for (const OpenBlock& block : blocks_) count += block.entries.size();
+  MapPoints points;
+  points.reserve(count);
+  for (OpenBlock& block : blocks_) move_block(block, points);
+  blocks_.clear();
+  block_of_.clear();
+  points.close();
+  return points;
+}
+
+}  // namespace raymoval::removert

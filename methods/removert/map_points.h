@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/scan.h"
+#include "core/voxel_key.h"
+
+namespace raymoval::removert {
+
+/// Ball around points, for leaving them out of a pass together.
+struct Ball {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< World frame, metres.
+  float radius = 0.0F;
+};
+
+/// Map points in a cube of the world lattice.
+struct Block {
+  VoxelKey key = 0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Of the cube, world frame, metres.
+  std::size_t begin = 0, end = 0;                    ///< Its points.
+  Ball ball;
+};
+
+/// 8 x 8 x 8 cubes.
+struct BlockGroup {
+  std::size_t begin = 0, end = 0;  ///< Its blocks.
+  Ball ball;
+};
+
+/// The map, as points relative to the centres of their blocks: 16 bytes a point. The order of the
+/// points is fixed by their place in the world.
+struct MapPoints {
+  std::vector<Block> blocks;
+  std::vector<BlockGroup> groups;
+  std::vector<float> x, y, z;     ///< Metres from the block's centre.
+  std::vector<std::uint32_t> id;  ///< Cell within the block, or number of the point in the input.
+
+  [[nodiscard]] std::size_t size() const { return id.size(); }
+  [[nodiscard]] Eigen::Vector3d position(const Block& block, std::size_t i) const {
+    return block.centre + Eigen::Vector3d(x[i], y[i], z[i]);
+  }
+  void reserve(std::size_t points);
+  void append(const MapPoints& from, std::size_t i);
+  /// Finds balls and groups, once all blocks are there in order.
+  void close();
+};
+
+/// Moves the points with `taken[i] != 0` out of `points`. @return the moved points
+MapPoints take_points(MapPoints& points, const std::vector<std::uint8_t>& taken);
+
+/// Points of `a` and `b`, two parts of one map, in the order of the map.
+MapPoints united(const MapPoints& a, const MapPoints& b);
+
+/// Cells of the map: cubes of `voxel` metres of the world lattice, in blocks of about 0.8 m.
+/// With voxel = 0 each point is its own.
+class CellLattice {
+ public:
+  explicit CellLattice(double voxel);
+
+  struct Place {
+    VoxelKey block;
+    std::uint32_t cell;  ///< Within the block; 0 if each point is its own.
+    VoxelIndex index;    ///< Of the cell in the world lattice.
+  };
+  /// @throws DataError beyond the lattice
+  [[nodiscard]] Place place_of(const Eigen::Vector3d& world) const;
+  [[nodiscard]] VoxelIndex cell_index(VoxelKey block, std::uint32_t cell) const;
+  [[nodiscard]] Eigen::Vector3d cell_centre(const VoxelIndex& index) const;
+  [[nodiscard]] Eigen::Vector3d block_centre(VoxelKey block) const;
+  [[nodiscard]] double voxel() const { return edge_; }
+  [[nodiscard]] bool merges() const { return merges_; }
+  [[nodiscard]] std::uint32_t cells_per_block() const { return 1U << (3 * bits_); }
+
+ private:
+  bool merges_;
+  double edge_, inverse_edge_;
+  int bits_ = 0;  ///< A block has 2^bits cells along an edge.
+};
+
+/// Collects points into the map: one centroid per cell (or each point). An entry takes 20 bytes; at
+/// most half as many again as there are cells, and 32 a block, wait to be merged.
+class MapBuilder {
+ public:
+  explicit MapBuilder(const CellLattice& lattice);
+  /// @param points sensor frame, metres
+  /// @param first_number number of the first point in the input
+  /// @throws DataError if the map has more points than can be numbered, or they are beyond the
+  /// lattice
+  void add(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_sensor,
+           std::uint64_t first_number, int threads);
+  /// The map; the builder is empty afterwards.
+  MapPoints finish();
+
+ private:
+  struct Entry {
+    std::uint32_t id;
+    Eigen::Vector3f sum;  ///< Of offsets from the cell's centre.
+    std::uint32_t count;
+  };
+  struct OpenBlock {
+    VoxelKey key;
+    std::vector<Entry> entries;
+    std::size_t merged = 0;  ///< The first so many entries are of different cells.
+  };
+  void append(VoxelKey block, const Entry& entry);
+  void merge(OpenBlock& block);
+  void move_block(OpenBlock& from, MapPoints& to) const;
+
+  const CellLattice& lattice_;
+  VoxelMap<std::uint32_t> block_of_;
+  std::vector<OpenBlock> blocks_;
+  std::vector<std::uint32_t> slot_;  ///< Scratch: place of a cell's entry, by cell.
+};
+
+}  // namespace raymoval::removert

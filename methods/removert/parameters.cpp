@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "methods/removert/parameters.h"
+
+#include "methods/removert/removert.h"
+
+namespace raymoval {
+namespace {
+
+using Table = ParameterTable<RemovertParameters>;
+using P = RemovertParameters;
+constexpr const char* kOurs = "not in the paper";
+constexpr const char* kCode = "public code";
+constexpr const char* kList = "KITTI settings of the ROS-free port";
+constexpr const char* kRevertList = "paper, RM3+RV1 (0.55 deg, unverified)";
+constexpr const char* kUnit = "px/deg";
+
+void add_passes(Table& table) {
+  table
+      .number("remove_resolution_1", &P::remove_resolution_1,
+              {kUnit, 0, 20, kList, "Pixels per degree of the first remove pass; 0: no pass."})
+      .number("remove_resolution_2", &P::remove_resolution_2,
+              {kUnit, 0, 20, kList, "Of the second remove pass; usually coarser than the first."})
+      .number("remove_resolution_3", &P::remove_resolution_3,
+              {kUnit, 0, 20, kList, "Of the third remove pass."})
+      .number("remove_resolution_4", &P::remove_resolution_4,
+              {kUnit, 0, 20, kOurs, "Of a fourth remove pass."})
+      .number("revert_resolution_1", &P::revert_resolution_1,
+              {kUnit, 0, 20, kRevertList,
+               "Pixels per degree of the first revert pass, below the last remove pass's; 0: no "
+               "pass. Smaller: more points come back."})
+      .number("revert_resolution_2", &P::revert_resolution_2,
+              {kUnit, 0, 20, kCode, "Of a second revert pass."})
+      .number("revert_resolution_3", &P::revert_resolution_3,
+              {kUnit, 0, 20, kCode, "Of a third revert pass."})
+      .number("revert_resolution_4", &P::revert_resolution_4,
+              {kUnit, 0, 20, kCode, "Of a fourth revert pass."});
+}
+
+void add_test(Table& table) {
+  table
+      .number("gamma", &P::gamma,
+              {"", 0, 0.99, kCode,
+               "A map point is dynamic if it is nearer than the scan's return by more than this "
+               "share of the return's range."})
+      .number("tau_abs", &P::tau_abs,
+              {"m", 0, 100, "lt-mapper (0.1, instead of gamma)", "Least value of that margin."})
+      .number("diff_upper", &P::diff_upper,
+              {"m", 0, 9999, kCode, "Differences from this on are not believed."})
+      .choice("difference", &P::difference,
+              {{"signed", DifferenceRule::kSigned}, {"absolute", DifferenceRule::kAbsolute}},
+              {.source = "lt-mapper (signed), public code (absolute)",
+               .sentence = "Whether map points behind the scan's return are dynamic too "
+                           "(absolute)."});
+}
+
+void add_image(Table& table) {
+  table
+      .number("vertical_fov", &P::vertical_fov,
+              {"deg", 1, 180, kCode, "Height of the images, half of it above the horizon."})
+      .number("horizontal_fov", &P::horizontal_fov,
+              {"deg", 1, 360, kCode, "Width of the images, half of it to the left."})
+      .flag("clamp_fov", &P::clamp_fov,
+            {.source = kCode,
+             .sentence = "Put points outside the field of view into the border pixels instead of "
+                         "leaving them out."})
+      .flag("wrap_azimuth", &P::wrap_azimuth,
+            {.source = kOurs,
+             .sentence = "In a full circle, join the half column right of -180 deg and the one "
+                         "left of +180 deg."})
+      .flag("world_axes", &P::world_axes,
+            {.source = "ROS-free port",
+             .sentence = "Images along the world's axes instead of the sensor's."});
+}
+
+void add_decision(Table& table) {
+  table
+      .choice("decision", &P::decision,
+              {{"any", DecisionRule::kAny}, {"score", DecisionRule::kScore}},
+              {.source = "public code (any), its design note (score)",
+               .sentence = "Whether one scan removes a map point, or weighed counts of scans do."})
+      .number("static_weight", &P::static_weight,
+              {"", 0, 100, "design note, alpha_SM", "Weight of a scan that sees the point."})
+      .number("dynamic_weight", &P::dynamic_weight,
+              {"", 0, 100, "design note, alpha_DM", "Weight of a scan that sees through it."})
+      .number("static_score", &P::static_score,
+              {"", -1e6, 1e6, "design note, tau_S",
+               "A point with a smaller score is dynamic (decision = score)."})
+      .flag("update_between_passes", &P::update_between_passes,
+            {.source = kCode,
+             .sentence = "Take flagged points out of the map before the next pass, so that it sees "
+                         "what they hid; the ROS-free port does not."})
+      .flag("revert_needs_view", &P::revert_needs_view,
+            {.source = kOurs,
+             .sentence = "Restore only points that a scan sees as the nearest in their pixel."});
+}
+
+void add_data(Table& table) {
+  table
+      .number("map_voxel", &P::map_voxel,
+              {"m", 0, 2, kCode,
+               "Edge of the cells whose centroids are the map, at least 0.01; 0 keeps every point "
+               "and with it memory for the whole input."})
+      .number("scan_voxel", &P::scan_voxel,
+              {"m", 0, 2, "public code (0.05, without effect on large scans)",
+               "Edge of the cells whose centroids stand for a scan; 0 keeps its points."})
+      .integer("keyframe_gap", &P::keyframe_gap,
+               {"scans", 1, 1000, "public code (5)", "Every so many scans are used."})
+      .integer("batch_scans", &P::batch_scans,
+               {"scans", 0, 1000000, "public code (advice: below 100)",
+                "Scans cleaned together, with a map of their own; 0: all."})
+      .flag("scan_side", &P::scan_side,
+            {.source = "public code, not in the paper",
+             .sentence = "Answer by distances to neighbours in the static map and in the scan "
+                         "instead of by membership in a removed cell."})
+      .integer("scan_side_neighbours", &P::scan_side_neighbours,
+               {"points", 1, 100, kCode, "Neighbours k of the scan-side step, the point included."})
+      .number(
+          "scan_side_threshold", &P::scan_side_threshold,
+          {"m^2", 0, 100, kCode, "Static if the mean square distances differ by less than this."});
+}
+
+/// Everything the public code and its port share.
+Configuration code_preset() {
+  return {{"difference", std::string("absolute")}, {"clamp_fov", true}, {"wrap_azimuth", false}};
+}
+
+Configuration with(Configuration base, const Configuration& more) {
+  base.insert(base.end(), more.begin(), more.end());
+  return base;
+}
+
+/// The first is what the bare name means.
+std::vector<MethodVariant> variants() {
+  const Configuration code = code_preset();
+  return {
+      {"rm3", "Three remove passes.", false, {}},
+      {"rm3-rv1",
+       "Three remove passes and one revert pass (RM3+RV1; a '+' cannot name a result).",
+       false,
+       {{"revert_resolution_1", 1.8182}}},
+      {"code", "As the public code answers, its faults included.", false,
+       with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
+      {"port",
+       "As the ROS-free port answers, which tests the same map in every pass (its images along the "
+       "world's axes are an option).",
+       false, with(code, {{"update_between_passes", false}})},
+  };
+}
+
+std::vector<double> positive(std::initializer_list<double> resolutions) {
+  std::vector<double> kept;
+  for (const double resolution : resolutions) {
+    if (resolution > 0.0) kept.push_back(resolution);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<double> RemovertParameters::remove_resolutions() const {
+  return positive(
+      {remove_resolution_1, remove_resolution_2, remove_resolution_3, remove_resolution_4});
+}
+
+std::vector<double> RemovertParameters::revert_resolutions() const {
+  return positive(
+      {revert_resolution_1, revert_resolution_2, revert_resolution_3, revert_resolution_4});
+}
+
+const ParameterTable<RemovertParameters>& removert_parameter_table() {
+  static const Table table = [] {
+    Table t;
+    add_passes(t);
+    add_test(t);
+    add_image(t);
+    add_decision(t);
+    add_data(t);
+    return t;
+  }();
+  return table;
+}
+
+MethodEntry removert_entry() {
+  MethodEntry entry;
+  entry.name = "removert";
+  entry.sentence =
+      "Multiresolution range images: removes map points that a scan sees through, then brings back "
+      "those that coarser pixels do not confirm.";
+  entry.source =
+      "Kim and Kim, Remove, then Revert: Static Point cloud Map Construction using "
+      "Multiresolution Range Images, IROS 2020";
+  entry.notes = {
+      "Written from a description of the method; nothing of the public code is in it.",
+      "The difference is signed, as in the author's later lt-mapper; the public code takes its "
+      "absolute value and so also removes what stands behind a return.",
+      "Points outside the vertical field of view are in no pixel; the public code puts them into "
+      "the border rows.",
+      "The public code's revert is empty; here, as in lt-mapper, the removed points alone are "
+      "compared with all scans at coarser pixels and come back unless flagged, with the same "
+      "relative margin as in the remove passes.",
+      "RM3's resolutions are those of the ROS-free port, which names them the published "
+      "comparison's; RV1's 0.55 degrees is unverified.",
+      "A single scan removes a map point; the vote of the design note is an option.",
+      "The map's cells lie on the lattice at the world's origin, and a point is removed iff its "
+      "cell is; the public code's lattice depends on the cloud, and its points ask the nearest "
+      "neighbour.",
+      "Scans are not thinned: the public code's filter returns its input on scans of this size.",
+      "No KD-tree ball and no empty-pixel value: every map point is compared, and an empty pixel "
+      "is empty.",
+  };
+  entry.parameters = removert_parameter_table().specs();
+  entry.variants = variants();
+  entry.make = [](const Configuration& configuration) {
+    return make_removert(removert_parameter_table().read(configuration));
+  };
+  return entry;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// "Remove, then Revert: Static Point cloud Map Construction using Multiresolution Range Images",
+// Kim and Kim, IROS 2020. What is decided on what evidence stands in README.md.
+#include "methods/removert/removert.h"
+
+#include <string>
+
+#include "core/parallel.h"
+#include "methods/removert/answer.h"
+#include "methods/removert/map_points.h"
+#include "methods/removert/scan_image.h"
+#include "methods/removert/visibility.h"
+
+namespace raymoval {
+namespace {
+
+using namespace removert;
+
+/// Centroids of the scan's points in cubes of `voxel` metres of the sensor frame, in order of first
+/// appearance; the points themselves for 0.
+std::vector<Eigen::Vector3f> thinned(std::vector<Eigen::Vector3f> points, double voxel) {
+  if (voxel <= 0.0) return points;
+  VoxelMap<std::size_t> place_of;
+  std::vector<Eigen::Vector3d> sums;
+  std::vector<double> counts;
+  for (const Eigen::Vector3f& point : points) {
+    const VoxelKey key = voxel_key(voxel_index(point.cast<double>(), 1.0 / voxel));
+    const auto [found, is_new] = place_of.try_emplace(key, sums.size());
+    if (is_new) {
+      sums.emplace_back(Eigen::Vector3d::Zero());
+      counts.push_back(0.0);
+    }
+    sums[found->second] += point.cast<double>();
+    counts[found->second] += 1.0;
+  }
+  points.clear();
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    points.emplace_back((sums[i] / counts[i]).cast<float>());
+  }
+  return points;
+}
+
+/// Remove, then revert, for scans [begin, end) of the input.
+class RemovertBatch {
+ public:
+  RemovertBatch(const RemovertParameters& parameters, const ScanSource& scans, std::size_t begin,
+                std::size_t end, const RunContext& context)
+      : parameters_(parameters),
+        scans_(scans),
+        begin_(begin),
+        end_(end),
+        context_(context),
+        lattice_(parameters.map_voxel),
+        first_number_(end - begin + 1, 0) {}
+
+  void run(RemovalSink& sink) {
+    MapPoints map = collect_map();
+    MapPoints removed = remove(map);
+    revert(map, removed);
+    answer(map, removed, sink);
+  }
+
+ private:
+  [[nodiscard]] std::size_t keyframes() const {
+    const auto gap = static_cast<std::size_t>(parameters_.keyframe_gap);
+    return (end_ - begin_ + gap - 1) / gap;
+  }
+  [[nodiscard]] std::size_t keyframe(std::size_t i) const {
+    return begin_ + i * static_cast<std::size_t>(parameters_.keyframe_gap);
+  }
+
+  /// The merged and thinned scans. The map is collected once.
+  MapPoints collect_map() {
+    context_.begin_pass("removert, map", keyframes());
+    MapBuilder builder(lattice_);
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < keyframes(); ++i) {
+      context_.check_cancelled();
+      const Scan scan = scans_.load(keyframe(i));
+      const ScanScope timed(context_.times, scan.index);
+      const StageScope stage(context_.times, "map");
+      first_number_[keyframe(i) - begin_] = number;
+      builder.add(thinned(scan.points, parameters_.scan_voxel), scan.T_world_sensor, number,
+                  context_.threads);
+      number += scan.size();
+      context_.advance();
+    }
+    const StageScope stage(context_.times, "map");
+    return builder.finish();
+  }
+
+  /// One pass per resolution, fine to coarse. @return what was taken out of `map`
+  MapPoints remove(MapPoints& map) {
+    const bool needs_all = parameters_.difference == DifferenceRule::kAbsolute ||
+                           parameters_.decision == DecisionRule::kScore;
+    const Candidates candidates = needs_all ? Candidates::kAll : Candidates::kInFront;
+    MapPoints removed;
+    std::vector<std::uint8_t> flagged(map.size(), 0);
+    for (const double resolution : parameters_.remove_resolutions()) {
+      flag_dynamic(map, resolution, candidates, flagged);
+      if (!parameters_.update_between_passes) continue;
+      removed = united(removed, take_points(map, flagged));
+      flagged.assign(map.size(), 0);
+    }
+    if (!parameters_.update_between_passes) removed = take_points(map, flagged);
+    return removed;
+  }
+
+  /// Compares the removed points alone with all scans; those not flagged go back to `map`.
+  void revert(MapPoints& map, MapPoints& removed) {
+    const bool needs_all = parameters_.revert_needs_view ||
+                           parameters_.decision == DecisionRule::kScore ||
+                           parameters_.difference == DifferenceRule::kAbsolute;
+    const Candidates candidates = needs_all ? Candidates::kAll : Candidates::kInFront;
+    for (const double resolution : parameters_.revert_resolutions()) {
+      const Votes votes = compare(removed, resolution, candidates);
+      std::vector<std::uint8_t> restored(removed.size(), 0);
+      for (std::size_t i = 0; i < restored.size(); ++i) {
+        const bool unseen = parameters_.revert_needs_view && votes.still[i] == 0;
+        restored[i] = !unseen && !is_dynamic(votes, i) ? 1 : 0;
+      }
+      map = united(map, take_points(removed, restored));
+    }
+  }
+
+  void flag_dynamic(const MapPoints& map, double resolution, Candidates candidates,
+                    std::vector<std::uint8_t>& flagged) {
+    const Votes votes = compare(map, resolution, candidates);
+    for (std::size_t i = 0; i < flagged.size(); ++i) {
+      if (is_dynamic(votes, i)) flagged[i] = 1;
+    }
+  }
+
+  [[nodiscard]] bool is_dynamic(const Votes& votes, std::size_t i) const {
+    if (parameters_.decision == DecisionRule::kAny) return votes.dynamic[i] > 0;
+    return parameters_.static_weight * votes.still[i] -
+               parameters_.dynamic_weight * votes.dynamic[i] <
+           parameters_.static_score;
+  }
+
+  /// Votes of all scans on `map`, which stays as it is meanwhile.
+  Votes compare(const MapPoints& map, double resolution, Candidates candidates) {
+    const PixelGrid grid(parameters_, resolution);
+    VisibilityPass pass(map, parameters_, candidates);
+    context_.begin_pass("removert, range images", keyframes());
+    parallel_for(context_.threads, keyframes(), 1, [&](std::size_t i) {
+      context_.check_cancelled();
+      const Scan scan = scans_.load(keyframe(i));
+      const ScanScope timed(context_.times, scan.index);
+      const ScanImage image = image_of(scan, grid, candidates);
+      const StageScope stage(context_.times, "visibility");
+      pass.show(image, T_image_world(scan));
+      context_.advance();
+    });
+    return pass.votes();
+  }
+
+  [[nodiscard]] ScanImage image_of(const Scan& scan, const PixelGrid& grid,
+                                   Candidates candidates) const {
+    const StageScope stage(context_.times, "scan image");
+    return {thinned(points_in_image_axes(scan, parameters_.world_axes), parameters_.scan_voxel),
+            grid, parameters_, candidates};
+  }
+
+  [[nodiscard]] Pose T_image_world(const Scan& scan) const {
+    if (!parameters_.world_axes) return scan.T_world_sensor.inverse();
+    Pose shift = Pose::Identity();
+    shift.translation() = -scan.T_world_sensor.translation();
+    return shift;
+  }
+
+  void answer(const MapPoints& map, const MapPoints& removed, RemovalSink& sink) {
+    const bool all_points_in_map = parameters_.keyframe_gap == 1 && parameters_.scan_voxel == 0.0;
+    std::unique_ptr<Answer> answer;
+    {
+      const StageScope stage(context_.times, "answer");
+      answer = parameters_.scan_side ? answer_by_neighbours(map, parameters_)
+                                     : answer_by_cell(lattice_, map, removed, all_points_in_map);
+    }
+    context_.begin_pass("removert, answers", end_ - begin_);
+    parallel_for(context_.threads, end_ - begin_, 1, [&](std::size_t i) {
+      context_.check_cancelled();
+      const Scan scan = scans_.load(begin_ + i);
+      const ScanScope timed(context_.times, scan.index);
+      const StageScope stage(context_.times, "answer");
+      sink.accept(begin_ + i, answer->of(scan, first_number_[i]));
+      context_.advance();
+    });
+  }
+
+  const RemovertParameters& parameters_;
+  const ScanSource& scans_;
+  std::size_t begin_, end_;
+  const RunContext& context_;
+  CellLattice lattice_;
+  std::vector<std::uint64_t> first_number_;  ///< Of each scan's first point, if all are in the map.
+};
+
+class RemovertRemover : public Remover {
+ public:
+  explicit RemovertRemover(const RemovertParameters& parameters) : parameters_(parameters) {}
+
+  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    const std::size_t batch = parameters_.batch_scans == 0
+                                  ? scans.size()
+                                  : static_cast<std::size_t>(parameters_.batch_scans);
+    for (std::size_t begin = 0; begin < scans.size(); begin += batch) {
+      RemovertBatch(parameters_, scans, begin, std::min(begin + batch, scans.size()), context)
+          .run(sink);
+    }
+  }
+
+ private:
+  RemovertParameters parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Remover> make_removert(const RemovertParameters& parameters) {
+  if (parameters.map_voxel > 0.0 && parameters.map_voxel < 0.01) {
+    throw ConfigurationError(
+        "removert.map_voxel is below 0.01 m; give 0 to keep every point, or at least 0.01.");
+  }
+  if (parameters.map_voxel == 0.0 && (parameters.keyframe_gap > 1 || parameters.scan_voxel > 0.0)) {
+    throw ConfigurationError(
+        "removert.map_voxel = 0 answers for the points of the map only; points left out by "
+        "keyframe_gap or scan_voxel need a voxel size, such as 0.05.");
+  }
+  return std::make_unique<RemovertRemover>(parameters);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "methods/removert/map_points.h"
+#include "methods/removert/scan_image.h"
+
+namespace raymoval::removert {
+
+/// What the scans of a pass say of each map point; counts of scans.
+struct Votes {
+  std::vector<std::uint32_t> dynamic;  ///< n_DM: nearest in its pixel and dynamic there.
+  std::vector<std::uint32_t> still;    ///< n_SM: nearest where the scan has a return, not dynamic.
+};
+
+/// Compares a frozen map with scans, one range image each. The votes are the same in whatever order
+/// and from however many threads scans are shown.
+///
+/// Map points are sorted out by bounds on blocks of them and in single precision; what is left is
+/// decided in double precision, so that the answer is that of projecting every map point.
+class VisibilityPass {
+ public:
+  VisibilityPass(const MapPoints& map, const RemovertParameters& parameters, Candidates candidates);
+
+  /// Votes of one scan. Thread-safe.
+  /// @param image made with the candidates of this pass
+  void show(const ScanImage& image, const Pose& T_image_world);
+
+  [[nodiscard]] const Votes& votes() const { return votes_; }
+
+ private:
+  struct Nearest {
+    double range;
+    std::size_t point;
+  };
+  /// Range image of the map (I_M), only where something was found.
+  struct Image {
+    std::vector<Nearest> pixels;
+    std::vector<int> touched;
+  };
+  struct View;
+
+  [[nodiscard]] std::vector<std::size_t> order_of_groups(const Pose& T_image_world) const;
+  void look_at_block(const View& view, const Block& block, float limit, Image& image) const;
+  static void take_if_nearest(const View& view, const Eigen::Vector3d& point, std::size_t id,
+                              Image& image);
+  void vote(const ScanImage& scan, Image& image);
+  [[nodiscard]] std::unique_ptr<Image> borrow_image(int pixels);
+  void give_back(std::unique_ptr<Image> image);
+
+  const MapPoints& map_;
+  const RemovertParameters& parameters_;
+  Candidates candidates_;
+  Votes votes_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Image>> idle_images_;
+};
+
+}  // namespace raymoval::removert

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Times the kernels of the raymoval method and the designs they replace, in one process.
+#
+#   scripts/benchmark.sh [--out DIR]                 results go to DIR (default: results/run-kernels)
+#   RAYMOVAL_DATA=DIR scripts/benchmark.sh           also on your own sequence, see
+#                                                    `raymoval list sequences`
+#
+# Writes kernels.json (images and scans: repetitions in random order), maps.json (maps by size: one
+# size after the other, since only one such map is held at a time) and kernels.md, the table of
+# medians.
+set -euo pipefail
+caller=$PWD
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+fail() {
+  echo "benchmark.sh: $1" >&2
+  exit 2
+}
+
+# Paths are meant from where the script was called.
+from_caller() {
+  if [[ $1 == /* ]]; then echo "$1"; else echo "$caller/$1"; fi
+}
+
+out=results/run-kernels
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --out)
+      [[ $# -ge 2 && -n $2 ]] || fail "--out needs a folder: scripts/benchmark.sh --out DIR"
+      out=$(from_caller "$2")
+      shift 2
+      ;;
+    -h | --help)
+      sed -n '3,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+      exit 0
+      ;;
+    *) fail "unknown argument '$1'; usage: scripts/benchmark.sh [--out DIR]" ;;
+  esac
+done
+
+if [[ -n ${RAYMOVAL_DATA:-} ]]; then
+  if [[ -e $(from_caller "${RAYMOVAL_DATA%%:*}") ]]; then
+    RAYMOVAL_DATA=$(from_caller "$RAYMOVAL_DATA")
+    export RAYMOVAL_DATA
+  fi
+else
+  echo "benchmark.sh: RAYMOVAL_DATA is not set: only the simulated sequence is used."
+fi
+mkdir -p "$out" || fail "cannot make the folder $out"
+
+cmake --preset release -DRAYMOVAL_BUILD_KERNELS=ON >"$out/build.log" 2>&1 &&
+  cmake --build --preset release --target raymoval_kernels >>"$out/build.log" 2>&1 ||
+  fail "the build failed, see $out/build.log (scripts/install_dependencies.sh installs what is needed)"
+
+kernels=build/release/raymoval_kernels
+# run NAME FLAGS...: one run into NAME.json; half a file never stands under that name.
+run() {
+  local name=$1
+  shift
+  rm -f "$out/$name.json"
+  "$kernels" --benchmark_out="$out/$name.part" --benchmark_out_format=json \
+    --benchmark_repetitions=5 "$@" || fail "the run for $name.json failed, see above"
+  # Google Benchmark writes undefined aggregates as NaN, which is no JSON.
+  sed -E 's/: -?(NaN|nan|inf|Infinity)(,?)$/: null\2/' "$out/$name.part" >"$out/$name.json"
+  rm "$out/$name.part"
+}
+run kernels --benchmark_filter='-^map_' --benchmark_min_time=0.1 \
+  --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=false
+run maps --benchmark_filter='^map_'
+
+"$kernels" --table "$out/kernels.json" "$out/maps.json" >"$out/kernels.md.part"
+mv "$out/kernels.md.part" "$out/kernels.md"
+cat "$out/kernels.md"
+echo
+echo "benchmark.sh: wrote $out/kernels.json, $out/maps.json and $out/kernels.md"

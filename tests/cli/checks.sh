@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+# For the tests of the program: source it with the program's path in $raymoval.
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+checks=0
+failures=0
+
+complain() {
+  failures=$((failures + 1))
+  echo "FAILED: $1"
+  sed 's/^/  out: /' out.txt | head -5
+  sed 's/^/  err: /' err.txt | head -5
+}
+
+# expect CODE TEXT ARGUMENTS...: the exit code, and TEXT somewhere in what was printed.
+expect() {
+  local code=$1 text=$2 got
+  shift 2
+  checks=$((checks + 1))
+  "$raymoval" "$@" >out.txt 2>err.txt
+  got=$?
+  if [[ $got -ne $code ]]; then
+    complain "raymoval $*: exit code $got, expected $code"
+  elif [[ -n $text ]] && ! cat out.txt err.txt | grep -qF -- "$text"; then
+    complain "raymoval $*: does not say '$text'"
+  elif [[ $code -ne 0 ]] && ! grep -q '^raymoval: ' err.txt; then
+    complain "raymoval $*: no 'raymoval: message' on standard error"
+  fi
+}
+
+# holds NAME COMMAND...: any other condition.
+holds() {
+  checks=$((checks + 1))
+  "${@:2}" >out.txt 2>err.txt || complain "$1"
+}
+
+# same_but_times DIR DIR: the same files, but for what differs from run to run.
+same_but_times() {
+  diff <(without_times "$1") <(without_times "$2")
+}
+
+# without_times DIR: names and contents of the files, without what is measured.
+without_times() {
+  (cd "$1" && find . -type f | sort | while read -r file; do
+    echo "== $file"
+    case $file in
+      *.json) awk '/"checksum"/ { next }
+                   /"measured": \{/ { match($0, /^ */); indent = RLENGTH; skip = 1; next }
+                   skip && /^ *\}/ { match($0, /^ */); if (RLENGTH == indent) { skip = 0; next } }
+                   !skip' "$file" ;;
+      *.csv) sed -E 's/,[^,]*,[^,]*(,[^,]*)$/\1/' "$file" ;;
+      *.md | *.tex) sed -E '/Time of/,$d
+        /Sweep of/,/Each row/ { s/ +/ /g; s/-+/-/g; s/ [0-9.]+ (\||\\\\)$/ TIME/ }' "$file" ;;
+      *) cksum <"$file" ;;
+    esac
+  done)
+}
+
+finish() {
+  echo "$1: $((checks - failures)) of $checks checks hold"
+  [[ $failures -eq 0 ]]
+}

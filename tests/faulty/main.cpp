@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The program with methods that do what methods must not do, to see that a run survives them. It
+// is also an example of a program with methods of its own.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+#include "benchmark/command_line.h"
+#include "methods/controls/controls.h"
+
+namespace {
+
+using raymoval::Scan;
+
+using Deed = std::function<void()>;
+
+/// Does its deed at the second scan, and else keeps every second point.
+class Faulty : public raymoval::Remover {
+ public:
+  Faulty(Deed deed, double milliseconds) : deed_(std::move(deed)), pause_(milliseconds * 1e-3) {}
+
+  void run(const raymoval::ScanSource& scans, raymoval::RemovalSink& sink,
+           const raymoval::RunContext& context) override {
+    context.begin_pass("combing", scans.size());
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (i == 1) deed_();
+      std::this_thread::sleep_for(pause_);
+      raymoval::Mask mask(scans.load(i).size(), 0);
+      for (std::size_t k = 0; k < mask.size(); k += 2) mask[k] = 1;
+      sink.accept(i, mask);
+      context.advance();
+    }
+  }
+
+ private:
+  Deed deed_;
+  std::chrono::duration<double> pause_;
+};
+
+void leak() {
+  std::fputs("about to leak\n", stderr);
+  for (;;) {
+    auto* block = new std::vector<char>(8 << 20, 'x');
+    std::this_thread::sleep_for(std::chrono::milliseconds(block->size() > 1 ? 2 : 0));
+  }
+}
+
+/// Leaves the work to a child that leaks, as a method in another language would.
+void leak_in_child() {
+  if (::fork() == 0) leak();
+  ::pause();
+}
+
+void hang() {
+  ::fork();  // What it starts hangs too.
+  for (;;) ::pause();
+}
+
+/// Starts a program that leaves its session.
+void stray() {
+  if (::fork() == 0) ::setsid();
+  for (;;) ::pause();
+}
+
+void crash() {
+  std::puts("the last words");
+  std::fflush(stdout);
+  std::signal(SIGSEGV, SIG_DFL);  // A sanitizer would catch it.
+  std::raise(SIGSEGV);
+}
+
+void chatter() {
+  for (int i = 0; i < 100000; ++i) std::fprintf(stderr, "line %d\n", i);
+  std::abort();
+}
+
+/// Another answer in every process.
+class Unsteady : public raymoval::Remover {
+ public:
+  void run(const raymoval::ScanSource& scans, raymoval::RemovalSink& sink,
+           const raymoval::RunContext&) override {
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      raymoval::Mask mask(scans.load(i).size(), 0);
+      mask[static_cast<std::size_t>(::getpid()) % mask.size()] = 1;
+      sink.accept(i, mask);
+    }
+  }
+};
+
+raymoval::MethodEntry entry_of(const std::string& name, const Deed& deed) {
+  raymoval::MethodEntry entry = raymoval::noop_entry();
+  entry.name = name;
+  // Raised by a test, to see that results of an older version are not used.
+  if (const char* version = std::getenv("FAULTY_VERSION")) entry.version = version;
+  entry.parameters = {{"milliseconds", 0.0, {.minimum = 0.0, .maximum = 1000.0}, {}}};
+  entry.make = [deed](const raymoval::Configuration& values) {
+    return std::make_unique<Faulty>(deed, std::get<double>(values.front().second));
+  };
+  return entry;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  raymoval::MethodRegistry methods;
+  methods.add(raymoval::noop_entry());
+  methods.add(raymoval::remove_all_entry());
+  methods.add(raymoval::oracle_entry());
+  methods.add(entry_of("comb", [] {}));
+  methods.add(entry_of("comb2", [] {}));
+  methods.add(entry_of("crash", crash));
+  methods.add(entry_of("abort", chatter));
+  methods.add(entry_of("quit", [] { std::exit(0); }));
+  methods.add(entry_of("quit7", [] { std::_Exit(7); }));
+  methods.add(entry_of("hang", hang));
+  methods.add(entry_of("stray", stray));
+  methods.add(entry_of("leak", leak));
+  methods.add(entry_of("leak-child", leak_in_child));
+  methods.add(entry_of("killed", [] { std::raise(SIGKILL); }));
+  methods.add(entry_of("throw", [] { throw std::runtime_error("no idea"); }));
+  raymoval::MethodEntry unsteady = entry_of("unsteady", [] {});
+  unsteady.make = [](const raymoval::Configuration&) { return std::make_unique<Unsteady>(); };
+  methods.add(unsteady);
+  return raymoval::run_command_line(argc, argv, methods);
+}

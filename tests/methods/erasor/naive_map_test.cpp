@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "methods/erasor/naive_map.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace raymoval;
+
+namespace {
+
+constexpr double kVoxel = 0.2;
+
+VoxelKey key_of(const Eigen::Vector3d& point) {
+  return voxel_key(voxel_index(point, 1 / kVoxel));
+}
+
+void add_scan(NaiveMapBuilder& builder, const std::vector<Eigen::Vector3d>& points) {
+  std::vector<VoxelKey> keys;
+  for (const Eigen::Vector3d& point : points) keys.push_back(key_of(point));
+  builder.add(keys, points);
+}
+
+}  // namespace
+
+TEST_CASE("a voxel's point is the mean of the scans' means", "[erasor]") {
+  NaiveMapBuilder builder;
+  // Three points at x = 0.01 in one scan, one at 0.05 in the next: mean 0.03, not 0.02.
+  add_scan(builder, {{0.01, 0.1, 0.1}, {0.01, 0.1, 0.1}, {5.1, 0.1, 0.1}, {0.01, 0.1, 0.1}});
+  add_scan(builder, {{0.05, 0.1, 0.1}});
+  const NaiveMap map = builder.finish();
+  REQUIRE(map.size() == 2);
+  const bool first = map.point(0).x() < 1.0;
+  CHECK(map.point(first ? 0 : 1).x() == Approx(0.03));
+  CHECK(map.point(first ? 1 : 0).x() == Approx(5.1));
+}
+
+TEST_CASE("points without a voxel are left out", "[erasor]") {
+  NaiveMapBuilder builder;
+  builder.add({NaiveMapBuilder::kNoVoxel, key_of({1, 1, 1})}, {{9, 9, 9}, {1, 1, 1}});
+  CHECK(builder.finish().size() == 1);
+  CHECK(NaiveMapBuilder{}.finish().size() == 0);
+}
+
+TEST_CASE("voxels go out and come back", "[erasor]") {
+  NaiveMapBuilder builder;
+  add_scan(builder, {{0.1, 0.1, 0.1}, {0.3, 0.1, 0.1}});
+  NaiveMap map = builder.finish();
+  const VoxelKey key = key_of(map.point(1));
+  CHECK(map.is_in(1));
+  CHECK_FALSE(map.is_out(key));
+  map.take_out(1);
+  CHECK_FALSE(map.is_in(1));
+  CHECK(map.is_out(key));
+  CHECK(map.is_in(0));
+  map.put_back(key_of({7, 7, 7}));  // Nothing there: no effect.
+  CHECK_FALSE(map.is_in(1));
+  map.put_back(key);
+  map.put_back(key);
+  CHECK(map.is_in(1));
+  CHECK_FALSE(map.is_out(key));
+}
+
+TEST_CASE("the tiles around a pose hold every voxel within the radius, once", "[erasor]") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-60.0, 60.0);
+  NaiveMapBuilder builder;
+  std::vector<Eigen::Vector3d> points(5000);
+  for (Eigen::Vector3d& point : points) point = {place(random), place(random), place(random) / 20};
+  add_scan(builder, points);
+  const NaiveMap map = builder.finish();
+  for (int round = 0; round < 50; ++round) {
+    const double x = place(random), y = place(random), radius = 1.0 + std::abs(place(random)) / 2;
+    std::vector<int> seen(map.size(), 0);
+    for (const NaiveMap::Tile& tile : map.tiles_around(x, y, radius)) {
+      for (VoxelNumber v = tile.begin; v < tile.end; ++v) ++seen[v];
+    }
+    int twice = 0, missed = 0, far = 0;
+    for (VoxelNumber v = 0; v < map.size(); ++v) {
+      const double distance = std::hypot(map.point(v).x() - x, map.point(v).y() - y);
+      twice += seen[v] > 1 ? 1 : 0;
+      missed += distance < radius && seen[v] == 0 ? 1 : 0;
+      far += distance > radius + 7.08 && seen[v] != 0 ? 1 : 0;  // A tile's diagonal is 7.07 m.
+    }
+    CHECK(twice == 0);
+    CHECK(missed == 0);
+    CHECK(far == 0);
+  }
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "methods/erasor/polar_bins.h"
+
+#include <catch2/catch.hpp>
+
+#include "methods/erasor/scan_ratio_test.h"
+#include "tests/methods/erasor/scenes.h"
+
+using namespace raymoval;
+
+namespace {
+
+/// Extent of the bin that holds what lies on a radial grade of 15 % from 4.05 m to `end`.
+BinExtent grade_extent(double end, double object_height) {
+  BinExtent extent;
+  for (double r = 4.05; r < end; r += 0.01) extent.add(0.15 * r);
+  if (object_height > 0.0) extent.add(extent.highest + object_height);
+  return extent;
+}
+
+}  // namespace
+
+TEST_CASE("a point falls into its ring and sector", "[erasor]") {
+  const PolarBins bins(toy::small_grid());
+  REQUIRE(bins.size() == 40);
+  CHECK(bins.bin_of({1, 0.5, 0}) == 0);     // r = 1.1, 27 degrees
+  CHECK(bins.bin_of({3, 0.75, 0}) == 8);    // r = 3.1: ring 1
+  CHECK(bins.bin_of({-0.5, 3, 0}) == 10);   // 99 degrees: sector 2
+  CHECK(bins.bin_of({3, -0.75, 0}) == 15);  // 346 degrees: sector 7
+  CHECK(bins.bin_of({9, 0.5, 0}) == 32);    // ring 4
+}
+
+TEST_CASE("the sectors' seam lies on the x axis", "[erasor]") {
+  const PolarBins bins(toy::small_grid());
+  CHECK(bins.bin_of({5, 0.001, 0}) == 2 * 8 + 0);
+  CHECK(bins.bin_of({5, -0.001, 0}) == 2 * 8 + 7);
+  CHECK(bins.bin_of({5, -1e-300, 0}) == 2 * 8 + 7);  // 2 pi after rounding: still the last sector
+  CHECK(bins.bin_of({-5, 0.0, 0}) == 2 * 8 + 4);
+  CHECK(bins.bin_of({-5, -0.0, 0}) == 2 * 8 + 4);  // atan2 gives -pi
+  CHECK(bins.bin_of({0, 0, 0}) == 0);
+}
+
+TEST_CASE("the height window is open, the range closed", "[erasor]") {
+  const PolarBins bins(toy::small_grid());
+  CHECK(bins.bin_of({3, 0.75, -1}) == -1);
+  CHECK(bins.bin_of({3, 0.75, 3}) == -1);
+  CHECK(bins.bin_of({3, 0.75, -0.999}) == 8);
+  CHECK(bins.bin_of({3, 0.75, 2.999}) == 8);
+  CHECK(bins.bin_of({10, 0, 0}) == 4 * 8);
+  CHECK(bins.bin_of({10.001, 0, 0}) == -1);
+  CHECK(bins.bin_of({std::nan(""), 0, 0}) == -1);
+  CHECK(bins.bin_of({0, 0, std::nan("")}) == -1);
+}
+
+TEST_CASE("a bin's pseudo occupancy is the height between its lowest and highest point",
+          "[erasor]") {
+  BinExtent extent;
+  CHECK(extent.extent() == 0.0);
+  extent.add(0.5);
+  CHECK(extent.extent() == 0.0);
+  extent.add(-0.25);
+  extent.add(0.25);
+  CHECK(extent.extent() == 0.75);
+  CHECK(extent.points == 3);
+}
+
+TEST_CASE("the bins' size limits the slope on which an object is found", "[erasor]") {
+  ErasorParameters parameters;
+  parameters.minimum_points = 3;
+  // Rings of 2 m: road 0.29 m, with the car 1.79 m, ratio 0.16.
+  CHECK(compare_extents(grade_extent(6, 1.5), grade_extent(6, 0), parameters) ==
+        BinFinding::kMapHigher);
+  // Rings of 4 m: 0.59 m and 2.09 m, ratio 0.28.
+  CHECK(compare_extents(grade_extent(8, 1.5), grade_extent(8, 0), parameters) ==
+        BinFinding::kEqual);
+}

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "methods/octomap/occupancy_tree.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+#include <set>
+
+#include "tests/methods/octomap/hand_scans.h"
+
+using namespace raymoval;
+
+namespace {
+
+/// A room with a moving box in it, seen from a moving place, without anything exact about it.
+toy::Points random_scan(std::mt19937& random, const Eigen::Vector3d& origin, double mover) {
+  std::normal_distribution<double> direction;
+  toy::Points points;
+  for (int i = 0; i < 900; ++i) {
+    const Eigen::Vector3d u =
+        Eigen::Vector3d(direction(random), direction(random), 0.3 * direction(random)).normalized();
+    const std::vector<toy::Box> solids{{{mover, 1.03, -3}, {mover + 1.1, 1.9, 3}}};
+    double distance = toy::enter_distance(solids[0], origin, u);
+    for (int k = 0; k < 3; ++k) {
+      const double wall = k == 2 ? 1.57 : 4.93;
+      if (u[k] != 0.0)
+        distance = std::min(distance, (std::copysign(wall, u[k]) - origin[k]) / u[k]);
+    }
+    points.push_back(origin + distance * u);
+  }
+  return points;
+}
+
+void insert_by_library(octomap::OcTree& tree, const toy::Points& points,
+                       const Eigen::Vector3d& origin, const OctomapParameters& parameters) {
+  octomap::Pointcloud cloud;
+  for (const octomap::point3d& p : toy::rounded(points)) cloud.push_back(p);
+  tree.insertPointCloud(cloud, toy::rounded(origin), parameters.maximum_range, false,
+                        parameters.discretise);
+}
+
+/// Inserts scans both ways and compares the trees after each.
+void compare_with_library(const OctomapParameters& parameters, int threads, int scans = 14) {
+  octomap::OcTree plain(parameters.resolution);
+  toy::HandMap map(parameters, threads);
+  std::mt19937 random(11);
+  for (int scan = 0; scan < scans; ++scan) {
+    const Eigen::Vector3d origin(0.013 + 0.2 * (scan % 4), -0.51, 0.017);
+    const toy::Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
+    insert_by_library(plain, points, origin, parameters);
+    map.insert(points, origin);
+    INFO("scan " << scan);
+    REQUIRE(plain.size() == map.tree().size());
+    REQUIRE(map.tree().size() == map.tree().calcNumNodes());
+    // Depth, children and log-odds of each node, inner ones too.
+    REQUIRE(toy::tree_bytes(plain) == toy::tree_bytes(map.tree()));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the tree is node for node that of insertPointCloud") {
+  OctomapParameters parameters;
+  SECTION("0.2 m") {}
+  SECTION("0.05 m") {
+    parameters.resolution = 0.05;
+  }
+  SECTION("one beam per occupied cell") {
+    parameters.discretise = true;
+  }
+  SECTION("beams cut") {
+    parameters.maximum_range = 3.1;
+  }
+  SECTION("beams cut, one per cell") {
+    parameters.maximum_range = 3.1;
+    parameters.discretise = true;
+  }
+  compare_with_library(parameters, 1);
+  compare_with_library(parameters, 3, 4);
+}
+
+TEST_CASE("a map kept to some cells has the same values there, and nothing else") {
+  const OctomapParameters parameters;
+  toy::HandMap whole(parameters);
+  ScanCells cells(parameters, 1);
+  OccupancyTree kept(parameters);
+  const CellLattice lattice(parameters.resolution);
+  CellBlocks wanted;
+  std::mt19937 random(11);
+  std::set<CellCode> codes;
+  for (double x = -4.9; x < 4.9; x += 0.6)
+    codes.insert(*lattice.cell_of(toy::rounded({x, 0.3, 0.1})));
+  for (const CellCode code : codes) wanted.occupy(code);
+  const Eigen::Vector3d origin(0.013, -0.51, 0.017);
+  for (int scan = 0; scan < 8; ++scan) {
+    const toy::Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
+    whole.insert(points, origin);
+    cells.compute(toy::rounded(points), std::vector<PointRole>(points.size(), PointRole::kSurface),
+                  toy::rounded(origin));
+    kept.update(cells.parts(), &wanted);
+  }
+  TreeReader of_whole(whole.tree()), of_kept(kept.tree());
+  int known = 0;
+  for (double x = -4.9; x < 4.9; x += 0.2) {
+    const CellCode code = *lattice.cell_of(toy::rounded({x, 0.3, 0.1}));
+    const octomap::OcTreeNode* node = of_kept.find(code);
+    known += node != nullptr ? 1 : 0;
+    if (!codes.contains(code)) {
+      CHECK(node == nullptr);
+    } else if (const octomap::OcTreeNode* full = of_whole.find(code)) {
+      REQUIRE(node != nullptr);
+      CHECK(node->getLogOdds() == full->getLogOdds());
+    }
+  }
+  CHECK(known > 8);
+}
+
+TEST_CASE("equal leaves are merged, and parted when they differ") {
+  // Beams to a wall free a wedge of space; once all its cells are clamped, many merge.
+  OctomapParameters parameters;
+  parameters.resolution = 0.4;
+  toy::HandMap map(parameters);
+  toy::Points wall;
+  for (double y = 0.05; y < 6.4; y += 0.1) {
+    for (double z = 0.05; z < 6.4; z += 0.1) wall.emplace_back(6.6, y, z);
+  }
+  const Eigen::Vector3d origin(-20.0, 3.1, 3.1);
+  for (int i = 0; i < 7; ++i) map.insert(wall, origin);
+  octomap::OcTree parted(map.tree());
+  parted.expand();
+  const std::size_t leaves = map.tree().getNumLeafNodes();
+  CHECK(leaves < parted.getNumLeafNodes() / 2);
+  const Eigen::Vector3d inside(5.0, 3.3, 3.3), beside(5.4, 3.3, 3.3);
+  CHECK(map.log_odds(inside) == Approx(-2.000028));
+  map.insert({inside}, {4.9, 3.3, 3.7});
+  CHECK(map.log_odds(inside) == Approx(-2.000028 + 0.847298));
+  CHECK(map.log_odds(beside) == Approx(-2.000028));
+  CHECK(map.tree().getNumLeafNodes() > leaves);
+}
+
+TEST_CASE("lazy evaluation changes no leaf") {
+  OctomapParameters eager, lazy;
+  lazy.lazy_eval = true;
+  toy::HandMap a(eager), b(lazy);
+  std::mt19937 random(5);
+  for (int scan = 0; scan < 8; ++scan) {
+    const Eigen::Vector3d origin(0.013, -0.51, 0.017);
+    const toy::Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
+    a.insert(points, origin);
+    b.insert(points, origin);
+  }
+  CHECK(b.tree().size() >= a.tree().size());
+  for (double x = -4.9; x < 5.0; x += 0.2) {
+    for (double y = -4.9; y < 5.0; y += 0.2) {
+      REQUIRE(a.log_odds({x, y, 0.1}) == b.log_odds({x, y, 0.1}));
+    }
+  }
+}
+
+TEST_CASE("the reader gives the node that a search gives") {
+  OctomapParameters parameters;
+  toy::HandMap map(parameters);
+  const CellLattice lattice(parameters.resolution);
+  TreeReader of_nothing(map.tree());
+  CHECK(of_nothing.find(*lattice.cell_of({1, 1, 1})) == nullptr);
+  std::mt19937 random(5);
+  const Eigen::Vector3d origin(0.013, -0.51, 0.017);
+  for (int scan = 0; scan < 9; ++scan) map.insert(random_scan(random, origin, 0.3), origin);
+  TreeReader reader(map.tree());
+  std::uniform_real_distribution<float> anywhere(-7.0F, 7.0F);
+  int known = 0;
+  for (int i = 0; i < 20000; ++i) {
+    // Every second query is near the last one: mostly in the same block.
+    static octomap::point3d at;
+    at = i % 2 == 0 ? octomap::point3d(anywhere(random), anywhere(random), anywhere(random) / 4)
+                    : at + octomap::point3d(0.21F, 0.0F, 0.0F);
+    const octomap::OcTreeNode* node = map.tree().search(at);
+    known += node != nullptr ? 1 : 0;
+    REQUIRE(reader.find(*lattice.cell_of(at)) == node);
+  }
+  CHECK(known > 2000);
+  CHECK(known < 18000);
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+// Cells of 0.2 m, liboctomap's log-odds: hit +0.8473, miss -0.4055, clamped to [-2.0000, 3.5110].
+// Unless a test says otherwise the sensor stands in (0.1, 0.1, 0.1), and all happens on the line
+// y = z = 0.1: A is the cell of x = 1.1, W that of x = 2.1, A on the way to W.
+#include "methods/octomap/octomap.h"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+
+#include "tests/methods/octomap/hand_scans.h"
+
+using namespace raymoval;
+using toy::HandMap;
+using toy::HandScans;
+
+namespace {
+
+const Eigen::Vector3d kA(1.1, 0.1, 0.1), kW(2.1, 0.1, 0.1);
+
+Eigen::Vector3d at(double x) {
+  return {x, 0.1, 0.1};
+}
+
+MaskStore masks(const ScanSource& scans, const OctomapParameters& parameters = {},
+                int threads = 1) {
+  return toy::masks_of(*make_octomap(parameters), scans, threads);
+}
+
+ConfiguredMethod variant(const std::string& name) {
+  return MethodRegistry::built_in().configure("octomap:" + name);
+}
+
+/// `first` scans that see A, then `then` scans that see W.
+HandScans seen(int first, int then) {
+  HandScans scans;
+  for (int i = 0; i < first; ++i) scans.add({kA});
+  for (int i = 0; i < then; ++i) scans.add({kW});
+  return scans;
+}
+
+/// What scan `scan` of 6 sees of a flat road of 10 m x 10 m at z = 0.03 and of a wall behind it:
+/// the whole wall, and every sixth row of the road, rows 0.25 m apart.
+toy::Points road_and_wall(int scan) {
+  toy::Points points;
+  for (double x = 0.12; x < 10; x += 0.25) {
+    for (int row = scan; row < 40; row += 6) points.emplace_back(x, 0.12 + 0.25 * row, 0.03);
+    for (double z = 0.5; z < 2; z += 0.25) points.emplace_back(x, 10.13, z);
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("within a scan a cell is hit once, and a hit beats any miss") {
+  HandMap map({});
+  map.insert({kA, kA, kW});
+  CHECK(map.log_odds(kA) == Approx(0.847298));  // 0.4418 without the subtraction.
+  CHECK(map.log_odds(kW) == Approx(0.847298));
+  CHECK(map.log_odds(at(0.1)) == Approx(-0.405465));  // The sensor's own cell; one miss for three.
+  CHECK(map.log_odds(at(1.9)) == Approx(-0.405465));
+  CHECK_FALSE(map.knows(at(2.3)));
+  OctomapParameters kth;
+  kth.kth_nonexclusive = true;
+  CHECK(HandMap(kth).insert({kA, kW}).log_odds(kA) == Approx(0.847298 - 0.405465));
+}
+
+TEST_CASE("three misses outweigh a hit, two do not") {
+  HandMap map({});
+  map.insert({kA});
+  CHECK(map.insert({kW}).log_odds(kA) == Approx(0.441833));
+  CHECK(map.insert({kW}).log_odds(kA) == Approx(0.036368).epsilon(1e-3));
+  CHECK(map.insert({kW}).log_odds(kA) == Approx(-0.369097).epsilon(1e-3));
+  CHECK(masks(seen(1, 2)).removed_count() == 0);
+  const MaskStore three = masks(seen(1, 3));
+  CHECK(three.removed_count() == 1);
+  CHECK(three.get(0) == Mask{1});
+}
+
+TEST_CASE("a cell remembers nine scans") {
+  // 20 hits are clamped to 3.511; 8 misses leave 0.2673, 9 leave -0.1382.
+  CHECK(masks(seen(20, 8)).removed_count() == 0);
+  const MaskStore nine = masks(seen(20, 9));
+  CHECK(nine.removed_count() == 20);
+  CHECK(nine.get(19) == Mask{1});
+  CHECK(nine.get(20) == Mask{0});
+}
+
+TEST_CASE("what parks late is occupied from its third scan, and the order of scans matters") {
+  const auto parked_for = [](int scans_at_a) {
+    HandScans scans = seen(0, 20);
+    for (int i = 0; i < scans_at_a; ++i) scans.add({kA});
+    return masks(scans).removed_count();
+  };
+  // -2.0000 + 0.8473 n: -1.1527, -0.3054, +0.5419.
+  CHECK(parked_for(1) == 1);
+  CHECK(parked_for(2) == 2);
+  CHECK(parked_for(3) == 0);
+  // The same scans the other way round: 3 hits, then 20 misses.
+  CHECK(masks(seen(3, 20)).removed_count() == 3);
+}
+
+TEST_CASE("a beam beyond the maximum range is cut, and its end counts for nothing") {
+  OctomapParameters parameters;
+  parameters.maximum_range = 1.0;
+  HandMap map(parameters);
+  map.insert({kW});
+  CHECK(map.is_free(at(0.9)));
+  CHECK_FALSE(map.knows(at(1.1)));  // The cell in which the beam is cut.
+  CHECK_FALSE(map.knows(kW));
+  parameters.cut_end_free = true;
+  HandMap kth(parameters);
+  kth.insert({kW});
+  CHECK(kth.is_free(at(1.1)));
+  CHECK_FALSE(kth.knows(at(1.3)));
+}
+
+TEST_CASE("a point in an unknown cell stays, or goes if wished") {
+  OctomapParameters parameters;
+  parameters.maximum_range = 1.0;
+  const HandScans scans = seen(0, 5);
+  CHECK(masks(scans, parameters).removed_count() == 0);
+  parameters.remove_unknown = true;
+  CHECK(masks(scans, parameters).removed_count() == 5);
+}
+
+TEST_CASE("a point beyond the maximum range takes the state of its cell") {
+  OctomapParameters parameters;
+  parameters.maximum_range = 1.5;
+  HandScans scans;
+  scans.add({kW});                                            // 2.0 m: cut.
+  for (int i = 0; i < 3; ++i) scans.add({at(2.7)}, at(1.7));  // 1.0 m, through W.
+  CHECK(masks(scans, parameters).get(0) == Mask{1});
+}
+
+TEST_CASE("points nearer than the minimum range are not inserted") {
+  OctomapParameters parameters;
+  parameters.minimum_range = 1.5;
+  HandMap map(parameters);
+  map.insert({kA});
+  CHECK_FALSE(map.knows(kA));
+  CHECK_FALSE(map.knows(at(0.1)));
+  map.insert({kW});
+  CHECK(map.is_free(kA));
+}
+
+TEST_CASE("one beam per occupied cell goes to the cell's centre") {
+  // Origin (0.1, 0.1, 0.1), end (1.1, 0.21, 0.1) in the cell y 0.2 .. 0.4. The beam itself enters
+  // that row at 0.909 of its way (x = 1.01), in the cell x 1.0 .. 1.2: nothing of the row is free.
+  // The beam to the centre (1.1, 0.3, 0.1) enters the row half-way, at x = 0.6.
+  OctomapParameters parameters;
+  const Eigen::Vector3d end(1.1, 0.21, 0.1), between(0.9, 0.3, 0.1);
+  CHECK_FALSE(HandMap(parameters).insert({end}).knows(between));
+  parameters.discretise = true;
+  HandMap map(parameters);
+  map.insert({end});
+  CHECK(map.is_free(between));
+  CHECK(map.log_odds(end) == Approx(0.847298));
+}
+
+TEST_CASE("an end in the sensor's own cell is a hit") {
+  HandMap map({});
+  map.insert({{0.15, 0.12, 0.05}});
+  CHECK(map.log_odds(at(0.1)) == Approx(0.847298));
+  CHECK(map.tree().getNumLeafNodes() == 1);
+}
+
+TEST_CASE("ground frees its beams, is not hit, and always stays") {
+  HandMap map({});
+  map.insert({kW}, at(0.1), PointRole::kGround);
+  CHECK(map.is_free(kA));
+  CHECK_FALSE(map.knows(kW));
+  // The sensor looks along the road from 10 m before it, 1.72 m above it. A beam that ends 15 m off
+  // stays in the road's layer of cells, 0.17 m above the road, for the last 1.5 m: six rows. So a
+  // cell of the road is hit in one scan and crossed in up to five, and many go. A person who stands
+  // there in scan 0 goes, too: the wall is seen through their place five times.
+  HandScans scans;
+  for (int i = 0; i < 6; ++i) {
+    toy::Points points = road_and_wall(i);
+    if (i == 0) points.emplace_back(5.05, 5.05, 1.5);
+    scans.add(points, Eigen::Vector3d(5.05, -10.0, 1.75));
+  }
+  const auto road_removed = [&](const MaskStore& answer) {
+    std::size_t removed = 0;
+    for (int i = 0; i < 6; ++i) {
+      const toy::Points points = road_and_wall(i);
+      const Mask mask = answer.get(static_cast<std::size_t>(i));
+      for (std::size_t k = 0; k < points.size(); ++k) removed += points[k].z() < 0.1 ? mask[k] : 0;
+    }
+    return removed;
+  };
+  OctomapParameters parameters;
+  CHECK(road_removed(masks(scans, parameters)) > 400);  // Of 1600.
+  parameters.ground = true;
+  const MaskStore answer = masks(scans, parameters);
+  CHECK(road_removed(answer) == 0);
+  CHECK(answer.get(0).back() == 1);
+}
+
+TEST_CASE("a scan that is no point, one point, or no scan at all") {
+  for (const char* name : {"r20", "discretised", "kth", "ground", "ground-noise"}) {
+    INFO(name);
+    HandScans none;
+    CHECK(toy::masks_of(*variant(name).make(), none).removed_count() == 0);
+    HandScans scans;
+    scans.add({}).add({kA}).add({});
+    const MaskStore answer = toy::masks_of(*variant(name).make(), scans, 2);
+    CHECK(answer.has(0));
+    CHECK(answer.get(0).empty());
+    CHECK(answer.get(1) == Mask{0});
+    CHECK(answer.has(2));
+  }
+}
+
+TEST_CASE("points outside the tree stay, however many beams there are") {
+  HandScans scans;
+  for (int i = 0; i < 4; ++i) scans.add({{9000.0, 0.1, 0.1}, kW, {0.1, -1e30, 0.1}});
+  OctomapParameters parameters;
+  parameters.remove_unknown = true;
+  CHECK(masks(scans, parameters).removed_count() == 0);
+}
+
+TEST_CASE("the tree's centre is where the drive starts") {
+  // A drive 500 km from the origin, as in UTM coordinates: the tree reaches 6.5 km, and float
+  // holds half-metres there.
+  HandScans here = seen(1, 3), there;
+  const Eigen::Vector3d far(500000.0, -5400000.0, 200.0);
+  there.add({kA + far}, at(0.1) + far);
+  for (int i = 0; i < 3; ++i) there.add({kW + far}, at(0.1) + far);
+  CHECK(masks(there).get(0) == masks(here).get(0));
+  CHECK(masks(there).removed_count() == 1);
+}
+
+TEST_CASE("a maximum range of zero is refused") {
+  OctomapParameters parameters;
+  parameters.maximum_range = 0.0;
+  CHECK_THROWS_WITH(make_octomap(parameters), Catch::Contains("octomap.maximum_range"));
+}
+
+TEST_CASE("every point is answered as after plain calls of insertPointCloud") {
+  const toy::World world = toy::street(8);
+  for (const bool discretise : {false, true}) {
+    OctomapParameters parameters;
+    parameters.discretise = discretise;
+    octomap::OcTree plain(0.2);
+    const auto world_points = [&](std::size_t i) {
+      octomap::Pointcloud cloud;
+      const Scan scan = world.load(i);
+      for (const Eigen::Vector3f& p : scan.points) {
+        cloud.push_back(toy::rounded(scan.T_world_sensor * p.cast<double>()));
+      }
+      return cloud;
+    };
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      plain.insertPointCloud(world_points(i), toy::rounded(world.pose(i).translation()), -1.0,
+                             false, discretise);
+    }
+    // The street starts within 4 cm of the origin: the tree's centre is the world's.
+    const MaskStore answer = masks(world, parameters, 2);
+    std::size_t removed = 0;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const octomap::Pointcloud points = world_points(i);
+      Mask expected;
+      for (const octomap::point3d& p : points) {
+        expected.push_back(plain.isNodeOccupied(plain.search(p)) ? 0 : 1);
+        removed += expected.back();
+      }
+      REQUIRE(answer.get(i) == expected);
+    }
+    CHECK(removed > 100);
+  }
+}
+
+TEST_CASE("the octomap method answers alike with any number of threads") {
+  const toy::World world = toy::street(5);
+  for (const char* name : {"r20", "discretised", "ground-noise"}) {
+    INFO(name);
+    const MaskStore one = toy::masks_of(*variant(name).make(), world, 1);
+    CHECK(one.removed_count() > 0);
+    for (const int threads : {2, 8}) {
+      const MaskStore more = toy::masks_of(*variant(name).make(), world, threads);
+      CHECK(toy::different_verdicts(one, more, world.size()) == 0);
+    }
+  }
+}
+
+TEST_CASE("the lattice's place changes a bounded share of the verdicts") {
+  // The tree's centre is rounded to whole cells, so a move by part of a cell moves the lattice
+  // under the world. Measured: sideways 0.4 and 0.6 % of the points change; upwards by half a cell
+  // 18 %, for what part of the road goes depends on how high it lies in its layer of cells.
+  const toy::World world = toy::street(8);
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
+  const auto share = [&](double x, double y, double z) {
+    const Pose motion = toy::whole_motion(x, y, z, 0);
+    return static_cast<double>(toy::verdicts_changed_by(motion, variant("r20"), world)) /
+           static_cast<double>(points);
+  };
+  const double half_a_cell = share(0.1, 0.0, 0.0);
+  CHECK(half_a_cell > 0.0);
+  CHECK(half_a_cell < 0.02);
+  CHECK(share(0.07, -0.03, 0.0) < 0.02);
+  CHECK(share(0.0, 0.0, 0.1) < 0.35);
+}
+
+TEST_CASE("a cancelled octomap run stops") {
+  const std::atomic<bool> stop{true};
+  RunContext context;
+  context.cancel = &stop;
+  const HandScans scans = seen(1, 1);
+  toy::Masks answer(scans.size());
+  CHECK_THROWS_AS(make_octomap({})->run(scans, answer, context), Cancelled);
+  CHECK_FALSE(answer.store.has(0));
+}

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "methods/peopleremover/beam_ends.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <random>
+
+using namespace raymoval;
+using namespace raymoval::peopleremover;
+
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+std::vector<double> lengths(const Points& points, double voxel_size, double fuzz = 0.0) {
+  PeopleremoverParameters parameters;
+  parameters.voxel_size = voxel_size;
+  parameters.fuzz = fuzz;
+  return BeamEnds(parameters).find(points);
+}
+
+/// The same by the letter of the description: every point against every other.
+std::vector<double> slow_lengths(const Points& points, double voxel_size) {
+  const double diagonal = std::sqrt(3.0) * voxel_size;
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return points[a].norm() < points[b].norm();
+  });
+  std::vector<double> m(points.size(), kWholeBeam);
+  for (const std::size_t j : order) {
+    if (m[j] != kWholeBeam) continue;
+    const double r = points[j].norm();
+    const Eigen::Vector3d u = points[j] / r;
+    if (r <= 2.0 * diagonal) {
+      m[j] = 0.0;
+      continue;
+    }
+    const double angle = 2.0 * std::asin(diagonal / (r - diagonal));
+    std::vector<std::size_t> near;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double cosine = u.dot(points[k].normalized());
+      if (k == j || cosine >= 1.0 || std::acos(cosine) < angle) near.push_back(k);
+    }
+    for (const std::size_t k : near) mean += points[k] / static_cast<double>(near.size());
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (const std::size_t k : near) {
+      covariance += (points[k] - mean) * (points[k] - mean).transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    Eigen::Vector3d n = solver.eigenvectors().col(0);
+    if (near.size() < 3 || solver.eigenvalues()[1] < 1e-9 * solver.eigenvalues()[2]) n = -u;
+    if (n.dot(u) >= 0.0) n = -n;
+    const double plane = points[j].dot(n) + diagonal;
+    m[j] = std::clamp(plane / u.dot(n), 0.0, r);
+    for (const std::size_t k : near) {
+      const double d = plane / points[k].normalized().dot(n);
+      if (d <= points[k].norm()) m[k] = std::min(m[k], std::max(0.0, d));
+    }
+  }
+  return m;
+}
+
+/// Rings on flat ground `height` below the sensor, at these horizontal distances.
+Points ground(double height, const std::vector<double>& distances) {
+  Points points;
+  for (const double distance : distances) {
+    for (int k = 0; k < 720; ++k) {
+      const double azimuth = (k + 0.5) / 360.0 * 3.14159265358979;
+      points.emplace_back(distance * std::cos(azimuth), distance * std::sin(azimuth), -height);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("beams to flat ground end one voxel diagonal above it", "[peopleremover]") {
+  // Height 1.73 m, voxels of 0.2 m: 1 - 0.3464 / 1.73 = 0.79976 of the way, wherever the ring is
+  // and however far from the next, as long as a neighbourhood holds more than one ring.
+  std::vector<double> distances;
+  for (double d = 4.0; d < 42.0; d *= 1.008) distances.push_back(d);
+  const Points points = ground(1.73, distances);
+  const std::vector<double> m = lengths(points, 0.2);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    REQUIRE(m[k] / points[k].norm() == Approx(1.0 - 0.2 * std::sqrt(3.0) / 1.73).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("fuzz ends beams that much farther from the surface", "[peopleremover]") {
+  std::vector<double> distances;
+  for (double d = 4.0; d < 12.0; d *= 1.008) distances.push_back(d);
+  const Points points = ground(1.73, distances);
+  const std::vector<double> m = lengths(points, 0.2, 0.1);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    REQUIRE(m[k] / points[k].norm() ==
+            Approx(1.0 - (0.2 * std::sqrt(3.0) + 0.1) / 1.73).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a lone point and points on a line are faced by their own beam", "[peopleremover]") {
+  // No plane through them: the normal is towards the sensor, the cut v_d = 0.3464 m.
+  const double diagonal = 0.2 * std::sqrt(3.0);
+  CHECK(lengths({{10, 0, 0}}, 0.2)[0] == Approx(10.0 - diagonal));
+  Points line;
+  for (int k = -2; k <= 2; ++k) line.emplace_back(10.0, 0.01 * k, 0.0);
+  const std::vector<double> m = lengths(line, 0.2);
+  CHECK(m[2] == Approx(10.0 - diagonal));  // The nearest: it owns the shadow.
+  // The plane is x = 10 - v_d for the others too.
+  CHECK(m[0] == Approx((10.0 - diagonal) * line[0].norm() / 10.0));
+}
+
+TEST_CASE("a point within two voxel diagonals has no beam", "[peopleremover]") {
+  // 2 v_d = 0.6928 m. Beyond, the cut of a lone point leaves r - v_d.
+  CHECK(lengths({{0.69, 0, 0}}, 0.2)[0] == 0.0);
+  CHECK(lengths({{0.70, 0, 0}}, 0.2)[0] == Approx(0.70 - 0.2 * std::sqrt(3.0)));
+}
+
+TEST_CASE("a point in front of the shadow's plane casts its own", "[peopleremover]") {
+  // Ground, and one point 0.5 m above it, 10.3 m away: 1.23 m below the sensor. The plane 0.346 m
+  // above the ground passes below it, so the ground's shadow says nothing about it. Its own normal
+  // is the ground's (its neighbours are ground): it ends 0.346 m higher, 0.884 m below the sensor.
+  std::vector<double> distances;
+  for (double d = 8.0; d < 13.0; d *= 1.004) distances.push_back(d);
+  Points points = ground(1.73, distances);
+  points.emplace_back(10.3, 0.0, -1.23);
+  const std::vector<double> m = lengths(points, 0.2);
+  CHECK(m.back() / points.back().norm() == Approx(0.884 / 1.23).margin(0.02));
+}
+
+TEST_CASE("every beam has an end, never beyond its point", "[peopleremover]") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> side(-20.0, 20.0);
+  Points points;
+  for (int k = 0; k < 3000; ++k)
+    points.emplace_back(side(random), side(random), 0.1 * side(random));
+  const std::vector<double> m = lengths(points, 0.2);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    REQUIRE(m[k] >= 0.0);
+    REQUIRE(m[k] <= points[k].norm());
+  }
+}
+
+TEST_CASE("beam ends are those of a search through all points", "[peopleremover]") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> side(-1.0, 1.0);
+  const auto scene = GENERATE(0, 1, 2, 3);
+  Points points;
+  for (int k = 0; k < 600; ++k) {
+    const double x = side(random), y = side(random), z = side(random);
+    if (scene == 0) points.emplace_back(15 * x, 15 * y, 15 * z);           // All around.
+    if (scene == 1) points.emplace_back(10 * x, 10 * y, -1.5 + 0.02 * z);  // Ground.
+    if (scene == 2) points.emplace_back(0.8 * x, 0.8 * y, 5 + 0.1 * z);    // Around the pole.
+    if (scene == 3) points.emplace_back(-6 + 0.05 * x, 0.7 * y, 2 * z);  // Where the azimuth wraps.
+  }
+  std::erase_if(points, [](const auto& p) { return p.norm() < 0.4; });
+  const std::vector<double> fast = lengths(points, 0.2), slow = slow_lengths(points, 0.2);
+  INFO("scene " << scene);
+  for (std::size_t k = 0; k < points.size(); ++k) REQUIRE(fast[k] == Approx(slow[k]).epsilon(1e-7));
+}
+
+TEST_CASE("points of equal direction and of equal range", "[peopleremover]") {
+  // Duplicates, and two points along one ray: the nearer owns the shadow (r - v_d), the farther is
+  // behind that plane.
+  const double end = 5.0 - 0.2 * std::sqrt(3.0);
+  const std::vector<double> m = lengths({{0, 7, 0}, {0, 5, 0}, {0, 5, 0}}, 0.2);
+  CHECK(m[0] == Approx(end));
+  CHECK(m[1] == Approx(end));
+  CHECK(m[2] == Approx(end));
+}
+
+TEST_CASE("surface normals", "[peopleremover]") {
+  // A plane whose points scatter equally both ways, a line, a point.
+  const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, -3).normalized();
+  const Eigen::Matrix3d plane = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+  CHECK(std::abs(surface_normal(plane * 1e-6).dot(normal)) == Approx(1.0).epsilon(1e-9));
+  CHECK(surface_normal(normal * normal.transpose()).isZero());
+  CHECK(surface_normal(Eigen::Matrix3d::Zero()).isZero());
+}

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "methods/peopleremover/traversal.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "methods/peopleremover/freed_clusters.h"
+#include "methods/peopleremover/thinning.h"
+
+using namespace raymoval;
+using namespace raymoval::peopleremover;
+
+namespace {
+
+using Voxels = std::set<VoxelKey>;
+
+BrickMap map_of(const Voxels& voxels) {
+  VoxelMap<BrickWord> bricks;
+  for (const VoxelKey key : voxels) {
+    bricks[voxel_key(brick_of(voxel_index(key)))] |= voxel_bit(voxel_index(key));
+  }
+  BrickCollector collector;
+  collector.add(bricks);
+  return collector.take();
+}
+
+Voxels voxels_of(const BrickMap& map, const std::vector<BrickWord>& words) {
+  Voxels voxels;
+  for (BrickId brick = 0; brick < words.size(); ++brick) {
+    for (int bit = 0; bit < 64; ++bit) {
+      if ((words[brick] >> bit & 1U) == 0) continue;
+      voxels.insert(voxel_key(voxel_of_bit(map.index_of(brick), bit)));
+    }
+  }
+  return voxels;
+}
+
+/// Voxels freed by one beam.
+Voxels freed_by(const Voxels& occupied, const Voxels& own, const Eigen::Vector3d& from,
+                const Eigen::Vector3d& to) {
+  const BrickMap map = map_of(occupied);
+  FreedVoxels freed(map.size());
+  VoxelMarks marks(map.size());
+  BrickFinder finder(map);
+  for (const VoxelKey key : own) {
+    marks.set(finder.find(brick_of(voxel_index(key))), voxel_bit(voxel_index(key)));
+  }
+  BeamWalker(map, freed, marks).walk(from, to);
+  return voxels_of(map, freed.words());
+}
+
+/// All voxels on the way, one step at a time, walls in order of (crossing time, axis).
+std::vector<VoxelKey> slow_path(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3i last = to.array().floor().cast<int>();
+  Eigen::Vector3i at = from.array().floor().cast<int>();
+  std::vector<VoxelKey> path{voxel_key(at)};
+  while (at != last) {
+    double soonest = std::numeric_limits<double>::infinity();
+    int axis = -1;
+    for (int a = 0; a < 3; ++a) {
+      if (at[a] == last[a]) continue;
+      const int wall = to[a] > from[a] ? at[a] + 1 : at[a];
+      const double time = (wall - from[a]) * (1.0 / (to[a] - from[a]));
+      if (axis < 0 || time < soonest) {
+        soonest = time;
+        axis = a;
+      }
+    }
+    at[axis] += to[axis] > from[axis] ? 1 : -1;
+    path.push_back(voxel_key(at));
+  }
+  return path;
+}
+
+Voxels cube(int half) {
+  Voxels voxels;
+  for (int z = -half; z < half; ++z) {
+    for (int y = -half; y < half; ++y) {
+      for (int x = -half; x < half; ++x) voxels.insert(voxel_key(x, y, z));
+    }
+  }
+  return voxels;
+}
+
+}  // namespace
+
+TEST_CASE("a beam visits the voxels of single steps, both ends included", "[peopleremover]") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> side(-14.0, 14.0);
+  const Voxels all = cube(14);
+  const BrickMap map = map_of(all);
+  const VoxelMarks none(map.size());
+  for (int beam = 0; beam < 2000; ++beam) {
+    Eigen::Vector3d from(side(random), side(random), side(random));
+    Eigen::Vector3d to(side(random), side(random), side(random));
+    // Some start or end on walls and corners, some run along an axis or a diagonal.
+    if (beam % 4 == 1) from = from.array().floor();
+    if (beam % 4 == 2) to[beam % 3] = from[beam % 3];
+    if (beam % 4 == 3) {
+      from = from.array().floor();
+      to = to.array().floor();
+    }
+    if (beam % 8 == 3) to = from + Eigen::Vector3d(3, -3, 3).cwiseProduct(from.cwiseSign()) * -1;
+    FreedVoxels freed(map.size());
+    BeamWalker(map, freed, none).walk(from, to);
+    std::vector<VoxelKey> path = slow_path(from, to);
+    std::erase_if(path, [&](VoxelKey voxel) { return !all.contains(voxel); });
+    INFO("from " << from.transpose() << " to " << to.transpose());
+    if (from == to) {
+      CHECK(voxels_of(map, freed.words()).empty());
+    } else {
+      REQUIRE(voxels_of(map, freed.words()) == Voxels(path.begin(), path.end()));
+    }
+  }
+}
+
+TEST_CASE("a beam is stopped by the first own voxel after the sensor's", "[peopleremover]") {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> side(-10.0, 10.0);
+  const Voxels all = cube(10);
+  for (int beam = 0; beam < 60; ++beam) {
+    const Eigen::Vector3d from(side(random), side(random), side(random));
+    const Eigen::Vector3d to(side(random), side(random), side(random));
+    Voxels own, expected;
+    for (const VoxelKey key : all) {
+      if (random() % 12 == 0) own.insert(key);
+    }
+    const std::vector<VoxelKey> path = slow_path(from, to);
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      if (own.contains(path[k])) {
+        if (k > 0) break;
+      } else {
+        expected.insert(path[k]);
+      }
+    }
+    REQUIRE(freed_by(all, own, from, to) == expected);
+  }
+}
+
+TEST_CASE("a beam far from the world's origin visits the same voxels", "[peopleremover]") {
+  // 200 km away, where a voxel is 2^-32 of the coordinate.
+  const Eigen::Vector3d from(1000000.3, -1000000.4, 500000.6), to(1000020.8, -999990.1, 499992.2);
+  const std::vector<VoxelKey> path = slow_path(from, to);
+  const Voxels expected(path.begin(), path.end());
+  CHECK(freed_by(expected, {}, from, to) == expected);
+}
+
+TEST_CASE("a beam of no length visits nothing", "[peopleremover]") {
+  CHECK(freed_by({voxel_key(0, 0, 0)}, {}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}).empty());
+}
+
+TEST_CASE("clusters of freed voxels join over faces, edges and corners", "[peopleremover]") {
+  // Four voxels, each a corner neighbour of the next, across bricks and blocks (x = 30 to 33), and
+  // one apart by one empty voxel.
+  const Voxels chain{voxel_key(30, 0, -2), voxel_key(31, 1, -1), voxel_key(32, 2, 0),
+                     voxel_key(33, 3, 1)};
+  Voxels all = chain;
+  all.insert(voxel_key(35, 5, 3));
+  const BrickMap map = map_of(all);
+  for (const int minimum : {0, 1, 2, 4, 5, 6}) {
+    std::vector<BrickWord> freed;
+    for (BrickId brick = 0; brick < map.size(); ++brick) freed.push_back(map.occupied(brick));
+    discard_small_clusters(map, minimum, freed);
+    INFO("minimum " << minimum);
+    CHECK(voxels_of(map, freed) == (minimum <= 1 ? all : minimum <= 4 ? chain : Voxels{}));
+  }
+}
+
+TEST_CASE("occupied voxels that are not freed join no clusters", "[peopleremover]") {
+  const Voxels all{voxel_key(0, 0, 0), voxel_key(1, 0, 0), voxel_key(2, 0, 0)};
+  const BrickMap map = map_of(all);
+  std::vector<BrickWord> freed{voxel_bit(0, 0, 0) | voxel_bit(2, 0, 0)};
+  discard_small_clusters(map, 2, freed);
+  CHECK(freed[0] == 0);
+}
+
+TEST_CASE("thinning keeps the wanted number per cell, by seed and scan", "[peopleremover]") {
+  // 5000 directions within a hundredth of a radian, cells of caps of 0.2 rad: one cell, or a few if
+  // a border runs through.
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> side(-0.05, 0.05);
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k < 5000; ++k) points.emplace_back(10.0, 1.0 + side(random), 1.0 + side(random));
+  const auto count = [](const std::vector<std::uint8_t>& chosen) {
+    return std::count(chosen.begin(), chosen.end(), std::uint8_t{1});
+  };
+  const auto chosen = choose_beams(points, 3, {7, 0.2, 1});
+  CHECK(count(chosen) >= 7);
+  CHECK(count(chosen) <= 4 * 7);
+  CHECK(chosen == choose_beams(points, 3, {7, 0.2, 1}));
+  CHECK(chosen != choose_beams(points, 4, {7, 0.2, 1}));
+  CHECK(chosen != choose_beams(points, 3, {7, 0.2, 2}));
+  CHECK(count(choose_beams(points, 3, {0, 0.2, 1})) == 5000);
+  CHECK(count(choose_beams(points, 3, {100000, 0.2, 1})) == 5000);
+}
+
+TEST_CASE("thinning's cells have the solid angle of a cap", "[peopleremover]") {
+  // Directions all over the sphere, a cap of 0.1 rad has 2 pi (1 - cos 0.1) = 0.03139 sr: 400.3
+  // cells. Each of them is hit by 100,000 points, so one point stays of each.
+  std::mt19937 random(10);
+  std::normal_distribution<double> normal;
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k < 100000; ++k)
+    points.emplace_back(normal(random), normal(random), normal(random));
+  const auto chosen = choose_beams(points, 0, {1, 0.1, 1});
+  CHECK(std::count(chosen.begin(), chosen.end(), std::uint8_t{1}) == Approx(400).margin(12));
+}

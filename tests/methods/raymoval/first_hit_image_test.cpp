@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <set>
+
+#include "tests/methods/raymoval/random_map.h"
+
+using namespace raymoval;
+using random_map::Random;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Any size, from odd and tiny to several vectors a column.
+AngularGrid random_grid(Random& random) {
+  AngularGrid grid;
+  grid.azimuth_bins = random.integer(1, 130);
+  grid.elevation_bins = random.integer(1, 120);
+  grid.elevation_min = random.real(-90, 20) * kDegree;
+  grid.elevation_max = grid.elevation_min + random.real(5, 70) * kDegree;
+  grid.elevation_max = std::min(grid.elevation_max, 90 * kDegree);
+  return grid;
+}
+
+}  // namespace
+
+TEST_CASE("images equal rays one by one, from any pose, on every instruction set") {
+  Random random(11);
+  random_map::Comparison total;
+  for (int round = 0; round < 60; ++round) {
+    const double size = random.real(0.05, 0.6);
+    OccupancyMap map(size);
+    // Around the origin, across it, and 50 km away.
+    const VoxelIndex centre =
+        round % 3 == 0 ? VoxelIndex(250000, -100000, 50) : VoxelIndex(0, 0, 0);
+    random_map::fill(map, centre, 30, random);
+    const Eigen::Vector3d shift(random.real(-8, 8), random.real(-8, 8), random.real(-5, 5));
+    const Pose pose = random_map::pose((centre.cast<double>() + shift) * size, random,
+                                       round % 2 == 0 ? 0.05 : std::numbers::pi);
+    const AngularGrid grid = random_grid(random);
+    const RayLimits limits{round % 4 == 0 ? 0.0 : random.real(0, 12) * size,
+                           random.real(10, 80) * size};
+    const FirstHitImage image = cast_first_hits(map, pose, grid, limits, 1);
+    for (const InstructionSet set : supported_instruction_sets()) {
+      INFO(instruction_set_name(set));
+      REQUIRE(cast_first_hits(map, pose, grid, limits, 1, set).range == image.range);
+    }
+    REQUIRE(cast_first_hits(map, pose, grid, limits, 8).range == image.range);
+    const auto compared = random_map::compare_with_rays(map, image);
+    CHECK(compared.wrong == 0);
+    total.bins += compared.bins;
+    total.hits += compared.hits;
+    total.ties += compared.ties;
+  }
+  INFO(total.bins << " bins, " << total.hits << " hits, " << total.ties << " ties");
+  CHECK(total.hits > 100000);
+  CHECK(total.ties <= total.bins / 100000 + 1);
+}
+
+TEST_CASE("directions along the lattice meet what is straight ahead") {
+  // A box of walls around a sensor in the middle of a voxel: the columns' centres are at multiples
+  // of 45 degrees, the first one at -180, and the rows at -45, 0 and 45 degrees.
+  OccupancyMap map(1.0);
+  for (int a = -5; a <= 5; ++a) {
+    for (int b = -5; b <= 5; ++b) {
+      for (const int wall : {-5, 5}) {
+        map.insert({wall, a, b});
+        map.insert({a, wall, b});
+        map.insert({a, b, wall});
+      }
+    }
+  }
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(0.5, 0.5, 0.5);
+  pose.linear() = Eigen::AngleAxisd(-22.5 * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const AngularGrid grid{8, 3, -67.5 * kDegree, 67.5 * kDegree};
+  for (const InstructionSet set : supported_instruction_sets()) {
+    INFO(instruction_set_name(set));
+    const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1, set);
+    for (int i = 0; i < 8; ++i) {
+      // From 0.5 to the walls' inner faces at 5 and -4 it is 4.5; 4.5 sqrt(2) across a corner. Up
+      // or down by 45 degrees a ray of an even column reaches wall and floor or ceiling together,
+      // one of an odd column the floor or ceiling first.
+      const double level = i % 2 == 0 ? 4.5 : 4.5 * std::numbers::sqrt2;
+      CHECK(image.range[static_cast<std::size_t>(8 + i)] == Approx(level).epsilon(1e-6));
+      CHECK(image.range[static_cast<std::size_t>(i)] ==
+            Approx(4.5 * std::numbers::sqrt2).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("voxels within the minimum range stop no ray, the next voxel of the same block does") {
+  // A bar of voxels along x from 0 to 40 m, the sensor in its end. What counts is where a ray
+  // enters a voxel: at 2.7 m it is inside the voxel 2.6 .. 2.8 (sensor at 0.1), the next begins at
+  // 2.8, 2.7 m from the sensor; with 2.71 m it is the one after.
+  OccupancyMap map(0.2);
+  for (int x = 0; x < 200; ++x) map.insert({x, 0, 0});
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(0.1, 0.1, 0.1);
+  const AngularGrid grid{3, 1, -0.1, 0.1};  // The middle one of three columns looks along x.
+  const auto ahead = [&](double minimum) {
+    return cast_first_hits(map, pose, grid, {minimum, 60.0}, 1).range[1];
+  };
+  CHECK(ahead(0.0) == 0.0F);
+  CHECK(ahead(2.65) == Approx(2.7));
+  CHECK(ahead(2.75) == Approx(2.9));
+  CHECK(ahead(39.85) == kNoRange);  // The last voxel is entered at 39.7 m.
+}
+
+TEST_CASE("nothing is hit beyond the maximum range, in an empty map, and where all was erased") {
+  OccupancyMap map(0.2);
+  const AngularGrid grid{36, 9, -0.5, 0.5};
+  const auto hits = [&](double maximum) {
+    const FirstHitImage image = cast_first_hits(map, Pose::Identity(), grid, {0.5, maximum}, 1);
+    return std::count_if(image.range.begin(), image.range.end(),
+                         [](float range) { return range != kNoRange; });
+  };
+  CHECK(hits(60.0) == 0);
+  for (int y = -20; y < 20; ++y) {
+    for (int z = -20; z < 20; ++z) map.insert({50, y, z});  // A wall at 10 m.
+  }
+  CHECK(hits(60.0) > 0);
+  CHECK(hits(9.99) == 0);
+  for (int y = -20; y < 20; ++y) {
+    for (int z = -20; z < 20; ++z) map.erase({50, y, z});
+  }
+  CHECK(hits(60.0) == 0);
+}
+
+TEST_CASE("a map that was changed gives the image of a map made at once") {
+  Random random(5);
+  OccupancyMap map(0.2);
+  std::set<VoxelKey> voxels;
+  const AngularGrid grid{90, 60, -0.8, 0.8};
+  const Pose pose = random_map::pose({0.03, -0.07, 0.4}, random, 0.2);
+  FirstHitCaster caster(grid, {0.5, 20.0});
+  FirstHitImage image;
+  for (int round = 0; round < 20; ++round) {
+    for (int k = 0; k < 3000; ++k) {
+      const VoxelIndex voxel(random.integer(-15, 15), random.integer(-15, 15),
+                             random.integer(-15, 15));
+      if (k % 2 == round % 2) {
+        map.erase(voxel);
+        voxels.erase(voxel_key(voxel));
+      } else {
+        map.insert(voxel);
+        voxels.insert(voxel_key(voxel));
+      }
+    }
+    caster.cast(map, pose, 1, image);
+    OccupancyMap fresh(0.2);
+    for (const VoxelKey key : voxels) fresh.insert(voxel_index(key));
+    REQUIRE(cast_first_hits(fresh, pose, grid, {0.5, 20.0}, 1).range == image.range);
+  }
+}
+
+TEST_CASE("a ray through the seam of two boxes meets one of them") {
+  // A closed wall of loose ends: every second voxel of two layers, seen from straight ahead and
+  // from the side. No ray may slip through where two boxes share an edge.
+  OccupancyMap map(0.2);
+  for (int y = -60; y < 60; ++y) {
+    for (int z = -60; z < 60; ++z) map.insert({25 + ((y + z) & 1), y, z});
+  }
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(0.0, 0.0, 0.0);  // On a lattice corner.
+  const AngularGrid grid{720, 180, -0.7, 0.7};
+  const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1);
+  for (int bin = 0; bin < grid.size(); ++bin) {
+    const Eigen::Vector3d direction = grid.direction(bin);
+    const double range = 5.0 / direction.x();
+    const bool faces = direction.x() > 0 && range * std::abs(direction.y()) < 11 &&
+                       range * std::abs(direction.z()) < 11;
+    if (faces) REQUIRE(image.range[static_cast<std::size_t>(bin)] <= range * 5.2 / 5.0 + 1e-4);
+  }
+}
+
+TEST_CASE("the voxel of a hit is the one the exact ray meets") {
+  OccupancyMap map(0.2);
+  map.insert({10, 0, 0});
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(0.1, 0.1, 0.1);
+  const AngularGrid grid{3, 1, -0.1, 0.1};
+  const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1);
+  CHECK(image.voxel(map, 1) == VoxelIndex(10, 0, 0));
+  CHECK_FALSE(image.voxel(map, 0));
+  map.erase({10, 0, 0});
+  CHECK_FALSE(image.voxel(map, 1));
+}

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/occupancy_map.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "tests/methods/raymoval/random_map.h"
+
+using namespace raymoval;
+using random_map::Random;
+
+namespace {
+
+/// The voxels of a set of boxes.
+Brick union_of(std::span<const BrickBox> boxes) {
+  Brick brick;
+  for (const BrickBox& box : boxes) {
+    for (int x = box.first(0); x <= box.last(0); ++x) {
+      for (int y = box.first(1); y <= box.last(1); ++y) {
+        for (int z = box.first(2); z <= box.last(2); ++z) {
+          brick.occupied[static_cast<std::size_t>(x)] |= Brick::bit(y, z);
+        }
+      }
+    }
+  }
+  return brick;
+}
+
+std::vector<BrickBox> cover_of(const Brick& brick) {
+  std::vector<BrickBox> boxes;
+  cover_with_boxes(brick, boxes);
+  return boxes;
+}
+
+}  // namespace
+
+TEST_CASE("boxes cover exactly the voxels of a brick") {
+  Random random(3);
+  for (int round = 0; round < 500; ++round) {
+    Brick brick;
+    const double share = round % 5 == 0 ? 0.95 : random.real(0.0, 0.6);
+    for (auto& word : brick.occupied) {
+      for (int bit = 0; bit < 64; ++bit) {
+        if (random.real(0, 1) < share) word |= std::uint64_t{1} << bit;
+      }
+    }
+    REQUIRE(union_of(cover_of(brick)).occupied == brick.occupied);
+  }
+}
+
+TEST_CASE("a mended cover holds exactly the voxels that are there now") {
+  Random random(6);
+  Brick brick;
+  std::vector<BrickBox> boxes;
+  for (int round = 0; round < 2000; ++round) {
+    const int x = random.integer(0, 7), y = random.integer(0, 7), z = random.integer(0, 7);
+    brick.occupied[static_cast<std::size_t>(x)] ^= Brick::bit(y, z);
+    if (round % 7 == 0) brick.occupied[static_cast<std::size_t>(y)] |= 0xFFFFULL << (8 * x);
+    if (round % 3 != 0) continue;  // Several changes at once.
+    mend_cover(brick, boxes);
+    REQUIRE(union_of(boxes).occupied == brick.occupied);
+  }
+}
+
+TEST_CASE("a cover has one box where one is enough") {
+  CHECK(cover_of(Brick{}).empty());
+  Brick full;
+  full.occupied.fill(~std::uint64_t{0});
+  CHECK(cover_of(full).size() == 1);
+  // A floor one voxel thick, and a wall on it: two boxes.
+  Brick corner;
+  for (int x = 0; x < 8; ++x) {
+    for (int y = 0; y < 8; ++y) {
+      corner.occupied[static_cast<std::size_t>(x)] |= Brick::bit(y, 2);
+      corner.occupied[3] |= Brick::bit(y, x);
+    }
+  }
+  CHECK(cover_of(corner).size() == 2);
+  const BrickBox bounds = tight_box(corner);
+  CHECK(bounds.first(0) == 0);
+  CHECK(bounds.last(0) == 7);
+  CHECK(bounds.first(2) == 0);
+  CHECK(bounds.last(2) == 7);
+  Brick single;
+  single.occupied[5] = Brick::bit(6, 1);
+  CHECK(tight_box(single).packed == BrickBox::from({5, 6, 1}, {5, 6, 1}).packed);
+}
+
+TEST_CASE("the map holds what a plain set holds, whatever comes and goes") {
+  Random random(8);
+  OccupancyMap map(0.2);
+  std::set<VoxelKey> expected;
+  for (int round = 0; round < 30; ++round) {
+    for (int k = 0; k < 300; ++k) {
+      const VoxelIndex voxel(random.integer(-20, 20), random.integer(-20, 20),
+                             random.integer(-20, 20));
+      if (random.integer(0, 2) == 0) {
+        CHECK(map.erase(voxel) == (expected.erase(voxel_key(voxel)) == 1));
+      } else {
+        CHECK(map.insert(voxel) == expected.insert(voxel_key(voxel)).second);
+      }
+    }
+    map.update_boxes(round % 3 + 1);
+    REQUIRE(map.size() == expected.size());
+    // The boxes that the raycasting sees are those of the voxels that are there now.
+    std::size_t voxels = 0;
+    for (OccupancyMap::Slot slot = 0; slot < map.brick_count(); ++slot) {
+      const Brick covered = union_of(map.boxes(slot));
+      REQUIRE(covered.occupied == map.brick(slot).occupied);
+      for (const std::uint64_t word : covered.occupied) {
+        voxels += static_cast<std::size_t>(std::popcount(word));
+      }
+    }
+    REQUIRE(voxels == expected.size());
+  }
+}
+
+TEST_CASE("a voxel nearby is found across the borders of bricks") {
+  Random random(10);
+  OccupancyMap map(0.2);
+  for (int k = 0; k < 60; ++k) {
+    map.insert({random.integer(-12, 12), random.integer(-12, 12), random.integer(-12, 12)});
+  }
+  for (int k = 0; k < 500; ++k) {
+    const VoxelIndex voxel(random.integer(-14, 14), random.integer(-14, 14),
+                           random.integer(-14, 14));
+    const int dilation = k % 4;
+    bool expected = false;
+    for (int dx = -dilation; dx <= dilation; ++dx) {
+      for (int dy = -dilation; dy <= dilation; ++dy) {
+        for (int dz = -dilation; dz <= dilation; ++dz) {
+          expected |= map.contains(voxel + VoxelIndex(dx, dy, dz));
+        }
+      }
+    }
+    REQUIRE(map.contains_near(voxel, dilation) == expected);
+  }
+}
+
+TEST_CASE("every brick is in the tile it stands on, once") {
+  Random random(9);
+  OccupancyMap map(0.2);
+  random_map::fill(map, {-70, 130, 5}, 40, random);
+  map.update_boxes(1);
+  std::set<OccupancyMap::Slot> seen;
+  for (std::size_t i = 0; i < map.tile_count(); ++i) {
+    for (const auto& head : map.tile(i)) {
+      const Eigen::Vector3i at(head.at[0], head.at[1], head.at[2]);
+      const Eigen::Vector2i tile = OccupancyMap::tile_of(at);
+      CHECK(map.tile(tile.x(), tile.y()).data() == map.tile(i).data());
+      CHECK(map.find_slot(at) == head.slot);
+      CHECK(seen.insert(head.slot).second);
+    }
+  }
+  CHECK(seen.size() == map.brick_count());
+  CHECK(map.tile(1000, 1000).empty());
+}
+
+TEST_CASE("a map that fills and empties again and again does not grow") {
+  OccupancyMap map(0.2);
+  std::size_t bytes = 0;
+  for (int round = 0; round < 50; ++round) {
+    Random random(2);
+    for (int k = 0; k < 2000; ++k) {
+      map.insert({random.integer(0, 31), random.integer(0, 31), random.integer(0, 31)});
+    }
+    map.update_boxes(1);
+    if (round == 1) bytes = map.memory_bytes();
+    if (round > 1) REQUIRE(map.memory_bytes() == bytes);
+    for (int x = 0; x < 32; ++x) {
+      for (int y = 0; y < 32; ++y) {
+        for (int z = 0; z < 32; ++z) map.erase({x, y, z});
+      }
+    }
+    map.update_boxes(1);
+    CHECK(map.size() == 0);
+  }
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "methods/removert/map_points.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <random>
+#include <tuple>
+
+#include "core/error.h"
+#include "tests/methods/removert/point_world.h"
+
+using namespace raymoval;
+using namespace raymoval::removert;
+using toy::Points;
+
+namespace {
+
+MapPoints map_of(const CellLattice& lattice, const std::vector<Points>& scans) {
+  MapBuilder builder(lattice);
+  std::uint64_t number = 0;
+  for (const Points& points : scans) {
+    builder.add(points, Pose::Identity(), number, 1);
+    number += points.size();
+  }
+  return builder.finish();
+}
+
+std::vector<Eigen::Vector3d> positions(const MapPoints& map) {
+  std::vector<Eigen::Vector3d> all;
+  for (const Block& block : map.blocks) {
+    for (std::size_t i = block.begin; i < block.end; ++i) all.push_back(map.position(block, i));
+  }
+  return all;
+}
+
+Points random_points(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> place(-1.0F, 1.0F);
+  Points points;
+  for (int i = 0; i < count; ++i) points.emplace_back(place(random), place(random), place(random));
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("removert: a cell of the map is the centroid of its points over all scans") {
+  const CellLattice lattice(0.05);
+  // The first two are in the cell [0.05, 0.1) x [0, 0.05) x [-0.05, 0), the third is beside it.
+  const MapPoints map =
+      map_of(lattice, {{{0.06F, 0.01F, -0.01F}, {0.11F, 0.01F, -0.01F}}, {{0.09F, 0.02F, -0.03F}}});
+  const auto found = positions(map);
+  REQUIRE(found.size() == 2);
+  CHECK((found[0] - Eigen::Vector3d(0.075, 0.015, -0.02)).norm() < 1e-6);
+  CHECK((found[1] - Eigen::Vector3d(0.11, 0.01, -0.01)).norm() < 1e-6);
+}
+
+TEST_CASE("removert: centroids are those of a plain table of cells") {
+  const CellLattice lattice(0.2);
+  const std::vector<Points> scans = {random_points(5000, 1), random_points(5000, 2)};
+  std::map<std::tuple<int, int, int>, std::pair<Eigen::Vector3d, double>> expected;
+  for (const Points& points : scans) {
+    for (const Eigen::Vector3f& point : points) {
+      const auto cell = [&](int axis) {
+        return static_cast<int>(std::floor(static_cast<double>(point[axis]) / 0.2));
+      };
+      auto& [sum, count] =
+          expected.try_emplace({cell(0), cell(1), cell(2)}, Eigen::Vector3d::Zero(), 0.0)
+              .first->second;
+      sum += point.cast<double>();
+      count += 1.0;
+    }
+  }
+  const MapPoints map = map_of(lattice, scans);
+  REQUIRE(map.size() == expected.size());
+  for (const Block& block : map.blocks) {
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const VoxelIndex index = lattice.cell_index(block.key, map.id[i]);
+      const auto& [sum, count] = expected.at({index.x(), index.y(), index.z()});
+      CHECK((map.position(block, i) - sum / count).norm() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("removert: with voxel 0 each point is in the map under its number") {
+  const std::vector<Points> scans = {random_points(100, 1), {}, random_points(50, 2)};
+  const MapPoints map = map_of(CellLattice(0.0), scans);
+  REQUIRE(map.size() == 150);
+  for (const Block& block : map.blocks) {
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const Eigen::Vector3f& point =
+          map.id[i] < 100 ? scans[0][map.id[i]] : scans[2][map.id[i] - 100];
+      CHECK((map.position(block, i) - point.cast<double>()).norm() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("removert: what is taken out of a map and put back gives the same map") {
+  const CellLattice lattice(0.05);
+  MapPoints map = map_of(lattice, {random_points(3000, 4)});
+  const auto before = positions(map);
+  const std::vector<std::uint32_t> id_before = map.id;
+  std::vector<std::uint8_t> taken(map.size());
+  for (std::size_t i = 0; i < taken.size(); ++i) taken[i] = i % 3 == 0 || i < 200 ? 1 : 0;
+  const MapPoints out = take_points(map, taken);
+  CHECK(out.size() + map.size() == before.size());
+  const MapPoints again = united(map, out);
+  CHECK(again.blocks.size() >= map.blocks.size());
+  // Blocks come back in order; within one the two parts follow each other.
+  const auto sorted = [](const MapPoints& points) {
+    std::map<std::pair<VoxelKey, std::uint32_t>, Eigen::Vector3d> all;
+    for (const Block& block : points.blocks) {
+      for (std::size_t i = block.begin; i < block.end; ++i) {
+        all[{block.key, points.id[i]}] = points.position(block, i);
+      }
+    }
+    return all;
+  };
+  const MapPoints whole = map_of(lattice, {random_points(3000, 4)});
+  CHECK(sorted(again) == sorted(whole));
+  CHECK(again.size() == id_before.size());
+}
+
+TEST_CASE("removert: balls hold their points") {
+  const MapPoints map = map_of(CellLattice(0.05), {random_points(3000, 5)});
+  REQUIRE_FALSE(map.groups.empty());
+  std::size_t seen = 0;
+  for (const BlockGroup& group : map.groups) {
+    for (std::size_t b = group.begin; b < group.end; ++b) {
+      const Block& block = map.blocks[b];
+      for (std::size_t i = block.begin; i < block.end; ++i, ++seen) {
+        const Eigen::Vector3d at = map.position(block, i);
+        CHECK((at - block.ball.centre).norm() <= static_cast<double>(block.ball.radius));
+        CHECK((at - group.ball.centre).norm() <= static_cast<double>(group.ball.radius));
+      }
+    }
+  }
+  CHECK(seen == map.size());
+}
+
+TEST_CASE("removert: a point beyond the lattice is an error") {
+  const CellLattice lattice(0.05);
+  MapBuilder builder(lattice);
+  CHECK_THROWS_AS(builder.add({{1e7F, 0, 0}}, Pose::Identity(), 0, 1), DataError);
+}

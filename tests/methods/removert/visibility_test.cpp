@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "methods/removert/visibility.h"
+
+#include <catch2/catch.hpp>
+#include <optional>
+#include <random>
+
+#include "tests/methods/removert/point_world.h"
+
+using namespace raymoval;
+using namespace raymoval::removert;
+using toy::ahead;
+using toy::aside;
+using toy::Points;
+using toy::polar;
+
+namespace {
+
+MapPoints map_of(const Points& points) {
+  static const CellLattice lattice(0.0);
+  MapBuilder builder(lattice);
+  builder.add(points, Pose::Identity(), 0, 1);
+  return builder.finish();
+}
+
+/// Votes in the order of `map`.
+Votes votes(const Points& map, const Points& scan, const RemovertParameters& parameters,
+            Candidates candidates, const Pose& T_world_sensor = Pose::Identity(),
+            double resolution = 2.5) {
+  const MapPoints points = map_of(map);
+  VisibilityPass pass(points, parameters, candidates);
+  const ScanImage image(scan, PixelGrid(parameters, resolution), parameters, candidates);
+  pass.show(image, T_world_sensor.inverse());
+  Votes by_input{std::vector<std::uint32_t>(map.size(), 0), {}};
+  if (candidates == Candidates::kAll) by_input.still.assign(map.size(), 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    by_input.dynamic[points.id[i]] = pass.votes().dynamic[i];
+    if (candidates == Candidates::kAll) by_input.still[points.id[i]] = pass.votes().still[i];
+  }
+  return by_input;
+}
+
+using Counts = std::vector<std::uint32_t>;
+
+Counts dynamic(const Points& map, const Points& scan, const RemovertParameters& parameters = {}) {
+  const bool absolute = parameters.difference == DifferenceRule::kAbsolute;
+  return votes(map, scan, parameters, absolute ? Candidates::kAll : Candidates::kInFront).dynamic;
+}
+
+}  // namespace
+
+TEST_CASE("removert: a map point that a scan sees through is dynamic, what it sees is not") {
+  // One pixel; 20 - 10 is more than 0.05 * 20 = 1.
+  CHECK(dynamic({ahead(10), ahead(20)}, {ahead(20)}) == Counts{1, 0});
+}
+
+TEST_CASE("removert: a pixel flags its nearest map point only") {
+  CHECK(dynamic({ahead(11), ahead(10), ahead(20)}, {ahead(20)}) == Counts{0, 1, 0});
+}
+
+TEST_CASE("removert: what stands behind a return is dynamic only in absolute difference") {
+  RemovertParameters parameters;
+  CHECK(dynamic({ahead(20)}, {ahead(10)}, parameters) == Counts{0});
+  parameters.difference = DifferenceRule::kAbsolute;
+  CHECK(dynamic({ahead(20)}, {ahead(10)}, parameters) == Counts{1});
+}
+
+TEST_CASE("removert: the margin is a share of the scan's range, or tau_abs if that is more") {
+  // 20 - 19.01 = 0.99 is no more than 1, 20 - 18.9 = 1.1 is.
+  CHECK(dynamic({ahead(19.01)}, {ahead(20)}) == Counts{0});
+  CHECK(dynamic({ahead(18.9)}, {ahead(20)}) == Counts{1});
+  RemovertParameters parameters;
+  parameters.tau_abs = 1.2;
+  CHECK(dynamic({ahead(18.9)}, {ahead(20)}, parameters) == Counts{0});
+  CHECK(dynamic({ahead(18.7)}, {ahead(20)}, parameters) == Counts{1});
+}
+
+TEST_CASE("removert: ground below the field of view is not judged by the lowest ring") {
+  // From 1.73 m up: G is at -40.9 degrees, 2.644 m; P at -24.77 degrees, 4.130 m, in the last row.
+  const Eigen::Vector3f ground(2.0F, 0, -1.73F), ring(3.75F, 0, -1.73F);
+  RemovertParameters parameters;
+  CHECK(dynamic({ground}, {ring}, parameters) == Counts{0});
+  parameters.clamp_fov = true;  // 4.130 - 2.644 = 1.486 is more than 0.05 * 4.130 = 0.2065.
+  CHECK(dynamic({ground}, {ring}, parameters) == Counts{1});
+}
+
+TEST_CASE("removert: behind the sensor the image has no seam") {
+  const Points map{{-10, -0.0175F, 0}}, scan{{-20, 0.035F, 0}};
+  RemovertParameters parameters;
+  CHECK(dynamic(map, scan, parameters) == Counts{1});
+  parameters.wrap_azimuth = false;
+  CHECK(dynamic(map, scan, parameters) == Counts{0});
+}
+
+TEST_CASE("removert: where the scan has no return nothing is decided") {
+  for (const Candidates candidates : {Candidates::kInFront, Candidates::kAll}) {
+    const Votes of_sky = votes({ahead(15)}, {aside(15)}, {}, candidates);
+    CHECK(of_sky.dynamic == Counts{0});
+    if (candidates == Candidates::kAll) CHECK(of_sky.still == Counts{0});
+  }
+}
+
+TEST_CASE("removert: a difference of diff_upper or more is not believed, yet hides what follows") {
+  RemovertParameters parameters;
+  parameters.diff_upper = 8.0;
+  CHECK(dynamic({ahead(10)}, {ahead(20)}, parameters) == Counts{0});
+  CHECK(dynamic({ahead(10), ahead(15)}, {ahead(20)}, parameters) == Counts{0, 0});
+  CHECK(dynamic({ahead(15)}, {ahead(20)}, parameters) == Counts{1});
+}
+
+TEST_CASE("removert: a thin pole goes where a ray passes beside it in the same pixel") {
+  // Pixels are 0.4 degrees wide, 0.035 m at 5 m: the pole's cell is 0.01 m beside the ray.
+  CHECK(dynamic({{5, 0.01F, 0.01F}}, {{20, 0, 0.04F}}) == Counts{1});
+  CHECK(dynamic({{5, 0.03F, 0.01F}}, {{20, 0, 0.04F}}) == Counts{0});
+}
+
+TEST_CASE("removert: with all candidates a scan that sees a point speaks for it") {
+  const Votes seen = votes({ahead(10), ahead(20), aside(5), aside(7)}, {ahead(20), aside(5.1)}, {},
+                           Candidates::kAll);
+  CHECK(seen.dynamic == Counts{1, 0, 0, 0});
+  CHECK(seen.still == Counts{0, 0, 1, 0});
+}
+
+namespace {
+
+/// Projects every point of the map, in double precision and without any shortcut.
+Votes slow_votes(const Points& map, const Points& scan, const RemovertParameters& parameters,
+                 Candidates candidates, const Pose& T_world_sensor, double resolution) {
+  const PixelGrid grid(parameters, resolution);
+  const auto pixels = static_cast<std::size_t>(grid.size());
+  std::vector<float> in_scan(pixels, -1.0F);
+  for (const Eigen::Vector3f& point : scan) {
+    const int pixel = grid.pixel_of(point.cast<double>());
+    if (pixel < 0) continue;
+    float& nearest = in_scan[static_cast<std::size_t>(pixel)];
+    const auto range = static_cast<float>(point.cast<double>().norm());
+    nearest = nearest < 0.0F ? range : std::min(nearest, range);
+  }
+  std::vector<std::optional<std::size_t>> in_map(pixels);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const Eigen::Vector3d local = T_world_sensor.inverse() * map[i].cast<double>();
+    ranges.push_back(local.norm());
+    const int pixel = grid.pixel_of(local);
+    if (pixel < 0) continue;
+    auto& nearest = in_map[static_cast<std::size_t>(pixel)];
+    if (!nearest || ranges[i] < ranges[*nearest]) nearest = i;
+  }
+  Votes result{Counts(map.size(), 0), {}};
+  if (candidates == Candidates::kAll) result.still.assign(map.size(), 0);
+  for (std::size_t u = 0; u < pixels; ++u) {
+    if (in_scan[u] < 0.0F || !in_map[u]) continue;
+    double difference = static_cast<double>(in_scan[u]) - ranges[*in_map[u]];
+    if (parameters.difference == DifferenceRule::kAbsolute) difference = std::abs(difference);
+    const double margin =
+        std::max(parameters.tau_abs, parameters.gamma * static_cast<double>(in_scan[u]));
+    if (difference > margin && difference < parameters.diff_upper) {
+      ++result.dynamic[*in_map[u]];
+    } else if (candidates == Candidates::kAll) {
+      ++result.still[*in_map[u]];
+    }
+  }
+  return result;
+}
+
+/// Points mostly near the horizon, dense enough for several to share a pixel.
+Points random_cloud(std::mt19937& random, int count, double reach) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  Points points;
+  for (int i = 0; i < count; ++i) {
+    points.push_back(polar(0.5 + reach * unit(random) * unit(random), -35.0 + 70.0 * unit(random),
+                           -180.0 + 360.0 * unit(random)));
+  }
+  return points;
+}
+
+Pose random_pose(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Pose pose = Pose::Identity();
+  const Eigen::Vector3d axis(unit(random), unit(random), unit(random));
+  pose.linear() = Eigen::AngleAxisd(3.0 * unit(random), axis.normalized()).matrix();
+  pose.translation() << 5.0 * unit(random), 5.0 * unit(random), 2.0 * unit(random);
+  return pose;
+}
+
+}  // namespace
+
+TEST_CASE("removert: shortcuts change no vote") {
+  std::mt19937 random(11);
+  std::uint32_t dynamic_votes = 0, still_votes = 0;
+  for (int round = 0; round < 64; ++round) {
+    RemovertParameters parameters;
+    parameters.clamp_fov = (round & 1) != 0;
+    parameters.wrap_azimuth = (round & 2) != 0;
+    parameters.difference = (round & 4) != 0 ? DifferenceRule::kAbsolute : DifferenceRule::kSigned;
+    if ((round & 8) != 0) parameters.horizontal_fov = 120.0;
+    if ((round & 16) != 0) parameters.diff_upper = 10.0;
+    const bool all = (round & 4) != 0 || (round & 32) != 0;
+    const Candidates candidates = all ? Candidates::kAll : Candidates::kInFront;
+    const Points map = random_cloud(random, 6000, 40.0), scan = random_cloud(random, 2000, 60.0);
+    const Pose pose = random_pose(random);
+    // With few pixels the map is large enough for near points to hide far ones.
+    const double resolution = round % 3 == 0 ? 0.2 : 1.0;
+    const Votes fast = votes(map, scan, parameters, candidates, pose, resolution);
+    const Votes slow = slow_votes(map, scan, parameters, candidates, pose, resolution);
+    INFO("round " << round);
+    CHECK(fast.dynamic == slow.dynamic);
+    CHECK(fast.still == slow.still);
+    for (const std::uint32_t count : fast.dynamic) dynamic_votes += count;
+    for (const std::uint32_t count : fast.still) still_votes += count;
+  }
+  CHECK(dynamic_votes > 5000);
+  CHECK(still_votes > 1000);
+}
