@@ -9,6 +9,7 @@
 #include "methods/octomap/octomap.h"
 #include "methods/peopleremover/peopleremover.h"
 #include "methods/raymoval/raymoval.h"
+#include "methods/raymoval_plus/raymoval_plus.h"
 #include "methods/removert/removert.h"
 
 namespace raymoval {
@@ -20,6 +21,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(remove_all_entry());
     methods.add(oracle_entry());
     methods.add(raymoval_entry());
+    methods.add(raymoval_plus_entry());
     methods.add(octomap_entry());
     methods.add(peopleremover_entry());
     methods.add(removert_entry());

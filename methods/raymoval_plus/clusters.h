@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace raymoval {
+
+/// Cluster number of each point, from 0, in order of each cluster's first point. Two points are
+/// joined if their distance is at most gap + growth * (the smaller of their ranges), or if they
+/// share a cell of edge gap / sqrt(3).
+/// @param points metres, any frame; @param ranges distance of each point from the sensor, metres
+std::vector<int> euclidean_clusters(const std::vector<Eigen::Vector3f>& points,
+                                    const std::vector<float>& ranges, float gap, float growth);
+
+}  // namespace raymoval

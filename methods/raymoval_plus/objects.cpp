@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects.h"
+
+#include <algorithm>
+
+#include "methods/raymoval_plus/clusters.h"
+
+namespace raymoval {
+namespace {
+
+/// Clusters of some of a scan's points.
+std::vector<int> clusters_of(const Scan& scan, const std::vector<std::size_t>& chosen,
+                             const RaymovalPlusParameters& parameters) {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<float> ranges;
+  for (const std::size_t k : chosen) {
+    points.push_back(scan.points[k]);
+    ranges.push_back(scan.points[k].norm());
+  }
+  return euclidean_clusters(points, ranges, static_cast<float>(parameters.cluster_gap),
+                            static_cast<float>(parameters.cluster_growth));
+}
+
+bool is_high(float height, const RaymovalPlusParameters& parameters) {
+  return !parameters.terrain || height >= static_cast<float>(parameters.object_height);
+}
+
+bool is_hardly_dynamic(const ScanObjects& objects, std::size_t cluster,
+                       const RaymovalPlusParameters& parameters) {
+  return objects.dynamic[cluster] <= parameters.object_static_share * objects.size[cluster];
+}
+
+/// Dynamic points of hardly dynamic clusters that hang together with enough others: 1 for each
+/// of `objects.points`.
+std::vector<std::uint8_t> spared_groups(const ScanObjects& objects, const WorldScan& world,
+                                        const RaymovalPlusParameters& parameters) {
+  std::vector<std::size_t> place, chosen;
+  for (std::size_t i = 0; i < objects.points.size(); ++i) {
+    const std::size_t k = objects.points[i];
+    if (world.verdict[k] != Evidence::kDynamic) continue;
+    if (!is_hardly_dynamic(objects, static_cast<std::size_t>(objects.number[i]), parameters)) {
+      continue;
+    }
+    place.push_back(i);
+    chosen.push_back(k);
+  }
+  const std::vector<int> group = clusters_of(world.scan, chosen, parameters);
+  std::vector<int> size(chosen.size(), 0);
+  for (const int g : group) ++size[static_cast<std::size_t>(g)];
+  std::vector<std::uint8_t> spared(objects.points.size(), 0);
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    spared[place[i]] = size[static_cast<std::size_t>(group[i])] >= parameters.group_points ? 1 : 0;
+  }
+  return spared;
+}
+
+}  // namespace
+
+ScanObjects find_objects(const WorldScan& world, const RaymovalPlusParameters& parameters) {
+  ScanObjects objects;
+  const auto farthest = static_cast<float>(parameters.evidence_range_max);
+  for (std::size_t k = 0; k < world.points.size(); ++k) {
+    if (!is_high(world.height[k], parameters)) continue;
+    if (world.scan.points[k].squaredNorm() > farthest * farthest) continue;
+    objects.points.push_back(k);
+  }
+  objects.number = clusters_of(world.scan, objects.points, parameters);
+  for (std::size_t i = 0; i < objects.points.size(); ++i) {
+    const auto cluster = static_cast<std::size_t>(objects.number[i]);
+    if (cluster >= objects.size.size()) {
+      objects.size.resize(cluster + 1, 0);
+      objects.dynamic.resize(cluster + 1, 0);
+    }
+    ++objects.size[cluster];
+    if (world.verdict[objects.points[i]] == Evidence::kDynamic) ++objects.dynamic[cluster];
+  }
+  return objects;
+}
+
+std::vector<ObjectSummary> summaries(const ScanObjects& objects, const WorldScan& world,
+                                     const EvidenceMap& map,
+                                     const RaymovalPlusParameters& parameters) {
+  std::vector<ObjectSummary> found(objects.size.size());
+  for (ObjectSummary& object : found) {
+    object.low.setConstant(1e300);
+    object.high.setConstant(-1e300);
+    object.center.setZero();
+  }
+  for (std::size_t i = 0; i < objects.points.size(); ++i) {
+    const std::size_t k = objects.points[i];
+    ObjectSummary& object = found[static_cast<std::size_t>(objects.number[i])];
+    object.low = object.low.cwiseMin(world.points[k]);
+    object.high = object.high.cwiseMax(world.points[k]);
+    object.center += world.points[k];
+    ++object.points;
+    if (world.verdict[k] == Evidence::kDynamic) {
+      ++object.dynamic;
+    } else {
+      object.agree_scans += map.agree_scans[world.voxel[k]];
+    }
+  }
+  const Eigen::Vector3d sensor = world.scan.T_world_sensor.translation();
+  for (ObjectSummary& object : found) {
+    object.center /= object.points;
+    object.range = (object.center - sensor).norm();
+    object.agree_scans /= std::max(object.points - object.dynamic, 1);
+    if (object.points < parameters.track_points || object.width() > parameters.track_width) {
+      object.points = 0;
+    }
+  }
+  return found;
+}
+
+void judge_objects(const ScanObjects& objects, const std::vector<std::uint8_t>& marks,
+                   const RaymovalPlusParameters& parameters, WorldScan& world) {
+  const std::vector<std::uint8_t> spared = spared_groups(objects, world, parameters);
+  for (std::size_t i = 0; i < objects.points.size(); ++i) {
+    const auto cluster = static_cast<std::size_t>(objects.number[i]);
+    Evidence& verdict = world.verdict[objects.points[i]];
+    const bool mostly_dynamic =
+        objects.dynamic[cluster] >= parameters.object_dynamic_share * objects.size[cluster] &&
+        objects.size[cluster] >= parameters.object_points;
+    if (mostly_dynamic || (!marks.empty() && marks[cluster] != 0)) {
+      verdict = Evidence::kDynamic;
+    } else if (spared[i] == 0 && is_hardly_dynamic(objects, cluster, parameters)) {
+      verdict = Evidence::kStatic;
+    }
+  }
+}
+
+void judge_low_points(const RaymovalPlusParameters& parameters, WorldScan& world) {
+  constexpr float kHighest = 1.0F;  // Metres: what is above does not stand on these points.
+  struct Standing {
+    int dynamic = 0, fixed = 0;
+  };
+  VoxelMap<Standing> columns;
+  const double scale = 1.0 / parameters.voxel_size;
+  const auto low = static_cast<float>(parameters.object_height);
+  for (std::size_t k = 0; k < world.points.size(); ++k) {
+    if (!(world.height[k] >= low) || world.height[k] >= kHighest) continue;
+    const VoxelIndex at = voxel_index(world.points[k], scale);
+    Standing& standing = columns[voxel_key(at.x(), at.y(), 0)];
+    ++(world.verdict[k] == Evidence::kDynamic ? standing.dynamic : standing.fixed);
+  }
+  for (std::size_t k = 0; k < world.points.size(); ++k) {
+    if (world.voxel[k] == EvidenceMap::kNone || !(world.height[k] < low)) continue;
+    const VoxelIndex at = voxel_index(world.points[k], scale);
+    Standing sum;
+    for (int n = 0; n < 9; ++n) {
+      const auto found = columns.find(voxel_key(at.x() + n % 3 - 1, at.y() + n / 3 - 1, 0));
+      if (found == columns.end()) continue;
+      sum.dynamic += found->second.dynamic;
+      sum.fixed += found->second.fixed;
+    }
+    if (sum.dynamic > 0 && sum.dynamic >= 2 * sum.fixed) {
+      world.verdict[k] = Evidence::kDynamic;
+    } else if (sum.fixed > 0 && sum.fixed >= 2 * sum.dynamic) {
+      world.verdict[k] = Evidence::kStatic;
+    }
+  }
+}
+
+}  // namespace raymoval
