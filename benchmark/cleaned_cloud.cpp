@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "benchmark/map_cleaner.h"
 #include "core/text.h"
+#include "core/voxel_key.h"
 #include "datasets/cloud_file.h"
 
 namespace raymoval {
@@ -39,18 +39,54 @@ CleanedCloud read_cleaned_cloud(const std::filesystem::path& path) {
   return cleaned_cloud(read_cloud(path).points);
 }
 
+namespace {
+
+/// Static points of a sequence in the world frame, or their means by cell.
+class StaticPoints {
+ public:
+  explicit StaticPoints(double voxel_size) : voxel_size_(voxel_size) {}
+  void add(const Eigen::Vector3d& point) {
+    if (voxel_size_ <= 0.0) {
+      points_.push_back(point.cast<float>());
+      return;
+    }
+    Cell& cell = cells_[voxel_key(voxel_index(point, 1.0 / voxel_size_))];
+    cell.sum += point;
+    ++cell.count;
+  }
+  /// In no particular order.
+  [[nodiscard]] std::vector<Eigen::Vector3f> points() const {
+    std::vector<Eigen::Vector3f> points = points_;
+    for (const auto& [key, cell] : cells_) {
+      const Eigen::Vector3d mean = cell.sum / static_cast<double>(cell.count);
+      points.push_back(mean.cast<float>());
+    }
+    return points;
+  }
+
+ private:
+  struct Cell {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    std::uint64_t count = 0;
+  };
+  double voxel_size_;
+  std::vector<Eigen::Vector3f> points_;
+  VoxelMap<Cell> cells_;
+};
+
+}  // namespace
+
 CleanedCloud oracle_cloud(const Sequence& sequence, double voxel_size, Progress* progress) {
-  MapCollector kept(voxel_size);
+  StaticPoints kept(voxel_size);
   const ScanSource& scans = *sequence.scans;
   if (progress != nullptr) progress->begin("the oracle's cloud", scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
     const std::vector<std::uint32_t> words = sequence.labels->labels(scan);
-    Mask mask(words.size());
-    std::transform(words.begin(), words.end(), mask.begin(), [&](std::uint32_t word) {
-      return sequence.label_rule.classify(word) == LabelClass::kMoving ? 1 : 0;
-    });
-    kept.add(scan, mask, 0);
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      if (sequence.label_rule.classify(words[k]) == LabelClass::kMoving) continue;
+      kept.add(scan.T_world_sensor * scan.points[k].cast<double>());
+    }
     if (progress != nullptr) progress->advance();
   }
   if (progress != nullptr) progress->end();
