@@ -16,6 +16,7 @@
 #include "benchmark/descriptor.h"
 #include "benchmark/sealed_json.h"
 #include "core/text.h"
+#include "methods/external/working_folder.h"
 
 namespace raymoval {
 namespace {
@@ -237,6 +238,14 @@ void on_orphaned(int) {
   ::kill(0, SIGKILL);  // Its whole process group, itself included.
 }
 
+/// A child that is ended cannot remove the working folder of an external method itself.
+struct Tidy {
+  const MethodEntry& entry;
+  ~Tidy() {
+    if (!entry.manifest.empty()) remove_abandoned_working_folders();
+  }
+};
+
 }  // namespace
 
 MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& place,
@@ -245,6 +254,7 @@ MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& pla
   const Descriptor answer_file = memory_file("answer");
   write_all(task_file.get(), json_text(task_record(task, place)));
   if (task.progress != nullptr) task.progress->end();
+  const Tidy tidy{*task.request->method.entry};
   const ChildEnd end = run_child({{kMethodCommand},
                                   {{task_file.get(), kTaskFile},
                                    {answer_file.get(), kAnswerFile},

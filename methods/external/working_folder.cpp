@@ -55,8 +55,9 @@ void remove_folder(const fs::path& folder) {
 /// Removes what killed processes left. Only what is ours by name, owner and a free lock.
 void sweep(const fs::path& root) {
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(root, error)) {
-    const fs::path& lock = entry.path();
+  for (auto entry = fs::directory_iterator(root, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const fs::path lock = entry->path();
     if (!lock.filename().string().starts_with(kPrefix) || lock.extension() != ".lock") continue;
     struct stat status {};
     if (::lstat(lock.c_str(), &status) != 0 || status.st_uid != ::geteuid()) continue;
@@ -76,6 +77,12 @@ fs::path temporary_root() {
 }
 
 }  // namespace
+
+void remove_abandoned_working_folders() {
+  std::error_code error;
+  const fs::path root = fs::temp_directory_path(error);
+  if (!error) sweep(root);
+}
 
 WorkingFolder::WorkingFolder() {
   const fs::path root = temporary_root();

@@ -6,8 +6,8 @@
 namespace raymoval {
 
 /// A folder of its own below the system's folder for temporary files (TMPDIR, else /tmp), for its
-/// owner only. It is gone with this object. A process that is killed leaves its folder behind; the
-/// next one made removes it, as its lock is free then.
+/// owner only. It is gone with this object. A process that is killed leaves its folder behind; its
+/// lock is free then, and `remove_abandoned_working_folders` or the next folder made removes it.
 class WorkingFolder {
  public:
   /// @throws DataError if it cannot be made
@@ -24,5 +24,8 @@ class WorkingFolder {
   int lock_ = -1;
   bool kept_ = false;
 };
+
+/// Removes what killed processes of this user left. Never throws.
+void remove_abandoned_working_folders();
 
 }  // namespace raymoval

@@ -71,6 +71,9 @@ echo 'raise SystemExit("no more")' >method/voxel_counts.py
 holds "a failed program fails the run" test $? -eq 1
 grep -h 'exit code 1' failed/$cell >reason.txt
 holds "with what it printed" grep -q 'no more' reason.txt
+echo 'import time; time.sleep(600)' >method/voxel_counts.py
+"${short[@]}" --time-limit 1 --only '*/voxel*' --out late >out.txt 2>err.txt
+holds "a program that hangs is ended" grep -q '"status": "timeout"' late/$cell
 holds "nothing is left" test -z "$(ls temporary)"
 
 [[ $failures -eq 0 ]] && echo "external: all checks hold"
