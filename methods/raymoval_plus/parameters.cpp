@@ -8,94 +8,106 @@ namespace {
 
 using Table = ParameterTable<RaymovalPlusParameters>;
 using P = RaymovalPlusParameters;
+constexpr const char* kSource = "raymoval_plus/README.md";
 
 void add_terrain(Table& table) {
-  table.flag("offline", &P::offline, {.sentence = "Answer every point from all scans."})
-      .flag("terrain", &P::terrain, {.sentence = "Find the ground and keep its points."})
-      .number("terrain_cell", &P::terrain_cell, {"m", 0.1, 5, "", "Edge of a ground column."})
+  table
+      .flag("offline", &P::offline,
+            {.source = kSource, .sentence = "Answer every point from all scans."})
+      .flag("terrain", &P::terrain,
+            {.source = kSource, .sentence = "Find the ground and keep its points."})
+      .number("terrain_cell", &P::terrain_cell, {"m", 0.1, 5, kSource, "Edge of a ground column."})
       .number("terrain_quantile", &P::terrain_quantile,
-              {"", 0, 0.5, "", "Quantile of a column's heights taken for its ground."})
-      .number("terrain_drop", &P::terrain_drop,
-              {"m", 0, 10, "", "A column this much below its neighbours' quartile is dropped."})
+              {"", 0, 0.5, kSource, "Quantile of a column's heights taken for its ground."})
+      .number(
+          "terrain_drop", &P::terrain_drop,
+          {"m", 0, 10, kSource, "A column this much below its neighbours' quartile is dropped."})
       .number("terrain_slope", &P::terrain_slope,
-              {"", 0, 2, "", "Steepest ground from a column to its neighbours."})
+              {"", 0, 2, kSource, "Steepest ground from a column to its neighbours."})
       .number("terrain_reach", &P::terrain_reach,
-              {"m", 0, 10, "", "How far a column's ground bounds that of its neighbours."})
+              {"m", 0, 10, kSource, "How far a column's ground bounds that of its neighbours."})
       .number("ground_height", &P::ground_height,
-              {"m", 0, 1, "", "Points lower than this above the ground are ground."});
+              {"m", 0, 1, kSource, "Points lower than this above the ground are ground."});
 }
 
 void add_evidence(Table& table) {
-  table.number("voxel_size", &P::voxel_size, {"m", 0.02, 2, "", "Edge of a voxel."})
+  table.number("voxel_size", &P::voxel_size, {"m", 0.02, 2, kSource, "Edge of a voxel."})
       .number("minimum_range", &P::minimum_range,
-              {"m", 0, 20, "", "Nearer returns are the vehicle itself."})
+              {"m", 0, 20, kSource, "Nearer returns are the vehicle itself."})
       .number("evidence_range_min", &P::evidence_range_min,
-              {"m", 0, 50, "", "Nearer voxels are not tested."})
+              {"m", 0, 50, kSource, "Nearer voxels are not tested."})
       .number("evidence_range_max", &P::evidence_range_max,
-              {"m", 1, 500, "", "Farther voxels are not tested."})
+              {"m", 1, 500, kSource, "Farther voxels are not tested."})
       .number("azimuth_bin", &P::azimuth_bin,
-              {"deg", 0, 5, "", "Width of a range image bin; 0 takes 1.45 beams."})
+              {"deg", 0, 5, kSource, "Width of a range image bin; 0 takes 1.45 beams."})
       .number("elevation_bin", &P::elevation_bin,
-              {"deg", 0, 5, "", "Height of a range image bin; 0 takes half a beam."})
+              {"deg", 0, 5, kSource, "Height of a range image bin; 0 takes half a beam."})
       .integer("window_columns", &P::window_columns,
-               {"bins", 0, 30, "", "Least half width of the window around a voxel."})
+               {"bins", 0, 30, kSource, "Least half width of the window around a voxel."})
       .integer("window_rows", &P::window_rows,
-               {"bins", 0, 60, "", "Least half height of the window around a voxel."})
+               {"bins", 0, 60, kSource, "Least half height of the window around a voxel."})
       .number("agree_constant", &P::agree_constant,
-              {"m", 0, 5, "", "A return this near to the voxel's range agrees with it."})
-      .number("agree_slope", &P::agree_slope, {"", 0, 1, "", "Part of it that grows with range."})
+              {"m", 0, 5, kSource, "A return this near to the voxel's range agrees with it."})
+      .number("agree_slope", &P::agree_slope,
+              {"", 0, 1, kSource, "Part of it that grows with range."})
       .number("occluded_constant", &P::occluded_constant,
-              {"m", 0, 5, "", "A return nearer than the voxel's range plus this occludes it."})
+              {"m", 0, 5, kSource, "A return nearer than the voxel's range plus this occludes it."})
       .number("occluded_slope", &P::occluded_slope,
-              {"", 0, 1, "", "Part of it that grows with range."})
-      .number("free_constant", &P::free_constant,
-              {"scans", 0, 1000, "", "Scans that must see through a voxel to make it dynamic."})
+              {"", 0, 1, kSource, "Part of it that grows with range."})
+      .number(
+          "free_constant", &P::free_constant,
+          {"scans", 0, 1000, kSource, "Scans that must see through a voxel to make it dynamic."})
       .number("free_per_agree", &P::free_per_agree,
-              {"", 0, 10, "", "And this many more for each scan that agrees with it."})
+              {"", 0, 10, kSource, "And this many more for each scan that agrees with it."})
       .integer("static_agree", &P::static_agree,
-               {"scans", 1, 1000, "", "Scans that must agree to make a voxel static."});
+               {"scans", 1, 1000, kSource, "Scans that must agree to make a voxel static."});
 }
 
 void add_groups(Table& table) {
   table
-      .integer("vote_radius", &P::vote_radius,
-               {"voxels", 0, 8, "", "Half width of the cube of voxels that vote; 0 for no vote."})
+      .integer(
+          "vote_radius", &P::vote_radius,
+          {"voxels", 0, 8, kSource, "Half width of the cube of voxels that vote; 0 for no vote."})
       .number("vote_share", &P::vote_share,
-              {"", 0, 1, "", "Share of dynamic voxels that makes a voxel dynamic."})
+              {"", 0, 1, kSource, "Share of dynamic voxels that makes a voxel dynamic."})
       .number("vote_keep", &P::vote_keep,
-              {"", 0, 1, "", "Share of dynamic voxels below which a dynamic voxel is not."})
+              {"", 0, 1, kSource, "Share of dynamic voxels below which a dynamic voxel is not."})
       .integer("run_scans", &P::run_scans,
-               {"scans", 0, 1000, "",
+               {"scans", 0, 1000, kSource,
                 "Scans in a row that see through a voxel at one end of its story make it dynamic; "
                 "0 for off."})
-      .number("run_range", &P::run_range, {"m", 0, 500, "", "Range up to which those count."})
-      .flag("objects", &P::objects, {.sentence = "Judge clusters of a scan as one."})
+      .number("run_range", &P::run_range, {"m", 0, 500, kSource, "Range up to which those count."})
+      .flag("objects", &P::objects,
+            {.source = kSource, .sentence = "Judge clusters of a scan as one."})
       .number("object_height", &P::object_height,
-              {"m", 0, 5, "", "Clusters consist of points at least this high."})
+              {"m", 0, 5, kSource, "Clusters consist of points at least this high."})
       .number("cluster_gap", &P::cluster_gap,
-              {"m", 0.05, 5, "", "Points this near to each other are one cluster."})
+              {"m", 0.05, 5, kSource, "Points this near to each other are one cluster."})
       .number("cluster_growth", &P::cluster_growth,
-              {"", 0, 1, "", "Part of it that grows with range."})
+              {"", 0, 1, kSource, "Part of it that grows with range."})
       .number("object_dynamic_share", &P::object_dynamic_share,
-              {"", 0, 1, "", "Share of dynamic points that makes a cluster dynamic."})
+              {"", 0, 1, kSource, "Share of dynamic points that makes a cluster dynamic."})
       .number("object_static_share", &P::object_static_share,
-              {"", 0, 1, "", "Share of dynamic points up to which a cluster is static."})
+              {"", 0, 1, kSource, "Share of dynamic points up to which a cluster is static."})
       .integer("object_points", &P::object_points,
-               {"points", 1, 1000, "", "Smallest cluster judged dynamic as one."})
+               {"points", 1, 1000, kSource, "Smallest cluster judged dynamic as one."})
       .integer("group_points", &P::group_points,
-               {"points", 1, 1000000, "",
+               {"points", 1, 1000000, kSource,
                 "A group of dynamic points this large stays dynamic in a static cluster."})
-      .flag("tracks", &P::tracks, {.sentence = "Follow dynamic clusters over scans."})
+      .flag("tracks", &P::tracks,
+            {.source = kSource, .sentence = "Follow dynamic clusters over scans."})
       .number("track_dynamic_share", &P::track_dynamic_share,
-              {"", 0, 1, "", "Share of a track's clusters that must be dynamic."})
-      .number(
-          "track_slack", &P::track_slack,
-          {"", 0, 10, "", "How much longer than its length explains scans may agree on an object."})
-      .number("track_width", &P::track_width, {"m", 0, 100, "", "Wider clusters are not followed."})
+              {"", 0, 1, kSource, "Share of a track's clusters that must be dynamic."})
+      .number("track_slack", &P::track_slack,
+              {"", 0, 10, kSource,
+               "How much longer than its length explains scans may agree on an object."})
+      .number("track_width", &P::track_width,
+              {"m", 0, 100, kSource, "Wider clusters are not followed."})
       .integer("track_points", &P::track_points,
-               {"points", 1, 1000, "", "Smaller clusters are not followed."})
-      .flag("low_points", &P::low_points,
-            {.sentence = "Points near the ground follow what stands above them."});
+               {"points", 1, 1000, kSource, "Smaller clusters are not followed."})
+      .flag(
+          "low_points", &P::low_points,
+          {.source = kSource, .sentence = "Points near the ground follow what stands above them."});
 }
 
 }  // namespace

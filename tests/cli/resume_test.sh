@@ -142,7 +142,7 @@ holds "no lock is left by it" test -z "$(find busy -name run.lock)"
 
 # No room, or no right to write: a clear error, and what was there stays.
 (
-  ulimit -f 4
+  ulimit -f 24  # A cell fits, results.json does not.
   "$raymoval" run --sequence street --frames 0:0 --quiet --in-process --method comb --out small \
     >small.txt 2>&1
   echo $? >>small.txt
@@ -151,11 +151,11 @@ holds "a file that may not grow is told" grep -q "results.json: cannot be writte
   small.txt
 holds "with exit code 2" test "$(tail -1 small.txt)" = 2
 expect 0 "" run --sequence street --frames 0:0 --quiet --method comb --out small
-if mkdir disk && mount -t tmpfs -o size=120k none disk 2>/dev/null; then
+if mkdir disk && mount -t tmpfs -o size=400k none disk 2>/dev/null; then
   trap 'umount "$work/disk"; rm -rf "$work"' EXIT
   one=(run --sequence street --frames 0:0 --quiet --method comb --threads 1)
   expect 0 "" "${one[@]}" --out roomy
-  dd if=/dev/zero of=disk/filler bs=4k count=24 2>/dev/null
+  dd if=/dev/zero of=disk/filler bs=4k count=96 2>/dev/null
   expect 2 "No space left on device" "${one[@]}" --out disk/run
   holds "nothing half written is left" test -z "$(find disk -name '*.part')"
   rm disk/filler

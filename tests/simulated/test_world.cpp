@@ -198,5 +198,5 @@ TEST_CASE("a world file with a mistake is refused by name") {
   says(R"("movers": [{"kind": "car", "road": "a", "speed": [[3, 1], [2, 1]]}])", "must grow");
   says(R"("scans": 2.5)", "whole number");
   says(R"("terrain": {"hills_m": -1})", "from 0 to 30");
-  says(R"("rows": [{"road": "a", "part": "tree", "spacing_m": 0}])", "at least 0.5");
+  says(R"("rows": [{"road": "a", "part": "tree", "spacing_m": 0}])", "from 0.5 to 500");
 }
