@@ -14,6 +14,7 @@
 #include "methods/raymoval/map_reference.h"
 #include "methods/raymoval/static_map.h"
 #include "methods/raymoval/validation.h"
+#include "methods/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -291,24 +292,10 @@ class RaymovalRemover : public Remover {
   }
 
  private:
-  /// Calls `visit` with each scan, timed and cancellable.
-  template <class Visit>
-  void for_each_scan(const char* what, const ScanSource& scans, const RunContext& context,
-                     bool backward, Visit&& visit) {
-    context.begin_pass(what, scans.size());
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      context.check_cancelled();
-      Scan scan = scans.load(backward ? scans.size() - 1 - i : i);
-      const ScanScope timed(context.times, scan.index);
-      visit(std::move(scan));
-      context.advance();
-    }
-  }
-
   void run_online(RaymovalPass& pass, const ScanSource& scans, RemovalSink& sink,
                   const RunContext& context) {
     PreparedScan prepared;
-    for_each_scan("raymoval", scans, context, false, [&](Scan scan) {
+    for_each_scan("raymoval", scans, context, [&](Scan scan) {
       const std::size_t index = scan.index;
       pass.prepare(std::move(scan), prepared);
       sink.accept(index, pass.process(prepared));
@@ -323,15 +310,15 @@ class RaymovalRemover : public Remover {
       pass.prepare(std::move(scan), prepared);
       pass.process(prepared);
     };
-    for_each_scan("raymoval", scans, context, false, process);
+    for_each_scan("raymoval", scans, context, process);
     if (parameters_.backward_pass) {
-      for_each_scan("raymoval, backward", scans, context, true, process);
+      for_each_scan("raymoval, backward", scans, context, process, ScanOrder::kBackward);
     }
     answer_from_map(pass.map(), scans, sink, context);
   }
 
   void collect_naive_map(RaymovalPass& pass, const ScanSource& scans, const RunContext& context) {
-    for_each_scan("raymoval, naive map", scans, context, false, [&](const Scan& scan) {
+    for_each_scan("raymoval, naive map", scans, context, [&](const Scan& scan) {
       const StageScope timed(context.times, "integration");
       const std::vector<VoxelIndex> voxels = voxels_of(pass.map(), scan, context.threads);
       std::vector<OccupancyMap::Slot> slots;
@@ -343,7 +330,7 @@ class RaymovalRemover : public Remover {
   /// A point is dynamic iff its voxel is not in the final map and validation finds it to be one.
   void answer_from_map(const StaticMap& map, const ScanSource& scans, RemovalSink& sink,
                        const RunContext& context) {
-    for_each_scan("raymoval, answers", scans, context, false, [&](const Scan& scan) {
+    for_each_scan("raymoval, answers", scans, context, [&](const Scan& scan) {
       const std::vector<VoxelIndex> voxels = voxels_of(map, scan, context.threads);
       Mask removed = points_off_the_map(map, voxels, context);
       if (parameters_.validate) {
