@@ -14,31 +14,19 @@ namespace {
 /// Points of one cell; `first` and `last` index the points in order of cells.
 template <class Scalar>
 struct Cell {
-  VoxelIndex index;
+  int z;
   std::uint32_t first, last;
   Eigen::Array<Scalar, 3, 1> low, high;
   Scalar farthest;  ///< Largest range of its points.
 };
 
-/// Columns of cells beside and before a cell's own, nearest first, so that each pair is met once.
-struct ColumnOffset {
+/// Cells above each other.
+template <class Scalar>
+struct Column {
   int x, y;
-  int squared_gap;  ///< Of two cells whose columns lie so apart, in cell edges.
+  std::uint32_t first, last;
+  Scalar reach;  ///< The longest of its cells, in cell edges.
 };
-
-std::vector<ColumnOffset> half_neighbourhood(int reach) {
-  const auto gap = [](int cells) { return std::max(std::abs(cells) - 1, 0); };
-  std::vector<ColumnOffset> offsets;
-  for (int y = 0; y <= reach; ++y) {
-    for (int x = -reach; x <= reach; ++x) {
-      if (y > 0 || x >= 0) offsets.push_back({x, y, gap(x) * gap(x) + gap(y) * gap(y)});
-    }
-  }
-  std::stable_sort(
-      offsets.begin(), offsets.end(),
-      [](const ColumnOffset& a, const ColumnOffset& b) { return a.squared_gap < b.squared_gap; });
-  return offsets;
-}
 
 /// Cells whose diagonal is the smallest reach save nearly all comparisons: what is in one is
 /// joined, and of two cells only the first pair near enough has to be found.
@@ -61,13 +49,16 @@ class Clustering {
 
   std::vector<int> run() {
     DisjointSets sets(cells_.size());
-    const Scalar farthest = *std::max_element(ranges_.begin(), ranges_.end());
-    const double reach = std::ceil(reach_in_cells(farthest)) + 1.0;
-    const double columns_in_reach = 2.0 * reach * reach;
-    if (columns_in_reach > static_cast<double>(cells_.size())) {
-      join_all_pairs(sets);
-    } else {
-      join_neighbours(half_neighbourhood(static_cast<int>(reach)), sets);
+    const Scalar widest =
+        std::max_element(columns_.begin(), columns_.end(), [](const auto& a, const auto& b) {
+          return a.reach < b.reach;
+        })->reach;
+    for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
+      const int y = columns_[rows_[row]].y;
+      for (std::size_t other = row; other + 1 < rows_.size(); ++other) {
+        if (static_cast<Scalar>(columns_[rows_[other]].y - y - 1) > widest) break;
+        join_rows(row, other, sets);
+      }
     }
     return numbered(sets);
   }
@@ -79,52 +70,40 @@ class Clustering {
     return reach_at(range) / edge_ * static_cast<Scalar>(1.0 + 1e-4);
   }
 
-  void join_all_pairs(DisjointSets& sets) const {
-    for (std::uint32_t a = 1; a < cells_.size(); ++a) {
-      for (std::uint32_t b = 0; b < a; ++b) join_if_near(a, b, sets);
-    }
-  }
-
-  void join_neighbours(const std::vector<ColumnOffset>& offsets, DisjointSets& sets) const {
-    for (std::uint32_t a = 0; a < cells_.size(); ++a) {
-      // The reach is that of the nearer point of a pair, so at most this cell's own.
-      const Scalar reach = reach_in_cells(cells_[a].farthest);
-      for (const ColumnOffset& offset : offsets) {
-        if (static_cast<Scalar>(offset.squared_gap) > reach * reach) break;
-        join_with_column(a, offset, static_cast<int>(reach) + 1, sets);
-      }
-    }
-  }
-
+  /// Cells, columns and rows in order of y, x and z.
   void sort_into_cells() {
     const double scale = 1.0 / edge_;
-    std::vector<VoxelKey> keys(points_.size());
-    order_.resize(points_.size());
-    std::iota(order_.begin(), order_.end(), 0U);
-    for (std::size_t i = 0; i < points_.size(); ++i) {
+    std::vector<std::pair<VoxelKey, std::uint32_t>> keys(points_.size());
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
       const VoxelIndex cell = voxel_index(points_[i].template cast<double>(), scale);
-      keys[i] = voxel_key(cell.z(), cell.x(), cell.y());  // Sorted keys run up a column.
+      keys[i] = {voxel_key(cell.z(), cell.x(), cell.y()), i};  // Sorted keys run up a column.
     }
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
-    });
+    std::sort(keys.begin(), keys.end());
+    order_.resize(points_.size());
     for (std::uint32_t i = 0; i < order_.size(); ++i) {
-      const std::uint32_t point = order_[i];
-      if (i == 0 || keys[point] != keys[order_[i - 1]]) begin_cell(keys[point], i);
-      add_to_cell(point, cells_.back());
+      order_[i] = keys[i].second;
+      if (i == 0 || keys[i].first != keys[i - 1].first) begin_cell(keys[i].first, i);
+      add_to_cell(order_[i], cells_.back());
     }
+    for (Column<Scalar>& column : columns_) {
+      for (std::uint32_t c = column.first; c < column.last; ++c) {
+        column.reach = std::max(column.reach, reach_in_cells(cells_[c].farthest));
+      }
+    }
+    rows_.push_back(static_cast<std::uint32_t>(columns_.size()));
   }
 
   void begin_cell(VoxelKey key, std::uint32_t first) {
     const VoxelIndex turned = voxel_index(key);
-    const VoxelIndex index(turned.y(), turned.z(), turned.x());
+    const int x = turned.y(), y = turned.z();
     const auto number = static_cast<std::uint32_t>(cells_.size());
-    const auto column =
-        columns_.emplace(voxel_key(index.x(), index.y(), 0), std::pair{number, number});
-    column.first.value().second = number + 1;
+    const bool new_row = columns_.empty() || columns_.back().y != y;
+    if (new_row) rows_.push_back(static_cast<std::uint32_t>(columns_.size()));
+    if (new_row || columns_.back().x != x) columns_.push_back({x, y, number, number, Scalar(0)});
+    columns_.back().last = number + 1;
     const std::uint32_t point = order_[first];
     cells_.push_back(
-        {index, first, first, points_[point].array(), points_[point].array(), ranges_[point]});
+        {turned.x(), first, first, points_[point].array(), points_[point].array(), ranges_[point]});
   }
 
   void add_to_cell(std::uint32_t point, Cell<Scalar>& cell) const {
@@ -134,24 +113,40 @@ class Clustering {
     cell.farthest = std::max(cell.farthest, ranges_[point]);
   }
 
-  void join_with_column(std::uint32_t a, const ColumnOffset& offset, int reach,
-                        DisjointSets& sets) const {
-    const VoxelIndex& at = cells_[a].index;
-    const auto column = columns_.find(voxel_key(at.x() + offset.x, at.y() + offset.y, 0));
-    if (column == columns_.end()) return;
-    const bool own = offset.x == 0 && offset.y == 0;
-    const auto [first, last] = column->second;
-    for (std::uint32_t b = own ? a + 1 : first; b < last; ++b) {
-      const int above = cells_[b].index.z() - at.z();
-      if (above < -reach) continue;
-      if (above > reach) break;
-      join_if_near(a, b, sets);
+  /// Every pair of columns once.
+  void join_rows(std::size_t row, std::size_t other, DisjointSets& sets) const {
+    const auto begin = columns_.begin() + rows_[other], end = columns_.begin() + rows_[other + 1];
+    for (std::uint32_t c = rows_[row]; c < rows_[row + 1]; ++c) {
+      const Column<Scalar>& column = columns_[c];
+      // The reach is that of the nearer point of a pair, so at most this column's own.
+      const auto gap = [](int cells) { return static_cast<Scalar>(std::max(cells - 1, 0)); };
+      const Scalar across = gap(begin->y - column.y);
+      const Scalar left = column.reach * column.reach - across * across;
+      if (left < 0) continue;
+      const int aside = static_cast<int>(std::sqrt(left)) + 2;
+      auto near = std::lower_bound(begin, end, column.x - aside,
+                                   [](const Column<Scalar>& at, int x) { return at.x < x; });
+      if (other == row) near = columns_.begin() + c;
+      for (; near != end && near->x <= column.x + aside; ++near) {
+        const Scalar along = gap(std::abs(near->x - column.x));
+        if (along * along <= left) join_columns(column, *near, sets);
+      }
     }
   }
 
-  void join_if_near(std::uint32_t a, std::uint32_t b, DisjointSets& sets) const {
-    const std::uint32_t root_a = sets.root(a), root_b = sets.root(b);
-    if (root_a != root_b && touch(cells_[a], cells_[b])) sets.join(root_a, root_b);
+  void join_columns(const Column<Scalar>& one, const Column<Scalar>& other,
+                    DisjointSets& sets) const {
+    const int reach = static_cast<int>(one.reach) + 1;
+    for (std::uint32_t a = one.first; a < one.last; ++a) {
+      const bool own = &one == &other;
+      for (std::uint32_t b = own ? a + 1 : other.first; b < other.last; ++b) {
+        const int above = cells_[b].z - cells_[a].z;
+        if (above < -reach) continue;
+        if (above > reach) break;
+        const std::uint32_t root_a = sets.root(a), root_b = sets.root(b);
+        if (root_a != root_b && touch(cells_[a], cells_[b])) sets.join(root_a, root_b);
+      }
+    }
   }
 
   [[nodiscard]] bool touch(const Cell<Scalar>& a, const Cell<Scalar>& b) const {
@@ -190,7 +185,8 @@ class Clustering {
   Scalar gap_, growth_, edge_;
   std::vector<std::uint32_t> order_;
   std::vector<Cell<Scalar>> cells_;
-  VoxelMap<std::pair<std::uint32_t, std::uint32_t>> columns_;  ///< Cells of each column.
+  std::vector<Column<Scalar>> columns_;
+  std::vector<std::uint32_t> rows_;  ///< First column of each row, and the end.
 };
 
 }  // namespace
