@@ -2,99 +2,75 @@
 #include "methods/raymoval_plus/evidence_map.h"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
+#include <cmath>
 
 namespace raymoval {
 namespace {
 
-constexpr int kBrickShift = 3;  // 8 voxels.
-constexpr int kTileShift = 6;   // 64 voxels.
 constexpr double kFraction = 256.0;
 /// Stops a voxel's sums from running over; its centroid has long settled by then.
 constexpr std::uint32_t kMostPoints = 1U << 24;
 
-VoxelKey tile_key(const VoxelIndex& voxel) {
-  return voxel_key(voxel.x() >> kTileShift, voxel.y() >> kTileShift, 0);
-}
-
-VoxelIndex brick_index(const VoxelIndex& voxel) {
-  return {voxel.x() >> kBrickShift, voxel.y() >> kBrickShift, voxel.z() >> kBrickShift};
-}
-
 }  // namespace
 
-void EvidenceMap::add(const Eigen::Vector3d& point) {
+std::uint32_t EvidenceMap::add(const Eigen::Vector3d& point, Blocks::Cursor& cursor) {
   const VoxelIndex voxel = index_of(point);
-  const auto [found, fresh] =
-      numbers_.emplace(voxel_key(voxel), static_cast<std::uint32_t>(keys_.size()));
-  if (fresh) {
-    keys_.push_back(found->first);
-    moments_.emplace_back();
+  std::uint32_t& number = blocks_.make(voxel, cursor);
+  dynamic_.resize(blocks_.block_count(), 0);
+  if (number == kNone) {
+    number = static_cast<std::uint32_t>(voxels_.size());
+    voxels_.emplace_back().index = voxel;
+    block_of_.push_back(cursor.block);
+    const auto [tile, fresh] =
+        tile_numbers_.emplace(voxel_key(voxel.x() >> kTileShift, voxel.y() >> kTileShift, 0),
+                              static_cast<std::uint32_t>(tiles_.size()));
+    if (fresh) tiles_.emplace_back();
+    tiles_[tile->second].push_back(number);
   }
-  Moments& moments = moments_[found->second];
-  if (moments.count >= kMostPoints) return;
-  const auto part = [&](int axis) {
-    const double offset = point[axis] * inverse_ - voxel[axis];
-    return static_cast<std::uint32_t>(std::clamp(offset * kFraction, 0.0, kFraction - 1.0));
-  };
-  moments.x += part(0);
-  moments.y += part(1);
-  moments.z += part(2);
-  ++moments.count;
-}
-
-void EvidenceMap::freeze() {
-  std::vector<std::uint32_t> order(keys_.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::vector<std::pair<VoxelKey, VoxelKey>> place(keys_.size());
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    const VoxelIndex voxel = voxel_index(keys_[i]);
-    place[i] = {tile_key(voxel), voxel_key(brick_index(voxel))};
+  Voxel& sums = voxels_[number];
+  if (sums.count < kMostPoints) {
+    const auto part = [&](int axis) {
+      const double offset = point[axis] * inverse_ - voxel[axis];
+      return static_cast<std::uint32_t>(std::clamp(offset * kFraction, 0.0, kFraction - 1.0));
+    };
+    sums.x += part(0);
+    sums.y += part(1);
+    sums.z += part(2);
+    ++sums.count;
   }
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::tie(place[a], keys_[a]) < std::tie(place[b], keys_[b]);
-  });
-  std::vector<VoxelKey> keys(keys_.size());
-  std::vector<Moments> moments(keys_.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    keys[i] = keys_[order[i]];
-    moments[i] = moments_[order[i]];
-  }
-  keys_ = std::move(keys);
-  moments_ = std::move(moments);
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    numbers_.find(keys_[i]).value() = static_cast<std::uint32_t>(i);
-  }
-  free_scans.assign(keys_.size(), 0);
-  agree_scans.assign(keys_.size(), 0);
-  leading_free.assign(keys_.size(), 0);
-  trailing_free.assign(keys_.size(), 0);
-  evidence.assign(keys_.size(), Evidence::kUndecided);
-  index_tiles_and_bricks();
-}
-
-void EvidenceMap::index_tiles_and_bricks() {
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    const auto number = static_cast<std::uint32_t>(i);
-    const VoxelIndex voxel = voxel_index(keys_[i]);
-    const auto tile = tiles_.emplace(tile_key(voxel), std::pair{number, number});
-    tile.first.value().second = number + 1;
-    const VoxelIndex brick = brick_index(voxel);
-    if (bricks_.empty() || bricks_.back().index != brick) {
-      brick_numbers_[voxel_key(brick)] = static_cast<std::uint32_t>(bricks_.size());
-      bricks_.push_back({brick, number, number});
-    }
-    bricks_.back().last = number + 1;
-  }
+  return number;
 }
 
 Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
-  const Moments& moments = moments_[voxel];
-  const double scale = 1.0 / (kFraction * moments.count), half = 0.5 / kFraction;
-  const Eigen::Vector3d offset(moments.x * scale + half, moments.y * scale + half,
-                               moments.z * scale + half);
-  return (voxel_index(keys_[voxel]).cast<double>() + offset) * size_;
+  const Voxel& sums = voxels_[voxel];
+  const double scale = 1.0 / (kFraction * sums.count), half = 0.5 / kFraction;
+  const Eigen::Vector3d offset(sums.x * scale + half, sums.y * scale + half, sums.z * scale + half);
+  return (sums.index.cast<double>() + offset) * size_;
+}
+
+std::vector<const std::vector<std::uint32_t>*> EvidenceMap::tiles_near(
+    const Eigen::Vector3d& center, double range) const {
+  const double side = (1 << kTileShift) * size_;
+  const int reach = static_cast<int>(std::ceil(range / side));
+  const int cx = static_cast<int>(std::floor(center.x() / side));
+  const int cy = static_cast<int>(std::floor(center.y() / side));
+  std::vector<const std::vector<std::uint32_t>*> near;
+  for (int y = cy - reach; y <= cy + reach; ++y) {
+    for (int x = cx - reach; x <= cx + reach; ++x) {
+      const auto found = tile_numbers_.find(voxel_key(x, y, 0));
+      if (found != tile_numbers_.end()) near.push_back(&tiles_[found->second]);
+    }
+  }
+  return near;
+}
+
+void EvidenceMap::set_decision(std::size_t voxel, Evidence decision) {
+  Evidence& now = voxels_[voxel].decision;
+  if (now == decision) return;
+  std::uint8_t& dynamic = dynamic_[block_of_[voxel]];
+  if (now == Evidence::kDynamic) --dynamic;
+  if (decision == Evidence::kDynamic) ++dynamic;
+  now = decision;
 }
 
 }  // namespace raymoval

@@ -5,88 +5,86 @@
 #include <vector>
 
 #include "core/voxel_key.h"
+#include "methods/raymoval_plus/dense_blocks.h"
 
 namespace raymoval {
 
 enum class Evidence : std::uint8_t { kUndecided = 0, kStatic = 1, kDynamic = 2 };
 
-/// The occupied voxels of all scans, each with its centroid and what the scans say of it.
-///
-/// Filled point by point, then frozen: from then on voxels have numbers, and those of one
-/// 12.8 m x 12.8 m tile (64 voxels) of the ground are neighbours in memory.
+/// What the scans say of a voxel.
+struct VoxelEvidence {
+  std::uint16_t free_scans = 0;   ///< Scans that saw through the voxel.
+  std::uint16_t agree_scans = 0;  ///< Scans with a return at the voxel.
+  /// Scans in a row that saw through it from near by, before the first and since the last scan
+  /// that agrees.
+  std::uint16_t leading_free = 0, trailing_free = 0;
+};
+
+/// The occupied voxels, each with the mean of its points and what the scans say of it. Voxels are
+/// numbered in order of their first points; they can be added at any time.
 class EvidenceMap {
  public:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  using Blocks = DenseBlocks<std::uint32_t, 2, 2>;  ///< 4 x 4 x 4 voxels.
+  static constexpr std::uint32_t kNone = Blocks::kNone;
 
-  explicit EvidenceMap(double voxel_size) : size_(voxel_size), inverse_(1.0 / voxel_size) {}
+  explicit EvidenceMap(double voxel_size)
+      : size_(voxel_size), inverse_(1.0 / voxel_size), blocks_(kNone) {}
 
   [[nodiscard]] VoxelIndex index_of(const Eigen::Vector3d& point) const {
     return voxel_index(point, inverse_);
   }
-  /// Adds a world point, metres. The order of the calls does not matter.
-  void add(const Eigen::Vector3d& point);
-  /// Ends the filling.
-  void freeze();
+  /// Adds a world point, metres; returns the number of its voxel.
+  std::uint32_t add(const Eigen::Vector3d& point, Blocks::Cursor& cursor);
 
-  [[nodiscard]] std::size_t size() const { return keys_.size(); }
-  /// Number of the voxel that holds a point, or `kNone`.
-  [[nodiscard]] std::uint32_t find(VoxelKey key) const {
-    const auto found = numbers_.find(key);
-    return found == numbers_.end() ? kNone : found->second;
+  [[nodiscard]] std::size_t size() const { return voxels_.size(); }
+  /// Number of the voxel that holds a world point, or `kNone`.
+  [[nodiscard]] std::uint32_t find(const Eigen::Vector3d& point, Blocks::Cursor& cursor) const {
+    return blocks_.get(index_of(point), cursor);
   }
-  [[nodiscard]] VoxelKey key(std::size_t voxel) const { return keys_[voxel]; }
-  /// Mean of the voxel's points, world frame, metres.
+  [[nodiscard]] const VoxelIndex& index(std::size_t voxel) const { return voxels_[voxel].index; }
+  /// Mean of the voxel's points so far, world frame, metres.
   [[nodiscard]] Eigen::Vector3d centroid(std::size_t voxel) const;
 
-  /// Calls `visit(first, last)` for the voxels of each tile that has a part within `range` metres
-  /// of `center`, seen from above; tiles in a fixed order.
-  template <class Visit>
-  void for_tiles_near(const Eigen::Vector3d& center, double range, Visit&& visit) const {
-    const double side = kTile * size_;
-    const int reach = static_cast<int>(std::ceil(range / side));
-    const int cx = static_cast<int>(std::floor(center.x() / side));
-    const int cy = static_cast<int>(std::floor(center.y() / side));
-    for (int y = cy - reach; y <= cy + reach; ++y) {
-      for (int x = cx - reach; x <= cx + reach; ++x) {
-        const auto found = tiles_.find(voxel_key(x, y, 0));
-        if (found != tiles_.end()) visit(found->second.first, found->second.second);
-      }
-    }
-  }
+  /// Voxels of each tile of 12.8 m x 12.8 m (64 voxels) of the ground that has a part within
+  /// `range` metres of `center`, seen from above; tiles in a fixed order. A block belongs to one
+  /// tile.
+  [[nodiscard]] std::vector<const std::vector<std::uint32_t>*> tiles_near(
+      const Eigen::Vector3d& center, double range) const;
 
-  /// Calls `visit(first, last)` for the voxels of each brick of 8 x 8 x 8 in order.
-  [[nodiscard]] std::size_t brick_count() const { return bricks_.size(); }
-  struct Brick {
-    VoxelIndex index;  ///< In bricks.
-    std::uint32_t first, last;
-  };
-  [[nodiscard]] const Brick& brick(std::size_t number) const { return bricks_[number]; }
-  [[nodiscard]] const Brick* brick_at(const VoxelIndex& index) const {
-    const auto found = brick_numbers_.find(voxel_key(index));
-    return found == brick_numbers_.end() ? nullptr : &bricks_[found->second];
+  [[nodiscard]] const VoxelEvidence& evidence(std::size_t voxel) const {
+    return voxels_[voxel].evidence;
   }
+  [[nodiscard]] VoxelEvidence& evidence(std::size_t voxel) { return voxels_[voxel].evidence; }
+  /// What the voxel's own evidence amounts to. Threads may set voxels of different blocks.
+  [[nodiscard]] Evidence decision(std::size_t voxel) const { return voxels_[voxel].decision; }
+  void set_decision(std::size_t voxel, Evidence decision);
+  /// What its neighbours made of that.
+  [[nodiscard]] Evidence verdict(std::size_t voxel) const { return voxels_[voxel].verdict; }
+  void set_verdict(std::size_t voxel, Evidence verdict) { voxels_[voxel].verdict = verdict; }
 
-  std::vector<std::uint16_t> free_scans;   ///< Scans that saw through the voxel.
-  std::vector<std::uint16_t> agree_scans;  ///< Scans with a return at the voxel.
-  std::vector<std::uint16_t> leading_free, trailing_free;
-  std::vector<Evidence> evidence;
+  [[nodiscard]] const Blocks& blocks() const { return blocks_; }
+  [[nodiscard]] std::uint32_t block_of(std::size_t voxel) const { return block_of_[voxel]; }
+  /// Number of voxels of a block decided dynamic.
+  [[nodiscard]] int dynamic_in(std::uint32_t block) const { return dynamic_[block]; }
 
  private:
-  static constexpr int kTile = 64;
-  /// Sums of the offsets from the voxel's lower corner in 1/256 of its edge.
-  struct Moments {
+  static constexpr int kTileShift = 6;
+  /// All of a voxel in one place in memory: the evidence of a scan passes over most of the map.
+  struct Voxel {
+    VoxelIndex index;
+    /// Sums of the points' offsets from the lower corner in 1/256 of the edge.
     std::uint32_t x = 0, y = 0, z = 0, count = 0;
+    VoxelEvidence evidence;
+    Evidence decision = Evidence::kUndecided, verdict = Evidence::kUndecided;
   };
 
-  void index_tiles_and_bricks();
-
   double size_, inverse_;
-  VoxelMap<std::uint32_t> numbers_;
-  std::vector<VoxelKey> keys_;
-  std::vector<Moments> moments_;
-  VoxelMap<std::pair<std::uint32_t, std::uint32_t>> tiles_;
-  std::vector<Brick> bricks_;
-  VoxelMap<std::uint32_t> brick_numbers_;
+  Blocks blocks_;
+  std::vector<std::uint8_t> dynamic_;  ///< By block.
+  std::vector<Voxel> voxels_;
+  std::vector<std::uint32_t> block_of_;
+  VoxelMap<std::uint32_t> tile_numbers_;
+  std::vector<std::vector<std::uint32_t>> tiles_;
 };
 
 }  // namespace raymoval

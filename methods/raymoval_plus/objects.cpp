@@ -21,13 +21,18 @@ std::vector<int> clusters_of(const Scan& scan, const std::vector<std::size_t>& c
                                  static_cast<float>(parameters.cluster_growth));
 }
 
-bool is_high(float height, const RaymovalPlusParameters& parameters) {
-  return !parameters.terrain || height >= static_cast<float>(parameters.object_height);
+/// Scans that agree with a voxel; none with ground.
+int agreeing(const EvidenceMap& map, std::uint32_t voxel) {
+  return voxel == EvidenceMap::kNone ? 0 : map.evidence(voxel).agree_scans;
 }
 
-bool is_hardly_dynamic(const ScanObjects& objects, std::size_t cluster,
-                       const RaymovalPlusParameters& parameters) {
-  return objects.dynamic[cluster] <= parameters.object_static_share * objects.size[cluster];
+bool is_settled(const EvidenceMap& map, std::uint32_t voxel,
+                const RaymovalPlusParameters& parameters) {
+  return agreeing(map, voxel) >= parameters.settled_scans;
+}
+
+bool is_high(float height, const RaymovalPlusParameters& parameters) {
+  return !parameters.terrain || height >= static_cast<float>(parameters.object_height);
 }
 
 /// Dynamic points of hardly dynamic clusters that hang together with enough others: 1 for each
@@ -38,9 +43,7 @@ std::vector<std::uint8_t> spared_groups(const ScanObjects& objects, const WorldS
   for (std::size_t i = 0; i < objects.points.size(); ++i) {
     const std::size_t k = objects.points[i];
     if (world.verdict[k] != Evidence::kDynamic) continue;
-    if (!is_hardly_dynamic(objects, static_cast<std::size_t>(objects.number[i]), parameters)) {
-      continue;
-    }
+    if (objects.is_hardly_dynamic[static_cast<std::size_t>(objects.number[i])] == 0) continue;
     place.push_back(i);
     chosen.push_back(k);
   }
@@ -54,17 +57,10 @@ std::vector<std::uint8_t> spared_groups(const ScanObjects& objects, const WorldS
   return spared;
 }
 
-}  // namespace
-
-ScanObjects find_objects(const WorldScan& world, const RaymovalPlusParameters& parameters) {
-  ScanObjects objects;
-  const auto farthest = static_cast<float>(parameters.evidence_range_max);
-  for (std::size_t k = 0; k < world.points.size(); ++k) {
-    if (!is_high(world.height[k], parameters)) continue;
-    if (world.scan.points[k].squaredNorm() > farthest * farthest) continue;
-    objects.points.push_back(k);
-  }
-  objects.number = clusters_of(world.scan, objects.points, parameters);
+/// Counts points and dynamic points of each cluster.
+void count_points(const WorldScan& world, ScanObjects& objects) {
+  objects.size.clear();
+  objects.dynamic.clear();
   for (std::size_t i = 0; i < objects.points.size(); ++i) {
     const auto cluster = static_cast<std::size_t>(objects.number[i]);
     if (cluster >= objects.size.size()) {
@@ -74,55 +70,127 @@ ScanObjects find_objects(const WorldScan& world, const RaymovalPlusParameters& p
     ++objects.size[cluster];
     if (world.verdict[objects.points[i]] == Evidence::kDynamic) ++objects.dynamic[cluster];
   }
+}
+
+/// Divides clusters that are neither mostly dynamic nor free of dynamic points.
+void divide(const WorldScan& world, const EvidenceMap& map,
+            const RaymovalPlusParameters& parameters, ScanObjects& objects) {
+  std::vector<std::size_t> place, chosen;
+  for (std::size_t i = 0; i < objects.points.size(); ++i) {
+    const auto cluster = static_cast<std::size_t>(objects.number[i]);
+    const int dynamic = objects.dynamic[cluster];
+    if (dynamic < parameters.group_points ||
+        dynamic >= parameters.object_dynamic_share * objects.size[cluster]) {
+      continue;
+    }
+    const std::size_t k = objects.points[i];
+    const std::uint32_t voxel = world.voxel[k];
+    if (world.verdict[k] != Evidence::kDynamic && is_settled(map, voxel, parameters)) {
+      continue;
+    }
+    place.push_back(i);
+    chosen.push_back(k);
+  }
+  const std::vector<int> part = clusters_of(world.scan, chosen, parameters);
+  const auto clusters = static_cast<int>(objects.size.size());
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const auto cluster = static_cast<std::size_t>(objects.number[place[i]]);
+    const auto number = static_cast<std::size_t>(clusters + part[i]);
+    if (number >= objects.is_part.size()) {
+      objects.is_part.resize(number + 1, 0);
+      objects.is_hardly_dynamic.resize(number + 1, 0);
+    }
+    objects.is_part[number] = 1;
+    objects.is_hardly_dynamic[number] = objects.is_hardly_dynamic[cluster];
+    objects.number[place[i]] = static_cast<int>(number);
+  }
+  count_points(world, objects);
+  objects.size.resize(objects.is_part.size(), 0);
+  objects.dynamic.resize(objects.is_part.size(), 0);
+}
+
+}  // namespace
+
+ScanObjects find_objects(const WorldScan& world, const EvidenceMap& map,
+                         const RaymovalPlusParameters& parameters) {
+  ScanObjects objects;
+  const auto farthest = static_cast<float>(parameters.evidence_range_max);
+  for (std::size_t k = 0; k < world.points.size(); ++k) {
+    if (!is_high(world.height[k], parameters)) continue;
+    if (world.scan.points[k].squaredNorm() > farthest * farthest) continue;
+    objects.points.push_back(k);
+  }
+  objects.number = clusters_of(world.scan, objects.points, parameters);
+  count_points(world, objects);
+  objects.is_part.assign(objects.size.size(), 0);
+  objects.is_hardly_dynamic.resize(objects.size.size());
+  for (std::size_t c = 0; c < objects.size.size(); ++c) {
+    objects.is_hardly_dynamic[c] =
+        objects.dynamic[c] <= parameters.object_static_share * objects.size[c] ? 1 : 0;
+  }
+  if (parameters.settled_scans > 0) divide(world, map, parameters, objects);
   return objects;
 }
 
 std::vector<ObjectSummary> summaries(const ScanObjects& objects, const WorldScan& world,
                                      const EvidenceMap& map,
                                      const RaymovalPlusParameters& parameters) {
-  std::vector<ObjectSummary> found(objects.size.size());
-  for (ObjectSummary& object : found) {
-    object.low.setConstant(1e300);
-    object.high.setConstant(-1e300);
+  std::vector<ObjectSummary> all(objects.size.size());
+  for (ObjectSummary& object : all) {
+    object.low.setConstant(1e30F);
+    object.high.setConstant(-1e30F);
     object.center.setZero();
   }
+  const Eigen::Vector3d sensor = world.scan.T_world_sensor.translation();
   for (std::size_t i = 0; i < objects.points.size(); ++i) {
     const std::size_t k = objects.points[i];
-    ObjectSummary& object = found[static_cast<std::size_t>(objects.number[i])];
-    object.low = object.low.cwiseMin(world.points[k]);
-    object.high = object.high.cwiseMax(world.points[k]);
-    object.center += world.points[k];
+    ObjectSummary& object = all[static_cast<std::size_t>(objects.number[i])];
+    // Sums are taken around the sensor, where single precision is exact enough.
+    const Eigen::Vector3f point = (world.points[k] - sensor).cast<float>();
+    object.low = object.low.cwiseMin(point);
+    object.high = object.high.cwiseMax(point);
+    object.center += point;
     ++object.points;
     if (world.verdict[k] == Evidence::kDynamic) {
       ++object.dynamic;
     } else {
-      object.agree_scans += map.agree_scans[world.voxel[k]];
+      object.agree_scans += static_cast<float>(agreeing(map, world.voxel[k]));
     }
   }
-  const Eigen::Vector3d sensor = world.scan.T_world_sensor.translation();
-  for (ObjectSummary& object : found) {
-    object.center /= object.points;
-    object.range = (object.center - sensor).norm();
-    object.agree_scans /= std::max(object.points - object.dynamic, 1);
-    if (object.points < parameters.track_points || object.width() > parameters.track_width) {
-      object.points = 0;
+  std::vector<ObjectSummary> followed;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    ObjectSummary& object = all[c];
+    if (object.points < parameters.track_points ||
+        object.width() > static_cast<float>(parameters.track_width)) {
+      continue;
     }
+    object.center /= static_cast<float>(object.points);
+    object.range = object.center.norm();
+    object.agree_scans /= static_cast<float>(std::max(object.points - object.dynamic, 1));
+    object.cluster = static_cast<int>(c);
+    for (Eigen::Vector3f* const place : {&object.low, &object.high, &object.center}) {
+      *place += sensor.cast<float>();
+    }
+    followed.push_back(object);
   }
-  return found;
+  return followed;
 }
 
-void judge_objects(const ScanObjects& objects, const std::vector<std::uint8_t>& marks,
+void judge_objects(const ScanObjects& objects, const std::vector<int>& marked,
                    const RaymovalPlusParameters& parameters, WorldScan& world) {
+  std::vector<std::uint8_t> marks(objects.size.size(), 0);
+  for (const int cluster : marked) marks[static_cast<std::size_t>(cluster)] = 1;
   const std::vector<std::uint8_t> spared = spared_groups(objects, world, parameters);
   for (std::size_t i = 0; i < objects.points.size(); ++i) {
     const auto cluster = static_cast<std::size_t>(objects.number[i]);
     Evidence& verdict = world.verdict[objects.points[i]];
     const bool mostly_dynamic =
         objects.dynamic[cluster] >= parameters.object_dynamic_share * objects.size[cluster] &&
-        objects.size[cluster] >= parameters.object_points;
-    if (mostly_dynamic || (!marks.empty() && marks[cluster] != 0)) {
+        objects.dynamic[cluster] >=
+            (objects.is_part[cluster] != 0 ? parameters.group_points : parameters.object_points);
+    if (mostly_dynamic || marks[cluster] != 0) {
       verdict = Evidence::kDynamic;
-    } else if (spared[i] == 0 && is_hardly_dynamic(objects, cluster, parameters)) {
+    } else if (spared[i] == 0 && objects.is_hardly_dynamic[cluster] != 0) {
       verdict = Evidence::kStatic;
     }
   }

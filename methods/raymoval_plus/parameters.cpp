@@ -12,8 +12,6 @@ constexpr const char* kSource = "raymoval_plus/README.md";
 
 void add_terrain(Table& table) {
   table
-      .flag("offline", &P::offline,
-            {.source = kSource, .sentence = "Answer every point from all scans."})
       .flag("terrain", &P::terrain,
             {.source = kSource, .sentence = "Find the ground and keep its points."})
       .number("terrain_cell", &P::terrain_cell, {"m", 0.1, 5, kSource, "Edge of a ground column."})
@@ -28,6 +26,23 @@ void add_terrain(Table& table) {
               {"m", 0, 10, kSource, "How far a column's ground bounds that of its neighbours."})
       .number("ground_height", &P::ground_height,
               {"m", 0, 1, kSource, "Points lower than this above the ground are ground."});
+}
+
+void add_when(Table& table) {
+  table
+      .flag("at_once", &P::at_once,
+            {.source = kSource,
+             .sentence = "Answer each scan when it comes, from it and the scans before."})
+      .flag("one_pass", &P::one_pass,
+            {.source = kSource,
+             .sentence = "Gather the evidence as scans come, in one pass; answer at the end."})
+      .integer("history_scans", &P::history_scans,
+               {"scans", 0, 1000, kSource,
+                "Earlier scans kept to ask about new voxels (at_once, one_pass)."})
+      .integer("history_step", &P::history_step,
+               {"scans", 1, 1000, kSource, "Of so many scans one is kept."})
+      .integer("terrain_period", &P::terrain_period,
+               {"scans", 1, 1000, kSource, "The ground is found anew every so many scans."});
 }
 
 void add_evidence(Table& table) {
@@ -94,6 +109,10 @@ void add_groups(Table& table) {
       .integer("group_points", &P::group_points,
                {"points", 1, 1000000, kSource,
                 "A group of dynamic points this large stays dynamic in a static cluster."})
+      .integer("settled_scans", &P::settled_scans,
+               {"scans", 0, 10000, kSource,
+                "Points of voxels that so many scans agree with are left out when a mixed cluster "
+                "is divided; 0 for no division."})
       .flag("tracks", &P::tracks,
             {.source = kSource, .sentence = "Follow dynamic clusters over scans."})
       .number("track_dynamic_share", &P::track_dynamic_share,
@@ -115,6 +134,7 @@ void add_groups(Table& table) {
 const ParameterTable<RaymovalPlusParameters>& raymoval_plus_parameters() {
   static const Table table = [] {
     Table made;
+    add_when(made);
     add_terrain(made);
     add_evidence(made);
     add_groups(made);
@@ -130,7 +150,14 @@ MethodEntry raymoval_plus_entry() {
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
   entry.source = "methods/raymoval_plus/README.md";
   entry.parameters = raymoval_plus_parameters().specs();
-  entry.variants = {{"offline", "Every point answered from all scans.", false, {}}};
+  entry.variants = {
+      {"offline", "Every point answered from all scans.", false, {}},
+      {"online", "Each scan answered when it comes.", true, {{"at_once", true}}},
+      {"online-map",
+       "One pass as the scans come, every point answered by the map as it is in the end.",
+       false,
+       {{"one_pass", true}}},
+  };
   entry.make = [](const Configuration& configuration) {
     return make_raymoval_plus(raymoval_plus_parameters().read(configuration));
   };

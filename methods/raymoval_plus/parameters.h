@@ -7,7 +7,12 @@ namespace raymoval {
 
 /// Values of raymoval_plus; units, ranges and meanings are in `raymoval_plus_parameters()`.
 struct RaymovalPlusParameters {
-  bool offline = true;
+  // When to answer.
+  bool at_once = false;
+  bool one_pass = false;
+  int history_scans = 20;
+  int history_step = 2;
+  int terrain_period = 5;
   // Terrain.
   bool terrain = true;
   double terrain_cell = 0.4;
@@ -47,6 +52,7 @@ struct RaymovalPlusParameters {
   double object_static_share = 0.1;
   int object_points = 3;
   int group_points = 20;
+  int settled_scans = 10;
   // Tracks.
   bool tracks = true;
   double track_dynamic_share = 0.5;

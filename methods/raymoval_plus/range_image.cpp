@@ -18,7 +18,12 @@ constexpr double kBeamsPerColumn = 1.45;
 }  // namespace
 
 RangeImage::RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& parameters)
-    : parameters_(parameters) {
+    : parameters_(parameters),
+      half_voxel_(static_cast<float>(0.5 * parameters.voxel_size)),
+      agree_constant_(static_cast<float>(parameters.agree_constant)),
+      agree_slope_(static_cast<float>(parameters.agree_slope)),
+      occluded_constant_(static_cast<float>(parameters.occluded_constant)),
+      occluded_slope_(static_cast<float>(parameters.occluded_slope)) {
   const double azimuth_step =
       sensor.azimuth_step > 0.0 ? kBeamsPerColumn * sensor.azimuth_step : 0.25 * kDegree;
   const double elevation_step =
@@ -61,27 +66,77 @@ void RangeImage::fill(const Scan& scan) {
     std::copy_n(bins + columns_, kMargin, bins);
     std::copy_n(bins + kMargin, kMargin, bins + kMargin + columns_);
   }
+  fill_windows();
 }
 
-Seen RangeImage::test(const Eigen::Vector3f& place) const {
-  const float range = place.norm();
+void RangeImage::fill_windows() {
+  const auto widest = [](Bin& sum, const Bin& bin) {
+    sum.nearest = std::min(sum.nearest, bin.nearest);
+    sum.farthest = std::max(sum.farthest, bin.farthest);
+  };
+  const int wide = std::min(parameters_.window_columns, kMargin - 1);
+  const int high = std::min(parameters_.window_rows, rows_ - 1);
+  row_windows_ = bins_;
+  for (int r = 0; r < rows_; ++r) {
+    Bin* const to =
+        row_windows_.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
+    const Bin* const from = row(bins_, r);
+    for (int shift = -wide; shift <= wide; ++shift) {
+      if (shift == 0) continue;
+      for (int c = wide; c < stride_ - wide; ++c) widest(to[c], from[c + shift]);
+    }
+  }
+  windows_ = row_windows_;
+  for (int r = 0; r < rows_; ++r) {
+    Bin* const to =
+        windows_.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
+    for (int other = std::max(r - high, 0); other <= std::min(r + high, rows_ - 1); ++other) {
+      if (other == r) continue;
+      const Bin* const from = row(row_windows_, other);
+      for (int c = 0; c < stride_; ++c) widest(to[c], from[c]);
+    }
+  }
+}
+
+RangeImage::Window RangeImage::window_of(const Eigen::Vector3f& place, float range) const {
   const int column = std::min(
       static_cast<int>((std::atan2(place.y(), place.x()) + kPi) / azimuth_step_), columns_ - 1);
   const int center = static_cast<int>(
       std::floor((std::asin(place.z() / range) - elevation_min_) / elevation_step_));
-  const float half = 0.5F * static_cast<float>(parameters_.voxel_size) / range;
+  const float half = half_voxel_ / range;
   const int wide =
       std::clamp(static_cast<int>(half / azimuth_step_), parameters_.window_columns, kMargin - 1);
   const int high = std::max(static_cast<int>(half / elevation_step_), parameters_.window_rows);
+  return {column, center, wide, high};
+}
+
+Seen RangeImage::test(const Eigen::Vector3f& place) const {
+  const float range = place.norm();
+  const Window window = window_of(place, range);
+  if (window.wide == parameters_.window_columns && window.high == parameters_.window_rows &&
+      window.center >= 0 && window.center < rows_) {
+    // Most places lie behind all returns of their window.
+    const Bin all = row(windows_, window.center)[kMargin + window.column];
+    if (all.nearest == kInfinite) return Seen::kUnknown;
+    if (all.farthest < range - (agree_constant_ + agree_slope_ * range)) return Seen::kOccluded;
+  }
+  return test_bins(range, window);
+}
+
+Seen RangeImage::test_every_bin(const Eigen::Vector3f& place) const {
+  const float range = place.norm();
+  return test_bins(range, window_of(place, range));
+}
+
+Seen RangeImage::test_bins(float range, const Window& window) const {
+  const auto [column, center, wide, high] = window;
   const int low_row = std::max(center - high, 0), high_row = std::min(center + high, rows_ - 1);
 
-  const float agree = static_cast<float>(parameters_.agree_constant) +
-                      static_cast<float>(parameters_.agree_slope) * range;
-  const float beyond = range + static_cast<float>(parameters_.occluded_constant) +
-                       static_cast<float>(parameters_.occluded_slope) * range;
+  const float agree = agree_constant_ + agree_slope_ * range;
+  const float beyond = range + occluded_constant_ + occluded_slope_ * range;
   bool agrees = false, occluded = false, below = false;
   for (int r = low_row; r <= high_row; ++r) {
-    const Bin* const bins = row(r) + kMargin + column;
+    const Bin* const bins = row(bins_, r) + kMargin + column;
     bool any = false;
     for (int c = -wide; c <= wide; ++c) {
       const Bin bin = bins[c];

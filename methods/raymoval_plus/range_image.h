@@ -25,6 +25,8 @@ class RangeImage {
   /// window lies at its range, else **occluded** if any is nearer, else **free** if there is a
   /// return at or below it, else **unknown**. Any agreement saves, any occlusion abstains.
   [[nodiscard]] Seen test(const Eigen::Vector3f& place) const;
+  /// The same by a look at every bin of the window, without the short cut for most places.
+  [[nodiscard]] Seen test_every_bin(const Eigen::Vector3f& place) const;
 
  private:
   /// Columns repeated at either end, so that no window has to wrap around.
@@ -32,14 +34,24 @@ class RangeImage {
   struct Bin {
     float nearest, farthest;
   };
-  [[nodiscard]] const Bin* row(int r) const {
-    return bins_.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
+  [[nodiscard]] const Bin* row(const std::vector<Bin>& bins, int r) const {
+    return bins.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
   }
+
+  /// Nearest and farthest return of the least window around each bin.
+  void fill_windows();
+  struct Window {
+    int column, center;  ///< Bin of the place; `center` may lie beyond the rows.
+    int wide, high;      ///< Half sizes, bins.
+  };
+  [[nodiscard]] Window window_of(const Eigen::Vector3f& place, float range) const;
+  [[nodiscard]] Seen test_bins(float range, const Window& window) const;
 
   RaymovalPlusParameters parameters_;
   float azimuth_step_, elevation_step_, elevation_min_;
+  float half_voxel_, agree_constant_, agree_slope_, occluded_constant_, occluded_slope_;
   int columns_, rows_, stride_;
-  std::vector<Bin> bins_;
+  std::vector<Bin> bins_, row_windows_, windows_;
 };
 
 }  // namespace raymoval

@@ -9,29 +9,29 @@
 namespace raymoval {
 namespace {
 
-constexpr int kBrick = 8;
-constexpr int kMaximumRadius = 8;  // A brick's neighbours are all that is looked at.
+constexpr int kSide = EvidenceMap::Blocks::kSideXY;
+constexpr int kMaximumRadius = 2 * kSide;  // Two blocks to either side are looked at.
 
-/// Votes in a cube of cells around a brick.
+/// Votes in a cube of cells around a block.
 class Ballot {
  public:
-  explicit Ballot(int radius) : radius_(radius), side_(kBrick + 2 * radius) {
+  explicit Ballot(int radius) : radius_(radius), side_(kSide + 2 * radius) {
     const auto cells = static_cast<std::size_t>(side_ * side_ * side_);
     votes_.resize(cells);
     sums_.resize(cells);
   }
   void clear() { std::fill(votes_.begin(), votes_.end(), 0U); }
-  /// Adds a vote at a cell relative to the brick's lower corner; ignored outside the cube.
+  /// Adds a vote at a cell relative to the block's lower corner; ignored outside the cube.
   void add(const VoxelIndex& cell, std::uint32_t vote) {
     const VoxelIndex at = cell.array() + radius_;
     if ((at.array() < 0).any() || (at.array() >= side_).any()) return;
     votes_[offset(at.x(), at.y(), at.z())] = vote;
   }
-  /// Sums the cube around each of the brick's cells, one axis after the other.
+  /// Sums the cube around each of the block's cells, one axis after the other.
   void count() {
-    sum_along(1, side_, side_);
-    sum_along(side_, side_, side_);
-    sum_along(side_ * side_, side_, side_);
+    sum_along(1);
+    sum_along(side_);
+    sum_along(side_ * side_);
   }
   [[nodiscard]] std::uint32_t around(const VoxelIndex& cell) const {
     return votes_[offset(cell.x() + radius_, cell.y() + radius_, cell.z() + radius_)];
@@ -41,7 +41,7 @@ class Ballot {
   [[nodiscard]] std::size_t offset(int x, int y, int z) const {
     return static_cast<std::size_t>((z * side_ + y) * side_ + x);
   }
-  void sum_along(int step, int, int) {
+  void sum_along(int step) {
     const int cells = side_ * side_ * side_;
     for (int i = 0; i < cells; ++i) {
       const int at = (i / step) % side_;
@@ -65,55 +65,77 @@ std::uint32_t vote_of(Evidence evidence) {
   return evidence == Evidence::kDynamic ? 0x10001U : 1U;
 }
 
-}  // namespace
-
-void decide_voxels(EvidenceMap& map, const RaymovalPlusParameters& parameters) {
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const double needed = parameters.free_constant + parameters.free_per_agree * map.agree_scans[i];
-    const bool left = parameters.run_scans > 0 && (map.leading_free[i] >= parameters.run_scans ||
-                                                   map.trailing_free[i] >= parameters.run_scans);
-    if (left || map.free_scans[i] >= needed) {
-      map.evidence[i] = Evidence::kDynamic;
-    } else if (map.agree_scans[i] >= parameters.static_agree) {
-      map.evidence[i] = Evidence::kStatic;
-    } else {
-      map.evidence[i] = Evidence::kUndecided;
+/// Blocks around a block, itself included.
+std::vector<std::uint32_t> blocks_around(const EvidenceMap& map, std::uint32_t block, int reach) {
+  std::vector<std::uint32_t> around;
+  const VoxelIndex& center = map.blocks().block_index(block);
+  for (int z = -reach; z <= reach; ++z) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        const std::uint32_t other = map.blocks().block(center + VoxelIndex(x, y, z));
+        if (other != EvidenceMap::kNone) around.push_back(other);
+      }
     }
+  }
+  return around;
+}
+
+/// Calls `visit(voxel)` for each voxel of a block.
+template <class Visit>
+void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
+  const std::uint32_t* const cells = map.blocks().cells(block);
+  for (std::size_t i = 0; i < EvidenceMap::Blocks::kCells; ++i) {
+    if (cells[i] != EvidenceMap::kNone) visit(cells[i]);
   }
 }
 
-void vote(EvidenceMap& map, const RaymovalPlusParameters& parameters, int threads) {
-  if (parameters.vote_radius <= 0) return;
+void vote_in_block(std::uint32_t block, const RaymovalPlusParameters& parameters, int radius,
+                   Ballot& ballot, EvidenceMap& map) {
+  const auto around = blocks_around(map, block, (radius + kSide - 1) / kSide);
+  if (std::none_of(around.begin(), around.end(),
+                   [&](std::uint32_t other) { return map.dynamic_in(other) > 0; })) {
+    for_voxels(map, block, [&](std::uint32_t v) { map.set_verdict(v, map.decision(v)); });
+    return;
+  }
+  const VoxelIndex corner = map.blocks().block_index(block) * kSide;
+  ballot.clear();
+  for (const std::uint32_t other : around) {
+    for_voxels(map, other, [&](std::uint32_t v) {
+      ballot.add(map.index(v) - corner, vote_of(map.decision(v)));
+    });
+  }
+  ballot.count();
+  for_voxels(map, block, [&](std::uint32_t v) {
+    const std::uint32_t votes = ballot.around(map.index(v) - corner);
+    const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
+    const double share =
+        map.decision(v) == Evidence::kDynamic ? parameters.vote_keep : parameters.vote_share;
+    map.set_verdict(v, decided == 0                 ? Evidence::kUndecided
+                       : dynamic >= share * decided ? Evidence::kDynamic
+                                                    : Evidence::kStatic);
+  });
+}
+
+}  // namespace
+
+Evidence decide(const VoxelEvidence& evidence, const RaymovalPlusParameters& parameters) {
+  const double needed = parameters.free_constant + parameters.free_per_agree * evidence.agree_scans;
+  const bool came_or_left =
+      parameters.run_scans > 0 && (evidence.leading_free >= parameters.run_scans ||
+                                   evidence.trailing_free >= parameters.run_scans);
+  if (came_or_left || evidence.free_scans >= needed) return Evidence::kDynamic;
+  return evidence.agree_scans >= parameters.static_agree ? Evidence::kStatic : Evidence::kUndecided;
+}
+
+void vote(const std::vector<std::uint32_t>& blocks, const RaymovalPlusParameters& parameters,
+          int threads, EvidenceMap& map) {
   const int radius = std::min(parameters.vote_radius, kMaximumRadius);
-  std::vector<Evidence> elected(map.size());
-  parallel_chunks(threads, map.brick_count(), 64, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(threads, blocks.size(), 256, [&](std::size_t begin, std::size_t end) {
     Ballot ballot(radius);
-    for (std::size_t b = begin; b < end; ++b) {
-      const EvidenceMap::Brick& brick = map.brick(b);
-      const VoxelIndex corner = brick.index * kBrick;
-      ballot.clear();
-      for (int n = 0; n < 27; ++n) {
-        const VoxelIndex beside(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-        const EvidenceMap::Brick* const other = map.brick_at(brick.index + beside);
-        if (other == nullptr) continue;
-        for (std::uint32_t v = other->first; v < other->last; ++v) {
-          ballot.add(voxel_index(map.key(v)) - corner, vote_of(map.evidence[v]));
-        }
-      }
-      ballot.count();
-      for (std::uint32_t v = brick.first; v < brick.last; ++v) {
-        const std::uint32_t votes = ballot.around(voxel_index(map.key(v)) - corner);
-        const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
-        elected[v] = decided == 0 ? Evidence::kUndecided
-                     : dynamic >= (map.evidence[v] == Evidence::kDynamic ? parameters.vote_keep
-                                                                         : parameters.vote_share) *
-                                      decided
-                         ? Evidence::kDynamic
-                         : Evidence::kStatic;
-      }
+    for (std::size_t i = begin; i < end; ++i) {
+      vote_in_block(blocks[i], parameters, radius, ballot, map);
     }
   });
-  map.evidence = std::move(elected);
 }
 
 }  // namespace raymoval

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "methods/raymoval_plus/evidence_map.h"
 #include "methods/raymoval_plus/parameters.h"
 
 namespace raymoval {
 
 /// Static, dynamic or undecided, from the numbers of scans that saw through and that agree.
-void decide_voxels(EvidenceMap& map, const RaymovalPlusParameters& parameters);
+Evidence decide(const VoxelEvidence& evidence, const RaymovalPlusParameters& parameters);
 
-/// Each voxel takes the majority of the decided voxels within `vote_radius` cells (Chebyshev).
-void vote(EvidenceMap& map, const RaymovalPlusParameters& parameters, int threads);
+/// Each voxel of these blocks takes the majority of the decided voxels within `vote_radius` cells
+/// (Chebyshev).
+void vote(const std::vector<std::uint32_t>& blocks, const RaymovalPlusParameters& parameters,
+          int threads, EvidenceMap& map);
 
 }  // namespace raymoval

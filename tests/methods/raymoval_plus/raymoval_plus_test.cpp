@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/raymoval_plus.h"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <map>
+#include <numeric>
+#include <random>
 
+#include "methods/raymoval_plus/dense_blocks.h"
+#include "methods/raymoval_plus/evidence.h"
 #include "methods/raymoval_plus/evidence_map.h"
+#include "methods/raymoval_plus/objects.h"
 #include "methods/raymoval_plus/range_image.h"
 #include "methods/raymoval_plus/terrain.h"
 #include "methods/raymoval_plus/tracks.h"
@@ -25,12 +33,12 @@ SensorModel half_degree_sensor() {
 }
 
 /// A walker of half a metre who moves 0.2 m a scan along x; `dynamic` of 20 points are dynamic.
-ObjectSummary walker(int scan, int dynamic, double agree_scans) {
+ObjectSummary walker(int scan, int dynamic, float agree_scans) {
   ObjectSummary object;
-  object.center = {0.2 * scan, 0.0, 1.0};
-  object.low = object.center - Eigen::Vector3d(0.25, 0.25, 0.7);
-  object.high = object.center + Eigen::Vector3d(0.25, 0.25, 0.7);
-  object.range = 10.0;
+  object.center = {0.2F * static_cast<float>(scan), 0.0F, 1.0F};
+  object.low = object.center - Eigen::Vector3f(0.25F, 0.25F, 0.7F);
+  object.high = object.center + Eigen::Vector3f(0.25F, 0.25F, 0.7F);
+  object.range = 10.0F;
   object.points = 20;
   object.dynamic = dynamic;
   object.agree_scans = agree_scans;
@@ -71,41 +79,101 @@ TEST_CASE("a return above a place does not make it free") {
   CHECK(image.test({5.0F, 0.0F, 5.0F * std::tan(0.5F * 0.01745329F)}) == Seen::kFree);
 }
 
+TEST_CASE("the short cut of a place's test changes no answer") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.4F, 0.3F), range(1.0F, 70.0F);
+  Scan scan;
+  for (int i = 0; i < 20000; ++i) {
+    const float a = angle(random);
+    scan.points.push_back(range(random) *
+                          Eigen::Vector3f(std::cos(a), std::sin(a), slope(random)).normalized());
+  }
+  RangeImage image(half_degree_sensor(), RaymovalPlusParameters{});
+  image.fill(scan);
+  std::array<int, 4> found{};
+  for (int i = 0; i < 50000; ++i) {
+    const float a = angle(random);
+    const Eigen::Vector3f place =
+        range(random) *
+        Eigen::Vector3f(std::cos(a), std::sin(a), 1.5F * slope(random)).normalized();
+    const Seen seen = image.test(place);
+    REQUIRE(seen == image.test_every_bin(place));
+    ++found[static_cast<std::size_t>(seen)];
+  }
+  for (const int count : found) CHECK(count > 100);
+}
+
+TEST_CASE("blocks hold what was put into their cells, for either sign") {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> coordinate(-40, 40);
+  DenseBlocks<int, 2, 4> blocks(-1);
+  DenseBlocks<int, 2, 4>::Cursor cursor, reading;
+  std::map<VoxelKey, int> oracle;
+  for (int i = 0; i < 5000; ++i) {
+    const VoxelIndex cell(coordinate(random), coordinate(random), coordinate(random));
+    blocks.make(cell, cursor) = i;
+    oracle[voxel_key(cell)] = i;
+  }
+  for (int i = 0; i < 20000; ++i) {
+    const VoxelIndex cell(coordinate(random), coordinate(random), coordinate(random));
+    const auto found = oracle.find(voxel_key(cell));
+    REQUIRE(blocks.get(cell, reading) == (found == oracle.end() ? -1 : found->second));
+  }
+  CHECK(blocks.get({1000, 0, 0}, reading) == -1);
+}
+
 TEST_CASE("scans that see through are weighed against scans that agree") {
-  EvidenceMap map(0.2);
-  for (int i = 0; i < 5; ++i) map.add({0.1 + 10.0 * i, 0.1, 0.1});
-  map.freeze();
   RaymovalPlusParameters parameters;
-  parameters.run_scans = 0;
-  //                      free, agree: needed = 1 + 0.3 agree
-  const int cases[5][2] = {{1, 0}, {3, 10}, {4, 10}, {0, 1}, {0, 2}};
-  std::vector<Evidence> found;
-  for (std::size_t v = 0; v < map.size(); ++v) {
-    const auto number = static_cast<std::size_t>(map.centroid(v).x() / 10.0);
-    map.free_scans[v] = static_cast<std::uint16_t>(cases[number][0]);
-    map.agree_scans[v] = static_cast<std::uint16_t>(cases[number][1]);
+  const auto decided = [&](int free, int agree, int leading = 0, int trailing = 0) {
+    VoxelEvidence evidence;
+    evidence.free_scans = static_cast<std::uint16_t>(free);
+    evidence.agree_scans = static_cast<std::uint16_t>(agree);
+    evidence.leading_free = static_cast<std::uint16_t>(leading);
+    evidence.trailing_free = static_cast<std::uint16_t>(trailing);
+    return decide(evidence, parameters);
+  };
+  // Needed: 1 + 0.3 x the scans that agree.
+  CHECK(decided(1, 0) == Evidence::kDynamic);
+  CHECK(decided(3, 10) == Evidence::kStatic);
+  CHECK(decided(4, 10) == Evidence::kDynamic);
+  CHECK(decided(0, 1) == Evidence::kUndecided);
+  CHECK(decided(0, 2) == Evidence::kStatic);
+  // Or four in a row, before the first or after the last scan that agrees.
+  CHECK(decided(4, 100, 4, 0) == Evidence::kDynamic);
+  CHECK(decided(4, 100, 0, 4) == Evidence::kDynamic);
+  CHECK(decided(6, 100, 3, 3) == Evidence::kStatic);
+}
+
+TEST_CASE("runs of scans that see through are counted at either end of a voxel's story") {
+  const RaymovalPlusParameters parameters;
+  VoxelEvidence evidence;
+  for (const Seen seen : {Seen::kFree, Seen::kOccluded, Seen::kFree, Seen::kAgree, Seen::kFree,
+                          Seen::kAgree, Seen::kUnknown, Seen::kFree}) {
+    count(seen, 10.0, parameters, evidence);
   }
-  decide_voxels(map, parameters);
-  for (int i = 0; i < 5; ++i) {
-    found.push_back(map.evidence[map.find(voxel_key(map.index_of({0.1 + 10.0 * i, 0.1, 0.1})))]);
-  }
-  CHECK(found == std::vector<Evidence>{Evidence::kDynamic, Evidence::kStatic, Evidence::kDynamic,
-                                       Evidence::kUndecided, Evidence::kStatic});
+  count(Seen::kFree, 30.0, parameters, evidence);  // Farther than 20 m: not of a run.
+  CHECK(evidence.agree_scans == 2);
+  CHECK(evidence.free_scans == 5);
+  CHECK(evidence.leading_free == 2);
+  CHECK(evidence.trailing_free == 1);
 }
 
 TEST_CASE("neighbours outvote a voxel within three cells and no farther") {
   EvidenceMap map(0.2);
+  EvidenceMap::Blocks::Cursor cursor;
   // Dynamic voxels at 0, 1, 2 and 3 cells; a static one at 6, an undecided one at 10.
-  for (const int cell : {0, 1, 2, 3, 6, 10}) map.add({0.2 * cell + 0.1, 0.1, 0.1});
-  map.freeze();
-  for (std::size_t v = 0; v < map.size(); ++v) {
-    const int cell = voxel_index(map.key(v)).x();
-    map.evidence[v] = cell <= 3   ? Evidence::kDynamic
-                      : cell == 6 ? Evidence::kStatic
-                                  : Evidence::kUndecided;
+  for (const int cell : {0, 1, 2, 3, 6, 10}) {
+    map.set_decision(map.add({0.2 * cell + 0.1, 0.1, 0.1}, cursor), cell <= 3 ? Evidence::kDynamic
+                                                                    : cell == 6
+                                                                        ? Evidence::kStatic
+                                                                        : Evidence::kUndecided);
   }
-  vote(map, RaymovalPlusParameters{}, 1);
-  const auto at = [&](int cell) { return map.evidence[map.find(voxel_key(cell, 0, 0))]; };
+  std::vector<std::uint32_t> blocks(map.blocks().block_count());
+  std::iota(blocks.begin(), blocks.end(), 0U);
+  vote(blocks, RaymovalPlusParameters{}, 1, map);
+  const auto at = [&](int cell) {
+    return map.verdict(map.find({0.2 * cell + 0.1, 0.1, 0.1}, cursor));
+  };
   CHECK(at(0) == Evidence::kDynamic);
   CHECK(at(6) == Evidence::kDynamic);  // one dynamic voxel (3) of two within 3 cells: the half
   CHECK(at(10) == Evidence::kUndecided);
@@ -114,18 +182,45 @@ TEST_CASE("neighbours outvote a voxel within three cells and no farther") {
 TEST_CASE("ground is the low quantile, without pits and walls") {
   RaymovalPlusParameters parameters;
   Terrain terrain(parameters);
+  std::vector<Eigen::Vector3d> points;
   for (int x = -20; x <= 20; ++x) {
     for (int y = -20; y <= 20; ++y) {
       for (int k = 0; k < 4; ++k) {
         const double z = x == 5 && y == 5 ? -3.0 : -1.7;  // one column of false echoes
-        terrain.add({0.4 * x + 0.05 + 0.08 * k, 0.4 * y + 0.2, z});
+        points.emplace_back(0.4 * x + 0.05 + 0.08 * k, 0.4 * y + 0.2, z);
       }
     }
   }
-  terrain.finish(1);
-  CHECK(terrain.height({0.1, 0.1, -1.7}) == Approx(0.0).margin(0.05));
-  CHECK(terrain.height({2.2, 2.2, 0.3}) == Approx(2.0).margin(0.3));  // beside the pit
-  CHECK(std::isinf(terrain.height({100.0, 0.0, 0.0})));
+  terrain.add(points);
+  terrain.update(1);
+  Terrain::Heights::Cursor cursor;
+  CHECK(terrain.height({0.1, 0.1, -1.7}, cursor) == Approx(0.0).margin(0.05));
+  CHECK(terrain.height({2.2, 2.2, 0.3}, cursor) == Approx(2.0).margin(0.3));  // beside the pit
+  CHECK(std::isinf(terrain.height({100.0, 0.0, 0.0}, cursor)));
+}
+
+TEST_CASE("ground found scan by scan is the ground found at once") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-60.0, 60.0), rough(0.0, 0.3);
+  Terrain at_once{RaymovalPlusParameters{}}, in_parts{RaymovalPlusParameters{}};
+  std::vector<Eigen::Vector3d> all;
+  for (int scan = 0; scan < 5; ++scan) {
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 40000; ++i) {
+      const double x = place(random), y = place(random);
+      points.emplace_back(x, y, 0.1 * x + rough(random));
+    }
+    in_parts.add(points);
+    in_parts.update(2);
+    all.insert(all.end(), points.begin(), points.end());
+  }
+  at_once.add(all);
+  at_once.update(1);
+  Terrain::Heights::Cursor a, b;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d point(place(random), place(random), 0.0);
+    REQUIRE(at_once.height(point, a) == in_parts.height(point, b));
+  }
 }
 
 TEST_CASE("an object is followed past its last evidence, a standing one is not") {
@@ -136,15 +231,59 @@ TEST_CASE("an object is followed past its last evidence, a standing one is not")
     scans.push_back({walker(i, i < 7 ? 18 : 0, 4.0), walker(0, 0, 10.0)});
     scans.back()[1].center.y() += 5.0;
   }
-  const auto marks = objects_on_tracks(scans, parameters);
+  const auto marked = objects_on_tracks(scans, parameters);
   for (int i = 0; i < 10; ++i) {
-    const auto& of_scan = marks[static_cast<std::size_t>(i)];
-    CHECK(of_scan[0] == (i < 7 ? 0 : 1));
-    CHECK(of_scan[1] == 0);
+    CHECK(marked[static_cast<std::size_t>(i)] == (i < 7 ? std::vector<int>{} : std::vector{0}));
   }
+  // Scan by scan: the walker of scan 7 is marked by its own past.
+  Follower follower(parameters);
+  for (std::size_t i = 0; i < 8; ++i) follower.step(i, scans[i]);
+  CHECK(follower.marked_now() == std::vector{0});
   // Scans agree on it for far longer than half a metre at 0.2 m a scan explains: something else.
-  for (auto& objects : scans) objects[0].agree_scans = 60.0;
-  CHECK(objects_on_tracks(scans, parameters)[9][0] == 0);
+  for (auto& objects : scans) objects[0].agree_scans = 60.0F;
+  CHECK(objects_on_tracks(scans, parameters)[9].empty());
+}
+
+TEST_CASE("a person against a wall goes with all of its points") {
+  // One cluster: a wall of 400 points that 50 scans agree with, a person of 60 points 0.2 m before
+  // it. Two thirds of the person are dynamic, the rest three scans agree with.
+  const RaymovalPlusParameters parameters;
+  EvidenceMap map(parameters.voxel_size);
+  EvidenceMap::Blocks::Cursor cursor;
+  WorldScan world;
+  const auto add = [&](const Eigen::Vector3d& point, Evidence verdict, int agree) {
+    const std::uint32_t voxel = map.add(point, cursor);
+    map.evidence(voxel).agree_scans = static_cast<std::uint16_t>(agree);
+    map.set_verdict(voxel, verdict);
+    world.points.push_back(point);
+    world.scan.points.push_back(point.cast<float>());
+    world.height.push_back(static_cast<float>(point.z()));
+    world.voxel.push_back(voxel);
+    world.verdict.push_back(verdict);
+  };
+  for (int i = 0; i < 40; ++i) {
+    for (int k = 0; k < 10; ++k) add({5.3, -4.0 + 0.2 * i, 0.4 + 0.2 * k}, Evidence::kStatic, 50);
+  }
+  for (int i = 0; i < 60; ++i) {
+    const bool low = i < 20;
+    add({5.1, 0.02 * (i % 10), 0.4 + 0.2 * (i / 10)}, low ? Evidence::kStatic : Evidence::kDynamic,
+        low ? 3 : 2);
+  }
+  const ScanObjects objects = find_objects(world, map, parameters);
+  judge_objects(objects, {}, parameters, world);
+  const auto removed = removed_points(world);
+  CHECK(std::count(removed.begin(), removed.begin() + 400, 1) == 0);
+  CHECK(std::count(removed.begin() + 400, removed.end(), 1) == 60);
+
+  // Not divided, the person is a group in a wall: its dynamic points go, its feet stay.
+  RaymovalPlusParameters undivided = parameters;
+  undivided.settled_scans = 0;
+  for (std::size_t k = 0; k < world.voxel.size(); ++k) {
+    world.verdict[k] = map.verdict(world.voxel[k]);
+  }
+  judge_objects(find_objects(world, map, undivided), {}, undivided, world);
+  const auto partly = removed_points(world);
+  CHECK(std::count(partly.begin(), partly.end(), 1) == 40);
 }
 
 TEST_CASE("raymoval_plus takes the movers off a street and leaves the rest") {
@@ -160,10 +299,30 @@ TEST_CASE("raymoval_plus takes the movers off a street and leaves the rest") {
 
 TEST_CASE("raymoval_plus answers the same on any number of threads") {
   const toy::World world = toy::street(10);
-  const MaskStore one = toy::masks_of(*plus().make(), world, 1);
-  for (const int threads : {2, 8}) {
-    CHECK(toy::different_verdicts(one, toy::masks_of(*plus().make(), world, threads), 10) == 0);
+  for (const char* const name :
+       {"raymoval_plus:offline", "raymoval_plus:online", "raymoval_plus:online-map"}) {
+    const ConfiguredMethod method = MethodRegistry::built_in().configure(name);
+    const MaskStore one = toy::masks_of(*method.make(), world, 1);
+    CHECK(one.removed_count() > 0);
+    for (const int threads : {2, 8}) {
+      CHECK(toy::different_verdicts(one, toy::masks_of(*method.make(), world, threads), 10) == 0);
+    }
   }
+}
+
+TEST_CASE("raymoval_plus online knows nothing of later scans") {
+  const ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval_plus:online");
+  const MaskStore all = toy::masks_of(*method.make(), toy::street(12));
+  const MaskStore some = toy::masks_of(*method.make(), toy::street(7));
+  CHECK(toy::different_verdicts(some, all, 7) == 0);
+}
+
+TEST_CASE("one pass removes nearly what four do") {
+  const toy::World world = toy::street(16);
+  const ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval_plus:online-map");
+  const MaskStore masks = toy::masks_of(*method.make(), world);
+  CHECK(toy::removed_share(world, masks, 4, 0, 15) > 0.9);
+  for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, masks, fixed, 0, 15) < 0.005);
 }
 
 TEST_CASE("raymoval_plus takes no scans, empty scans and single points") {
