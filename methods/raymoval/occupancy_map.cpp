@@ -33,23 +33,6 @@ OccupancyMap::Slot OccupancyMap::make_brick(const Eigen::Vector3i& brick) {
   return next;
 }
 
-void OccupancyMap::find_slots(const std::vector<VoxelIndex>& voxels, int threads,
-                              std::vector<Slot>& slots) const {
-  slots.resize(voxels.size());
-  parallel_chunks(threads, voxels.size(), 8192, [&](std::size_t begin, std::size_t end) {
-    Eigen::Vector3i last = brick_of(voxels[begin]);
-    Slot slot = find_slot(last);
-    for (std::size_t k = begin; k < end; ++k) {
-      const Eigen::Vector3i brick = brick_of(voxels[k]);
-      if (brick != last) {
-        last = brick;
-        slot = find_slot(brick);
-      }
-      slots[k] = slot;
-    }
-  });
-}
-
 bool OccupancyMap::erase(const VoxelIndex& voxel) {
   const Slot slot = find_slot(brick_of(voxel));
   if (slot == kNoBrick) return false;

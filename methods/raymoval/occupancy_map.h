@@ -100,9 +100,6 @@ class OccupancyMap {
     const auto found = index_.find(voxel_key(brick));
     return found == index_.end() ? kNoBrick : found->second;
   }
-  /// Brick of each voxel, kNoBrick where there is none. Quick where neighbours follow each other.
-  void find_slots(const std::vector<VoxelIndex>& voxels, int threads,
-                  std::vector<Slot>& slots) const;
   /// The brick's number; it is made if it is not there.
   Slot make_brick(const Eigen::Vector3i& brick);
   [[nodiscard]] const Brick& brick(Slot slot) const { return bricks_[slot]; }

@@ -141,7 +141,7 @@ class RaymovalPass {
     windowed_percentiles(
         first_hit_.range, prepared.projected.minimum_range, grid_, parameters_.neighbourhood,
         {parameters_.percentile, parameters_.erase_percentile}, context_.threads, references_);
-    map_.occupied().find_slots(prepared.voxels, context_.threads, slots_);
+    map_.look_up(prepared.voxels, context_.threads, known_);
   }
 
   /// Eq. 11; also points where the map was seen through before.
@@ -157,9 +157,9 @@ class RaymovalPass {
       candidates.assign(prepared.scan.size(), 0);
     }
     if (!parameters_.permanent_erase) return candidates;
-    parallel_for(context_.threads, candidates.size(), 8192, [&](std::size_t k) {
-      if (map_.was_erased(slots_[k], prepared.voxels[k])) candidates[k] = 1;
-    });
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      candidates[k] |= known_.states[k] == VoxelState::kErased ? 1 : 0;
+    }
     return candidates;
   }
 
@@ -223,11 +223,19 @@ class RaymovalPass {
       bricks.push_back(slot_of(voxel));
       number = static_cast<std::uint32_t>(bricks.size());
     }
-    std::vector<Brick> own(bricks.size());  // The scan's voxels in these bricks.
-    for (std::size_t k = 0; k < slots_.size(); ++k) {
-      if (slots_[k] == OccupancyMap::kNoBrick || number_of_[slots_[k]] == 0) continue;
+    std::vector<Brick> own(bricks.size());             // The scan's voxels in these bricks.
+    OccupancyMap::Slot last = OccupancyMap::kNoBrick;  // Neighbours often share a brick.
+    Brick* open = nullptr;
+    for (std::size_t k = 0; k < known_.slots.size(); ++k) {
+      const OccupancyMap::Slot slot = known_.slots[k];
+      if (slot != last) {
+        last = slot;
+        const std::uint32_t number = slot == OccupancyMap::kNoBrick ? 0 : number_of_[slot];
+        open = number == 0 ? nullptr : &own[number - 1];
+      }
+      if (open == nullptr) continue;
       const VoxelIndex& voxel = prepared.voxels[k];
-      own[number_of_[slots_[k]] - 1].add(voxel.x(), voxel.y(), voxel.z());
+      open->add(voxel.x(), voxel.y(), voxel.z());
     }
     std::erase_if(voxels, [&](const VoxelIndex& voxel) {
       return own[number_of_[slot_of(voxel)] - 1].contains(voxel.x(), voxel.y(), voxel.z());
@@ -259,7 +267,7 @@ class RaymovalPass {
   void integrate(const PreparedScan& prepared, const Mask& dynamic) {
     if (parameters_.map_source == MapSource::kNaive) return;
     const StageScope timed(context_.times, "integration");
-    map_.integrate(prepared.voxels, slots_, dynamic);
+    map_.integrate(prepared.voxels, known_, dynamic);
   }
 
   const RaymovalParameters& parameters_;
@@ -273,8 +281,8 @@ class RaymovalPass {
   // Of the present scan; kept for their memory.
   FirstHitImage first_hit_;
   WindowPercentiles references_;
-  std::vector<OccupancyMap::Slot> slots_;  ///< Brick of each point.
-  std::vector<std::uint32_t> number_of_;   ///< Of each brick that may be seen through; else 0.
+  VoxelLookup known_;  ///< Of each point's voxel, before the scan changes the map.
+  std::vector<std::uint32_t> number_of_;  ///< Of each brick that may be seen through; else 0.
   std::vector<float> nearest_return_;
 };
 
@@ -321,9 +329,9 @@ class RaymovalRemover : public Remover {
     for_each_scan("raymoval, naive map", scans, context, [&](const Scan& scan) {
       const StageScope timed(context.times, "integration");
       const std::vector<VoxelIndex> voxels = voxels_of(pass.map(), scan, context.threads);
-      std::vector<OccupancyMap::Slot> slots;
-      pass.map().occupied().find_slots(voxels, context.threads, slots);
-      pass.map().integrate(voxels, slots, Mask(voxels.size(), 0));
+      VoxelLookup known;
+      pass.map().look_up(voxels, context.threads, known);
+      pass.map().integrate(voxels, known, Mask(voxels.size(), 0));
     });
   }
 
@@ -344,11 +352,11 @@ class RaymovalRemover : public Remover {
   static Mask points_off_the_map(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
                                  const RunContext& context) {
     const StageScope timed(context.times, "answer");
-    Mask off(voxels.size(), 0);
-    std::vector<OccupancyMap::Slot> slots;
-    map.occupied().find_slots(voxels, context.threads, slots);
-    parallel_for(context.threads, voxels.size(), 8192, [&](std::size_t k) {
-      off[k] = map.occupied().contains(slots[k], voxels[k]) ? 0 : 1;
+    VoxelLookup known;
+    map.look_up(voxels, context.threads, known);
+    Mask off(voxels.size());
+    std::transform(known.states.begin(), known.states.end(), off.begin(), [](VoxelState state) {
+      return static_cast<std::uint8_t>(state == VoxelState::kOccupied ? 0 : 1);
     });
     return off;
   }
