@@ -45,6 +45,13 @@ int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
   return std::clamp(static_cast<int>(std::ceil(step / grid.elevation_step())), 1, 100);
 }
 
+CastImage sweep_caster(const AngularGrid& grid, const RayLimits& limits) {
+  return [caster = std::make_shared<FirstHitCaster>(grid, limits)](
+             OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
+    caster->cast(map, T_world_sensor, threads, image);
+  };
+}
+
 /// A scan with what every step needs of it.
 struct PreparedScan {
   Scan scan;
@@ -74,14 +81,14 @@ Mask validate_scan(const Scan& scan, const std::vector<VoxelIndex>& voxels, cons
 class RaymovalPass {
  public:
   RaymovalPass(const RaymovalParameters& parameters, const SensorModel& sensor,
-               const RunContext& context)
+               const RunContext& context, const MakeCaster& make_caster)
       : parameters_(parameters),
         sensor_(sensor),
         context_(context),
         grid_(grid_for(sensor, parameters)),
         map_(parameters.voxel_size, parameters.permanent_erase),
         erase_rows_(rows_of_a_beam(sensor, grid_, parameters)),
-        caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {}
+        cast_image_(make_caster(grid_, {parameters.minimum_range, parameters.maximum_range})) {}
 
   [[nodiscard]] StaticMap& map() { return map_; }
 
@@ -132,7 +139,7 @@ class RaymovalPass {
 
   void cast(const PreparedScan& prepared) {
     const StageScope timed(context_.times, "raycasting");
-    caster_.cast(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
+    cast_image_(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
   }
 
   /// The map reference of both tests, where the scan has a return.
@@ -276,7 +283,7 @@ class RaymovalPass {
   AngularGrid grid_;
   StaticMap map_;
   int erase_rows_;
-  FirstHitCaster caster_;
+  CastImage cast_image_;
   VoxelMap<int> scans_without_return_;
   // Of the present scan; kept for their memory.
   FirstHitImage first_hit_;
@@ -288,10 +295,11 @@ class RaymovalPass {
 
 class RaymovalRemover : public Remover {
  public:
-  explicit RaymovalRemover(const RaymovalParameters& parameters) : parameters_(parameters) {}
+  RaymovalRemover(const RaymovalParameters& parameters, const MakeCaster& make_caster)
+      : parameters_(parameters), make_caster_(make_caster ? make_caster : sweep_caster) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    RaymovalPass pass(parameters_, scans.sensor(), context);
+    RaymovalPass pass(parameters_, scans.sensor(), context, make_caster_);
     if (parameters_.offline) {
       run_offline(pass, scans, sink, context);
     } else {
@@ -338,15 +346,19 @@ class RaymovalRemover : public Remover {
   /// A point is dynamic iff its voxel is not in the final map and validation finds it to be one.
   void answer_from_map(const StaticMap& map, const ScanSource& scans, RemovalSink& sink,
                        const RunContext& context) {
-    for_each_scan("raymoval, answers", scans, context, [&](const Scan& scan) {
-      const std::vector<VoxelIndex> voxels = voxels_of(map, scan, context.threads);
-      Mask removed = points_off_the_map(map, voxels, context);
+    RunContext own = context;  // Of one scan among others.
+    own.threads = 1;
+    if (context.threads > 1) own.times = nullptr;
+    const auto answer = [&](const Scan& scan) {
+      const std::vector<VoxelIndex> voxels = voxels_of(map, scan, own.threads);
+      Mask removed = points_off_the_map(map, voxels, own);
       if (parameters_.validate) {
-        const StageScope timed(context.times, "validation");
+        const StageScope timed(own.times, "validation");
         removed = validate_scan(scan, voxels, removed, map.occupied(), parameters_);
       }
       sink.accept(scan.index, removed);
-    });
+    };
+    for_scans_at_once("raymoval, answers", "answer and validation", scans, context, answer);
   }
 
   static Mask points_off_the_map(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
@@ -368,17 +380,19 @@ class RaymovalRemover : public Remover {
   }
 
   RaymovalParameters parameters_;
+  MakeCaster make_caster_;
 };
 
 }  // namespace
 
-std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters) {
+std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters,
+                                       const MakeCaster& make_caster) {
   if (!parameters.offline && parameters.map_source == MapSource::kNaive) {
     throw ConfigurationError(
         "raymoval.map_source = naive needs all scans, which an online run (offline = false) does "
         "not have; use map_source = growing.");
   }
-  return std::make_unique<RaymovalRemover>(parameters);
+  return std::make_unique<RaymovalRemover>(parameters, make_caster);
 }
 
 }  // namespace raymoval
