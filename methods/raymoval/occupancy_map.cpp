@@ -41,7 +41,7 @@ bool OccupancyMap::erase(const VoxelIndex& voxel) {
   if ((word & bit) == 0) return false;
   word &= ~bit;
   --size_;
-  mark_changed(slot);
+  mark_changed(slot, Change::kShrunk);
   return true;
 }
 
@@ -94,7 +94,7 @@ void OccupancyMap::update_boxes(int threads) {
 bool OccupancyMap::cover_again(Slot slot, std::vector<BrickBox>& boxes) const {
   const auto present = this->boxes(slot);
   boxes.assign(present.begin(), present.end());
-  mend_cover(bricks_[slot], boxes);
+  mend_cover(bricks_[slot], is_changed_[slot] == 2 ? Change::kShrunk : Change::kGrown, boxes);
   // A mended cover gets worse with time.
   if (boxes.size() <= covers_[slot].fresh_count * 3U / 2U + 2U) return false;
   cover_with_boxes(bricks_[slot], boxes);
