@@ -15,6 +15,7 @@
 #include "benchmark/checked_sink.h"
 #include "benchmark/descriptor.h"
 #include "benchmark/sealed_json.h"
+#include "benchmark/sequence_place.h"
 #include "core/text.h"
 #include "methods/external/working_folder.h"
 
@@ -71,41 +72,6 @@ std::size_t size_of(int file) {
 }
 
 // The task as JSON.
-
-ordered_json place_record(const SequenceRequest& place) {
-  ordered_json record;
-  record["path"] = place.path;
-  const SequenceOptions& options = place.options;
-  if (options.frames) record["frames"] = frame_range_text(*options.frames);
-  if (options.poses) record["poses"] = *options.poses;
-  if (options.label_rule) record["label_rule"] = options.label_rule->string();
-  if (options.sensor) record["sensor"] = *options.sensor;
-  if (options.name) record["name"] = *options.name;
-  if (options.range_m) {
-    record["range_min"] = number_text(options.range_m->min);  // As text: the limit may be infinite.
-    record["range_max"] = number_text(options.range_m->max);
-  }
-  return record;
-}
-
-SequenceRequest place_from(const ordered_json& record) {
-  SequenceRequest place;
-  place.path = record.at("path").get<std::string>();
-  SequenceOptions& options = place.options;
-  for (const auto& [key, value] : record.items()) {
-    const auto text = value.get<std::string>();
-    if (key == "frames") options.frames = parse_frame_range(text);
-    if (key == "poses") options.poses = text;
-    if (key == "label_rule") options.label_rule = text;
-    if (key == "sensor") options.sensor = text;
-    if (key == "name") options.name = text;
-    if (!key.starts_with("range_")) continue;
-    if (!options.range_m) options.range_m.emplace();
-    const double metres = parse_number<double>(text).value();
-    (key == "range_min" ? options.range_m->min : options.range_m->max) = metres;
-  }
-  return place;
-}
 
 ordered_json task_record(const MethodTask& task, const SequenceRequest& place) {
   ordered_json record;
