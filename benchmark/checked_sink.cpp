@@ -56,14 +56,13 @@ const MaskStore& CheckedSink::finish() const {
   return masks_;
 }
 
-void add_to_digest(ContentHasher& hasher, const Mask& mask) {
-  hasher.add(std::to_string(mask.size()) + ":");
-  hasher.add(mask.data(), mask.size());
-}
-
 std::string mask_digest(const MaskStore& masks) {
   ContentHasher hasher;
-  for (std::size_t scan = 0; scan < masks.size(); ++scan) add_to_digest(hasher, masks.get(scan));
+  for (std::size_t scan = 0; scan < masks.size(); ++scan) {
+    const Mask mask = masks.get(scan);
+    hasher.add(std::to_string(mask.size()) + ":");
+    hasher.add(mask.data(), mask.size());
+  }
   return hasher.digest();
 }
 

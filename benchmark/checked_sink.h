@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "benchmark/timed_source.h"
-#include "core/files.h"
 #include "core/mask_store.h"
 #include "methods/remover.h"
 
@@ -39,9 +38,6 @@ class CheckedSink : public RemovalSink {
   std::mutex mutex_;
   MaskStore masks_;
 };
-
-/// Adds a scan's mask to what `mask_digest` hashes, scan after scan.
-void add_to_digest(ContentHasher& hasher, const Mask& mask);
 
 /// Hash of all masks: two runs gave the same answer exactly if these are equal.
 std::string mask_digest(const MaskStore& masks);

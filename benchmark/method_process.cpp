@@ -15,7 +15,7 @@
 #include "benchmark/checked_sink.h"
 #include "benchmark/descriptor.h"
 #include "benchmark/sealed_json.h"
-#include "benchmark/sequence_places.h"
+#include "benchmark/sequence_place.h"
 #include "core/text.h"
 #include "methods/external/working_folder.h"
 

@@ -66,10 +66,6 @@ void write_removals(const std::filesystem::path& folder, const ScanSource& scans
   }
 }
 
-Mask read_removal(const std::filesystem::path& folder, const Scan& scan) {
-  return read_mask(label_file(folder, scan), scan);
-}
-
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
                         const std::function<void()>& after_scan) {
   if (!std::filesystem::is_directory(folder)) {
@@ -80,7 +76,7 @@ MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& s
   MaskStore masks(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
-    masks.set(i, read_removal(folder, scan));
+    masks.set(i, read_mask(label_file(folder, scan), scan));
     after_scan();
   }
   return masks;

@@ -26,9 +26,6 @@ void write_removal(const std::filesystem::path& folder, const Scan& scan, const 
 void write_removals(const std::filesystem::path& folder, const ScanSource& scans,
                     const MaskStore& masks, const std::function<void()>& after_scan);
 
-/// One scan of what `read_removals` reads. @throws DataError as there
-Mask read_removal(const std::filesystem::path& folder, const Scan& scan);
-
 /// Reads what `write_removals` or another program wrote: 251 to 259 = removed.
 /// @throws DataError naming the file that is missing or has another count than its scan
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,

@@ -14,7 +14,6 @@
 #include "benchmark/run_folder.h"
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_bench.h"
-#include "benchmark/sequence_places.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -99,7 +98,6 @@ class Runner {
     store_.sweep();
     const ordered_json record = run_record(suite_, sequences_, threads_);
     write_sealed(options_.out / "run.json", record);
-    write_sources(options_.out, suite_.sequences, sequences_);
     for (std::size_t i = 0; i < sequences_.size(); ++i) run_sequence(i);
     if (unreadable_ == sequences_.size()) throw DataError(first_unreadable_);
     finish(record);

@@ -87,7 +87,7 @@ ordered_json labels_record(const Scene& scene) {
   return record;
 }
 
-ordered_json cell_record(const KeptCell& cell, const VerdictCounts& counts) {
+ordered_json cell_record(const SceneCell& cell, const VerdictCounts& counts) {
   ordered_json record;
   record["name"] = cell.name;
   record["control"] = cell.control;

@@ -6,10 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "benchmark/checked_sink.h"
 #include "benchmark/reasons.h"
-#include "benchmark/removal_files.h"
-#include "core/error.h"
 #include "eval/removal_tally.h"
 
 namespace raymoval {
@@ -43,7 +40,7 @@ Morton morton_of(const ShownPoint& point) {
 /// What a cell says of one scan.
 struct ScanVerdicts {
   Mask removed;
-  std::vector<std::uint8_t> reasons;
+  std::vector<std::uint8_t> reasons;  ///< Empty if there are none.
 
   [[nodiscard]] std::uint8_t byte(std::size_t point) const {
     const int reason = reasons.empty() ? 0 : reasons[point] + 1;
@@ -54,19 +51,18 @@ struct ScanVerdicts {
 /// Reads a sequence scan by scan and chooses what is shown.
 class SceneBuilder {
  public:
-  SceneBuilder(const Sequence& sequence, const std::vector<KeptCell>& cells, std::size_t limit)
+  SceneBuilder(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit)
       : sequence_(sequence),
         limit_(limit),
         errors_(static_cast<std::size_t>(kErrorShare * static_cast<double>(limit)), cells.size(),
                 0),
         others_(limit, cells.size(), kStepsPerVoxel),
-        digests_(cells.size()),
         bytes_(cells.size()) {
     scene_.sequence = sequence.name;
-    scene_.cells = cells;
-    scene_.counts.resize(cells.size());
-    only_controls_ =
-        std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.control; });
+    scene_.cells = std::move(cells);
+    scene_.counts.resize(scene_.cells.size());
+    only_controls_ = std::all_of(scene_.cells.begin(), scene_.cells.end(),
+                                 [](const SceneCell& cell) { return cell.control; });
   }
 
   void add(const Scan& scan) {
@@ -81,12 +77,6 @@ class SceneBuilder {
   }
 
   Scene finish() {
-    for (std::size_t i = 0; i < digests_.size(); ++i) {
-      if (digests_[i].digest() == scene_.cells[i].digest) continue;
-      throw DataError(scene_.cells[i].removals.string() +
-                      ": not the removals that were scored. Run `raymoval run --keep-removals` "
-                      "again with the same --out.");
-    }
     others_.reduce(limit_ - errors_.size());
     scene_.error_cell = errors_.cell();
     scene_.other_cell = others_.cell();
@@ -100,11 +90,9 @@ class SceneBuilder {
  private:
   std::vector<ScanVerdicts> read_verdicts(const Scan& scan) {
     std::vector<ScanVerdicts> verdicts;
-    for (std::size_t i = 0; i < scene_.cells.size(); ++i) {
-      const KeptCell& cell = scene_.cells[i];
-      verdicts.push_back({read_removal(cell.removals, scan),
-                          read_reasons(cell.removals, scan, cell.sentences.size())});
-      add_to_digest(digests_[i], verdicts.back().removed);
+    for (const SceneCell& cell : scene_.cells) {
+      verdicts.push_back(
+          {cell.masks.get(scan.index), read_reasons(cell.removals, scan, cell.sentences.size())});
     }
     return verdicts;
   }
@@ -184,7 +172,6 @@ class SceneBuilder {
   const Sequence& sequence_;
   std::size_t limit_;
   ThinnedPoints errors_, others_;
-  std::vector<ContentHasher> digests_;
   std::vector<std::uint8_t> bytes_;  ///< Of the present point, by cell.
   std::map<std::uint16_t, LabelClass> labels_;
   bool only_controls_ = false;
@@ -193,9 +180,9 @@ class SceneBuilder {
 
 }  // namespace
 
-Scene build_scene(const Sequence& sequence, const std::vector<KeptCell>& cells, std::size_t limit,
+Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit,
                   Progress* progress) {
-  SceneBuilder builder(sequence, cells, limit);
+  SceneBuilder builder(sequence, std::move(cells), limit);
   if (progress != nullptr) progress->begin("points of " + sequence.name, sequence.scans->size());
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
     builder.add(sequence.scans->load(i));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/report/kept_cells.h"
+#include "benchmark/kept_run.h"
 #include "benchmark/report/thinned_points.h"
 #include "core/progress.h"
 
@@ -14,6 +14,15 @@ namespace raymoval {
 
 /// Edge of the voxels that a page names and thins by, metres: that of the `erasor` protocol.
 inline constexpr double kPageVoxel = 0.2;
+
+/// A cell whose points can be shown.
+struct SceneCell {
+  std::string name;  ///< Of the method in the suite.
+  bool control = false;
+  MaskStore masks;
+  std::filesystem::path removals;      ///< Folder of the reasons.
+  std::vector<std::string> sentences;  ///< Of its reasons; empty if it gave none.
+};
 
 /// Points of a kept cell by what became of them.
 struct VerdictCounts {
@@ -30,7 +39,7 @@ struct SceneLabel {
 /// What the 3-D view shows of a sequence.
 struct Scene {
   std::string sequence;
-  std::vector<KeptCell> cells;
+  std::vector<SceneCell> cells;
   std::vector<VerdictCounts> counts;  ///< Of each cell, over all points within the range limits.
   std::vector<std::string> scans;     ///< Names.
   std::vector<Eigen::Vector3d> trajectory;  ///< Sensor positions, world, metres.
@@ -45,8 +54,8 @@ struct Scene {
 /// Reads scans, labels and removals. Points that a method judged wrongly come first, the others are
 /// one per `kPageVoxel` (moving ones one per scan too), each with larger cells if `limit` asks for
 /// it. Controls, which judge wrongly on purpose, do not make a point wrongly judged.
-/// @throws DataError if the kept removals are not those that were scored
-Scene build_scene(const Sequence& sequence, const std::vector<KeptCell>& cells, std::size_t limit,
+/// @throws DataError for damaged reasons
+Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit,
                   Progress* progress);
 
 /// A scene as a page has it.
