@@ -32,6 +32,7 @@ Command add_score_command(CLI::App& program);
 Command add_clean_command(CLI::App& program);
 Command add_simulate_command(CLI::App& program);
 Command add_inspect_command(CLI::App& program);
+Command add_report_command(CLI::App& program);
 
 /// The methods that this program knows, see `run_command_line`.
 const MethodRegistry& program_methods();
