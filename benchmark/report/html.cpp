@@ -11,9 +11,11 @@
 namespace raymoval {
 namespace {
 
-/// The number a cell starts with: "98.123 (4/5)".
+/// The number a cell starts with: "98.123 (4/5)", "1,234".
 std::optional<double> leading_number(const std::string& text) {
-  return parse_number<double>(std::string_view(text).substr(0, text.find(' ')));
+  std::string number = text.substr(0, text.find(' '));
+  std::erase(number, ',');
+  return parse_number<double>(number);
 }
 
 /// Whether column `place` holds numbers and, maybe, words for their lack.

@@ -260,14 +260,14 @@ std::string cells_html(const ReportContent& content) {
 
 std::string charts_html(const ReportContent& content) {
   const RunResults& results = *content.results;
-  std::string html;
+  std::string html = "<div class=\"charts\">\n";
   for (const std::string& protocol : results.protocols) {
     html += chart_html(pr_rr_chart(results, protocol, ChartPlace::kPage));
   }
   for (const std::string& protocol : results.protocols) {
     html += chart_html(accuracy_time_chart(results, protocol, ChartPlace::kPage));
   }
-  html += chart_html(stage_chart(results, ChartPlace::kPage));
+  html += chart_html(stage_chart(results, ChartPlace::kPage)) + "</div>\n";
   std::string stages;
   for (const TextTable& table : make_tables(results)) {
     if (table.title.starts_with("Time of ")) stages += html_table(table);

@@ -21,7 +21,7 @@ class View {
   constructor(content) {
     this.scenes = content.scenes.map((head) => new SceneData(head));
     this.kindColours = content.colours;
-    this.visible = [true, true, true, true, true];
+    this.visible = [true, true, true, true, false];
     this.colourBy = 'verdict';
     this.clouds = [];
     this.uniforms = sharedUniforms();
@@ -38,11 +38,10 @@ class View {
 
   setUpChoices() {
     fillSelect(element('sequence'), this.scenes.map((scene, i) => [String(i), scene.head.sequence]), '0');
-    element('sequence-label').hidden = this.scenes.length < 2;
     element('sequence-label').style.display = this.scenes.length < 2 ? 'none' : '';
     element('sequence').addEventListener('change', () => this.openScene());
     for (const id of ['left', 'right']) element(id).addEventListener('change', () => this.openCells());
-    makeKinds([...this.kindColours, '#a596bd'], (kind, shown) => this.showKind(kind, shown));
+    makeKinds([...this.kindColours, '#a596bd'], this.visible, (kind, shown) => this.showKind(kind, shown));
     for (const radio of document.querySelectorAll('input[name="colour"]')) {
       radio.addEventListener('change', () => this.setColourBy(radio.value));
     }

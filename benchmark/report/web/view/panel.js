@@ -24,16 +24,16 @@ export function fillSelect(select, names, chosen) {
 
 const swatch = (colour) => make('span', {class: 'swatch', style: `--swatch:${colour}`});
 
-const KIND_NAMES = ['kept static (right)', 'static, removed (false positive)',
-                    'moving, removed (true positive)', 'moving, kept (false negative)',
+const KIND_NAMES = ['static, kept: right', 'static, removed: false positive',
+                    'moving, removed: true positive', 'moving, kept: false negative',
                     'label not evaluated'];
 
-/** A checkbox for each kind. @param changed called with kind and whether it is shown */
-export function makeKinds(colours, changed) {
+/** A checkbox for each kind. @param visible what is shown at first @param changed called with kind and whether it is shown */
+export function makeKinds(colours, visible, changed) {
   const field = element('kinds');
   field.append(...KIND_NAMES.map((name, kind) => {
     const box = make('input', {type: 'checkbox', id: `kind-${kind}`});
-    box.checked = true;
+    box.checked = visible[kind];
     box.addEventListener('change', () => changed(kind, box.checked));
     const count = make('span', {class: 'count', id: `count-${kind}`});
     return make('label', {for: `kind-${kind}`}, box, swatch(colours[kind]), name, count);
@@ -44,9 +44,8 @@ export function makeKinds(colours, changed) {
 export function tellKinds(cells) {
   for (let kind = 0; kind < 5; ++kind) {
     const all = cells.map((cell) => kind < 4 ? cell.head.counts[kind] : cell.shown[4]);
-    element(`count-${kind}`).textContent = all.map(grouped).join(' | ');
+    element(`count-${kind}`).textContent = all.map(grouped).join('\n');
   }
-  element('kind-4').parentElement.hidden = cells.every((cell) => cell.shown[4] === 0);
   element('kind-4').parentElement.style.display = cells.every((cell) => cell.shown[4] === 0) ? 'none' : '';
 }
 

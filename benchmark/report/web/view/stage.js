@@ -20,7 +20,7 @@ export class Stage {
     this.sides = [];
     this.path = new Line(new BufferGeometry(), new LineBasicMaterial());
     this.path.frustumCulled = false;
-    this.sensor = new Mesh(new SphereGeometry(0.4, 16, 12), new MeshBasicMaterial());
+    this.sensor = new Mesh(new SphereGeometry(0.25, 16, 12), new MeshBasicMaterial());
     this.chosen = new Mesh(new SphereGeometry(0.18, 16, 12), new MeshBasicMaterial({transparent: true, opacity: 0.75}));
     this.chosen.visible = false;
     this.scene.add(this.path, this.sensor, this.chosen);
