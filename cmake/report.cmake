@@ -58,7 +58,8 @@ if(RAYMOVAL_REPORT_3D)
             --outfile=${view_bundle}
     DEPENDS ${view_sources}
     COMMENT "Bundling the 3-D view of reports" VERBATIM)
-  list(APPEND report_parts ${report_web}/view.html ${view_bundle})
+  list(APPEND report_parts ${report_web}/view.html ${view_bundle}
+       ${report_build}/node_modules/three/LICENSE)
 endif()
 
 # Files as byte arrays of a C++ source, found by name.

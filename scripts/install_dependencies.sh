@@ -12,13 +12,15 @@ set -euo pipefail
 packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev libpcl-dev liboctomap-dev nlohmann-json3-dev
   catch2 libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
-  libembree-dev libpng-dev librapidcheck-dev libxxhash-dev
+  libembree-dev libpng-dev librapidcheck-dev libxxhash-dev zlib1g-dev esbuild
 )
 case ${1:-} in
   "") ;;
-  --tests) packages+=(snakemake python3-jsonschema python3-numpy) ;;
+  --tests) packages+=(snakemake python3-jsonschema python3-numpy chromium) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing or --tests." >&2; exit 2 ;;
 esac
+# npm fetches three.js. One that did not come from Debian will do, and would be in Debian's way.
+command -v npm >/dev/null || packages+=(npm)
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "install_dependencies.sh: this needs Debian 12 or a relative of it (apt-get, dpkg-query)." >&2

@@ -161,17 +161,13 @@ std::string footer_html(bool with_view) {
   std::string html =
       "<footer><p>Made by raymoval " RAYMOVAL_VERSION ". This file needs no network.";
   if (with_view) {
-    html +=
-        " Its 3-D view contains three.js " RAYMOVAL_THREE_VERSION
-        " (threejs.org), Copyright \u00A9 2010 three.js authors, under the MIT licence: "
-        "permission is granted, free of charge, to any person obtaining a copy of this software "
-        "to deal in it without restriction, including the rights to use, copy, modify, merge, "
-        "publish, distribute, sublicense and sell copies, provided that this notice is included "
-        "in all copies or substantial portions. It is provided \u201Cas is\u201D, without "
-        "warranty of any kind, express or implied; in no event shall the authors be liable for "
-        "any claim, damages or other liability.";
+    html += " Its 3-D view contains three.js " RAYMOVAL_THREE_VERSION
+            ", under the MIT licence.</p>\n<details><summary>Licence of three.js</summary>\n<pre>" +
+            html_text(std::string(page_file("LICENSE"))) + "</pre></details";
+  } else {
+    html += "</p";
   }
-  return html + "</p></footer>\n";
+  return html + "></footer>\n";
 }
 
 std::string scripts_html(const Points& points) {

@@ -113,6 +113,8 @@ class Browser:
     def open(self, path):
         """Opens a file and waits for the page. Gives the seconds it took."""
         started = time.monotonic()
+        if not os.path.exists(path):
+            raise FileNotFoundError(path)
         self.call("Page.navigate", url="file://" + os.path.abspath(path))
         self.wait("document.readyState === 'complete' && location.protocol === 'file:'")
         return time.monotonic() - started

@@ -150,6 +150,8 @@ class View {
     element('mode').value = '0';
     this.stage.setTrajectory(data.head.trajectory);
     this.stage.mark(null);
+    this.chosen = undefined;
+    element('point').replaceChildren();
     await this.openCells();
     this.tellScan();
     tellThinning(data.head);
@@ -222,7 +224,9 @@ class View {
 
   lookAtAll(fromAbove = false) {
     const {centre, reach} = this.extent();
-    const range = Math.max(35, reach * 0.75);
+    const {clientWidth: width, clientHeight: height} = element('canvas');
+    const narrow = Math.max(1, 1.2 * height * this.clouds.length / Math.max(width, 1));
+    const range = Math.max(35, reach * 0.75) * narrow;
     const first = this.data.sensor(0), last = this.data.sensor(this.data.head.scans.length - 1);
     const angle = Math.atan2(last[1] - first[1], last[0] - first[0]) + 2.2;
     this.stage.look(centre, fromAbove ? [0.01 * Math.cos(angle), 0.01 * Math.sin(angle), range * 1.6]
@@ -254,7 +258,7 @@ class View {
   }
 
   tellChosen() {
-    if (this.chosen < this.data.count) tellPoint(this.data, this.cells, this.chosen);
+    tellPoint(this.data, this.cells, this.chosen);
   }
 
   tell(text) {

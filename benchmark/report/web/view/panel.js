@@ -94,8 +94,8 @@ export function tellPoint(data, cells, i) {
     const why = reason > 0 ? cell.head.reasons[reason - 1] : 'the method does not say why';
     entries.push([cell.head.name, `${verdict}: ${why}`]);
   }
-  element('point').replaceChildren(make('strong', {}, 'Point'),
-      make('dl', {}, ...entries.flatMap(([name, value]) => [make('dt', {}, name), make('dd', {}, value)])));
+  element('point').replaceChildren(make('dl', {}, ...entries.flatMap(
+      ([name, value]) => [make('dt', {}, name), make('dd', {}, value)])));
 }
 
 /** How much of the data is shown. */

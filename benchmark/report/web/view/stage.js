@@ -21,7 +21,7 @@ export class Stage {
     this.path = new Line(new BufferGeometry(), new LineBasicMaterial());
     this.path.frustumCulled = false;
     this.sensor = new Mesh(new SphereGeometry(0.25, 16, 12), new MeshBasicMaterial());
-    this.chosen = new Mesh(new SphereGeometry(0.18, 16, 12), new MeshBasicMaterial({transparent: true, opacity: 0.75}));
+    this.chosen = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({transparent: true, opacity: 0.75}));
     this.chosen.visible = false;
     this.scene.add(this.path, this.sensor, this.chosen);
     this.pending = false;
@@ -75,6 +75,7 @@ export class Stage {
     const each = this.width / this.sides.length;
     this.camera.aspect = each / this.height;
     this.camera.updateProjectionMatrix();
+    this.chosen.scale.setScalar(0.009 * this.camera.position.distanceTo(this.chosen.position));
     for (let side = 0; side < this.sides.length; ++side) {
       for (let other = 0; other < this.sides.length; ++other) {
         this.sides[other].group.visible = other === side;
