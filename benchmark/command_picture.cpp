@@ -223,9 +223,9 @@ Command add_picture_command(CLI::App& program) {
   add_options(*app, *flags);
   app->footer(
       "Pictures of points need a run with --keep-removals, and its data where the run found it. "
-      "Shown are\nthe points that are evaluated. A pixel of a map has the colour of most of its "
-      "points, where static\npoints that were kept count a tenth. Charts need nothing but the run "
-      "folder.\nExamples:\n"
+      "Shown are\nthe points that are evaluated. A pixel of a map shows what became of most of its "
+      "moving points, if at\nleast a tenth as many move as stand, else of most of its static ones. "
+      "Charts need the run folder only.\nExamples:\n"
       "  raymoval picture out/street -o maps.png\n"
       "  raymoval picture out/simulated -o town.png --only 'town/raymoval*' --size 800\n"
       "  raymoval picture out/05 -o detail.png --crop -20:60:-15:15 --resolution 0.1\n"

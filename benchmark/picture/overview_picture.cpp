@@ -21,7 +21,7 @@ constexpr int kGap = 16;
 constexpr double kAround = 20.0;
 constexpr double kLeastAspect = 0.30;  ///< Height to width of the maps, lest they become stripes.
 constexpr double kMostAboveSensor = 4.0;
-constexpr double kZoomSide = 32.0;
+constexpr double kZoomSide = 26.0;
 constexpr double kCell = 4.0;  ///< Of the grid that finds the place to look at closely.
 
 /// A shown point with what became of it.

@@ -9,7 +9,8 @@
 namespace raymoval {
 namespace {
 
-constexpr std::uint32_t kWeight = 10;  ///< Of all outcomes but kept static, which has 1.
+/// A moving object always stands on many static points: so many of them outweigh one of its own.
+constexpr std::uint64_t kMovingWeight = 10;
 
 /// A few points are light, a wall is dark.
 Colour static_grey(std::uint32_t points) {
@@ -37,17 +38,17 @@ void TopDownRaster::add(const Eigen::Vector3d& world, Outcome outcome) {
 }
 
 bool TopDownRaster::shown(int x, int y, Outcome& outcome) const {
-  const Counts& here = counts(x, y);
-  std::uint64_t most = 0;
-  for (const Outcome candidate : {Outcome::kFalseNegative, Outcome::kFalsePositive,
-                                  Outcome::kTruePositive, Outcome::kKeptStatic}) {
-    const std::uint64_t weight = candidate == Outcome::kKeptStatic ? 1 : kWeight;
-    const std::uint64_t votes = weight * here[static_cast<std::size_t>(candidate)];
-    if (votes <= most) continue;
-    most = votes;
-    outcome = candidate;
+  const auto count = [&here = counts(x, y)](Outcome of) -> std::uint64_t {
+    return here[static_cast<std::size_t>(of)];
+  };
+  const std::uint64_t found = count(Outcome::kTruePositive), left = count(Outcome::kFalseNegative);
+  const std::uint64_t lost = count(Outcome::kFalsePositive), kept = count(Outcome::kKeptStatic);
+  if (found + left > 0 && kMovingWeight * (found + left) >= lost + kept) {
+    outcome = left >= found ? Outcome::kFalseNegative : Outcome::kTruePositive;
+  } else {
+    outcome = lost >= kept ? Outcome::kFalsePositive : Outcome::kKeptStatic;
   }
-  return most > 0;
+  return found + left + lost + kept > 0;
 }
 
 void TopDownRaster::draw(Canvas& canvas, int left, int top) const {

@@ -28,8 +28,8 @@ class TopDownRaster {
   [[nodiscard]] int height() const { return height_; }
   void add(const Eigen::Vector3d& world, Outcome outcome);
 
-  /// What a pixel shows: the outcome of most of its points, where static points that were kept
-  /// count a tenth, since a moving object always stands on many of them. Errors win ties.
+  /// What a pixel shows: of its moving points, if at least a tenth as many move as stand, else of
+  /// its static points, what became of most of them. An error wins a tie.
   /// @return false if no point is there
   [[nodiscard]] bool shown(int x, int y, Outcome& outcome) const;
   /// Colours of `shown`; kept static points in grey, the darker the more of them.
