@@ -89,6 +89,9 @@ ObliqueCamera camera_of(const Sequence& sequence, const OverviewOptions& options
     window.y_max += std::max(0.0, lacking) / 2.0;
   }
   camera.resolution = camera.window.width() / options.panel_pixels;
+  // Two maps stand above each other.
+  const double too_high = 2.0 * camera.height() / options.panel_pixels;
+  if (too_high > 1.0) camera.resolution *= too_high;
   return camera;
 }
 
@@ -126,7 +129,14 @@ WorldWindow busiest_place(const Sequence& sequence, const MaskStore& masks,
     x = (at.first + 0.5) * kCell;
     y = (at.second + 0.5) * kCell;
   }
-  return {x - kZoomSide / 2.0, x + kZoomSide / 2.0, y - kZoomSide / 2.0, y + kZoomSide / 2.0};
+  const auto within = [](double at, double low, double high) {
+    const double side = std::min(kZoomSide, high - low);
+    const double from = std::clamp(at - side / 2.0, low, high - side);
+    return std::pair(from, from + side);
+  };
+  const auto [x_min, x_max] = within(x, camera.window.x_min, camera.window.x_max);
+  const auto [y_min, y_max] = within(y, camera.window.y_min, camera.window.y_max);
+  return {x_min, x_max, y_min, y_max};
 }
 
 /// Ground light, what stands on it dark.

@@ -105,6 +105,7 @@ class Panel {
   void label_iso_line(double level, double at_hundred) {
     const std::string text = length_text(level / 100.0 * frame_.trio.mean_unit);
     if (at_hundred < frame_.across.low) {
+      if (at_hundred < frame_.up.low) return;  // It leaves the plot at the lower edge.
       svg_.text(x_ + kSide + 4.0, to_y(at_hundred) + 4.0, text, "soft");
     } else if (to_x(at_hundred) > last_label_ + 26.0) {
       last_label_ = to_x(at_hundred);
