@@ -198,7 +198,9 @@ RgbImage drawn(const KeptCell& cell, std::size_t scans, const Views& views,
   const int body = std::max(maps_high, kHeading + zoom_high);
   Canvas canvas(2 * kMargin + wide + kGap + zoom_wide, 2 * kMargin + body + 30);
   const auto panel = [&](const ObliqueRaster& raster, int x, int y, const std::string& heading) {
-    canvas.text(x, y + 18, canvas.font().fitted(heading, 14, raster.camera().width()), 14, kInk);
+    const int size = canvas.font().width(heading, 14) <= raster.camera().width() ? 14 : 12;
+    canvas.text(x, y + 18, canvas.font().fitted(heading, size, raster.camera().width()), size,
+                kInk);
     raster.draw(canvas, x, y + kHeading);
     canvas.frame(x, y + kHeading, raster.camera().width(), raster.camera().height(), kBorder);
   };
@@ -208,8 +210,8 @@ RgbImage drawn(const KeptCell& cell, std::size_t scans, const Views& views,
   const int second = kMargin + kHeading + high + kGap;
   panel(views.cleaned, kMargin, second,
         "Cleaned by " + cell.name + ": " + percent_text(views.left, views.moving) +
-            " of the moving points are left, " +
-            percent_text(views.wrong, views.points - views.moving) + " of the static ones gone");
+            " of moving points left, " + percent_text(views.wrong, views.points - views.moving) +
+            " of static ones lost");
   const int right = kMargin + wide + kGap;
   panel(views.zoom, right, kMargin, "What was removed, within the outline");
   draw_outline(canvas, views.raw.camera(), place, kMargin, kMargin + kHeading);

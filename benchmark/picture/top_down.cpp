@@ -43,12 +43,13 @@ bool TopDownRaster::shown(int x, int y, Outcome& outcome) const {
   };
   const std::uint64_t found = count(Outcome::kTruePositive), left = count(Outcome::kFalseNegative);
   const std::uint64_t lost = count(Outcome::kFalsePositive), kept = count(Outcome::kKeptStatic);
+  if (found + left + lost + kept == 0) return false;
   if (found + left > 0 && kMovingWeight * (found + left) >= lost + kept) {
     outcome = left >= found ? Outcome::kFalseNegative : Outcome::kTruePositive;
   } else {
     outcome = lost >= kept ? Outcome::kFalsePositive : Outcome::kKeptStatic;
   }
-  return found + left + lost + kept > 0;
+  return true;
 }
 
 void TopDownRaster::draw(Canvas& canvas, int left, int top) const {

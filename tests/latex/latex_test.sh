@@ -26,7 +26,7 @@ cat >suite.json <<'JSON'
   "name": "odd & ends_100%",
   "sequences": [
     { "path": "street", "name": "[a]_b & 50% #1 {x} ~^ <>| --", "frames": "0:4" },
-    { "path": "street", "name": "straße \\ 道", "frames": "0:3" }
+    { "path": "street", "name": "straße 道", "frames": "0:3" }
   ],
   "methods": [
     "raymoval:online", "octomap:ground", "removert:rm3", "dufomap:offline", "erasor:general",
@@ -37,7 +37,8 @@ cat >suite.json <<'JSON'
 }
 JSON
 cat >fails.json <<'JSON'
-{ "name": "fails", "command": ["/bin/sh", "-c", "echo /a/rather/long_path/that/nobody/can/break/into/lines/because/it/has/no/blanks >&2; exit 3"] }
+{ "name": "fails", "sentence": "Fails.", "source": "test", "version": "1", "online": false,
+  "command": ["/bin/sh", "-c", "echo /a/rather/long_path/that/nobody/can/break/into/lines/because/it/has/no/blanks >&2; exit 3"] }
 JSON
 sed -i "s|MANIFEST|$work/fails.json|" suite.json
 "$raymoval" run suite.json --quiet --out run >out.txt 2>err.txt
