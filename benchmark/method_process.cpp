@@ -84,6 +84,7 @@ ordered_json task_record(const MethodTask& task, const SequenceRequest& place) {
   record["with_reasons"] = task.with_reasons;
   record["progress"] =
       static_cast<int>(task.progress != nullptr ? task.progress->style() : ProgressStyle::kQuiet);
+  if (task.progress != nullptr) record["progress_context"] = task.progress->context();
   return record;
 }
 
@@ -268,6 +269,7 @@ void serve_method(const MethodRegistry& registry) {
                         ? static_cast<ProgressStyle>(record.at("progress").get<int>())
                         : ProgressStyle::kQuiet,
                     terminal != nullptr ? terminal : stderr);
+  progress.set_context(record.value("progress_context", ""));
   const SequenceRequest place = place_from(record.at("sequence"));
   const MethodRequest request = request_from(record, registry);
   const int threads = record.at("threads").get<int>();

@@ -22,3 +22,7 @@ endif()
 
 # The simulator's ray tracer.
 find_package(embree 3.13 CONFIG REQUIRED)
+
+# Pictures.
+find_package(PNG REQUIRED)
+find_package(Freetype REQUIRED)

@@ -10,8 +10,9 @@ namespace {
 
 constexpr double kSide = 230.0;  ///< Of a panel's plot.
 constexpr double kPitch = 304.0;
+constexpr double kRowPitch = 322.0;
 constexpr double kLeft = 56.0;
-constexpr double kTop = 58.0;
+constexpr double kTop = 70.0;
 
 /// Where the points of all sequences lie.
 struct Frame {
@@ -38,7 +39,7 @@ class Panel {
       : svg_(svg), frame_(frame), x_(x), y_(y) {}
 
   void draw_axes(const std::string& sequence) {
-    svg_.text(x_, y_ - 9.0, sequence, "bold");
+    svg_.text(x_, y_ - 24.0, sequence, "bold");
     for (const double mark : frame_.across.marks()) {
       const double x = to_x(mark);
       svg_.line(x, y_, x, y_ + kSide, "grid");
@@ -59,9 +60,9 @@ class Panel {
   /// Where the harmonic mean of both rates is `level` percent: up = level across / (2 across -
   /// level).
   void draw_iso_line(double level) {
-    const double right_end = level * 100.0 / (200.0 - level);  // Also where it leaves at the top.
+    const double at_hundred = level * 100.0 / (200.0 - level);  // One rate where the other is 100.
     const double low = frame_.up.low;
-    const double begin = std::max(frame_.across.low, right_end);
+    const double begin = std::max(frame_.across.low, at_hundred);
     const double end =
         2.0 * low > level ? std::min(100.0, level * low / (2.0 * low - level)) : 100.0;
     if (begin >= end) return;
@@ -72,10 +73,7 @@ class Panel {
       points += point_text(to_x(across), to_y(level * across / (2.0 * across - level)));
     }
     svg_.polyline(points, "iso");
-    if (right_end >= low) {
-      svg_.text(x_ + kSide + 4.0, to_y(right_end) + 4.0,
-                length_text(level / 100.0 * frame_.trio.mean_unit), "soft");
-    }
+    label_iso_line(level, at_hundred);
   }
 
   /// @return whether there was anything to draw
@@ -103,12 +101,24 @@ class Panel {
   void say_empty() { svg_.text(x_ + kSide / 2.0, y_ + kSide / 2.0, "no result", "soft middle"); }
 
  private:
+  /// At the upper edge, or at the right one if the line does not get there; not over another label.
+  void label_iso_line(double level, double at_hundred) {
+    const std::string text = length_text(level / 100.0 * frame_.trio.mean_unit);
+    if (at_hundred < frame_.across.low) {
+      if (at_hundred < frame_.up.low) return;  // It leaves the plot at the lower edge.
+      svg_.text(x_ + kSide + 4.0, to_y(at_hundred) + 4.0, text, "soft");
+    } else if (to_x(at_hundred) > last_label_ + 26.0) {
+      last_label_ = to_x(at_hundred);
+      svg_.text(last_label_, y_ - 6.0, text, "soft middle");
+    }
+  }
   [[nodiscard]] double to_x(double value) const { return x_ + frame_.across.at(value, kSide); }
   [[nodiscard]] double to_y(double value) const { return y_ + kSide - frame_.up.at(value, kSide); }
 
   SvgWriter& svg_;
   const Frame& frame_;
   double x_, y_;
+  double last_label_ = -1e9;
 };
 
 /// Axes that show every point; nothing if there is none.
@@ -144,14 +154,14 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol, 
   const RateTrio& trio = frame->trio;
   const std::string title = trio.up + " against " + trio.across + " by protocol " + protocol;
   SvgWriter svg("rates-" + protocol, title,
-                "A panel for each sequence, a marker for each method, dashed lines of equal " +
+                "A panel for each sequence, a marker for each method, dotted lines of equal " +
                     trio.mean + ". Up and right is better.");
   const std::size_t columns =
       std::min<std::size_t>(3, std::max<std::size_t>(1, results.sequences.size()));
-  svg.text(16.0, 22.0, title + "; dashed: equal " + trio.mean, "bold");
+  svg.text(16.0, 22.0, title + "; dotted: equal " + trio.mean, "bold");
   for (std::size_t i = 0; i < results.sequences.size(); ++i) {
     Panel panel(svg, *frame, kLeft + static_cast<double>(i % columns) * kPitch,
-                kTop + static_cast<double>(i / columns) * kPitch);
+                kTop + static_cast<double>(i / columns) * kRowPitch);
     panel.draw_axes(results.sequences[i]);
     const double step = iso_step(*frame);
     for (double level = step; level < 100.0; level += step) panel.draw_iso_line(level);
@@ -163,7 +173,7 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol, 
   }
   const double width = 16.0 + std::max(1.0 * columns, 2.0) * kPitch;
   const auto rows = static_cast<double>((results.sequences.size() + columns - 1) / columns);
-  const double legend_top = kTop - 10.0 + rows * kPitch;
+  const double legend_top = kTop - 14.0 + rows * kRowPitch;
   const double legend = draw_legend(svg, series, 16.0, legend_top, width - 32.0);
   return svg.finish(width, legend_top + legend + 14.0, place);
 }
