@@ -5,9 +5,9 @@
 #
 #   scripts/install_dependencies.sh            what building and running needs
 #   scripts/install_dependencies.sh --tests    also what the tests and the Snakemake workflow need
-#                                              (71 MB to fetch, 830 MB installed: Debian's snakemake
-#                                              depends on the clients of all clouds, and tables are
-#                                              compiled with LaTeX)
+#                                              (200 MB to fetch, 1.3 GB installed: Debian's snakemake
+#                                              depends on the clients of all clouds, tables are compiled
+#                                              with LaTeX, and reports are opened in Chromium)
 set -euo pipefail
 
 packages=(

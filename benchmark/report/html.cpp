@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "benchmark/picture/svg.h"
@@ -147,11 +148,19 @@ std::string html_id(const std::string& text) {
   return id;
 }
 
-std::string script_text(std::string text) {
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) {
-    text.replace(at, 2, "<\\/");
+std::string script_json(const nlohmann::ordered_json& json) {
+  using nlohmann::ordered_json;
+  const std::string text = json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";  // Only texts have it.
+    } else {
+      safe += c;
+    }
   }
-  return text;
+  return safe;
 }
 
 std::string html_table(const TextTable& table, TableHeight height) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,8 @@ std::string html_text(const std::string& text);
 /// Text for an id: letters, digits and '-'.
 std::string html_id(const std::string& text);
 
-/// JSON or code for a <script> element, which ends at the first "</script".
-std::string script_text(std::string text);
+/// JSON for a <script> element, which nothing in its texts ends.
+std::string script_json(const nlohmann::ordered_json& json);
 
 enum class TableHeight { kWhole, kScrolled };
 

@@ -171,15 +171,14 @@ std::string footer_html(bool with_view) {
 }
 
 std::string scripts_html(const Points& points) {
-  std::string html = "<script>\n" + script_text(std::string(page_file("page.js"))) + "</script>\n";
+  std::string html = "<script>\n" + std::string(page_file("page.js")) + "</script>\n";
   if (points.scenes.empty()) return html;
   for (const auto& [id, text] : points.streams) {
     html += "<script type=\"application/octet-stream\" id=\"" + id + "\">" + text + "</script>\n";
   }
   const ordered_json content = {{"colours", kind_colours()}, {"scenes", points.scenes}};
-  html += "<script type=\"application/json\" id=\"scenes\">" +
-          script_text(content.dump(-1, ' ', true, ordered_json::error_handler_t::replace)) +
-          "</script>\n<script>\n" + script_text(std::string(page_file("view.js"))) + "</script>\n";
+  html += "<script type=\"application/json\" id=\"scenes\">" + script_json(content) +
+          "</script>\n<script>\n" + std::string(page_file("view.js")) + "</script>\n";
   return html;
 }
 
