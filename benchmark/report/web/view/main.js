@@ -171,7 +171,7 @@ class View {
     element('left-name').textContent = cells[0].head.name;
     element('right-name').textContent = cells.length === 2 ? cells[1].head.name : '';
     this.stage.setClouds(this.clouds);
-    tellKinds(cells);
+    tellKinds(data.head, cells);
     this.paint();
     this.tell('');
     if (this.chosen !== undefined) this.tellChosen();

@@ -41,9 +41,10 @@ export function makeKinds(colours, visible, changed) {
 }
 
 /** How many points of each kind there are in the data of each shown cell. */
-export function tellKinds(cells) {
+export function tellKinds(head, cells) {
   for (let kind = 0; kind < 5; ++kind) {
-    const all = cells.map((cell) => kind < 4 ? cell.head.counts[kind] : cell.shown[4]);
+    const all = cells.map(({head: {counts}}) => kind < 4 ? counts[kind]
+        : head.points_in_range - counts[0] - counts[1] - counts[2] - counts[3]);
     element(`count-${kind}`).textContent = all.map(grouped).join('\n');
   }
   element('kind-4').parentElement.style.display = cells.every((cell) => cell.shown[4] === 0) ? 'none' : '';
