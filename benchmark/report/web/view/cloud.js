@@ -32,6 +32,7 @@ void main() {
   float column = colourBy < 1.5 ? tag.x : colourBy < 2.5 ? tag.y : height * 255.0;
   shade = colourBy < 0.5 ? mix(low, high, height)
                          : texelFetch(colours, ivec2(int(column + 0.5), int(colourBy - 0.5)), 0).rgb;
+  if (colourBy > 0.5 && colourBy < 2.5) shade *= 0.68 + 0.32 * height;  // Shape shows.
   float size = max(pointSize * pixels, 0.03 * pointSize * projectionMatrix[1][1] * 400.0 * pixels / -seen.z);
   size = min(size * grow, 14.0 * pixels);
   if (mode > 1.5) {

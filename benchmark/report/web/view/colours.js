@@ -17,8 +17,9 @@ const KNOWN = new Map(Object.entries({
 
 export const labelColour = (id, index) => KNOWN.get(String(id)) ?? OKABE_ITO[index % 8];
 
-/** Of the reason with code `code`; -1: none was given. */
-export const reasonColour = (code) => code < 0 ? '#8c8c8c' : OKABE_ITO[(code + 4) % 7];
+/** Of the reason with code `code`, of which the first is the usual one; -1: none was given. */
+export const reasonColour = (code) => code < 0 ? '#5f6368' : code === 0 ? '#a8a8a8'
+    : OKABE_ITO[[5, 4, 0, 1, 2, 3, 6][(code - 1) % 7]];
 
 /** Low to high: cividis, which the colour-blind see as others do. */
 export const HEIGHTS = ['#00224e', '#123570', '#3b496c', '#575d6d', '#707173', '#8a8678', '#a59c74',
