@@ -4,7 +4,7 @@ import {BufferAttribute, BufferGeometry, Color, DataTexture, GLSL3, Group, Neare
         RawShaderMaterial, Vector2} from 'three';
 
 import {HEIGHTS, between, labelColour, reasonColour, rgbOf} from './colours.js';
-import {FALSE_POSITIVE, KEPT_STATIC} from './scene_data.js';
+import {FALSE_POSITIVE, KEPT_STATIC, NOT_EVALUATED} from './scene_data.js';
 
 export const COLOUR_BY = {verdict: 0, label: 1, reason: 2, height: 3};
 
@@ -66,10 +66,26 @@ function colourTable(head) {
   return table;
 }
 
+/** Whether a share of the points of this kind may do while the view moves. */
+const mayBeThinned = (kind) => kind === KEPT_STATIC || kind === NOT_EVALUATED;
+
 /** What all materials of the view share. */
 export function sharedUniforms() {
   return {pointSize: {value: 2}, pixels: {value: 1}, scan: {value: 0}, mode: {value: 0},
           colourBy: {value: 0}, ground: {value: new Color()}};
+}
+
+/** In an order of which every beginning is spread over the whole; the same each time. */
+function shuffled(numbers) {
+  let state = 1;
+  for (let i = numbers.length - 1; i > 0; --i) {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    const other = Math.floor(state / 4294967296 * (i + 1));
+    const number = numbers[i];
+    numbers[i] = numbers[other];
+    numbers[other] = number;
+  }
+  return numbers;
 }
 
 /** Numbers of the points of each kind. */
@@ -106,7 +122,7 @@ export class Cloud {
       const geometry = new BufferGeometry();
       geometry.setAttribute('place', buffers.place);
       geometry.setAttribute('tag', tag);
-      geometry.setIndex(new BufferAttribute(numbers, 1));
+      geometry.setIndex(new BufferAttribute(mayBeThinned(kind) ? shuffled(numbers) : numbers, 1));
       const material = new RawShaderMaterial({
         glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader: FRAGMENT,
         uniforms: {...uniforms, stepSize: {value: data.step}, colours: {value: buffers.table},
@@ -132,6 +148,13 @@ export class Cloud {
 
   show(visible) {
     this.kinds.forEach((points, kind) => { points.visible = visible[kind]; });
+  }
+
+  /** Draws this share of the points that may be thinned. */
+  setDetail(share) {
+    this.kinds.forEach(({geometry}, kind) => {
+      if (mayBeThinned(kind)) geometry.setDrawRange(0, Math.ceil(geometry.index.count * share));
+    });
   }
 
   dispose() {

@@ -26,10 +26,15 @@ export class Stage {
     this.scene.add(this.path, this.sensor, this.chosen);
     this.pending = false;
     this.frames = 0;
+    this.detail = 1;
     this.draw = () => {
       this.pending = false;
-      this.render();
+      this.adaptDetail(performance.now() - this.asked);
+      this.render(this.detail);
+      clearTimeout(this.rest);
+      if (this.detail < 1) this.rest = setTimeout(this.drawAll, 400);
     };
+    this.drawAll = () => this.render();
     new ResizeObserver(() => this.request()).observe(canvas.parentElement);
   }
 
@@ -37,7 +42,14 @@ export class Stage {
   request() {
     if (this.pending) return;
     this.pending = true;
+    this.asked = performance.now();
     requestAnimationFrame(this.draw);
+  }
+
+  /** Where frames come late, fewer points are drawn until the view is at rest. */
+  adaptDetail(waited) {
+    const factor = waited > 50 ? Math.max(0.3, 40 / waited) : waited < 25 ? 1.1 : 1;
+    this.detail = Math.min(1, Math.max(0.02, this.detail * factor));
   }
 
   /** @param clouds one or two */
@@ -70,7 +82,8 @@ export class Stage {
     return width > 0 && height > 0;
   }
 
-  render() {
+  /** @param detail share of the points of which a part may do */
+  render(detail = 1) {
     if (!this.resize() || this.sides.length === 0) return;
     const each = this.width / this.sides.length;
     this.camera.aspect = each / this.height;
@@ -80,6 +93,7 @@ export class Stage {
       for (let other = 0; other < this.sides.length; ++other) {
         this.sides[other].group.visible = other === side;
       }
+      this.sides[side].setDetail(detail);
       this.renderer.setViewport(side * each, 0, each, this.height);
       this.renderer.setScissor(side * each, 0, each, this.height);
       this.renderer.render(this.scene, this.camera);
