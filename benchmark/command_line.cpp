@@ -79,6 +79,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       "  raymoval run --sequence street --method raymoval:online --out out/street\n"
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval table out/street\n"
+      "  raymoval report out/street -o street.html\n"
       "  raymoval compare out/street results/reference/street\n"
       "  raymoval describe raymoval\n"
       "  raymoval clean data/05 -o static.pcd\n"
@@ -91,7 +92,8 @@ ExitCode run_program(int argc, const char* const* argv) {
       add_run_command(program),      add_plan_command(program),    add_run_method_command(program),
       add_table_command(program),    add_compare_command(program), add_list_command(program),
       add_describe_command(program), add_score_command(program),   add_clean_command(program),
-      add_simulate_command(program), add_inspect_command(program)};
+      add_simulate_command(program), add_inspect_command(program), add_picture_command(program),
+      add_report_command(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

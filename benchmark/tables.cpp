@@ -328,8 +328,13 @@ std::string tables_markdown(const RunResults& results, const std::vector<TextTab
 }
 
 std::string tables_latex(const std::vector<TextTable>& tables) {
+  // LaTeX holds a limited number of tables that it has not found a place for.
+  constexpr std::size_t kTablesAtOnce = 8;
   std::string text;
-  for (const TextTable& table : tables) text += (text.empty() ? "" : "\n") + to_latex(table);
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (i > 0) text += i % kTablesAtOnce == 0 ? "\n\\clearpage\n" : "\n";
+    text += to_latex(tables[i]);
+  }
   return text;
 }
 

@@ -14,6 +14,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # What the program loads, with the versions it was linked with.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# The letters of pictures.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core")
 # What building against the library takes; a machine that only runs the program can do without.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++ (>= 4:12), pkg-config, libeigen3-dev,
  nlohmann-json3-dev, libtbb-dev, robin-map-dev, libxxhash-dev, libembree-dev, libpcl-dev,

@@ -346,19 +346,49 @@ class RaymovalRemover : public Remover {
   /// A point is dynamic iff its voxel is not in the final map and validation finds it to be one.
   void answer_from_map(const StaticMap& map, const ScanSource& scans, RemovalSink& sink,
                        const RunContext& context) {
+    if (context.reasons != nullptr) context.reasons->explain(answer_reasons());
     RunContext own = context;  // Of one scan among others.
     own.threads = 1;
     if (context.threads > 1) own.times = nullptr;
     const auto answer = [&](const Scan& scan) {
       const std::vector<VoxelIndex> voxels = voxels_of(map, scan, own.threads);
       Mask removed = points_off_the_map(map, voxels, own);
+      const Mask off_map = context.reasons != nullptr ? removed : Mask{};
       if (parameters_.validate) {
         const StageScope timed(own.times, "validation");
         removed = validate_scan(scan, voxels, removed, map.occupied(), parameters_);
       }
       sink.accept(scan.index, removed);
+      if (context.reasons != nullptr) {
+        context.reasons->accept(scan.index, reasons_for(map, voxels, off_map, removed));
+      }
     };
     for_scans_at_once("raymoval, answers", "answer and validation", scans, context, answer);
+  }
+
+  // Codes of `answer_reasons`.
+  static constexpr std::uint8_t kNeverContradicted = 0;
+  static constexpr std::uint8_t kSeenThrough = 1;
+  static constexpr std::uint8_t kInFrontOfMap = 2;
+  static constexpr std::uint8_t kRestored = 3;
+
+  static std::vector<std::string> answer_reasons() {
+    return {"no scan contradicts its voxel, which stays in the map", "a scan saw through its voxel",
+            "it stood in front of the map, so its voxel never entered it",
+            "its voxel was contradicted, and validation found that it belongs to the static map"};
+  }
+
+  /// Why each point of a scan is kept or removed, see `answer_reasons`.
+  std::vector<std::uint8_t> reasons_for(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
+                                        const Mask& off_map, const Mask& removed) const {
+    std::vector<std::uint8_t> codes(voxels.size(), kNeverContradicted);
+    for (std::size_t k = 0; k < codes.size(); ++k) {
+      if (off_map[k] == 0) continue;
+      // All voxels of a naive map were in it; what is not there now was erased.
+      const bool erased = parameters_.map_source == MapSource::kNaive || map.was_erased(voxels[k]);
+      codes[k] = removed[k] == 0 ? kRestored : erased ? kSeenThrough : kInFrontOfMap;
+    }
+    return codes;
   }
 
   static Mask points_off_the_map(const StaticMap& map, const std::vector<VoxelIndex>& voxels,

@@ -10,7 +10,7 @@ short=(--sequence street --frames 0:2 --quiet)
 
 # Help and listings.
 expect 0 "Examples" --help
-for command in run plan table compare list describe score clean simulate inspect; do expect 0 "Examples" "$command" --help; done
+for command in run plan table compare list describe score clean simulate inspect report; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
 for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
@@ -54,6 +54,9 @@ expect 2 "nothing to run on" plan
 expect 2 "Did you mean 'simulated'" plan simulatd
 expect 2 "no such run folder" table nowhere
 expect 2 "which run" table
+expect 2 "which run" report
+expect 2 "no such run folder" report nowhere
+expect 2 "--points 7" report nowhere --points 7
 holds "no bad command line made a folder" test ! -e o
 
 # A run, its files, and what reads them.
