@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/sequence_bench.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "core/files.h"
 
 namespace raymoval {
 
@@ -26,7 +29,18 @@ SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolReques
 }
 
 const std::string& SequenceBench::data_fingerprint() {
-  if (fingerprint_.empty()) fingerprint_ = fingerprint(sequence_, threads_);
+  if (!fingerprint_.empty()) return fingerprint_;
+  fingerprint_ = fingerprint(sequence_, threads_);
+  const bool calibrated = std::any_of(scorers_.begin(), scorers_.end(), [](const Scorer& scorer) {
+    return scorer.protocol->reads_calibration();
+  });
+  if (calibrated && sequence_.T_camera_lidar) {
+    const Eigen::Matrix4d calibration = sequence_.T_camera_lidar->matrix();
+    ContentHasher hasher;
+    hasher.add(fingerprint_);
+    hasher.add(calibration.data(), sizeof(double) * 16);
+    fingerprint_ = hasher.digest();
+  }
   return fingerprint_;
 }
 
@@ -36,6 +50,7 @@ EvaluationInput SequenceBench::input() const {
   input.labels = sequence_.labels.get();
   input.label_rule = sequence_.label_rule;
   input.range_m = sequence_.range_m;
+  input.T_camera_lidar = sequence_.T_camera_lidar;
   input.threads = threads_;
   input.progress = progress_;
   return input;

@@ -51,8 +51,8 @@ Suite SuiteFlags::resolved() const {
                                    : read_suite(find_suite(flags.suite), registry, data);
   std::vector<Setting> parsed;
   for (const std::string& text : flags.settings) parsed.push_back(parse_setting(text));
-  apply_settings(made, parsed);
   if (made.protocols.empty()) add_protocol(made, "erasor", "");
+  apply_settings(made, parsed);
   if (made.controls) add_controls(made, registry);
   if (const int count = parse_threads(flags.threads); count > 0) made.threads = count;
   if (!time_limit.empty()) made.time_limit_s = parse_positive("--time-limit", time_limit);
@@ -73,7 +73,9 @@ void SuiteFlags::add_to(CLI::App& app) {
   app.add_option("--method", methods, "Method to run, NAME or NAME:variant")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  app.add_option("--set", settings, "Parameter: METHOD.key=value or METHOD:variant.key=...")
+  app.add_option("--set", settings,
+                 "Parameter: METHOD.key=value or METHOD:variant.key=...; option of a protocol: "
+                 "protocol:NAME.key=...")
       ->type_name("SETTING")
       ->allow_extra_args(false);
   app.add_option("--protocol", protocols, "Protocol to score by (default: erasor)")

@@ -72,6 +72,7 @@ check_consumer() {
 
 step "dependencies" scripts/install_dependencies.sh --tests
 step "includes" scripts/check_includes.sh
+step "tree" scripts/check_tree.sh
 step "format" check_format
 step "release build" build release -DRAYMOVAL_WERROR=ON
 run_tests release

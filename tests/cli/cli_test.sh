@@ -38,6 +38,9 @@ expect 2 "--sequence" run --method noop --out o
 expect 2 "Did you mean 'raymoval'" run "${short[@]}" --method raymovl --out o
 expect 2 "two methods" run "${short[@]}" --method noop --method noop:default --out o
 expect 2 "METHOD.key=value" run "${short[@]}" --method raymoval --set tau0=1 --out o
+expect 2 "write protocol:erasor.key=value" run "${short[@]}" --method noop --set erasor.lift=0 --out o
+expect 2 "'lift'" run "${short[@]}" --method noop --set protocol:erasor.lft=0 --out o
+expect 2 "no protocol asked for" run "${short[@]}" --method noop --set protocol:dynamicmap.distance=1 --out o
 expect 2 "'tau0'" run "${short[@]}" --method raymoval --set raymoval.tau=1 --out o
 expect 2 "out of range" run "${short[@]}" --method raymoval --set raymoval.tau0=-1 --out o
 expect 2 "not in this run" run "${short[@]}" --method raymoval --set noop.tau0=1 --out o
