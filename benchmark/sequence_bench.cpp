@@ -7,6 +7,17 @@
 #include "core/files.h"
 
 namespace raymoval {
+namespace {
+
+void check_has_calibration(const Protocol& protocol, const Sequence& sequence) {
+  if (!protocol.reads_calibration() || sequence.T_camera_lidar) return;
+  throw DataError("protocol " + protocol.name() + " as asked for (frame = erasor) needs the " +
+                  "calibration of a camera (calib.txt, row Tr) and its poses; sequence '" +
+                  sequence.name +
+                  "' has those of the LiDAR. Leave the option at frame = sequence.");
+}
+
+}  // namespace
 
 void check_has_labels(const Sequence& sequence) {
   if (sequence.labels != nullptr) return;
@@ -25,6 +36,7 @@ SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolReques
   }
   for (const ProtocolRequest& request : requests) {
     scorers_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
+    check_has_calibration(*scorers_.back().protocol, sequence_);
   }
 }
 

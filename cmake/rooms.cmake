@@ -1,3 +1,25 @@
+# Several source files of a folder compiled as one: a third of the work where headers cost more than
+# what is in the files. Only for builds that nobody edits in (the sanitizers in scripts/test.sh):
+# names in anonymous namespaces have to differ within a group, and a forgotten #include may go
+# unnoticed.
+option(RAYMOVAL_UNITY "Compile several source files as one" OFF)
+
+# raymoval_unity(TARGET SOURCE...): groups of up to eight files of one folder.
+function(raymoval_unity target)
+  if(NOT RAYMOVAL_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(source ${ARGN})
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    math(EXPR count_${folder} "${count_${folder}} + 0")
+    math(EXPR part "${count_${folder}} / 8")
+    math(EXPR count_${folder} "${count_${folder}} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${part})
+  endforeach()
+endfunction()
+
 # A room is a folder of the house and one static library, raymoval::<name>. Every source file below
 # the folder belongs to it.
 function(raymoval_room name)
@@ -6,6 +28,7 @@ function(raymoval_room name)
     message(FATAL_ERROR "no source file in ${name}/")
   endif()
   add_library(raymoval_${name} STATIC ${sources})
+  raymoval_unity(raymoval_${name} ${sources})
   add_library(raymoval::${name} ALIAS raymoval_${name})
   target_compile_features(raymoval_${name} PUBLIC cxx_std_20)
   target_include_directories(raymoval_${name} PUBLIC

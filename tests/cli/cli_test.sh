@@ -82,6 +82,15 @@ expect 0 "Published" table run --with-published
 expect 2 "'md'" table run --format mdx
 expect 2 "--with-published" table run --format csv --with-published
 
+# Options of a protocol from the command line; frame = erasor needs a camera's calibration.
+expect 0 "All controls are as they must be" run "${short[@]}" --method noop --protocol dynamicmap \
+  --set protocol:dynamicmap.maximum_range=10 --out near
+holds "a protocol's option is recorded" grep -q '"maximum_range": 10' \
+  near/cells/street/noop-default/cell.json
+expect 1 "has those of the LiDAR" run "${short[@]}" --method noop \
+  --set protocol:erasor.frame=erasor --out frame
+expect 2 "Did you mean 'erasor'" run "${short[@]}" --method noop --set protocol:erasor.frame=eraser --out o
+
 # A reference has no times and no machine; a run is compared with it by counts.
 expect 0 "wrote" compare run reference --update
 holds "a reference has no times" test -z "$(grep -F seconds reference/results.json)"
