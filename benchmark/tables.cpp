@@ -87,7 +87,7 @@ void add_outside(const RunResults& results, const std::string& protocol,
     if (!is_of(given, protocol, rates)) continue;
     Column column = outside_column(results.sequences, given);
     const bool shared = std::any_of(column.by_sequence.begin(), column.by_sequence.end(),
-                                    [](const RateValues* rates) { return rates != nullptr; });
+                                    [](const RateValues* known) { return known != nullptr; });
     if (shared) columns.push_back(std::move(column));
   }
 }
