@@ -8,6 +8,7 @@
 
 #include "benchmark/checked_sink.h"
 #include "benchmark/method_process.h"
+#include "benchmark/reasons.h"
 #include "benchmark/removal_files.h"
 #include "benchmark/score_json.h"
 #include "benchmark/sealed_json.h"
@@ -83,14 +84,15 @@ void fail(ordered_json& cell, const char* status, const std::string& reason) {
   cell["columns"] = nullptr;
 }
 
-void write_cell_removals(const CellTask& task, const MaskStore& masks) {
+void write_cell_removals(const CellTask& task, const MethodAnswer& answer) {
   Progress* progress = task.bench->progress();
   const ScanSource& scans = *task.bench->sequence().scans;
   if (progress != nullptr) progress->begin("writing removals", scans.size());
-  write_removals(task.removals, scans, masks, [&] {
+  write_removals(task.removals, scans, answer.masks, [&] {
     if (task.cancel != nullptr && task.cancel->load()) throw Cancelled();
     if (progress != nullptr) progress->advance();
   });
+  write_reasons(task.removals, scans, answer.reasons);
 }
 
 /// Whether a mask per scan came back from the child, each as long as the scan it is for.
@@ -201,7 +203,7 @@ namespace {
 
 MethodAnswer method_answer(const CellTask& task) {
   const MethodTask method{&task.bench->sequence(), task.request, task.bench->threads(),
-                          task.bench->progress(), task.cancel};
+                          task.bench->progress(),  task.cancel,  !task.removals.empty()};
   return task.place == nullptr ? run_method(method)
                                : run_method_apart(method, *task.place, task.limits);
 }
@@ -230,7 +232,7 @@ ordered_json execute_cell(const CellTask& task) {
     fail(cell, "failed", error.what());
   }
   // A disk that is full is no fault of the method: it ends the run.
-  if (cell["status"] == "ok" && !task.removals.empty()) write_cell_removals(task, answer.masks);
+  if (cell["status"] == "ok" && !task.removals.empty()) write_cell_removals(task, answer);
   return cell;
 }
 

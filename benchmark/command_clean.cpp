@@ -75,12 +75,12 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, Progress& prog
   return sequence;
 }
 
-ExitCode clean(const CleanFlags& flags) {
+ExitCode clean(const CleanFlags& flags, Progress& progress) {
   const CleanPaths paths = checked_paths(flags);
   const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
   const ConfiguredMethod method = configured(flags);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   const Sequence sequence = opened(flags, paths, progress);
+  progress.set_context(method.full_name() + " on " + sequence.name);
   CleanOutputs outputs(paths, voxel);
   const TimedSource scans(*sequence.scans);
   MaskSpool masks(method.full_name(), scans, paths.map);
@@ -90,6 +90,16 @@ ExitCode clean(const CleanFlags& flags) {
         grouped_text(masks.point_count()) + " points in " + grouped_text(scans.size()) +
         " scans; " + flags.output + " has " + grouped_text(outputs.map_points()) + " points.\n");
   return ExitCode::kDone;
+}
+
+ExitCode clean(const CleanFlags& flags) {
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  try {
+    return clean(flags, progress);
+  } catch (...) {
+    progress.end();  // The message gets a line of its own.
+    throw;
+  }
 }
 
 }  // namespace

@@ -45,7 +45,11 @@ void check_nothing_left(const CLI::App& app, const std::string& help) {
   }
   const std::string name = unknown.substr(0, unknown.find('='));
   if (!name.starts_with("-")) {
-    throw UsageError("'" + name + "' was not expected here. See `" + help + " --help`.");
+    // Every file that a command writes follows an option.
+    const bool writes = app.get_option_no_throw("-o") != nullptr;
+    throw UsageError("'" + name + "' was not expected here." +
+                     (writes ? " To write there put -o before it." : "") + " See `" + help +
+                     " --help`.");
   }
   throw UsageError("unknown option '" + name + "'." + suggestion(name, option_names(app)) +
                    " See `" + help + " --help`.");
@@ -79,6 +83,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       "  raymoval run --sequence street --method raymoval:online --out out/street\n"
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval table out/street\n"
+      "  raymoval report out/street -o street.html\n"
       "  raymoval compare out/street results/reference/street\n"
       "  raymoval describe raymoval\n"
       "  raymoval clean data/05 -o static.pcd\n"
@@ -91,7 +96,8 @@ ExitCode run_program(int argc, const char* const* argv) {
       add_run_command(program),      add_plan_command(program),    add_run_method_command(program),
       add_table_command(program),    add_compare_command(program), add_list_command(program),
       add_describe_command(program), add_score_command(program),   add_clean_command(program),
-      add_simulate_command(program), add_inspect_command(program)};
+      add_simulate_command(program), add_inspect_command(program), add_picture_command(program),
+      add_report_command(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -25,6 +25,7 @@ Command add_run_command(CLI::App& program);
 Command add_plan_command(CLI::App& program);
 Command add_run_method_command(CLI::App& program);  ///< The child's side of `run`; not shown.
 Command add_table_command(CLI::App& program);
+Command add_picture_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_list_command(CLI::App& program);
 Command add_describe_command(CLI::App& program);
@@ -32,6 +33,7 @@ Command add_score_command(CLI::App& program);
 Command add_clean_command(CLI::App& program);
 Command add_simulate_command(CLI::App& program);
 Command add_inspect_command(CLI::App& program);
+Command add_report_command(CLI::App& program);
 
 /// The methods that this program knows, see `run_command_line`.
 const MethodRegistry& program_methods();

@@ -15,6 +15,7 @@
 #include "benchmark/checked_sink.h"
 #include "benchmark/descriptor.h"
 #include "benchmark/sealed_json.h"
+#include "benchmark/sequence_place.h"
 #include "core/text.h"
 #include "methods/external/working_folder.h"
 
@@ -24,8 +25,9 @@ namespace {
 using nlohmann::ordered_json;
 
 // Descriptors of the child.
-constexpr int kTaskFile = 3;    ///< JSON: what to run.
-constexpr int kAnswerFile = 4;  ///< A line of JSON, then the masks' bits, scan by scan.
+constexpr int kTaskFile = 3;  ///< JSON: what to run.
+constexpr int kAnswerFile =
+    4;  ///< A line of JSON, then the masks' bits, scan by scan, then reasons.
 constexpr int kProgressFile = 5;
 
 /// A file that lives in memory and vanishes with the last process that has it.
@@ -72,41 +74,6 @@ std::size_t size_of(int file) {
 
 // The task as JSON.
 
-ordered_json place_record(const SequenceRequest& place) {
-  ordered_json record;
-  record["path"] = place.path;
-  const SequenceOptions& options = place.options;
-  if (options.frames) record["frames"] = frame_range_text(*options.frames);
-  if (options.poses) record["poses"] = *options.poses;
-  if (options.label_rule) record["label_rule"] = options.label_rule->string();
-  if (options.sensor) record["sensor"] = *options.sensor;
-  if (options.name) record["name"] = *options.name;
-  if (options.range_m) {
-    record["range_min"] = number_text(options.range_m->min);  // As text: the limit may be infinite.
-    record["range_max"] = number_text(options.range_m->max);
-  }
-  return record;
-}
-
-SequenceRequest place_from(const ordered_json& record) {
-  SequenceRequest place;
-  place.path = record.at("path").get<std::string>();
-  SequenceOptions& options = place.options;
-  for (const auto& [key, value] : record.items()) {
-    const auto text = value.get<std::string>();
-    if (key == "frames") options.frames = parse_frame_range(text);
-    if (key == "poses") options.poses = text;
-    if (key == "label_rule") options.label_rule = text;
-    if (key == "sensor") options.sensor = text;
-    if (key == "name") options.name = text;
-    if (!key.starts_with("range_")) continue;
-    if (!options.range_m) options.range_m.emplace();
-    const double metres = parse_number<double>(text).value();
-    (key == "range_min" ? options.range_m->min : options.range_m->max) = metres;
-  }
-  return place;
-}
-
 ordered_json task_record(const MethodTask& task, const SequenceRequest& place) {
   ordered_json record;
   record["sequence"] = place_record(place);
@@ -114,8 +81,10 @@ ordered_json task_record(const MethodTask& task, const SequenceRequest& place) {
   record["method"] = task.request->method.address();
   record["parameters"] = to_json(task.request->method.configuration);
   record["threads"] = task.threads;
+  record["with_reasons"] = task.with_reasons;
   record["progress"] =
       static_cast<int>(task.progress != nullptr ? task.progress->style() : ProgressStyle::kQuiet);
+  if (task.progress != nullptr) record["progress_context"] = task.progress->context();
   return record;
 }
 
@@ -159,9 +128,13 @@ void write_answer(int file, const MethodAnswer& answer) {
     head["points"].push_back(answer.masks.point_count(i));
   }
   head["digest"] = mask_digest(answer.masks);
+  head["reasons"] = answer.reasons.sentences;
   write_all(file, head.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
   for (std::size_t i = 0; i < answer.masks.size(); ++i) {
     write_all(file, packed(answer.masks.get(i)));
+  }
+  for (const std::vector<std::uint8_t>& codes : answer.reasons.codes) {
+    write_all(file, {reinterpret_cast<const char*>(codes.data()), codes.size()});
   }
 }
 
@@ -194,6 +167,13 @@ MethodAnswer read_answer(int file) {
     offset += bytes;
   }
   if (mask_digest(answer.masks) != json.at("digest")) throw MethodError("the answer is damaged");
+  answer.reasons.sentences = json.at("reasons").get<std::vector<std::string>>();
+  for (std::size_t i = 0; i < points.size() && !answer.reasons.sentences.empty(); ++i) {
+    const std::string codes = read_some(file, offset, points[i]);
+    if (codes.size() < points[i]) throw MethodError("the answer is cut off");
+    answer.reasons.codes.emplace_back(codes.begin(), codes.end());
+    offset += points[i];
+  }
   return answer;
 }
 
@@ -289,13 +269,15 @@ void serve_method(const MethodRegistry& registry) {
                         ? static_cast<ProgressStyle>(record.at("progress").get<int>())
                         : ProgressStyle::kQuiet,
                     terminal != nullptr ? terminal : stderr);
+  progress.set_context(record.value("progress_context", ""));
   const SequenceRequest place = place_from(record.at("sequence"));
   const MethodRequest request = request_from(record, registry);
   const int threads = record.at("threads").get<int>();
   MethodAnswer answer;
   try {
     const Sequence sequence = open_sequence(place.path, place.options, {threads, &progress});
-    answer = run_method({&sequence, &request, threads, &progress, nullptr});
+    answer = run_method(
+        {&sequence, &request, threads, &progress, nullptr, record.at("with_reasons").get<bool>()});
   } catch (const Error& error) {
     answer.status = "bad_data";
     answer.reason = error.what();

@@ -80,6 +80,8 @@ void answer_task(const MethodTask& task, MethodAnswer& answer) {
   context.progress = task.progress;
   context.times = &times;
   context.cancel = task.cancel;
+  ReasonStore reasons(task.request->name, scans);
+  if (task.with_reasons) context.reasons = &reasons;
   const bool was_reset = reset_peak_memory();
   const auto started = std::chrono::steady_clock::now();
   remover->run(scans, sink, context);
@@ -88,6 +90,7 @@ void answer_task(const MethodTask& task, MethodAnswer& answer) {
   answer.measured = measure(times, scans, seconds, task.threads);
   answer.measured.peak_memory_mib = peak_since_reset(was_reset);
   answer.masks = sink.finish();
+  answer.reasons = reasons.finish();
 }
 
 ordered_json number_or_null(const std::optional<double>& value) {

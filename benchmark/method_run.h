@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "benchmark/reasons.h"
 #include "benchmark/suite.h"
 #include "core/mask_store.h"
 #include "core/progress.h"
@@ -22,6 +23,7 @@ struct MethodTask {
   int threads = 1;
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
+  bool with_reasons = false;  ///< Whether the method is asked why.
 };
 
 /// What running a method costs; differs from run to run.
@@ -49,6 +51,7 @@ struct MethodAnswer {
   std::string output_tail;  ///< Of a method that ran in a process of its own and failed.
   MaskStore masks;
   Measurement measured;
+  Reasons reasons = {};  ///< Empty if it was not asked, or cannot say.
 };
 
 /// Runs a method in this process and checks its answer. Never throws for a fault of the method or

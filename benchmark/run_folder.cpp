@@ -8,6 +8,7 @@
 #include "benchmark/machine.h"
 #include "benchmark/results.h"
 #include "benchmark/sealed_json.h"
+#include "benchmark/sequence_place.h"
 #include "benchmark/tables.h"
 #include "core/files.h"
 
@@ -85,6 +86,9 @@ ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequenc
   record["build"] = build_record();
   record["machine"] = machine_record();
   record["machine"]["threads"] = threads;
+  for (const SequenceRequest& request : suite.sequences) {
+    record["places"].push_back(place_record(absolute_place(request)));
+  }
   return record;
 }
 
@@ -92,6 +96,7 @@ void write_results(const path& out, const RunContent& content) {
   ordered_json results;
   results["schema_version"] = kSchemaVersion;
   results["run"] = *content.record;
+  results["run"].erase("places");  // Results have no paths: they are copied and compared.
   results["controls"]["checked"] = content.controls_checked;
   results["controls"]["problems"] = content.control_problems;
   if (!content.missing.empty()) results["missing"] = content.missing;

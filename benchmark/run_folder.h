@@ -16,7 +16,8 @@ inline constexpr const char* kLockFile = "run.lock";
 /// Makes the folder of a run. @throws UsageError if it holds something else; DataError
 void prepare_run_folder(const std::filesystem::path& out);
 
-/// Content of run.json: the suite as resolved, build and machine.
+/// Content of run.json: the suite as resolved, build and machine, and the places where its
+/// sequences are.
 nlohmann::ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequences,
                                   int threads);
 

@@ -198,8 +198,18 @@ class Runner {
       keep_in_memory(sequence, method, std::move(*stored.cell));
     } else if (selected && !options_.collect) {
       store_.prepare(folder_of(sequence, method));
+      tell_cell(sequence, method, "");
       keep(sequence, method, execute_cell(task_for(bench, sequence, method)));
     }
+  }
+
+  /// What the live line is about.
+  void tell_cell(std::size_t sequence, std::size_t method, const std::string& round) const {
+    if (options_.progress == nullptr) return;
+    options_.progress->set_context("[" + std::to_string(summary_.cells + (round.empty() ? 1 : 0)) +
+                                   "/" + std::to_string(cells_.size()) + "] " +
+                                   suite_.methods[method].name + " on " +
+                                   sequences_[sequence].name + round);
   }
 
   void repeat(SequenceBench& bench, std::size_t sequence, std::size_t method, int round) {
@@ -211,6 +221,7 @@ class Runner {
     auto stored = store_.find_repeat(name, request, round, key);
     if (!stored && is_selected(sequence, method) && !options_.collect) {
       if (options_.cancel != nullptr && options_.cancel->load()) throw Cancelled();
+      tell_cell(sequence, method, ", repeat " + std::to_string(round));
       const MethodAnswer answer = repeat_cell(task_for(bench, sequence, method));
       if (answer.status != "ok") {
         return fail_repeat(sequence, method, round, answer.status, answer.reason);
@@ -258,6 +269,7 @@ class Runner {
     cell_at(sequence, method) = std::move(cell);
     if (options_.progress == nullptr) return;
     options_.progress->end();
+    options_.progress->set_context("");
     options_.progress->say(line);
   }
 

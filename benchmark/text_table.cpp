@@ -2,7 +2,6 @@
 #include "benchmark/text_table.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace raymoval {
 namespace {
@@ -20,42 +19,6 @@ std::string markdown_cell(const TableCell& cell) {
   const std::string text = markdown_escaped(cell.text);
   if (cell.mark == Mark::kBest) return "**" + text + "**";
   if (cell.mark == Mark::kSecond) return "<u>" + text + "</u>";
-  return text;
-}
-
-std::string latex_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '\\':
-        escaped += "\\textbackslash{}";
-        break;
-      case '~':
-        escaped += "\\textasciitilde{}";
-        break;
-      case '^':
-        escaped += "\\textasciicircum{}";
-        break;
-      case '&':
-      case '%':
-      case '$':
-      case '#':
-      case '_':
-      case '{':
-      case '}':
-        escaped += '\\';
-        [[fallthrough]];
-      default:
-        escaped += c == '\n' ? ' ' : c;
-    }
-  }
-  return escaped;
-}
-
-std::string latex_cell(const TableCell& cell) {
-  const std::string text = latex_escaped(cell.text);
-  if (cell.mark == Mark::kBest) return "\\textbf{" + text + "}";
-  if (cell.mark == Mark::kSecond) return "\\underline{" + text + "}";
   return text;
 }
 
@@ -86,28 +49,6 @@ std::vector<std::size_t> column_widths(const Lines& lines) {
   return widths;
 }
 
-std::string latex_head(const TextTable& table, std::size_t columns) {
-  std::string text = "\\begin{tabular}{l" + std::string(columns, 'r') + "}\n\\toprule\n";
-  std::string rules;
-  std::size_t at = 2;
-  const bool headings = std::any_of(table.groups.begin(), table.groups.end(),
-                                    [](const TableGroup& group) { return !group.heading.empty(); });
-  for (const TableGroup& group : table.groups) {
-    if (!headings) break;
-    const std::size_t end = at + group.columns.size() - 1;
-    text += " & \\multicolumn{" + std::to_string(group.columns.size()) + "}{c}{" +
-            latex_escaped(group.heading) + "}";
-    rules += "\\cmidrule(lr){" + std::to_string(at) + "-" + std::to_string(end) + "}";
-    at = end + 1;
-  }
-  if (headings) text += " \\\\\n" + rules + "\n";
-  text += latex_escaped(table.corner);
-  for (const TableGroup& group : table.groups) {
-    for (const std::string& column : group.columns) text += " & " + latex_escaped(column);
-  }
-  return text + " \\\\\n\\midrule\n";
-}
-
 }  // namespace
 
 std::string to_markdown(const TextTable& table) {
@@ -129,25 +70,6 @@ std::string to_markdown(const TextTable& table) {
   }
   for (const std::string& note : table.notes) text += "\n" + note + "\n";
   return text;
-}
-
-std::string to_latex(const TextTable& table) {
-  const std::size_t columns = std::accumulate(
-      table.groups.begin(), table.groups.end(), std::size_t{0},
-      [](std::size_t sum, const TableGroup& group) { return sum + group.columns.size(); });
-  std::string text = "% needs \\usepackage{booktabs}\n\\begin{table}\n\\centering\n\\caption{" +
-                     latex_escaped(table.title) + "}\n" + latex_head(table, columns);
-  bool in_summary = false;
-  for (const TableRow& row : table.rows) {
-    if (row.summary && !in_summary) text += "\\midrule\n";
-    in_summary = row.summary;
-    text += latex_escaped(row.label);
-    for (const TableCell& cell : row.cells) text += " & " + latex_cell(cell);
-    text += " \\\\\n";
-  }
-  text += "\\bottomrule\n\\end{tabular}\n";
-  for (const std::string& note : table.notes) text += "\n" + latex_escaped(note) + "\n";
-  return text + "\\end{table}\n";
 }
 
 }  // namespace raymoval

@@ -37,7 +37,10 @@ struct TextTable {
 /// Markdown with aligned columns: best bold, second underlined.
 std::string to_markdown(const TextTable& table);
 
-/// LaTeX with booktabs, everything escaped: best bold, second underlined.
+/// LaTeX that needs the package booktabs and nothing else: everything escaped, best bold, second
+/// underlined. What is too wide for the text of an article (345 pt) is set smaller, then cut into
+/// several tables, one below the other, then into several floats; long texts are broken into lines.
+/// Characters beyond Latin-1, which LaTeX does not know by itself, become question marks.
 std::string to_latex(const TextTable& table);
 
 }  // namespace raymoval

@@ -3,6 +3,8 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(TBB REQUIRED)
+# Deflates the points of a report.
+find_package(ZLIB REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(tsl-robin-map REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -20,3 +22,7 @@ endif()
 
 # The simulator's ray tracer.
 find_package(embree 3.13 CONFIG REQUIRED)
+
+# Pictures.
+find_package(PNG REQUIRED)
+find_package(Freetype REQUIRED)

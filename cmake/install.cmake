@@ -16,7 +16,15 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} USE_SOURCE_PERMIS
         PATTERN "__pycache__" EXCLUDE)
 install(FILES methods/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME methods.md)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+# The program holds three.js, whose licence asks to be named with it.
+file(READ LICENSE copyright)
+if(RAYMOVAL_REPORT_3D)
+  file(READ ${PROJECT_BINARY_DIR}/report/node_modules/three/LICENSE three_licence)
+  string(APPEND copyright "\n\nThe program contains three.js for the pages of `raymoval report`:\n\n"
+         "${three_licence}")
+endif()
+file(WRITE ${PROJECT_BINARY_DIR}/copyright "${copyright}")
+install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY scripts/workflow DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
         USE_SOURCE_PERMISSIONS PATTERN "test_slurm.sh" EXCLUDE)
 install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir})

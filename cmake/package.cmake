@@ -2,7 +2,11 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME raymoval)
 set(CPACK_PACKAGE_VENDOR "The raymoval authors")
-set(CPACK_PACKAGE_CONTACT "The raymoval authors <raymoval@localhost>")
+# Who answers for a package is whoever hands it out. Nobody reads an address that ends in .invalid
+# (RFC 2606): it stands for packages that were made for one's own machines.
+set(RAYMOVAL_PACKAGE_CONTACT "The raymoval authors <nobody@raymoval.invalid>" CACHE STRING
+    "Maintainer of the Debian package, as Name <address>")
+set(CPACK_PACKAGE_CONTACT "${RAYMOVAL_PACKAGE_CONTACT}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGE_DESCRIPTION
     "Runs methods that remove moving objects from LiDAR maps, scores them by published protocols
@@ -14,6 +18,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # What the program loads, with the versions it was linked with.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# The letters of pictures.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core")
 # What building against the library takes; a machine that only runs the program can do without.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++ (>= 4:12), pkg-config, libeigen3-dev,
  nlohmann-json3-dev, libtbb-dev, robin-map-dev, libxxhash-dev, libembree-dev, libpcl-dev,

@@ -11,8 +11,5 @@ add_custom_command(OUTPUT ${simulated_source}
 target_sources(raymoval_datasets PRIVATE ${simulated_source})
 
 # Compares a simulated sequence with a real drive: cmake --build ... --target realism
-find_package(PNG)
-if(PNG_FOUND)
-  add_executable(realism EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/scripts/realism.cpp)
-  target_link_libraries(realism PRIVATE raymoval_core raymoval_options PNG::PNG)
-endif()
+add_executable(realism EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/scripts/realism.cpp)
+target_link_libraries(realism PRIVATE raymoval_benchmark raymoval_options)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/progress.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,10 +21,33 @@ std::string duration_text(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
 }
 
+/// As much of `line` as fits into a line of the terminal behind `stream`: one that is broken cannot
+/// be cleared.
+std::string fitted(std::string line, std::FILE* stream) {
+  winsize size{};
+  if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return line;
+  const std::size_t most = size.ws_col - 1;
+  if (line.size() <= most) return line;
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
+  line.resize(end);
+  return line;
+}
+
 }  // namespace
 
 ProgressStyle progress_style_of_stderr() {
   return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::kTerminal : ProgressStyle::kLog;
+}
+
+void Progress::set_context(const std::string& context) {
+  const std::lock_guard lock(mutex_);
+  context_ = context;
+}
+
+std::string Progress::context() {
+  const std::lock_guard lock(mutex_);
+  return context_;
 }
 
 void Progress::begin(const std::string& task, std::size_t total) {
@@ -60,7 +84,7 @@ void Progress::say(const std::string& line) {
 
 std::string Progress::status(Clock::time_point now) const {
   const double elapsed = duration<double>(now - started_).count();
-  std::string text = task_ + ": " + std::to_string(done_) + " of " + std::to_string(total_);
+  std::string text = (context_.empty() ? "" : context_ + ": ") + task_ + ": " + std::to_string(done_) + " of " + std::to_string(total_);
   if (done_ > 0 && elapsed > 0.5) {
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
     text += ", about " + duration_text(left) + " left";
@@ -70,7 +94,7 @@ std::string Progress::status(Clock::time_point now) const {
 
 void Progress::print_terminal(Clock::time_point now) {
   printed_ = now;
-  std::fprintf(stream_, "\r\x1b[K%s", status(now).c_str());
+  std::fprintf(stream_, "\r\x1b[K%s", fitted(status(now), stream_).c_str());
   std::fflush(stream_);
 }
 

@@ -26,6 +26,10 @@ class Progress {
   explicit Progress(ProgressStyle style = ProgressStyle::kQuiet, std::FILE* stream = stderr)
       : style_(style), stream_(stream) {}
   [[nodiscard]] ProgressStyle style() const { return style_; }
+  /// What the following tasks are part of, such as "[2/10] octomap:ground on town"; stands before
+  /// each of them. Empty: nothing.
+  void set_context(const std::string& context);
+  [[nodiscard]] std::string context();
   /// Starts a task of `total` steps, such as "raymoval:online on 05".
   void begin(const std::string& task, std::size_t total);
   void advance(std::size_t steps = 1);
@@ -43,6 +47,7 @@ class Progress {
   ProgressStyle style_;
   std::FILE* stream_;
   std::mutex mutex_;
+  std::string context_;
   std::string task_;
   std::size_t total_ = 0;
   std::size_t done_ = 0;

@@ -3,6 +3,9 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -22,12 +25,25 @@ class RemovalSink {
   virtual void accept(std::size_t scan, const Mask& mask) = 0;
 };
 
+/// Takes why a method removed or kept each point, where it can say: a code per point, and a sentence
+/// for each code. It is shown to people who look at single points and changes no score.
+class ReasonSink {
+ public:
+  virtual ~ReasonSink() = default;
+  /// @param sentences of the codes 0, 1, ..., at most 127; to be called once, before `accept`
+  virtual void explain(const std::vector<std::string>& sentences) = 0;
+  /// Reasons for a scan's mask, each scan at most once, from any thread.
+  /// @param codes as long as the scan has points
+  virtual void accept(std::size_t scan, const std::vector<std::uint8_t>& codes) = 0;
+};
+
 /// What a run gives a method besides its data. Everything optional may be null.
 struct RunContext {
   int threads = 1;  ///< At most this many; never changes the answer.
   Progress* progress = nullptr;
   StageTimes* times = nullptr;
   const std::atomic<bool>* cancel = nullptr;
+  ReasonSink* reasons = nullptr;  ///< For a method that can say why; most cannot and need not.
 
   /// @throws Cancelled if the run was asked to stop. Call it once a scan.
   void check_cancelled() const {

@@ -5,20 +5,25 @@
 #
 #   scripts/install_dependencies.sh            what building and running needs
 #   scripts/install_dependencies.sh --tests    also what the tests and the Snakemake workflow need
-#                                              (23 MB to fetch, 680 MB installed: Debian's snakemake
-#                                              depends on the clients of all clouds)
+#                                              (200 MB to fetch, 1.3 GB installed: Debian's snakemake
+#                                              depends on the clients of all clouds, tables are compiled
+#                                              with LaTeX, and reports are opened in Chromium)
 set -euo pipefail
 
 packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev libpcl-dev liboctomap-dev nlohmann-json3-dev
   catch2 libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
-  libembree-dev libpng-dev librapidcheck-dev libxxhash-dev
+  libembree-dev libpng-dev librapidcheck-dev libxxhash-dev zlib1g-dev libfreetype-dev
+  fonts-dejavu-core esbuild
 )
 case ${1:-} in
   "") ;;
-  --tests) packages+=(snakemake python3-jsonschema python3-numpy) ;;
+  --tests) packages+=(snakemake python3-jsonschema python3-numpy texlive-latex-base
+    texlive-latex-recommended chromium) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing or --tests." >&2; exit 2 ;;
 esac
+# npm fetches three.js. One that did not come from Debian will do, and would be in Debian's way.
+command -v npm >/dev/null || packages+=(npm)
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "install_dependencies.sh: this needs Debian 12 or a relative of it (apt-get, dpkg-query)." >&2

@@ -5,8 +5,6 @@
 // Prints a table in Markdown, one column a folder; with --pictures also writes
 // PREFIX<k>_top.png (heights seen from above, 100 m a side) and PREFIX<k>_range.png (range image),
 // in the same colours for every folder.
-#include <png.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -19,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/picture/canvas.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
@@ -207,30 +206,8 @@ std::vector<Row> rows() {
   return list;
 }
 
-struct Picture {
-  int width, height;
-  std::vector<std::uint8_t> rgb;
-  Picture(int w, int h)
-      : width(w), height(h), rgb(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3) {}
-  void set(int x, int y, const std::array<std::uint8_t, 3>& colour) {
-    if (x < 0 || y < 0 || x >= width || y >= height) return;
-    const auto at = 3 * static_cast<std::size_t>(y * width + x);
-    std::copy(colour.begin(), colour.end(), rgb.begin() + static_cast<std::ptrdiff_t>(at));
-  }
-  void write(const std::string& path) const {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
-    image.format = PNG_FORMAT_RGB;
-    if (png_image_write_to_file(&image, path.c_str(), 0, rgb.data(), 0, nullptr) == 0) {
-      throw raymoval::DataError(path + ": cannot be written.");
-    }
-  }
-};
-
 /// Blue over green to red for 0 .. 1; moving points are white.
-std::array<std::uint8_t, 3> colour(double value, bool moving) {
+raymoval::Colour colour(double value, bool moving) {
   if (moving) return {255, 255, 255};
   const double v = std::clamp(value, 0.0, 1.0);
   const auto channel = [&](double centre) {
@@ -240,8 +217,10 @@ std::array<std::uint8_t, 3> colour(double value, bool moving) {
 }
 
 void draw(const Cloud& cloud, const std::string& prefix) {
-  Picture top(1000, 1000);
-  Picture range(2083, 4 * 64);
+  raymoval::Canvas top(1000, 1000);
+  raymoval::Canvas range(2083, 4 * 64);
+  top.fill(0, 0, top.width(), top.height(), {});
+  range.fill(0, 0, range.width(), range.height(), {});
   std::vector<std::size_t> order(cloud.points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -265,8 +244,8 @@ void draw(const Cloud& cloud, const std::string& prefix) {
       }
     }
   }
-  top.write(prefix + "_top.png");
-  range.write(prefix + "_range.png");
+  raymoval::write_png(prefix + "_top.png", top.image());
+  raymoval::write_png(prefix + "_range.png", range.image());
 }
 
 int run(const std::vector<std::string>& arguments) {

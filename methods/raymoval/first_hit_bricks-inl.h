@@ -163,10 +163,10 @@ F nearest_of(const Solid& solid) {
   return hn::Mul(hn::Sqrt(sum), number(1.0 - 1e-6));
 }
 
-void measure_bricks(const Frame& frame) {
+void measure_bricks(const Frame& frame, std::size_t begin, std::size_t end) {
   const Floats d;
   BrickList& bricks = *frame.bricks;
-  for (std::size_t i = 0; i < bricks.count; i += hn::Lanes(d)) {
+  for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
     const Solid solid = load_solid(frame, i);
     const Footprint foot = footprint_of(frame, solid);
     const F nearest = nearest_of(solid);
@@ -193,22 +193,24 @@ void for_columns(const Frame& frame, std::size_t brick, int begin, int end, Visi
 }
 
 /// Sorts the bricks into the columns they are seen in, nearest first.
-void list_columns(const Frame& frame, int begin, int end, Scratch& scratch) {
+void list_columns(const Frame& frame, int begin, int end, ColumnLists& lists) {
   const BrickList& bricks = *frame.bricks;
-  auto& starts = scratch.column_begin;
+  auto& starts = lists.starts;
+  lists.begin = begin;
+  lists.end = end;
   starts.assign(static_cast<std::size_t>(end - begin) + 2, 0);
   for (const std::uint32_t brick : *frame.order) {
     for_columns(frame, brick, begin, end,
                 [&](int i) { ++starts[static_cast<std::size_t>(i) + 2]; });
   }
   for (std::size_t i = 2; i < starts.size(); ++i) starts[i] += starts[i - 1];
-  if (scratch.entries.size() < starts.back()) scratch.entries.resize(starts.back());
+  if (lists.entries.size() < starts.back()) lists.entries.resize(starts.back());
   for (const std::uint32_t brick : *frame.order) {
     const ColumnEntry entry{brick, static_cast<std::uint16_t>(bricks.first_row[brick]),
                             static_cast<std::uint16_t>(bricks.last_row[brick]),
                             bricks.nearest[brick]};
     for_columns(frame, brick, begin, end,
-                [&](int i) { scratch.entries[starts[static_cast<std::size_t>(i) + 1]++] = entry; });
+                [&](int i) { lists.entries[starts[static_cast<std::size_t>(i) + 1]++] = entry; });
   }
 }
 

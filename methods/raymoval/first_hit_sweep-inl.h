@@ -253,31 +253,22 @@ void prepare_scratch(const Frame& frame, Scratch& scratch) {
   scratch.depth.require(kGroup * rows);
   scratch.expanded.assign(frame.bricks->count, {});
   scratch.boxes_used = 0;
-  std::size_t most = 0;
-  for (const std::uint32_t brick : *frame.order) {
-    bool beside = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      beside |= frame.bricks->low[k][brick] < 0.0F && frame.bricks->high[k][brick] > 0.0F;
-    }
-    // Cut boxes are rare; a bound that is too high costs address space only.
-    const std::size_t boxes = frame.map->boxes(frame.bricks->slot[brick]).size();
-    most += ((beside ? 8 : 1) * boxes + kGroup - 1) / kGroup;
-  }
-  scratch.boxes.require(most * kGroupFloats);
+  scratch.boxes.require(frame.most_groups * kGroupFloats);
+  scratch.frame = frame.number;
 }
 
-void sweep_columns(const Frame& frame, int begin, int end, Scratch& scratch, float* range) {
-  list_columns(frame, begin, end, scratch);
-  prepare_scratch(frame, scratch);
+void sweep_columns(const Frame& frame, const ColumnLists& lists, int begin, int end,
+                   Scratch& scratch, float* range) {
+  if (scratch.frame != frame.number) prepare_scratch(frame, scratch);
   constexpr int kBlock = static_cast<int>(kGroup);
   for (int first = begin; first < end; first += kBlock) {
     const int count = std::min(kBlock, end - first);
     for (int i = 0; i < count; ++i) {
-      const auto at = static_cast<std::size_t>(first + i - begin);
+      const auto at = static_cast<std::size_t>(first + i - lists.begin);
       const Column column = start_column(frame, first + i, scratch,
                                          scratch.depth.data() + i * frame.grid->padded_rows);
-      for (std::uint32_t e = scratch.column_begin[at]; e < scratch.column_begin[at + 1]; ++e) {
-        const ColumnEntry& entry = scratch.entries[e];
+      for (std::uint32_t e = lists.starts[at]; e < lists.starts[at + 1]; ++e) {
+        const ColumnEntry& entry = lists.entries[e];
         if (reaches_minimum(frame, entry.nearest)) {
           sweep_brick<true>(frame, column, entry, scratch);
         } else {
@@ -292,7 +283,7 @@ void sweep_columns(const Frame& frame, int begin, int end, Scratch& scratch, flo
 }  // namespace
 
 Kernels kernels() {
-  return {&measure_bricks, &sweep_columns};
+  return {&measure_bricks, &list_columns, &sweep_columns};
 }
 
 }  // namespace HWY_NAMESPACE

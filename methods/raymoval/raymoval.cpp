@@ -45,6 +45,13 @@ int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
   return std::clamp(static_cast<int>(std::ceil(step / grid.elevation_step())), 1, 100);
 }
 
+CastImage sweep_caster(const AngularGrid& grid, const RayLimits& limits) {
+  return [caster = std::make_shared<FirstHitCaster>(grid, limits)](
+             OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
+    caster->cast(map, T_world_sensor, threads, image);
+  };
+}
+
 /// A scan with what every step needs of it.
 struct PreparedScan {
   Scan scan;
@@ -74,14 +81,14 @@ Mask validate_scan(const Scan& scan, const std::vector<VoxelIndex>& voxels, cons
 class RaymovalPass {
  public:
   RaymovalPass(const RaymovalParameters& parameters, const SensorModel& sensor,
-               const RunContext& context)
+               const RunContext& context, const MakeCaster& make_caster)
       : parameters_(parameters),
         sensor_(sensor),
         context_(context),
         grid_(grid_for(sensor, parameters)),
         map_(parameters.voxel_size, parameters.permanent_erase),
         erase_rows_(rows_of_a_beam(sensor, grid_, parameters)),
-        caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {}
+        cast_image_(make_caster(grid_, {parameters.minimum_range, parameters.maximum_range})) {}
 
   [[nodiscard]] StaticMap& map() { return map_; }
 
@@ -132,7 +139,7 @@ class RaymovalPass {
 
   void cast(const PreparedScan& prepared) {
     const StageScope timed(context_.times, "raycasting");
-    caster_.cast(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
+    cast_image_(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
   }
 
   /// The map reference of both tests, where the scan has a return.
@@ -141,7 +148,7 @@ class RaymovalPass {
     windowed_percentiles(
         first_hit_.range, prepared.projected.minimum_range, grid_, parameters_.neighbourhood,
         {parameters_.percentile, parameters_.erase_percentile}, context_.threads, references_);
-    map_.occupied().find_slots(prepared.voxels, context_.threads, slots_);
+    map_.look_up(prepared.voxels, context_.threads, known_);
   }
 
   /// Eq. 11; also points where the map was seen through before.
@@ -157,9 +164,9 @@ class RaymovalPass {
       candidates.assign(prepared.scan.size(), 0);
     }
     if (!parameters_.permanent_erase) return candidates;
-    parallel_for(context_.threads, candidates.size(), 8192, [&](std::size_t k) {
-      if (map_.was_erased(slots_[k], prepared.voxels[k])) candidates[k] = 1;
-    });
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      candidates[k] |= known_.states[k] == VoxelState::kErased ? 1 : 0;
+    }
     return candidates;
   }
 
@@ -223,11 +230,19 @@ class RaymovalPass {
       bricks.push_back(slot_of(voxel));
       number = static_cast<std::uint32_t>(bricks.size());
     }
-    std::vector<Brick> own(bricks.size());  // The scan's voxels in these bricks.
-    for (std::size_t k = 0; k < slots_.size(); ++k) {
-      if (slots_[k] == OccupancyMap::kNoBrick || number_of_[slots_[k]] == 0) continue;
+    std::vector<Brick> own(bricks.size());             // The scan's voxels in these bricks.
+    OccupancyMap::Slot last = OccupancyMap::kNoBrick;  // Neighbours often share a brick.
+    Brick* open = nullptr;
+    for (std::size_t k = 0; k < known_.slots.size(); ++k) {
+      const OccupancyMap::Slot slot = known_.slots[k];
+      if (slot != last) {
+        last = slot;
+        const std::uint32_t number = slot == OccupancyMap::kNoBrick ? 0 : number_of_[slot];
+        open = number == 0 ? nullptr : &own[number - 1];
+      }
+      if (open == nullptr) continue;
       const VoxelIndex& voxel = prepared.voxels[k];
-      own[number_of_[slots_[k]] - 1].add(voxel.x(), voxel.y(), voxel.z());
+      open->add(voxel.x(), voxel.y(), voxel.z());
     }
     std::erase_if(voxels, [&](const VoxelIndex& voxel) {
       return own[number_of_[slot_of(voxel)] - 1].contains(voxel.x(), voxel.y(), voxel.z());
@@ -259,7 +274,7 @@ class RaymovalPass {
   void integrate(const PreparedScan& prepared, const Mask& dynamic) {
     if (parameters_.map_source == MapSource::kNaive) return;
     const StageScope timed(context_.times, "integration");
-    map_.integrate(prepared.voxels, slots_, dynamic);
+    map_.integrate(prepared.voxels, known_, dynamic);
   }
 
   const RaymovalParameters& parameters_;
@@ -268,22 +283,23 @@ class RaymovalPass {
   AngularGrid grid_;
   StaticMap map_;
   int erase_rows_;
-  FirstHitCaster caster_;
+  CastImage cast_image_;
   VoxelMap<int> scans_without_return_;
   // Of the present scan; kept for their memory.
   FirstHitImage first_hit_;
   WindowPercentiles references_;
-  std::vector<OccupancyMap::Slot> slots_;  ///< Brick of each point.
-  std::vector<std::uint32_t> number_of_;   ///< Of each brick that may be seen through; else 0.
+  VoxelLookup known_;  ///< Of each point's voxel, before the scan changes the map.
+  std::vector<std::uint32_t> number_of_;  ///< Of each brick that may be seen through; else 0.
   std::vector<float> nearest_return_;
 };
 
 class RaymovalRemover : public Remover {
  public:
-  explicit RaymovalRemover(const RaymovalParameters& parameters) : parameters_(parameters) {}
+  RaymovalRemover(const RaymovalParameters& parameters, const MakeCaster& make_caster)
+      : parameters_(parameters), make_caster_(make_caster ? make_caster : sweep_caster) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    RaymovalPass pass(parameters_, scans.sensor(), context);
+    RaymovalPass pass(parameters_, scans.sensor(), context, make_caster_);
     if (parameters_.offline) {
       run_offline(pass, scans, sink, context);
     } else {
@@ -321,34 +337,68 @@ class RaymovalRemover : public Remover {
     for_each_scan("raymoval, naive map", scans, context, [&](const Scan& scan) {
       const StageScope timed(context.times, "integration");
       const std::vector<VoxelIndex> voxels = voxels_of(pass.map(), scan, context.threads);
-      std::vector<OccupancyMap::Slot> slots;
-      pass.map().occupied().find_slots(voxels, context.threads, slots);
-      pass.map().integrate(voxels, slots, Mask(voxels.size(), 0));
+      VoxelLookup known;
+      pass.map().look_up(voxels, context.threads, known);
+      pass.map().integrate(voxels, known, Mask(voxels.size(), 0));
     });
   }
 
   /// A point is dynamic iff its voxel is not in the final map and validation finds it to be one.
   void answer_from_map(const StaticMap& map, const ScanSource& scans, RemovalSink& sink,
                        const RunContext& context) {
-    for_each_scan("raymoval, answers", scans, context, [&](const Scan& scan) {
-      const std::vector<VoxelIndex> voxels = voxels_of(map, scan, context.threads);
-      Mask removed = points_off_the_map(map, voxels, context);
+    if (context.reasons != nullptr) context.reasons->explain(answer_reasons());
+    RunContext own = context;  // Of one scan among others.
+    own.threads = 1;
+    if (context.threads > 1) own.times = nullptr;
+    const auto answer = [&](const Scan& scan) {
+      const std::vector<VoxelIndex> voxels = voxels_of(map, scan, own.threads);
+      Mask removed = points_off_the_map(map, voxels, own);
+      const Mask off_map = context.reasons != nullptr ? removed : Mask{};
       if (parameters_.validate) {
-        const StageScope timed(context.times, "validation");
+        const StageScope timed(own.times, "validation");
         removed = validate_scan(scan, voxels, removed, map.occupied(), parameters_);
       }
       sink.accept(scan.index, removed);
-    });
+      if (context.reasons != nullptr) {
+        context.reasons->accept(scan.index, reasons_for(map, voxels, off_map, removed));
+      }
+    };
+    for_scans_at_once("raymoval, answers", "answer and validation", scans, context, answer);
+  }
+
+  // Codes of `answer_reasons`.
+  static constexpr std::uint8_t kNeverContradicted = 0;
+  static constexpr std::uint8_t kSeenThrough = 1;
+  static constexpr std::uint8_t kInFrontOfMap = 2;
+  static constexpr std::uint8_t kRestored = 3;
+
+  static std::vector<std::string> answer_reasons() {
+    return {"no scan contradicts its voxel, which stays in the map", "a scan saw through its voxel",
+            "it stood in front of the map, so its voxel never entered it",
+            "its voxel was contradicted, and validation found that it belongs to the static map"};
+  }
+
+  /// Why each point of a scan is kept or removed, see `answer_reasons`.
+  std::vector<std::uint8_t> reasons_for(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
+                                        const Mask& off_map, const Mask& removed) const {
+    std::vector<std::uint8_t> codes(voxels.size(), kNeverContradicted);
+    for (std::size_t k = 0; k < codes.size(); ++k) {
+      if (off_map[k] == 0) continue;
+      // All voxels of a naive map were in it; what is not there now was erased.
+      const bool erased = parameters_.map_source == MapSource::kNaive || map.was_erased(voxels[k]);
+      codes[k] = removed[k] == 0 ? kRestored : erased ? kSeenThrough : kInFrontOfMap;
+    }
+    return codes;
   }
 
   static Mask points_off_the_map(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
                                  const RunContext& context) {
     const StageScope timed(context.times, "answer");
-    Mask off(voxels.size(), 0);
-    std::vector<OccupancyMap::Slot> slots;
-    map.occupied().find_slots(voxels, context.threads, slots);
-    parallel_for(context.threads, voxels.size(), 8192, [&](std::size_t k) {
-      off[k] = map.occupied().contains(slots[k], voxels[k]) ? 0 : 1;
+    VoxelLookup known;
+    map.look_up(voxels, context.threads, known);
+    Mask off(voxels.size());
+    std::transform(known.states.begin(), known.states.end(), off.begin(), [](VoxelState state) {
+      return static_cast<std::uint8_t>(state == VoxelState::kOccupied ? 0 : 1);
     });
     return off;
   }
@@ -360,17 +410,19 @@ class RaymovalRemover : public Remover {
   }
 
   RaymovalParameters parameters_;
+  MakeCaster make_caster_;
 };
 
 }  // namespace
 
-std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters) {
+std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters,
+                                       const MakeCaster& make_caster) {
   if (!parameters.offline && parameters.map_source == MapSource::kNaive) {
     throw ConfigurationError(
         "raymoval.map_source = naive needs all scans, which an online run (offline = false) does "
         "not have; use map_source = growing.");
   }
-  return std::make_unique<RaymovalRemover>(parameters);
+  return std::make_unique<RaymovalRemover>(parameters, make_caster);
 }
 
 }  // namespace raymoval

@@ -10,7 +10,7 @@ short=(--sequence street --frames 0:2 --quiet)
 
 # Help and listings.
 expect 0 "Examples" --help
-for command in run plan table compare list describe score clean simulate inspect; do expect 0 "Examples" "$command" --help; done
+for command in run plan table compare list describe score clean simulate inspect report; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
 for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
@@ -38,6 +38,9 @@ expect 2 "--sequence" run --method noop --out o
 expect 2 "Did you mean 'raymoval'" run "${short[@]}" --method raymovl --out o
 expect 2 "two methods" run "${short[@]}" --method noop --method noop:default --out o
 expect 2 "METHOD.key=value" run "${short[@]}" --method raymoval --set tau0=1 --out o
+expect 2 "write protocol:erasor.key=value" run "${short[@]}" --method noop --set erasor.lift=0 --out o
+expect 2 "'lift'" run "${short[@]}" --method noop --set protocol:erasor.lft=0 --out o
+expect 2 "no protocol asked for" run "${short[@]}" --method noop --set protocol:dynamicmap.distance=1 --out o
 expect 2 "'tau0'" run "${short[@]}" --method raymoval --set raymoval.tau=1 --out o
 expect 2 "out of range" run "${short[@]}" --method raymoval --set raymoval.tau0=-1 --out o
 expect 2 "not in this run" run "${short[@]}" --method raymoval --set noop.tau0=1 --out o
@@ -48,12 +51,20 @@ expect 2 "--range" run "${short[@]}" --method noop --range 5 --out o
 expect 2 "--range" run "${short[@]}" --method noop --range 9:5 --out o
 expect 2 "" run --sequence street --frames nine --method noop --out o
 expect 2 "" run --sequence street --sensor nose --method noop --out o
+expect 2 "--sequence street" run street --method noop --out o
+expect 2 "--method cannot be given" run simulated --method noop --out o
+expect 2 "expected METHOD.key=value" run "${short[@]}" --method raymoval --set raymoval.tau0 0.2 --out o
+expect 2 "once for each" run "${short[@]}" --method raymoval:online,raymoval:offline --out o
+expect 2 "ROOT:kitti-05" run --sequence kitti-05 --method noop --out o
 expect 2 "nowhere" run --sequence nowhere --method noop --out o
 expect 2 "nowhere" run nowhere.json --out o
 expect 2 "nothing to run on" plan
 expect 2 "Did you mean 'simulated'" plan simulatd
 expect 2 "no such run folder" table nowhere
 expect 2 "which run" table
+expect 2 "which run" report
+expect 2 "no such run folder" report nowhere
+expect 2 "--points 7" report nowhere --points 7
 holds "no bad command line made a folder" test ! -e o
 
 # A run, its files, and what reads them.
@@ -78,6 +89,15 @@ holds "the table prints what the run wrote" cmp again.csv run/results.csv
 expect 0 "Published" table run --with-published
 expect 2 "'md'" table run --format mdx
 expect 2 "--with-published" table run --format csv --with-published
+
+# Options of a protocol from the command line; frame = erasor needs a camera's calibration.
+expect 0 "All controls are as they must be" run "${short[@]}" --method noop --protocol dynamicmap \
+  --set protocol:dynamicmap.maximum_range=10 --out near
+holds "a protocol's option is recorded" grep -q '"maximum_range": 10' \
+  near/cells/street/noop-default/cell.json
+expect 1 "has those of the LiDAR" run "${short[@]}" --method noop \
+  --set protocol:erasor.frame=erasor --out frame
+expect 2 "Did you mean 'erasor'" run "${short[@]}" --method noop --set protocol:erasor.frame=eraser --out o
 
 # A reference has no times and no machine; a run is compared with it by counts.
 expect 0 "wrote" compare run reference --update
@@ -105,6 +125,10 @@ holds "score gives the counts of the run" diff <(counts score.json | tr -d ' ') 
   <(counts $cell/cell.json | tr -d ' ')
 expect 2 "--predictions" score "${short[@]}"
 expect 2 "no such folder" score "${short[@]}" --predictions nowhere
+expect 2 "removals/ does" score "${short[@]}" --predictions $cell
+expect 2 "is no folder" score "${short[@]}" --predictions $cell/removals/000000.label
+expect 2 "is a folder" score "${short[@]}" --cloud $cell/removals
+expect 2 "put -o before it" clean street map.pcd
 expect 2 "missing" score --sequence street --frames 0:3 --quiet --predictions $cell/removals
 expect 0 "SA" score "${short[@]}" --predictions $cell/removals --protocol dynamicmap \
   --set dynamicmap.distance=0.1
@@ -282,6 +306,8 @@ holds "an inspection with findings exits with 1" test $? -eq 1
 holds "a finding is named" grep -q '^finding poses-of-another-sequence: poses.txt: .* Take the' found.txt
 expect 2 "no such folder" inspect nowhere
 expect 2 "inspect what" inspect
+expect 2 "sim/town." inspect sim/town/velodyne
+expect 2 "is a scan" inspect sim/town/velodyne/000000.bin
 expect 2 "Did you mean '--json'" inspect sim/town --jason
 
 # An interrupted run ends by itself and goes on later.

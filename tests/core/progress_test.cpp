@@ -66,6 +66,17 @@ TEST_CASE("On a terminal one line is rewritten and cleared at the end") {
   CHECK(std::count(shown.begin(), shown.end(), '\n') == 1);
 }
 
+TEST_CASE("A line says what its task is part of") {
+  const std::string shown = told_by([] {
+    Progress progress(ProgressStyle::kTerminal);
+    progress.set_context("[2/3] x on town");
+    progress.begin("map", 10);
+    progress.set_context("");
+    progress.begin("writing", 5);
+  });
+  CHECK(shown == "\r\x1b[K[2/3] x on town: map: 0 of 10\r\x1b[Kwriting: 0 of 5");
+}
+
 TEST_CASE("A file is no terminal") {
   ProgressStyle style = ProgressStyle::kTerminal;
   told_by([&] { style = progress_style_of_stderr(); });

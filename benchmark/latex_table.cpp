@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/text_table.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+constexpr double kTextWidth = 345.0;    ///< Of an article at 10 pt, in points.
+constexpr std::size_t kMostLines = 46;  ///< Of a float, so that it is not higher than a page.
+constexpr std::size_t kLongText = 26;   ///< Characters; columns with more are broken into lines.
+
+/// How wide things are, in points; a little more than they are.
+struct Measures {
+  double character, gap;
+};
+constexpr Measures kNormal{5.4, 12.0};
+constexpr Measures kSmall{4.5, 6.0};  ///< \footnotesize with \tabcolsep of 3 pt.
+
+/// A character that LaTeX knows by itself, from UTF-8; '?' for others. `at` goes behind it.
+std::string known_character(const std::string& text, std::size_t& at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  if (first < 0x80) return std::string(1, text[at++]);
+  const auto second = at + 1 < text.size() ? static_cast<unsigned char>(text[at + 1]) : 0U;
+  if (first == 0xC3 && (second & 0xC0U) == 0x80U && second != 0x97 && second != 0xB7) {
+    at += 2;  // Letters from U+00C0 to U+00FF.
+    return text.substr(at - 2, 2);
+  }
+  ++at;
+  while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U) ++at;
+  return "?";
+}
+
+std::string latex_escaped(const std::string& text) {
+  std::string escaped;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string character = known_character(text, at);
+    switch (character.front()) {
+      case '\\':
+        escaped += "\\textbackslash{}";
+        break;
+      case '~':
+        escaped += "\\textasciitilde{}";
+        break;
+      case '^':
+        escaped += "\\textasciicircum{}";
+        break;
+      case '<':
+        escaped += "\\textless{}";
+        break;
+      case '>':
+        escaped += "\\textgreater{}";
+        break;
+      case '|':
+        escaped += "\\textbar{}";
+        break;
+      case '-':  // Two of them would become a dash.
+        escaped += escaped.ends_with('-') ? "{}-" : "-";
+        break;
+      case '&':
+      case '%':
+      case '$':
+      case '#':
+      case '_':
+      case '{':
+      case '}':
+        escaped += "\\" + character;
+        break;
+      default:
+        escaped += static_cast<unsigned char>(character.front()) < 0x20 ? " " : character;
+    }
+  }
+  // Behind the end of a row these would belong to it.
+  return escaped.starts_with('[') || escaped.starts_with('*') ? "{}" + escaped : escaped;
+}
+
+/// The same for a column that is broken into lines: words may also be broken behind these.
+std::string breakable(const std::string& text) {
+  std::string broken;
+  std::string piece;
+  for (const char c : text) {
+    piece += c;
+    if (c != '/' && c != '_' && c != '.' && c != ':' && c != ',') continue;
+    broken += latex_escaped(piece) + "\\allowbreak{}";
+    piece.clear();
+  }
+  return broken + latex_escaped(piece);
+}
+
+/// A column with the heading that it stands below.
+struct Column {
+  std::size_t group = 0;
+  std::string name;
+  std::size_t place = 0;  ///< Among the cells of a row.
+  std::size_t characters = 0;
+  bool is_long = false;
+};
+
+std::vector<Column> columns_of(const TextTable& table) {
+  std::vector<Column> columns;
+  for (std::size_t group = 0; group < table.groups.size(); ++group) {
+    for (const std::string& name : table.groups[group].columns) {
+      Column column{group, name, columns.size(), name.size(), false};
+      for (const TableRow& row : table.rows) {
+        column.characters = std::max(column.characters, row.cells[column.place].text.size());
+      }
+      column.is_long = column.characters > kLongText;
+      columns.push_back(column);
+    }
+  }
+  return columns;
+}
+
+/// A part of a table that fits beside its row labels.
+struct Block {
+  std::vector<Column> columns;
+};
+
+class LatexTable {
+ public:
+  explicit LatexTable(const TextTable& table) : table_(table), columns_(columns_of(table)) {
+    label_characters_ = table.corner.size();
+    for (const TableRow& row : table.rows) {
+      label_characters_ = std::max(label_characters_, row.label.size());
+    }
+    has_headings_ = std::any_of(table.groups.begin(), table.groups.end(),
+                                [](const TableGroup& group) { return !group.heading.empty(); });
+    is_small_ = label_width(kNormal) + width(columns_, kNormal) > kTextWidth;
+    cut();
+  }
+
+  [[nodiscard]] std::string text() const {
+    const std::size_t lines = table_.rows.size() + 5 + (has_headings_ ? 1 : 0);
+    const std::size_t blocks_a_float = std::max<std::size_t>(1, kMostLines / lines);
+    std::string text;
+    for (std::size_t i = 0; i < blocks_.size(); i += blocks_a_float) {
+      const std::size_t end = std::min(blocks_.size(), i + blocks_a_float);
+      text += i == 0 ? "" : "\n";
+      text += float_text(i, end);
+    }
+    return text;
+  }
+
+ private:
+  [[nodiscard]] const Measures& measures() const { return is_small_ ? kSmall : kNormal; }
+  [[nodiscard]] double label_width(const Measures& by) const {
+    return by.character * static_cast<double>(label_characters_) + by.gap;
+  }
+  /// Long columns share what the others leave, and need 80 pt.
+  [[nodiscard]] static double width(const std::vector<Column>& columns, const Measures& by) {
+    double sum = 0.0;
+    for (const Column& column : columns) {
+      sum +=
+          by.gap + (column.is_long ? 80.0 : by.character * static_cast<double>(column.characters));
+    }
+    return sum;
+  }
+
+  /// Puts groups that fit into blocks whole, larger ones column by column.
+  void cut() {
+    const double room = kTextWidth - label_width(measures());
+    std::vector<std::vector<Column>> units;
+    for (const Column& column : columns_) {
+      const bool fresh = units.empty() || units.back().front().group != column.group;
+      if (fresh) units.emplace_back();
+      units.back().push_back(column);
+    }
+    blocks_.emplace_back();
+    for (const std::vector<Column>& unit : units) {
+      if (width(unit, measures()) <= room) {
+        append(unit, room);
+      } else {
+        for (const Column& column : unit) append({column}, room);
+      }
+    }
+  }
+  void append(const std::vector<Column>& unit, double room) {
+    std::vector<Column>& last = blocks_.back().columns;
+    if (!last.empty() && width(last, measures()) + width(unit, measures()) > room) {
+      blocks_.push_back({unit});
+    } else {
+      last.insert(last.end(), unit.begin(), unit.end());
+    }
+  }
+
+  [[nodiscard]] std::string float_text(std::size_t begin, std::size_t end) const {
+    std::string text = "% needs \\usepackage{booktabs}\n\\begin{table}[htbp]\n\\centering\n";
+    if (is_small_) text += "\\footnotesize\n\\setlength{\\tabcolsep}{3pt}\n";
+    text += "\\caption{" + latex_escaped(table_.title) + (begin > 0 ? " (continued)" : "") + "}\n";
+    for (std::size_t i = begin; i < end; ++i) {
+      text += (i == begin ? "" : "\\par\\medskip\n") + block_text(blocks_[i]);
+    }
+    if (end < blocks_.size()) return text + "\\end{table}\n";
+    for (const std::string& note : table_.notes) text += "\n" + latex_escaped(note) + "\n";
+    return text + "\\end{table}\n";
+  }
+
+  [[nodiscard]] std::string block_text(const Block& block) const {
+    // Behind \raggedright the usual end of a row means the end of a line.
+    const bool has_long = std::any_of(block.columns.begin(), block.columns.end(),
+                                      [](const Column& column) { return column.is_long; });
+    const std::string end_of_row = has_long ? " \\tabularnewline\n" : " \\\\\n";
+    std::string text = "\\begin{tabular}{l" + formats(block) + "}\n\\toprule\n";
+    if (has_headings_) text += headings(block, end_of_row);
+    text += latex_escaped(table_.corner);
+    for (const Column& column : block.columns) text += " & " + latex_escaped(column.name);
+    text += end_of_row + "\\midrule\n";
+    bool in_summary = false;
+    for (const TableRow& row : table_.rows) {
+      if (row.summary && !in_summary) text += "\\midrule\n";
+      in_summary = row.summary;
+      text += latex_escaped(row.label);
+      for (const Column& column : block.columns) {
+        text += " & " + cell_text(row.cells[column.place], column.is_long);
+      }
+      text += end_of_row;
+    }
+    return text + "\\bottomrule\n\\end{tabular}\n";
+  }
+
+  [[nodiscard]] std::string formats(const Block& block) const {
+    double left = kTextWidth - label_width(measures());
+    std::size_t long_columns = 0;
+    for (const Column& column : block.columns) {
+      long_columns += column.is_long ? 1 : 0;
+      left -= measures().gap;
+      if (!column.is_long) left -= measures().character * static_cast<double>(column.characters);
+    }
+    std::string text;
+    for (const Column& column : block.columns) {
+      const double share = std::max(60.0, left / static_cast<double>(long_columns));
+      text += column.is_long ? "p{" + fixed_text(std::floor(share), 0) + "pt}" : "r";
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string headings(const Block& block, const std::string& end_of_row) const {
+    std::string text, rules;
+    std::size_t at = 2;
+    for (std::size_t i = 0; i < block.columns.size();) {
+      std::size_t end = i;
+      while (end < block.columns.size() && block.columns[end].group == block.columns[i].group) {
+        ++end;
+      }
+      const std::string& heading = table_.groups[block.columns[i].group].heading;
+      text +=
+          " & \\multicolumn{" + std::to_string(end - i) + "}{c}{" + latex_escaped(heading) + "}";
+      rules +=
+          "\\cmidrule(lr){" + std::to_string(at) + "-" + std::to_string(at + end - i - 1) + "}";
+      at += end - i;
+      i = end;
+    }
+    return text + end_of_row + rules + "\n";
+  }
+
+  [[nodiscard]] static std::string cell_text(const TableCell& cell, bool is_long) {
+    const std::string text =
+        is_long ? "\\raggedright " + breakable(cell.text) : latex_escaped(cell.text);
+    if (cell.mark == Mark::kBest) return "\\textbf{" + text + "}";
+    if (cell.mark == Mark::kSecond) return "\\underline{" + text + "}";
+    return text;
+  }
+
+  const TextTable& table_;
+  std::vector<Column> columns_;
+  std::size_t label_characters_ = 0;
+  bool has_headings_ = false;
+  bool is_small_ = false;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace
+
+std::string to_latex(const TextTable& table) {
+  return LatexTable(table).text();
+}
+
+}  // namespace raymoval

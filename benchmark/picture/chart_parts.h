@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmark/picture/svg.h"
+#include "benchmark/results.h"
+
+namespace raymoval {
+
+/// What is drawn alike in a chart: a method, or all points of a sweep.
+struct ChartSeries {
+  std::string name;
+  SeriesLook look;
+  std::vector<std::string> cells;  ///< Names in the run, in its order.
+};
+
+/// The run's methods without controls.
+std::vector<ChartSeries> chart_series(const RunResults& results);
+
+/// The two rates that are played against each other and their harmonic mean, with what 1 is in it.
+struct RateTrio {
+  std::string across;  ///< "RR" or "DA", percent.
+  std::string up;      ///< "PR" or "SA", percent.
+  std::string mean;    ///< "F1", a fraction, or "HA", percent.
+  double mean_unit = 1.0;
+};
+
+/// Those of a protocol; nothing if it has neither trio.
+std::optional<RateTrio> rate_trio(const RunResults& results, const std::string& protocol);
+
+/// The value of a rate; nothing if it is undefined or the cell has no result.
+std::optional<double> rate_value(const ResultRow* row, const std::string& rate);
+
+/// An axis from `low` to `high`, drawn over `length` pixels, with marks every `step`.
+struct LinearAxis {
+  double low = 0.0, high = 100.0, step = 20.0;
+
+  [[nodiscard]] double at(double value, double length) const {
+    return (value - low) / (high - low) * length;
+  }
+  [[nodiscard]] std::vector<double> marks() const;
+};
+
+/// An axis that ends at `high` and begins at a round number below `least`.
+LinearAxis axis_up_to(double least, double high);
+/// An axis that begins at 0 and ends at a round number above `most`.
+LinearAxis axis_from_zero(double most);
+
+/// Draws markers and names in rows; @return the height it takes.
+double draw_legend(SvgWriter& svg, const std::vector<ChartSeries>& series, double x, double y,
+                   double width);
+
+}  // namespace raymoval

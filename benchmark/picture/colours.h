@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace raymoval {
+
+struct Colour {
+  std::uint8_t red = 0, green = 0, blue = 0;
+
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+/// "#009E73".
+std::string colour_text(const Colour& colour);
+
+/// What became of a point of a map; the same colours in every picture. From the palette of Okabe
+/// and Ito, which the colour-blind tell apart, with grey for what is as it should be anyway.
+namespace verdict_colours {
+inline constexpr Colour kTruePositive{0, 158, 115};   ///< Moving and removed: bluish green.
+inline constexpr Colour kFalsePositive{0, 114, 178};  ///< Static and removed: blue.
+inline constexpr Colour kFalseNegative{213, 94, 0};   ///< Moving and kept: vermillion.
+inline constexpr Colour kKeptStatic{176, 176, 176};   ///< Static and kept: grey.
+}  // namespace verdict_colours
+
+/// The palette of Okabe and Ito without black, which is lost on dark ground, and yellow, which is
+/// lost on light ground.
+inline constexpr std::array<Colour, 6> kSeriesColours = {
+    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
+
+}  // namespace raymoval

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/report/html.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "benchmark/picture/svg.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// The number a cell starts with: "98.123 (4/5)", "1,234".
+std::optional<double> leading_number(const std::string& text) {
+  std::string number = text.substr(0, text.find(' '));
+  std::erase(number, ',');
+  return parse_number<double>(number);
+}
+
+/// Whether column `place` holds numbers and, maybe, words for their lack.
+bool holds_numbers(const TextTable& table, std::size_t place) {
+  bool any = false;
+  for (const TableRow& row : table.rows) {
+    const std::string& text = row.cells[place].text;
+    if (leading_number(text)) {
+      any = true;
+    } else if (text.find(' ') != std::string::npos || text.size() > 13) {
+      return false;
+    }
+  }
+  return any;
+}
+
+std::vector<bool> number_columns(const TextTable& table) {
+  std::vector<bool> numbers;
+  for (const TableGroup& group : table.groups) {
+    for (std::size_t i = 0; i < group.columns.size(); ++i) {
+      numbers.push_back(holds_numbers(table, numbers.size()));
+    }
+  }
+  return numbers;
+}
+
+std::vector<bool> group_starts(const TextTable& table) {
+  std::vector<bool> starts;
+  for (const TableGroup& group : table.groups) {
+    for (std::size_t i = 0; i < group.columns.size(); ++i) starts.push_back(i == 0);
+  }
+  return starts;
+}
+
+std::string classes(bool number, bool start) {
+  if (!number && !start) return "";
+  return std::string(" class=\"") + (number ? "number" : "") + (number && start ? " " : "") +
+         (start ? "start" : "") + "\"";
+}
+
+std::string head_html(const TextTable& table) {
+  const bool grouped = std::any_of(table.groups.begin(), table.groups.end(),
+                                   [](const TableGroup& group) { return !group.heading.empty(); });
+  const std::string corner = html_text(table.corner);
+  std::string html = "<thead>";
+  if (grouped) {
+    html += "<tr><th scope=\"col\" rowspan=\"2\">" + corner + "</th>";
+    for (const TableGroup& group : table.groups) {
+      html += "<th scope=\"colgroup\" class=\"group\" colspan=\"" +
+              std::to_string(group.columns.size()) + "\">" + html_text(group.heading) + "</th>";
+    }
+    html += "</tr>\n";
+  }
+  html += grouped ? "<tr>" : "<tr><th scope=\"col\">" + corner + "</th>";
+  const std::vector<bool> numbers = number_columns(table), starts = group_starts(table);
+  std::size_t place = 0;
+  for (const TableGroup& group : table.groups) {
+    for (const std::string& column : group.columns) {
+      html += "<th scope=\"col\"" + classes(numbers[place], grouped && starts[place]) + ">" +
+              html_text(column) + "</th>";
+      ++place;
+    }
+  }
+  return html + "</tr></thead>\n";
+}
+
+std::string marked(const TableCell& cell) {
+  const std::string text = html_text(cell.text);
+  if (cell.mark == Mark::kBest) return "<strong>" + text + "</strong>";
+  if (cell.mark == Mark::kSecond) return "<u>" + text + "</u>";
+  return text;
+}
+
+/// The ground of a cell by its percents, so that 1 % can be seen and 50 % is not all.
+std::string heat_of(const TableCell& cell) {
+  const auto percent = leading_number(cell.text);
+  if (!percent) return "";
+  const double share = std::clamp(std::sqrt(*percent / 100.0), 0.0, 1.0) * 0.75;
+  return " style=\"--share:" + fixed_text(share, 2) + "\"";
+}
+
+std::string rows_html(const TextTable& table, bool summary, bool heat) {
+  const std::vector<bool> numbers = number_columns(table), starts = group_starts(table);
+  const bool lines = table.groups.size() > 1;
+  std::string html;
+  for (const TableRow& row : table.rows) {
+    if (row.summary != summary) continue;
+    html += "<tr><th scope=\"row\">" + html_text(row.label) + "</th>";
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      if (heat && i > 0) {
+        html += "<td class=\"number heat\"" + heat_of(row.cells[i]) + ">";
+      } else {
+        html += "<td" + classes(numbers[i], lines && starts[i]) + ">";
+      }
+      html += marked(row.cells[i]) + "</td>";
+    }
+    html += "</tr>\n";
+  }
+  return html;
+}
+
+std::string whole_table(const TextTable& table, TableHeight height, bool heat) {
+  const std::string title = html_text(table.title);
+  std::string html = std::string("<div class=\"scroll") +
+                     (height == TableHeight::kScrolled ? " tall" : "") +
+                     "\" tabindex=\"0\" role=\"region\" aria-label=\"" + title +
+                     "\">\n<table class=\"sortable\"><caption>" + title + "</caption>\n" +
+                     head_html(table) + "<tbody>" + rows_html(table, false, heat) + "</tbody>";
+  const std::string foot = rows_html(table, true, heat);
+  if (!foot.empty()) html += "\n<tfoot>" + foot + "</tfoot>";
+  html += "</table></div>\n";
+  for (const std::string& note : table.notes)
+    html += "<p class=\"note\">" + html_text(note) + "</p>\n";
+  return html;
+}
+
+}  // namespace
+
+std::string html_text(const std::string& text) {
+  return xml_escaped(text);
+}
+
+std::string html_id(const std::string& text) {
+  std::string id;
+  for (const char c : text) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    id += plain ? c : '-';
+  }
+  return id;
+}
+
+std::string script_json(const nlohmann::ordered_json& json) {
+  using nlohmann::ordered_json;
+  const std::string text = json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";  // Only texts have it.
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string html_table(const TextTable& table, TableHeight height) {
+  return whole_table(table, height, false);
+}
+
+std::string html_heat_table(const TextTable& table) {
+  return whole_table(table, TableHeight::kWhole, true);
+}
+
+std::string html_section(const PageSection& section) {
+  return "<section id=\"" + section.id + "\" aria-labelledby=\"" + section.id +
+         "-title\">\n<h2 id=\"" + section.id + "-title\">" + html_text(section.title) + "</h2>\n" +
+         section.html + "</section>\n";
+}
+
+std::string html_list(const std::vector<std::string>& lines) {
+  std::string html = "<ul class=\"changes\">\n";
+  for (const std::string& line : lines) html += "<li>" + html_text(line) + "</li>\n";
+  return html + "</ul>\n";
+}
+
+}  // namespace raymoval

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+// What a report says of methods and cells as a whole.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "benchmark/column_tables.h"
+#include "benchmark/picture/charts.h"
+#include "benchmark/report/sections.h"
+#include "core/text.h"
+#include "eval/averages.h"
+
+namespace raymoval {
+namespace {
+
+const std::vector<std::string>& shown_rates() {
+  static const std::vector<std::string> rates = {"PR", "RR", "F1", "SA", "DA", "AA", "HA"};
+  return rates;
+}
+
+std::vector<std::string> rates_of(const RunResults& results, const std::string& protocol) {
+  std::vector<std::string> rates;
+  for (const std::string& rate : shown_rates()) {
+    const bool there = std::any_of(results.rows.begin(), results.rows.end(), [&](const auto& row) {
+      return row.protocol == protocol && row.rates.contains(rate);
+    });
+    if (there) rates.push_back(rate);
+  }
+  return rates;
+}
+
+std::vector<const ResultRow*> rows_of(const RunResults& results, const std::string& cell,
+                                      const std::string& protocol) {
+  std::vector<const ResultRow*> rows;
+  for (const ResultRow& row : results.rows) {
+    if (row.cell == cell && row.protocol == protocol) rows.push_back(&row);
+  }
+  return rows;
+}
+
+bool is_control_cell(const RunResults& results, const std::string& cell) {
+  return std::any_of(results.rows.begin(), results.rows.end(),
+                     [&](const ResultRow& row) { return row.cell == cell && row.control; });
+}
+
+/// "98.123", or "98.123 (4/5)" where sequences have no value.
+std::string mean_text(const RunResults& results, const std::string& cell,
+                      const std::string& protocol, const std::string& rate) {
+  std::vector<std::optional<double>> values;
+  for (const ResultRow* row : rows_of(results, cell, protocol)) {
+    const auto found = row->rates.find(rate);
+    values.push_back(found == row->rates.end() ? std::nullopt : found->second);
+  }
+  const Mean mean = mean_of(values);
+  if (!mean.value) return "n/a";
+  const std::string text = rate_text(rate, *mean.value);
+  const std::size_t of = results.sequences.size();
+  if (mean.segments == of) return text;
+  return text + " (" + std::to_string(mean.segments) + "/" + std::to_string(of) + ")";
+}
+
+std::string time_text(const RunResults& results, const std::string& cell) {
+  for (const MethodTimes& times : results.times) {
+    if (times.cell == cell && times.scans > 0) {
+      return fixed_text(1000.0 * times.seconds / static_cast<double>(times.scans), 1);
+    }
+  }
+  return "n/a";
+}
+
+std::string memory_text(const RunResults& results, const std::string& cell) {
+  std::optional<double> most;
+  for (const ResultRow& row : results.rows) {
+    if (row.cell == cell && row.peak_memory_mib) {
+      most = std::max(most.value_or(0.0), *row.peak_memory_mib);
+    }
+  }
+  return most ? fixed_text(*most, 0) : "n/a";
+}
+
+/// Marks best and second of a column over the rows that are no controls.
+void mark_column(TextTable& table, std::size_t place, bool higher_is_better,
+                 const std::set<std::string>& left_out) {
+  const auto value_of = [&](const TableRow& row) {
+    const std::string& text = row.cells[place].text;
+    return parse_number<double>(std::string_view(text).substr(0, text.find(' ')));
+  };
+  std::set<double> values;
+  for (const TableRow& row : table.rows) {
+    if (left_out.contains(row.label)) continue;
+    if (const auto value = value_of(row)) values.insert(higher_is_better ? -*value : *value);
+  }
+  if (values.size() < 2) return;
+  for (TableRow& row : table.rows) {
+    const auto value = value_of(row);
+    if (!value || left_out.contains(row.label)) continue;
+    const double rank = higher_is_better ? -*value : *value;
+    if (rank == *values.begin()) row.cells[place].mark = Mark::kBest;
+    if (rank == *std::next(values.begin())) row.cells[place].mark = Mark::kSecond;
+  }
+}
+
+std::string fact(const std::string& name, const std::string& value, const std::string& more,
+                 const char* look = "") {
+  return "<div><dt>" + html_text(name) + "</dt><dd class=\"" + look + "\">" + html_text(value) +
+         (more.empty() ? "" : "<small>" + html_text(more) + "</small>") + "</dd></div>\n";
+}
+
+std::string chart_html(const std::string& svg) {
+  return svg.empty() ? "" : "<div class=\"chart\">" + svg + "</div>\n";
+}
+
+/// The method with the highest mean of the first protocol's main rate.
+std::pair<std::string, std::string> best_method(const RunResults& results) {
+  std::pair<std::string, std::string> best;
+  double highest = -1.0;
+  for (const std::string& cell : results.cells) {
+    if (is_control_cell(results, cell) || results.protocols.empty()) continue;
+    const std::vector<std::string> rates = rates_of(results, results.protocols.front());
+    if (rates.empty()) break;
+    const bool f1 = std::find(rates.begin(), rates.end(), "F1") != rates.end();
+    const std::string rate = f1 ? "F1" : rates.back();
+    const std::string text = mean_text(results, cell, results.protocols.front(), rate);
+    const auto value = parse_number<double>(std::string_view(text).substr(0, text.find(' ')));
+    if (!value || *value <= highest) continue;
+    highest = *value;
+    best = {cell, "mean " + rate + " " + text + " by " + results.protocols.front()};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string facts_html(const ReportContent& content) {
+  const RunResults& results = *content.results;
+  std::string html = "<dl class=\"facts\">\n";
+  const auto [best, why] = best_method(results);
+  if (!best.empty()) html += fact("Most accurate", best, why);
+  html += fact("Methods", std::to_string(results.cells.size()), "controls included");
+  std::size_t scans = 0;
+  for (const auto& sequence : content.json->at("run").at("suite").at("sequences")) {
+    scans += sequence.value("scans", std::size_t{0});
+  }
+  html +=
+      fact("Sequences", std::to_string(results.sequences.size()), grouped_text(scans) + " scans");
+  const std::size_t cells = content.json->at("cells").size();
+  html += fact("Cells", std::to_string(cells),
+               results.missing.empty() ? "" : std::to_string(results.missing.size()) + " not run");
+  const std::size_t failed = results.failures.size();
+  html += fact("Failed cells", std::to_string(failed), failed == 0 ? "" : "see below",
+               failed == 0 ? "good" : "bad");
+  const bool checked = content.json->at("controls").value("checked", true);
+  const bool off = !results.control_problems.empty();
+  html += fact("Controls",
+               !checked ? "not checked"
+               : off    ? "off"
+                        : "as they must be",
+               off ? join(results.control_problems, "; ") : "",
+               off       ? "bad"
+               : checked ? "good"
+                         : "");
+  return html + "</dl>\n";
+}
+
+std::string methods_html(const ReportContent& content) {
+  const RunResults& results = *content.results;
+  TextTable table{"Each method over all sequences", "method", {}, {}, {}};
+  std::vector<std::function<std::string(const std::string&)>> texts;
+  std::vector<int> better;  // 1: higher, -1: lower.
+  for (const std::string& protocol : results.protocols) {
+    const std::vector<std::string> rates = rates_of(results, protocol);
+    if (rates.empty()) continue;
+    table.groups.push_back({protocol + ", mean", rates});
+    for (const std::string& rate : rates) {
+      texts.emplace_back([&results, protocol, rate](const std::string& cell) {
+        return mean_text(results, cell, protocol, rate);
+      });
+      better.push_back(1);
+    }
+  }
+  table.groups.push_back({"cost", {"ms per scan", "peak MiB"}});
+  texts.emplace_back([&](const std::string& cell) { return time_text(results, cell); });
+  texts.emplace_back([&](const std::string& cell) { return memory_text(results, cell); });
+  better.insert(better.end(), {-1, -1});
+  std::set<std::string> controls;
+  for (const std::string& cell : results.cells) {
+    TableRow row{cell, {}, is_control_cell(results, cell)};
+    if (row.summary) controls.insert(cell);
+    for (const auto& text : texts) row.cells.push_back({text(cell)});
+    table.rows.push_back(std::move(row));
+  }
+  for (std::size_t i = 0; i < better.size(); ++i) mark_column(table, i, better[i] > 0, controls);
+  table.notes.push_back(
+      "Rates in percent, F1 as a fraction. Bold: best, underlined: second; controls stand below "
+      "and "
+      "are not ranked. (4/5): the mean is over the 4 of 5 sequences that have a value. Click a "
+      "heading to sort.");
+  return html_table(table);
+}
+
+std::string accuracy_html(const ReportContent& content) {
+  std::string html;
+  for (const TextTable& table : make_tables(*content.results, content.published)) {
+    const bool elsewhere =
+        table.title.starts_with("Time of ") || table.title == "Cells without a result";
+    if (elsewhere) continue;
+    if (table.title == "Published") {
+      html +=
+          "<details><summary>What papers print</summary>\n" + html_table(table) + "</details>\n";
+    } else {
+      html += html_table(table);
+    }
+  }
+  std::string intervals;
+  for (const TextTable& table : full_column_tables(*content.results)) {
+    if (table.title.starts_with("Intervals")) {
+      intervals += html_table(table, TableHeight::kScrolled);
+    }
+  }
+  if (!intervals.empty()) {
+    html += "<details><summary>Intervals of the rates</summary>\n" + intervals + "</details>\n";
+  }
+  return html;
+}
+
+std::string cells_html(const ReportContent& content) {
+  const RunResults& results = *content.results;
+  TextTable table{"Every cell", "sequence", {{"", {"method", "status"}}}, {}, {}};
+  for (const std::string& protocol : results.protocols) {
+    const std::vector<std::string> rates = rates_of(results, protocol);
+    if (!rates.empty()) table.groups.push_back({protocol, rates});
+  }
+  table.groups.push_back({"cost", {"ms per scan", "peak MiB"}});
+  for (const std::string& sequence : results.sequences) {
+    for (const std::string& cell : results.cells) {
+      TableRow row{sequence, {{cell}, {"not run"}}, false};
+      const ResultRow* any = nullptr;
+      for (const std::string& protocol : results.protocols) {
+        const ResultRow* scored = results.find(sequence, cell, protocol);
+        if (scored != nullptr) any = scored;
+        for (const std::string& rate : rates_of(results, protocol)) {
+          const bool there = scored != nullptr && scored->rates.contains(rate) &&
+                             scored->rates.at(rate).has_value();
+          row.cells.push_back({there ? rate_text(rate, *scored->rates.at(rate)) : "n/a"});
+        }
+      }
+      if (any != nullptr) row.cells[1].text = any->status;
+      const auto text = [](const std::optional<double>& value, double factor, int digits) {
+        return value ? fixed_text(*value * factor, digits) : "n/a";
+      };
+      row.cells.push_back({any == nullptr ? "n/a" : text(any->seconds_per_scan, 1000.0, 1)});
+      row.cells.push_back({any == nullptr ? "n/a" : text(any->peak_memory_mib, 1.0, 0)});
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return html_table(table, TableHeight::kScrolled);
+}
+
+std::string charts_html(const ReportContent& content) {
+  const RunResults& results = *content.results;
+  std::string html = "<div class=\"charts\">\n";
+  for (const std::string& protocol : results.protocols) {
+    html += chart_html(pr_rr_chart(results, protocol, ChartPlace::kPage));
+  }
+  for (const std::string& protocol : results.protocols) {
+    html += chart_html(accuracy_time_chart(results, protocol, ChartPlace::kPage));
+  }
+  html += chart_html(stage_chart(results, ChartPlace::kPage)) + "</div>\n";
+  std::string stages;
+  for (const TextTable& table : make_tables(results)) {
+    if (table.title.starts_with("Time of ")) stages += html_table(table);
+  }
+  if (!stages.empty()) {
+    html += "<details><summary>Time of each stage as tables</summary>\n" + stages + "</details>\n";
+  }
+  return html;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/report/pack.h"
+#include "benchmark/report/scene.h"
+#include "core/error.h"
+
+namespace raymoval {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Position bits of a coordinate.
+constexpr int kBits = 16;
+
+/// Numbers as differences from their forerunner (modulo 2^16), the sign folded into the lowest bit,
+/// first all low bytes, then all high ones: what varies little deflates well.
+void append_differences(const std::vector<std::uint16_t>& values, std::string& bytes) {
+  const std::size_t start = bytes.size();
+  bytes.resize(start + 2 * values.size());
+  std::uint16_t before = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto difference =
+        static_cast<std::int16_t>(static_cast<std::uint16_t>(values[i] - before));
+    before = values[i];
+    const auto folded =
+        static_cast<std::uint16_t>(difference < 0 ? -2 * difference - 1 : 2 * difference);
+    bytes[start + i] = static_cast<char>(folded & 0xFFU);
+    bytes[start + values.size() + i] = static_cast<char>(folded >> 8U);
+  }
+}
+
+/// Where the points' coordinates start, and how many steps make one of theirs.
+struct Frame {
+  std::array<std::int32_t, 3> origin{};  ///< Voxels.
+  int shift = 0;
+};
+
+Frame frame_of(const std::vector<ShownPoint>& points) {
+  Frame frame;
+  std::int64_t widest = 0;
+  for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
+    const auto [low, high] = std::minmax_element(
+        points.begin(), points.end(),
+        [&](const auto& a, const auto& b) { return a.step[axis] < b.step[axis]; });
+    frame.origin[axis] = static_cast<std::int32_t>(
+        std::floor(static_cast<double>(low->step[axis]) / kStepsPerVoxel));
+    widest = std::max(
+        widest, std::int64_t{high->step[axis]} - std::int64_t{frame.origin[axis]} * kStepsPerVoxel);
+  }
+  while (widest >> frame.shift >= 1 << kBits) ++frame.shift;
+  return frame;
+}
+
+std::string geometry_bytes(const Scene& scene, const Frame& frame) {
+  std::string bytes;
+  std::vector<std::uint16_t> values(scene.points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t origin = std::int64_t{frame.origin[axis]} * kStepsPerVoxel;
+    std::transform(scene.points.begin(), scene.points.end(), values.begin(), [&](const auto& p) {
+      return static_cast<std::uint16_t>((p.step[axis] - origin) >> frame.shift);
+    });
+    append_differences(values, bytes);
+  }
+  std::transform(scene.points.begin(), scene.points.end(), values.begin(),
+                 [](const ShownPoint& point) { return static_cast<std::uint16_t>(point.scan); });
+  append_differences(values, bytes);
+  for (const ShownPoint& point : scene.points) {
+    const auto label = std::find_if(scene.labels.begin(), scene.labels.end(),
+                                    [&](const auto& known) { return known.id == point.label; });
+    bytes += static_cast<char>(std::min<std::ptrdiff_t>(label - scene.labels.begin(), 255));
+  }
+  return bytes;
+}
+
+ordered_json labels_record(const Scene& scene) {
+  ordered_json record = ordered_json::array();
+  for (const SceneLabel& label : scene.labels) {
+    record.push_back(
+        {{"id", label.id}, {"name", label.name}, {"kind", static_cast<int>(label.kind)}});
+  }
+  return record;
+}
+
+ordered_json cell_record(const SceneCell& cell, const VerdictCounts& counts) {
+  ordered_json record;
+  record["name"] = cell.name;
+  record["control"] = cell.control;
+  record["counts"] = {counts.kept_static, counts.false_positive, counts.true_positive,
+                      counts.false_negative};
+  record["reasons"] = cell.sentences;
+  return record;
+}
+
+/// To the centimetre, from the frame's origin.
+ordered_json trajectory_record(const Scene& scene, const Frame& frame) {
+  ordered_json record = ordered_json::array();
+  for (const Eigen::Vector3d& position : scene.trajectory) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double metres = position[axis] - frame.origin[axis] * kPageVoxel;
+      record.push_back(std::round(metres * 100.0) / 100.0);
+    }
+  }
+  return record;
+}
+
+}  // namespace
+
+std::string deflated(std::string_view bytes) {
+  uLongf size = ::compressBound(bytes.size());
+  std::string packed(size, '\0');
+  const int status =
+      ::compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                  reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+  if (status != Z_OK) throw InternalError("zlib gave status " + std::to_string(status));
+  packed.resize(size);
+  return packed;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr const char* kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t there = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits = bits << 8U | (k < there ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= there ? kDigits[bits >> (18U - 6U * k) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+PackedScene pack_scene(const Scene& scene, std::size_t number, ordered_json& head) {
+  const Frame frame = frame_of(scene.points);
+  const std::string prefix = "scene-" + std::to_string(number);
+  head["sequence"] = scene.sequence;
+  head["stream"] = prefix;
+  head["points"] = scene.points.size();
+  head["points_in_range"] = scene.points_in_range;
+  head["voxel"] = kPageVoxel;
+  head["steps_per_voxel"] = kStepsPerVoxel;
+  head["shift"] = frame.shift;
+  head["origin"] = frame.origin;
+  head["error_cell"] = scene.error_cell * kPageVoxel / kStepsPerVoxel;
+  head["other_cell"] = scene.other_cell * kPageVoxel / kStepsPerVoxel;
+  head["labels"] = labels_record(scene);
+  head["scans"] = scene.scans;
+  head["trajectory"] = trajectory_record(scene, frame);
+  head["cells"] = ordered_json::array();
+  PackedScene packed;
+  packed.streams.emplace_back(prefix, base64(deflated(geometry_bytes(scene, frame))));
+  for (std::size_t i = 0; i < scene.cells.size(); ++i) {
+    head["cells"].push_back(cell_record(scene.cells[i], scene.counts[i]));
+    const std::vector<std::uint8_t>& bytes = scene.verdicts[i];
+    packed.streams.emplace_back(
+        prefix + "-" + std::to_string(i),
+        base64(deflated({reinterpret_cast<const char*>(bytes.data()), bytes.size()})));
+  }
+  return packed;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/report/page.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/picture/charts.h"
+#include "benchmark/picture/colours.h"
+#include "benchmark/reasons.h"
+#include "benchmark/report/page_files.h"
+#include "benchmark/report/scene.h"
+#include "benchmark/sealed_json.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Scenes for the 3-D view, and what to say where there are none.
+struct Points {
+  ordered_json scenes = ordered_json::array();
+  std::vector<std::pair<std::string, std::string>> streams;
+  std::vector<std::string> warnings;
+};
+
+std::vector<SceneCell> scene_cells(const KeptRun& run, const Sequence& sequence,
+                                   std::vector<std::string>& warnings) {
+  std::vector<SceneCell> cells;
+  for (const KeptCell* kept : run.cells_of(sequence.name)) {
+    if (!kept->has_removals()) continue;
+    try {
+      cells.push_back({kept->name, kept->control, run.masks(*kept, sequence), kept->removals,
+                       read_reason_sentences(kept->removals)});
+    } catch (const DataError& error) {
+      warnings.push_back(error.what());
+    }
+  }
+  return cells;
+}
+
+bool any_kept(const KeptRun& run, const std::string& sequence) {
+  const std::vector<const KeptCell*> cells = run.cells_of(sequence);
+  return std::any_of(cells.begin(), cells.end(),
+                     [](const KeptCell* cell) { return cell->has_removals(); });
+}
+
+std::size_t scans_of(const PageRequest& request, const std::string& sequence) {
+  for (const ordered_json& record : request.content.json->at("run").at("suite").at("sequences")) {
+    if (record.at("name") == sequence) return record.at("scans").get<std::size_t>();
+  }
+  return 0;
+}
+
+/// A sequence's share of the page's points: as its share of the scans.
+std::size_t point_limit(const PageRequest& request, const std::vector<std::string>& sequences,
+                        const std::string& sequence) {
+  double all = 0.0;
+  for (const std::string& name : sequences) all += static_cast<double>(scans_of(request, name));
+  const double share = static_cast<double>(scans_of(request, sequence)) / std::max(all, 1.0);
+  return std::max<std::size_t>(1000, static_cast<std::size_t>(share * request.points));
+}
+
+void add_scene(const PageRequest& request, const std::string& name, std::size_t limit,
+               Points& points) {
+  const Sequence sequence =
+      request.run->open(name, {request.threads, request.progress, request.cancel});
+  std::vector<SceneCell> cells = scene_cells(*request.run, sequence, points.warnings);
+  if (cells.empty()) return;
+  const Scene scene = build_scene(sequence, std::move(cells), limit, request.progress);
+  ordered_json head;
+  PackedScene packed = pack_scene(scene, points.scenes.size(), head);
+  points.scenes.push_back(std::move(head));
+  for (auto& stream : packed.streams) points.streams.push_back(std::move(stream));
+}
+
+Points collect_points(const PageRequest& request) {
+  Points points;
+  std::vector<std::string> sequences;
+  for (const std::string& name : request.run->results().sequences) {
+    if (any_kept(*request.run, name)) sequences.push_back(name);
+  }
+  for (const std::string& name : sequences) {
+    if (request.cancel != nullptr && request.cancel->load()) throw Cancelled();
+    try {
+      add_scene(request, name, point_limit(request, sequences, name), points);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {  // The rest of the report is no worse for it.
+      points.warnings.push_back(error.what());
+    }
+  }
+  return points;
+}
+
+ordered_json kind_colours() {
+  ordered_json colours = ordered_json::array();
+  for (const Colour& colour : {verdict_colours::kKeptStatic, verdict_colours::kFalsePositive,
+                               verdict_colours::kTruePositive, verdict_colours::kFalseNegative}) {
+    colours.push_back(colour_text(colour));
+  }
+  return colours;
+}
+
+std::string points_html(const PageRequest& request, const Points& points) {
+  std::string html;
+  for (const std::string& warning : points.warnings) {
+    html += "<p class=\"bad\">" + html_text(warning) + "</p>\n";
+  }
+  if (!request.with_points) {
+    return "<p>This report was made without the 3-D view.</p>\n";
+  }
+  if (points.scenes.empty()) {
+    return html +
+           "<p>No points to show: nothing that was removed is kept. Start the same command "
+           "again with <code>--keep-removals</code>, then make the report again.</p>\n";
+  }
+  return html + std::string(page_file("view.html")) +
+         "<noscript><p>The 3-D view needs JavaScript.</p></noscript>\n";
+}
+
+std::vector<PageSection> sections_of(const PageRequest& request, const Points& points) {
+  const ReportContent& content = request.content;
+  std::vector<PageSection> sections = {
+      {"methods", "Methods", methods_html(content)},
+      {"failures", "Failed cells", failures_html(content)},
+      {"changes", "Changes", ""},
+      {"charts", "Charts", charts_html(content)},
+      {"points", "Points", points_html(request, points)},
+      {"losses", "Losses", losses_html(content)},
+      {"accuracy", "Accuracy", accuracy_html(content)},
+      {"cells", "Cells", cells_html(content)},
+      {"configuration", "Configuration", configuration_html(content, *request.methods)}};
+  if (request.comparison != nullptr) {
+    sections[2].html = comparison_html(*request.comparison, request.reference);
+  }
+  std::erase_if(sections, [](const PageSection& section) { return section.html.empty(); });
+  return sections;
+}
+
+std::string head_html(const std::string& title) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "<meta name=\"generator\" content=\"raymoval " RAYMOVAL_VERSION
+         "\">\n"
+         "<link rel=\"icon\" href=\"data:,\">\n<title>" +
+         html_text(title) + "</title>\n<style>\n" + chart_style() +
+         std::string(page_file("page.css")) + "</style>\n</head>\n";
+}
+
+std::string navigation_html(const std::vector<PageSection>& sections) {
+  std::string html = "<nav aria-label=\"Sections\"><div><ul>\n";
+  for (const PageSection& section : sections) {
+    html += "<li><a href=\"#" + section.id + "\">" + html_text(section.title) + "</a></li>\n";
+  }
+  return html + "</ul><button type=\"button\" id=\"theme\">Dark</button></div></nav>\n";
+}
+
+std::string footer_html(bool with_view) {
+  std::string html =
+      "<footer><p>Made by raymoval " RAYMOVAL_VERSION ". This file needs no network.";
+  if (with_view) {
+    html += " Its 3-D view contains three.js " RAYMOVAL_THREE_VERSION
+            ", under the MIT licence.</p>\n<details><summary>Licence of three.js</summary>\n<pre>" +
+            html_text(std::string(page_file("LICENSE"))) + "</pre></details";
+  } else {
+    html += "</p";
+  }
+  return html + "></footer>\n";
+}
+
+std::string scripts_html(const Points& points) {
+  std::string html = "<script>\n" + std::string(page_file("page.js")) + "</script>\n";
+  if (points.scenes.empty()) return html;
+  for (const auto& [id, text] : points.streams) {
+    html += "<script type=\"application/octet-stream\" id=\"" + id + "\">" + text + "</script>\n";
+  }
+  const ordered_json content = {{"colours", kind_colours()}, {"scenes", points.scenes}};
+  html += "<script type=\"application/json\" id=\"scenes\">" + script_json(content) +
+          "</script>\n<script>\n" + std::string(page_file("view.js")) + "</script>\n";
+  return html;
+}
+
+std::string subtitle(const RunResults& results) {
+  return join(results.sequences) + "; scored by " + join(results.protocols);
+}
+
+}  // namespace
+
+Page make_page(const PageRequest& request) {
+  const RunResults& results = *request.content.results;
+  Points points;
+  if (request.with_points) points = collect_points(request);
+  const std::vector<PageSection> sections = sections_of(request, points);
+  const std::string title = results.name + ": which points are removed, and how well";
+  std::string html = head_html(title) +
+                     "<body>\n<a class=\"skip\" href=\"#main\">To the content</a>\n<header><h1>" +
+                     html_text(results.name) + "</h1>\n<p>" + html_text(subtitle(results)) +
+                     "</p></header>\n" + navigation_html(sections) + "<main id=\"main\">\n" +
+                     facts_html(request.content);
+  for (const PageSection& section : sections) html += html_section(section);
+  html += "</main>\n" + footer_html(!points.scenes.empty()) + scripts_html(points) +
+          "</body>\n</html>\n";
+  return {std::move(html), std::move(points.warnings)};
+}
+
+}  // namespace raymoval

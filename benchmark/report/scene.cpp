@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/report/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "benchmark/reasons.h"
+#include "eval/removal_tally.h"
+
+namespace raymoval {
+namespace {
+
+/// Share of the points that may go to wrongly judged ones.
+constexpr double kErrorShare = 0.6;
+
+/// Of a point with all its 16-bit-and-more coordinates: bits in turn, z on top.
+using Morton = std::array<std::uint64_t, 2>;
+
+std::uint64_t spread(std::uint64_t value) {  // 21 bits, two zeros between each.
+  value &= 0x1FFFFF;
+  value = (value | value << 32) & 0x1F00000000FFFF;
+  value = (value | value << 16) & 0x1F0000FF0000FF;
+  value = (value | value << 8) & 0x100F00F00F00F00F;
+  value = (value | value << 4) & 0x10C30C30C30C30C3;
+  return (value | value << 2) & 0x1249249249249249;
+}
+
+Morton morton_of(const ShownPoint& point) {
+  Morton code{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto biased = static_cast<std::uint64_t>(std::int64_t{point.step[axis]} + (1LL << 31));
+    code[0] |= spread(biased >> 21) << axis;
+    code[1] |= spread(biased) << axis;
+  }
+  return code;
+}
+
+/// What a cell says of one scan.
+struct ScanVerdicts {
+  Mask removed;
+  std::vector<std::uint8_t> reasons;  ///< Empty if there are none.
+
+  [[nodiscard]] std::uint8_t byte(std::size_t point) const {
+    const int reason = reasons.empty() ? 0 : reasons[point] + 1;
+    return static_cast<std::uint8_t>(removed[point] | reason << 1);
+  }
+};
+
+/// Reads a sequence scan by scan and chooses what is shown.
+class SceneBuilder {
+ public:
+  SceneBuilder(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit)
+      : sequence_(sequence),
+        limit_(limit),
+        errors_(static_cast<std::size_t>(kErrorShare * static_cast<double>(limit)), cells.size(),
+                0),
+        others_(limit, cells.size(), kStepsPerVoxel),
+        bytes_(cells.size()) {
+    scene_.sequence = sequence.name;
+    scene_.cells = std::move(cells);
+    scene_.counts.resize(scene_.cells.size());
+    only_controls_ = std::all_of(scene_.cells.begin(), scene_.cells.end(),
+                                 [](const SceneCell& cell) { return cell.control; });
+  }
+
+  void add(const Scan& scan) {
+    scene_.scans.push_back(scan.name);
+    scene_.trajectory.push_back(scan.T_world_sensor.translation());
+    const std::vector<std::uint32_t> labels = sequence_.labels->labels(scan);
+    const std::vector<ScanVerdicts> verdicts = read_verdicts(scan);
+    for (std::size_t point = 0; point < scan.size(); ++point) {
+      if (!sequence_.range_m.contains(scan.points[point].cast<double>().norm())) continue;
+      add_point(scan, point, labels[point], verdicts);
+    }
+  }
+
+  Scene finish() {
+    others_.reduce(limit_ - errors_.size());
+    scene_.error_cell = errors_.cell();
+    scene_.other_cell = others_.cell();
+    for (const auto& [id, kind] : labels_) {
+      scene_.labels.push_back({id, class_name(sequence_.label_rule.name, id), kind});
+    }
+    gather();
+    return std::move(scene_);
+  }
+
+ private:
+  std::vector<ScanVerdicts> read_verdicts(const Scan& scan) {
+    std::vector<ScanVerdicts> verdicts;
+    for (const SceneCell& cell : scene_.cells) {
+      verdicts.push_back(
+          {cell.masks.get(scan.index), read_reasons(cell.removals, scan, cell.sentences.size())});
+    }
+    return verdicts;
+  }
+
+  void add_point(const Scan& scan, std::size_t point, std::uint32_t word,
+                 const std::vector<ScanVerdicts>& verdicts) {
+    const LabelClass kind = sequence_.label_rule.classify(word);
+    labels_.emplace(semantic_id(word), kind);
+    ++scene_.points_in_range;
+    bool wrong = false;
+    std::uint64_t group = kind == LabelClass::kMoving ? scan.index + 1 : 0;
+    std::uint64_t error_group = group;
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      bytes_[i] = verdicts[i].byte(point);
+      const bool removed = verdicts[i].removed[point] != 0;
+      if (kind == LabelClass::kIgnored) continue;
+      count(scene_.counts[i], kind, removed);
+      if (scene_.cells[i].control && !only_controls_) continue;
+      wrong |= removed != (kind == LabelClass::kMoving);
+      error_group = error_group * 0x100000001B3ULL + (removed ? 2 : 1);
+    }
+    if (kind == LabelClass::kIgnored) group = ~std::uint64_t{0};
+    const ShownPoint shown{steps_of(scan.T_world_sensor * scan.points[point].cast<double>()),
+                           static_cast<std::uint32_t>(scan.index), semantic_id(word)};
+    (wrong ? errors_ : others_).add(shown, wrong ? error_group : group, bytes_);
+  }
+
+  static void count(VerdictCounts& counts, LabelClass kind, bool removed) {
+    if (kind == LabelClass::kMoving) {
+      ++(removed ? counts.true_positive : counts.false_negative);
+    } else {
+      ++(removed ? counts.false_positive : counts.kept_static);
+    }
+  }
+
+  static std::array<std::int32_t, 3> steps_of(const Eigen::Vector3d& world) {
+    // Within the voxel of `voxel_index`, whatever rounding does.
+    const VoxelIndex voxel = voxel_index(world, 1.0 / kPageVoxel);
+    std::array<std::int32_t, 3> steps{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double inside = world[axis] / kPageVoxel - voxel[axis];
+      const int step = static_cast<int>(std::floor(inside * kStepsPerVoxel));
+      steps[axis] = voxel[axis] * kStepsPerVoxel + std::clamp(step, 0, kStepsPerVoxel - 1);
+    }
+    return steps;
+  }
+
+  /// Both kinds of points in one order, in which neighbours in space are near each other.
+  void gather() {
+    const std::size_t count = errors_.size() + others_.size();
+    const auto set_of = [&](std::size_t i) -> std::pair<const ThinnedPoints&, std::size_t> {
+      if (i < errors_.size()) return {errors_, i};
+      return {others_, i - errors_.size()};
+    };
+    std::vector<Morton> codes(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [set, place] = set_of(i);
+      codes[i] = morton_of(set.points()[place]);
+    }
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return codes[a] != codes[b] ? codes[a] < codes[b] : a < b;
+    });
+    scene_.points.reserve(count);
+    scene_.verdicts.assign(scene_.cells.size(), std::vector<std::uint8_t>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [set, place] = set_of(order[i]);
+      scene_.points.push_back(set.points()[place]);
+      const std::span<const std::uint8_t> verdict = set.verdict(place);
+      for (std::size_t cell = 0; cell < verdict.size(); ++cell) {
+        scene_.verdicts[cell][i] = verdict[cell];
+      }
+    }
+  }
+
+  const Sequence& sequence_;
+  std::size_t limit_;
+  ThinnedPoints errors_, others_;
+  std::vector<std::uint8_t> bytes_;  ///< Of the present point, by cell.
+  std::map<std::uint16_t, LabelClass> labels_;
+  bool only_controls_ = false;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit,
+                  Progress* progress) {
+  SceneBuilder builder(sequence, std::move(cells), limit);
+  if (progress != nullptr) progress->begin("points of " + sequence.name, sequence.scans->size());
+  for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
+    builder.add(sequence.scans->load(i));
+    if (progress != nullptr) progress->advance();
+  }
+  return builder.finish();
+}
+
+}  // namespace raymoval

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmark/report/html.h"
+#include "benchmark/results.h"
+#include "benchmark/tables.h"
+#include "eval/compare.h"
+#include "methods/registry.h"
+
+namespace raymoval {
+
+/// What the sections of a report are made of.
+struct ReportContent {
+  const nlohmann::ordered_json* json = nullptr;  ///< Content of results.json.
+  const RunResults* results = nullptr;           ///< The same, parsed.
+  std::vector<OutsideColumn> published;          ///< Papers' rows; may be empty.
+};
+
+// Each gives the HTML below its heading; empty text where there is nothing to say.
+
+/// Few numbers on top: cells, sequences, failures, controls.
+std::string facts_html(const ReportContent& content);
+/// A row for each method with its means; then every cell; then the tables of `raymoval table`.
+std::string methods_html(const ReportContent& content);
+std::string accuracy_html(const ReportContent& content);
+std::string cells_html(const ReportContent& content);
+/// PR against RR, accuracy against time, stages.
+std::string charts_html(const ReportContent& content);
+/// Moving points that stay and static points that go, by range, height and class.
+std::string losses_html(const ReportContent& content);
+/// Cells without a result, each with its reason and the end of what it printed.
+std::string failures_html(const ReportContent& content);
+/// What changed against a reference run called `name`.
+std::string comparison_html(const Comparison& comparison, const std::string& name);
+/// Effective parameters of each method, sequences, protocols, program and machine.
+std::string configuration_html(const ReportContent& content, const MethodRegistry& methods);
+
+}  // namespace raymoval

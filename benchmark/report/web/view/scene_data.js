@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Reads what benchmark/report/pack.cpp wrote.
+
+/** Kinds of points, by number. */
+export const KEPT_STATIC = 0, FALSE_POSITIVE = 1, TRUE_POSITIVE = 2, FALSE_NEGATIVE = 3,
+             NOT_EVALUATED = 4;
+
+const IGNORED = 2, MOVING = 1;  // LabelClass
+
+/** Bytes of the stream in the script element `id`. */
+async function bytesOf(id) {
+  const text = atob(document.getElementById(id).textContent);
+  const packed = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) packed[i] = text.charCodeAt(i);
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** Undoes `append_differences` into every fourth place of `values`, from `start` on. */
+function addDifferences(bytes, offset, count, values, start) {
+  let value = 0;
+  for (let i = 0; i < count; ++i) {
+    const folded = bytes[offset + i] | bytes[offset + count + i] << 8;
+    value = (value + (folded & 1 ? -((folded + 1) >> 1) : folded >> 1)) & 0xffff;
+    values[start + 4 * i] = value;
+  }
+}
+
+/** A sequence's points: `places` holds x, y, z and the scan of each, `labels` an index each. */
+export class SceneData {
+  constructor(head) {
+    this.head = head;
+    this.count = head.points;
+    /** Metres of a step of x, y and z. */
+    this.step = head.voxel / head.steps_per_voxel * 2 ** head.shift;
+    this.cells = new Map();
+  }
+
+  async load() {
+    if (this.places) return;
+    const bytes = await bytesOf(this.head.stream);
+    const places = new Uint16Array(4 * this.count);
+    for (let axis = 0; axis < 4; ++axis) {
+      addDifferences(bytes, 2 * axis * this.count, this.count, places, axis);
+    }
+    this.labels = bytes.subarray(8 * this.count, 9 * this.count);
+    this.places = places;
+    this.findHeights();
+  }
+
+  /** Kind and reason of each point for cell number `number`, and how many there are of each kind. */
+  async cell(number) {
+    const known = this.cells.get(number);
+    if (known) return known;
+    const bytes = await bytesOf(`${this.head.stream}-${number}`);
+    const tags = new Uint8Array(4 * this.count);  // Label, reason, kind, nothing.
+    const shown = [0, 0, 0, 0, 0];
+    const classes = this.head.labels.map((label) => label.kind);
+    for (let i = 0; i < this.count; ++i) {
+      const label = this.labels[i];
+      const removed = bytes[i] & 1;
+      const kind = classes[label] === IGNORED ? NOT_EVALUATED
+          : classes[label] === MOVING ? (removed ? TRUE_POSITIVE : FALSE_NEGATIVE)
+          : removed ? FALSE_POSITIVE : KEPT_STATIC;
+      tags[4 * i] = label;
+      tags[4 * i + 1] = bytes[i] >> 1;
+      tags[4 * i + 2] = kind;
+      tags[4 * i + 3] = removed;
+      ++shown[kind];
+    }
+    const cell = {number, head: this.head.cells[number], tags, shown};
+    this.cells.set(number, cell);
+    return cell;
+  }
+
+  /** Heights in steps below which 1 % and 99 % of the points are. */
+  findHeights() {
+    const bins = new Uint32Array(65536);
+    for (let i = 0; i < this.count; ++i) ++bins[this.places[4 * i + 2]];
+    const at = (share) => {
+      let sum = 0, z = 0;
+      while (z < 65535 && sum + bins[z] <= share * this.count) sum += bins[z++];
+      return z;
+    };
+    this.low = at(0.01);
+    this.high = Math.max(this.low + 1, at(0.99));
+  }
+
+  /** Of point i, in metres from the scene's origin. */
+  position(i) {
+    return [0, 1, 2].map((axis) => (this.places[4 * i + axis] + 0.5) * this.step);
+  }
+
+  /** Voxel of point i on the world's lattice; null where positions are too coarse to tell. */
+  voxel(i) {
+    const {origin, steps_per_voxel: per, shift} = this.head;
+    if (2 ** shift > per) return null;
+    return origin.map((start, axis) =>
+        start + Math.floor(this.places[4 * i + axis] * 2 ** shift / per));
+  }
+
+  /** World position of point i. */
+  world(i) {
+    return this.position(i).map((value, axis) => value + this.head.origin[axis] * this.head.voxel);
+  }
+
+  sensor(scan) {
+    return this.head.trajectory.slice(3 * scan, 3 * scan + 3);
+  }
+}

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/picture/charts.h"
+
+#include <catch2/catch.hpp>
+
+#include "benchmark/picture/chart_parts.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Whether every element is closed in its place, and nothing that is markup stands in texts.
+bool is_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const std::size_t end = xml.find('>', at);
+    if (end == std::string::npos) return false;
+    const std::string tag = xml.substr(at + 1, end - at - 1);
+    if (tag.find('<') != std::string::npos) return false;
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return false;
+    const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
+    if (tag.starts_with('/')) {
+      if (open.empty() || "/" + open.back() != tag) return false;
+      open.pop_back();
+    } else if (!tag.ends_with('/')) {
+      open.push_back(name);
+    }
+  }
+  for (std::size_t at = xml.find('&'); at != std::string::npos; at = xml.find('&', at + 1)) {
+    const std::string entity = xml.substr(at, xml.find(';', at) + 1 - at);
+    if (entity != "&amp;" && entity != "&lt;" && entity != "&gt;" && entity != "&quot;")
+      return false;
+  }
+  return open.empty();
+}
+
+ResultRow row(const std::string& cell, double PR, double RR, double F1) {
+  ResultRow made;
+  made.sequence = "s";
+  made.cell = made.method = cell;
+  made.protocol = "erasor";
+  made.status = "ok";
+  made.rates = {{"PR", PR}, {"RR", RR}, {"F1", F1}};
+  return made;
+}
+
+/// x at RR 60 and PR 90, y at 100 and 100, a control, and a cell that failed.
+RunResults two_points() {
+  RunResults results;
+  results.sequences = {"s"};
+  results.cells = {"noop", "x", "y", "broken"};
+  results.protocols = {"erasor"};
+  results.rows = {row("noop", 100, 0, 0), row("x", 90, 60, 0.72), row("y", 100, 100, 1),
+                  row("broken", 0, 0, 0)};
+  results.rows[0].control = true;
+  results.rows[3].status = "timeout";
+  results.rows[3].rates.clear();
+  results.times = {{"x", 4, 2.0, 0.4, {{"cast", 1.5}}, 1}, {"y", 4, 0.4, 0.0, {}, 1}};
+  return results;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("PR against RR: every point is where its rates say") {
+  const std::string svg = pr_rr_chart(two_points(), "erasor");
+  CHECK(is_well_formed(svg));
+  // RR from 60 to 100 makes an axis from 50, PR from 90 an axis from 88; the plot's corner is at
+  // (56, 70) and it is 230 wide and high. So RR 60 is at 56 + 10 / 50 * 230 = 102, and PR 90 at
+  // 70 + 230 - 2 / 12 * 230 = 261.67. The first series has circles.
+  CHECK_THAT(svg, Contains("cx=\"102\" cy=\"261.67\" r=\"5\"><title>x on s: PR 90.000, RR 60.000, "
+                           "F1 0.7200</title>"));
+  // Squares of 8.8 pixels, here about the upper right corner at (286, 70).
+  CHECK_THAT(svg, Contains("points=\"281.6,65.6 290.4,65.6 290.4,74.4 281.6,74.4 \""));
+  CHECK(svg.find("noop") == std::string::npos);
+  CHECK(count(svg, "class=\"mark\"") == 2 + 3);  // Two points; the legend has the failed one too.
+}
+
+TEST_CASE("Lines of equal F1 go through the points that have it") {
+  const std::string svg = pr_rr_chart(two_points(), "erasor");
+  // F1 0.9 where one rate is 100 and the other 90 * 100 / (200 - 90) = 81.818: at RR 81.818 the
+  // line leaves the plot at the top, 56 + 31.818 / 50 * 230 = 202.36.
+  CHECK_THAT(svg, Contains("class=\"iso\" points=\"202.36,70 "));
+  CHECK_THAT(svg, Contains(">0.9</text>"));
+}
+
+TEST_CASE("Rates of the other protocol are played against each other in the same way") {
+  RunResults results = two_points();
+  for (ResultRow& one : results.rows) {
+    one.protocol = "dynamicmap";
+    if (one.status == "ok") one.rates = {{"SA", 99.0}, {"DA", 80.0}, {"HA", 88.5}};
+  }
+  results.protocols = {"dynamicmap"};
+  const std::string svg = pr_rr_chart(results, "dynamicmap");
+  CHECK(is_well_formed(svg));
+  CHECK_THAT(svg, Contains("SA, %") && Contains("DA, %") && Contains("equal HA"));
+  CHECK(pr_rr_chart(results, "erasor").empty());
+}
+
+TEST_CASE("Points of a sweep look alike and are joined") {
+  RunResults results = two_points();
+  results.sweeps = {{"x", "swept", {{"tau", "1"}}}, {"y", "swept", {{"tau", "2"}}}};
+  const std::string svg = pr_rr_chart(results, "erasor");
+  CHECK_THAT(svg, Contains("class=\"joined\" stroke=\"#0072B2\" points=\"102,261.67 286,70 \""));
+  CHECK(count(svg, "<circle") == 3);  // Two points and their legend.
+}
+
+TEST_CASE("Stages stand one behind the other, and what has no name is told") {
+  const std::string svg = stage_chart(two_points());
+  CHECK(is_well_formed(svg));
+  // x: 500 ms per scan fill the 778 pixels beside the total; of those the stage takes 375.
+  CHECK_THAT(svg, Contains("x=\"16\" y=\"62\" width=\"583.5\" height=\"16\"><title>x, cast: 375.0 "
+                           "ms</title>"));
+  CHECK_THAT(svg, Contains("x=\"599.5\" y=\"62\" width=\"194.5\" height=\"16\"><title>x, other: "
+                           "125.0 ms</title>"));
+  RunResults nothing = two_points();
+  nothing.times.clear();
+  CHECK(stage_chart(nothing).empty());
+}
+
+TEST_CASE("Accuracy against time: logarithmic, with the line that nobody beats") {
+  const std::string svg = accuracy_time_chart(two_points(), "erasor");
+  CHECK(is_well_formed(svg));
+  // 500 and 100 ms: the axis runs from 10 to 1000 ms over 460 pixels from 64. F1 from 0.72 to 1
+  // makes an axis from 0.7; x is at 64 + 460 * (2.69897 - 1) / 2 = 454.76 and 48 + 330 - 0.02 / 0.3
+  // * 330 = 356.
+  CHECK_THAT(svg, Contains("cx=\"454.76\" cy=\"356\""));
+  // y is faster and better: nobody else is on the line.
+  CHECK_THAT(svg, Contains("class=\"front\" points=\"294,48 \""));
+}
+
+TEST_CASE("Charts take any name, and the same results give the same bytes") {
+  RunResults results = two_points();
+  const std::string odd = "a<b & \"c\"\x01\xFF \xC3\xA9";
+  results.cells[1] = results.rows[1].cell = results.times[0].cell = odd;
+  results.sequences[0] = "<s>";
+  for (ResultRow& one : results.rows) one.sequence = "<s>";
+  for (const std::string& svg : {pr_rr_chart(results, "erasor"), stage_chart(results),
+                                 accuracy_time_chart(results, "erasor")}) {
+    CHECK(is_well_formed(svg));
+    CHECK_THAT(svg, Contains("a&lt;b &amp; &quot;c&quot; \xEF\xBF\xBD \xC3\xA9"));
+  }
+  CHECK(pr_rr_chart(results, "erasor") == pr_rr_chart(results, "erasor"));
+}
+
+TEST_CASE("A chart for a page leaves its style to the page") {
+  const std::string page = pr_rr_chart(two_points(), "erasor", ChartPlace::kPage);
+  CHECK(page.find("<style>") == std::string::npos);
+  CHECK_THAT(pr_rr_chart(two_points(), "erasor"),
+             Contains("<style>") && Contains("prefers-color-scheme:dark"));
+  CHECK_THAT(chart_style(), Contains("--chart-ink"));
+}
+
+TEST_CASE("Thirty series look different") {
+  std::vector<std::pair<std::string, int>> looks;
+  for (std::size_t i = 0; i < 30; ++i) {
+    const SeriesLook look = series_look(i);
+    looks.emplace_back(colour_text(look.colour), look.shape);
+  }
+  std::sort(looks.begin(), looks.end());
+  CHECK(std::adjacent_find(looks.begin(), looks.end()) == looks.end());
+}
+
+TEST_CASE("Axes begin and end at round numbers") {
+  const LinearAxis percent = axis_up_to(97.2, 100.0);
+  CHECK(percent.low == Approx(97.0));  // A point at 97.2 is above the axis.
+  CHECK(axis_up_to(0.0, 100.0).low == 0.0);
+  CHECK(axis_up_to(100.0, 100.0).low < 100.0);  // All at the upper end: still an axis.
+  CHECK(axis_up_to(0.0, 100.0).marks() == std::vector<double>{0, 20, 40, 60, 80, 100});
+}

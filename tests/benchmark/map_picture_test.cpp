@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/picture/map_picture.h"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <fstream>
+
+#include "benchmark/picture/overview_picture.h"
+#include "benchmark/picture/range_picture.h"
+#include "benchmark/runner.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "methods/controls/controls.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A sequence of one scan at the origin: a static point at (5, 0, 0), a moving one at (5, 10, 0).
+void write_two_points(const fs::path& folder) {
+  fs::create_directories(folder / "velodyne");
+  fs::create_directories(folder / "labels");
+  const float points[] = {5, 0, 0, 0, 5, 10, 0, 0};
+  const std::uint32_t labels[] = {40, 252};
+  write_atomically(folder / "velodyne/000000.bin",
+                   {reinterpret_cast<const char*>(points), sizeof points});
+  write_atomically(folder / "labels/000000.label",
+                   {reinterpret_cast<const char*>(labels), sizeof labels});
+  write_atomically(folder / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  write_atomically(folder / "calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+}
+
+/// Fails always.
+class Broken : public Remover {
+ public:
+  void run(const ScanSource&, RemovalSink&, const RunContext&) override {
+    throw MethodError("it has no idea");
+  }
+};
+
+MethodRegistry registry_with_broken() {
+  MethodRegistry methods;
+  methods.add(noop_entry());
+  methods.add(remove_all_entry());
+  methods.add(oracle_entry());
+  MethodEntry broken = noop_entry();
+  broken.name = "broken";
+  broken.make = [](const Configuration&) { return std::make_unique<Broken>(); };
+  methods.add(std::move(broken));
+  return methods;
+}
+
+/// The two points, and a run on them with all controls and a method that fails.
+struct TwoPointRun {
+  test::TemporaryFolder folder;
+  fs::path data = folder.path() / "two";
+  fs::path run = folder.path() / "run";
+
+  explicit TwoPointRun(bool keep_removals = true) {
+    write_two_points(data);
+    static const MethodRegistry methods = registry_with_broken();
+    Suite suite;
+    suite.sequences.push_back({data.string(), {}});
+    add_method(suite, "broken", "", methods);
+    add_protocol(suite, "erasor", "");
+    add_controls(suite, methods);
+    RunOptions options;
+    options.out = run;
+    options.keep_removals = keep_removals;
+    (void)run_suite(suite, options);
+  }
+  [[nodiscard]] KeptRun kept(const std::string& data_now = "") const {
+    return KeptRun(run.string(), data_now);
+  }
+};
+
+Colour pixel(const RgbImage& image, int x, int y) {
+  const auto at = 3 * static_cast<std::size_t>(y * image.width + x);
+  return {image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]};
+}
+
+MapPictureOptions half_metre(const std::string& only) {
+  MapPictureOptions options;
+  options.only = {only};
+  options.panel_pixels = 120;  // 60 m about the sensor: half a metre a pixel.
+  return options;
+}
+
+// The panel's corner is at (20, 70): margin 20, method names 24, sequence name 26. From above
+// (-30, 30) the points are 35 m to the right and 30 and 20 m down: 70 and 60, 70 and 40 pixels.
+constexpr int kStaticX = 20 + 70, kStaticY = 70 + 60;
+constexpr int kMovingX = 20 + 70, kMovingY = 70 + 40;
+
+}  // namespace
+
+TEST_CASE("A map has the colour of what became of a point where the point is") {
+  const TwoPointRun two;
+  const KeptRun run = two.kept();
+  const RgbImage all = map_picture(run, half_metre("remove-all:default"), {});
+  CHECK(pixel(all, kStaticX, kStaticY) == verdict_colours::kFalsePositive);
+  CHECK(pixel(all, kMovingX, kMovingY) == verdict_colours::kTruePositive);
+  const RgbImage none = map_picture(run, half_metre("noop:default"), {});
+  // Grey of a single point: 226 - 110 * log2(1 + 1) / 8 = 212.25.
+  CHECK(pixel(none, kStaticX, kStaticY) == Colour{212, 212, 212});
+  CHECK(pixel(none, kMovingX, kMovingY) == verdict_colours::kFalseNegative);
+  CHECK(pixel(none, kMovingX + 1, kMovingY) == Colour{255, 255, 255});
+  CHECK(pixel(none, kMovingX, kMovingY - 1) == Colour{255, 255, 255});
+}
+
+TEST_CASE("A cropped map shows its window only") {
+  const TwoPointRun two;
+  MapPictureOptions options = half_metre("remove-all:default");
+  options.crop = WorldWindow{0, 60, -10, 50};
+  const RgbImage cropped = map_picture(two.kept(), options, {});
+  // From above (0, 50): 5 m to the right, 40 m down to the moving point.
+  CHECK(pixel(cropped, 20 + 10, 70 + 80) == verdict_colours::kTruePositive);
+}
+
+TEST_CASE("What is written as PNG is read again") {
+  const TwoPointRun two;
+  const RgbImage drawn = map_picture(two.kept(), half_metre("remove-all:default"), {});
+  const fs::path file = two.folder.path() / "map.png";
+  write_png(file, drawn);
+  const RgbImage read = read_png(file);
+  CHECK(read.width == drawn.width);
+  CHECK(read.height == drawn.height);
+  CHECK(read.rgb == drawn.rgb);
+  CHECK(png_bytes(drawn) == png_bytes(read));
+  CHECK_THROWS_WITH(read_png(two.data / "poses.txt"), Contains("not a PNG"));
+}
+
+TEST_CASE("A cell that failed is a hatched panel, beside others or alone") {
+  const TwoPointRun two;
+  MapPictureOptions options = half_metre("broken:default");
+  options.only.push_back("noop:default");
+  const RgbImage image = map_picture(two.kept(), options, {});
+  // Methods stand in the order of the run; the stripes are the only pixels of this grey.
+  std::size_t stripes = 0;
+  for (int y = 70; y < 190; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      stripes += pixel(image, x, y) == Colour{214, 214, 214} ? 1 : 0;
+    }
+  }
+  CHECK(stripes > 500);
+  CHECK_NOTHROW(map_picture(two.kept(), half_metre("broken:default"), {}));
+}
+
+TEST_CASE("Pictures of points say what they lack") {
+  const TwoPointRun bare(false);
+  const KeptRun run = bare.kept();
+  CHECK_THROWS_WITH(map_picture(run, half_metre("noop:default"), {}),
+                    Contains("two / noop:default") && Contains("--keep-removals"));
+  CHECK_THROWS_WITH(range_picture(run, run.cell("two", "noop:default"), {}, {}),
+                    Contains("--keep-removals"));
+  CHECK_THROWS_WITH(overview_picture(run, run.cell("two", "broken:default"), {}, {}),
+                    Contains("it has no idea"));
+  CHECK_THROWS_WITH(map_picture(run, half_metre("nop*"), {}), Contains("nop*"));
+  CHECK_THROWS_WITH(run.cell("twoo", "noop:default"), Contains("Did you mean 'two'"));
+  CHECK_THROWS_WITH(run.cell("two", "nop:default"), Contains("Did you mean 'noop:default'"));
+  CHECK_THROWS_AS(KeptRun((bare.folder.path() / "nowhere").string(), ""), UsageError);
+}
+
+TEST_CASE("Data that was moved is found again with --data, and changed data is refused") {
+  const TwoPointRun two;
+  const fs::path moved = two.folder.path() / "elsewhere" / "two";
+  fs::create_directories(moved.parent_path());
+  fs::rename(two.data, moved);
+  CHECK_THROWS_WITH(two.kept().open("two", {}), Contains("--data"));
+  CHECK(two.kept(moved.string()).open("two", {}).scans->size() == 1);
+  CHECK(two.kept(moved.parent_path().string()).open("two", {}).scans->size() == 1);
+  std::fstream bytes(moved / "velodyne/000000.bin",
+                     std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekp(0);
+  const float other = 6.0F;
+  bytes.write(reinterpret_cast<const char*>(&other), sizeof other);
+  bytes.close();
+  CHECK_THROWS_WITH(two.kept(moved.string()).open("two", {}), Contains("fingerprint"));
+}
+
+TEST_CASE("Removals that were changed are refused") {
+  const TwoPointRun two;
+  const KeptRun run = two.kept();
+  const Sequence sequence = run.open("two", {});
+  const KeptCell& cell = run.cell("two", "noop:default");
+  CHECK(run.masks(cell, sequence).get(0) == Mask{0, 0});
+  const std::uint32_t words[] = {251, 9};
+  write_atomically(cell.removals / "000000.label",
+                   {reinterpret_cast<const char*>(words), sizeof words});
+  CHECK_THROWS_WITH(run.masks(cell, sequence), Contains("changed"));
+}
+
+TEST_CASE("A pixel goes by its moving points, unless they are few") {
+  const auto shown = [](int found, int left, int lost, int kept) {
+    TopDownRaster raster({0, 1, 0, 1}, 1.0);
+    const std::pair<Outcome, int> all[] = {{Outcome::kTruePositive, found},
+                                           {Outcome::kFalseNegative, left},
+                                           {Outcome::kFalsePositive, lost},
+                                           {Outcome::kKeptStatic, kept}};
+    for (const auto& [outcome, points] : all) {
+      for (int i = 0; i < points; ++i) raster.add({0.5, 0.5, 0.0}, outcome);
+    }
+    Outcome outcome = Outcome::kKeptStatic;
+    CHECK(raster.shown(0, 0, outcome) == (found + left + lost + kept > 0));
+    return outcome;
+  };
+  CHECK(shown(0, 0, 0, 0) == Outcome::kKeptStatic);
+  CHECK(shown(1, 0, 0, 10) == Outcome::kTruePositive);
+  CHECK(shown(1, 0, 0, 11) == Outcome::kKeptStatic);
+  CHECK(shown(2, 2, 0, 10) == Outcome::kFalseNegative);
+  CHECK(shown(3, 2, 20, 10) == Outcome::kTruePositive);
+  CHECK(shown(0, 0, 2, 3) == Outcome::kKeptStatic);
+  CHECK(shown(0, 0, 3, 3) == Outcome::kFalsePositive);
+}
+
+TEST_CASE("Cells of a map are half open, and what lies outside the window is left out") {
+  TopDownRaster raster({0, 2, 0, 2}, 1.0);
+  Outcome outcome = Outcome::kKeptStatic;
+  raster.add({1.0, 1.0, 0.0}, Outcome::kTruePositive);  // x to the right column, y to the lower row
+  CHECK(raster.shown(1, 1, outcome));
+  raster.add({2.0, 0.5, 0.0}, Outcome::kTruePositive);
+  raster.add({-0.1, 0.5, 0.0}, Outcome::kTruePositive);
+  CHECK_FALSE(raster.shown(0, 1, outcome));
+}
+
+TEST_CASE("Range images show a point in its direction") {
+  const TwoPointRun two;
+  const KeptRun run = two.kept();
+  RangePictureOptions options;
+  options.width = 400;
+  const RgbImage image = range_picture(run, run.cell("two", "oracle:default"), options, {});
+  CHECK(image.width == 440);
+  // Both points are level, so there is one row, as high as a row may be: 12 pixels. The verdict is
+  // the fourth image, from 20 + 26 + 3 * (28 + 12 + 12) + 28 on. Ahead is in the middle, azimuth 0
+  // between the bins 199 and 200; atan(10 / 5) is 70.5 bins to the left of it.
+  const int y = 20 + 26 + 3 * 52 + 28 + 5;
+  const bool left_bin = pixel(image, 20 + 199, y) == verdict_colours::kKeptStatic;
+  CHECK(left_bin != (pixel(image, 20 + 200, y) == verdict_colours::kKeptStatic));
+  CHECK(pixel(image, 20 + 129, y) == verdict_colours::kTruePositive);
+  CHECK(pixel(image, 20 + 300, y) == Colour{255, 255, 255});
+  options.frame = 7;
+  CHECK_THROWS_WITH(range_picture(run, run.cell("two", "oracle:default"), options, {}),
+                    Contains("--scan 7") && Contains("0:0"));
+}
+
+TEST_CASE("An overview has both colours of what moved") {
+  const TwoPointRun two;
+  const KeptRun run = two.kept();
+  const RgbImage image = overview_picture(run, run.cell("two", "oracle:default"), {}, {});
+  std::size_t moving = 0, removed = 0;
+  for (int y = 0; y < image.height - 50; ++y) {  // Without the legend.
+    for (int x = 0; x < image.width; ++x) {
+      moving += pixel(image, x, y) == verdict_colours::kFalseNegative ? 1 : 0;
+      removed += pixel(image, x, y) == verdict_colours::kTruePositive ? 1 : 0;
+    }
+  }
+  CHECK(moving ==
+        4);  // One point of 2 x 2 pixels in the map of all scans, none in the cleaned one.
+  CHECK(removed == 4);  // And one in the close view.
+}

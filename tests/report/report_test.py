@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: MIT
+"""Reports in a headless Chromium: no error, no network, what is clicked works, the canvas shows
+what it should. Usage: report_test.py PATH/TO/raymoval. Exit code 77: no Chromium."""
+import os
+import subprocess
+import sys
+import tempfile
+
+import chromium
+
+checks = failures = 0
+
+
+def check(name, holds, more=""):
+    global checks, failures
+    checks += 1
+    if not holds:
+        failures += 1
+        print(f"FAILED: {name} {more}", flush=True)
+
+
+def program(path, *arguments, code=0):
+    done = subprocess.run([path, *arguments], capture_output=True, text=True)
+    check(" ".join(arguments[:2]) + f" ends with {code}", done.returncode == code,
+          f"(got {done.returncode}: {done.stderr[-500:]})")
+    return done
+
+
+def colours(browser, left=0.0, right=1.0):
+    """How often each colour stands in a part of the canvas, as {(r, g, b): count}."""
+    counts = browser.run("""(() => {
+      const {width, height, data} = raymovalView.pixels(), counts = {};
+      for (let y = 0; y < height; ++y) {
+        for (let x = Math.floor(width * %f); x < Math.floor(width * %f); ++x) {
+          const at = 4 * (y * width + x), key = data[at] + ',' + data[at + 1] + ',' + data[at + 2];
+          counts[key] = (counts[key] || 0) + 1;
+        }
+      }
+      return counts;
+    })()""" % (left, right))
+    return {tuple(map(int, key.split(","))): count for key, count in counts.items()}
+
+
+def bluish_green(counts):
+    return sum(n for (r, g, b), n in counts.items() if g > 90 and r < 40 and 50 < b < g)
+
+
+def vermillion(counts):
+    return sum(n for (r, g, b), n in counts.items() if r > 140 and 50 < g < r - 60 and b < 30)
+
+
+def grey(counts):
+    return sum(n for (r, g, b), n in counts.items() if max(r, g, b) - min(r, g, b) < 12 and r < 240)
+
+
+def open_view(browser):
+    browser.run("document.getElementById('points').scrollIntoView({behavior: 'instant'})")
+    browser.wait("window.raymovalViewError || (window.raymovalView && raymovalView.ready)")
+    check("the view opens", browser.run("window.raymovalViewError === undefined"),
+          browser.run("String(window.raymovalViewError)"))
+
+
+def check_tables(browser):
+    """Sorting by F1, best first, then worst first, then as it was."""
+    column = """(() => [...document.querySelectorAll('#methods tbody tr')].map(
+                 (row) => row.cells[HERE].textContent))()"""
+    head = "[...document.querySelectorAll('#methods thead th[scope=col]')]"
+    f1 = browser.run(head + ".findIndex((cell) => cell.textContent === 'F1')")
+    column = column.replace("HERE", str(f1))
+    before = browser.run(column)
+    for order in ("descending", "ascending"):
+        browser.run(f"{head}[{f1}].querySelector('button').click()")
+        check(f"aria-sort is {order}", browser.run(f"{head}[{f1}].ariaSort") == order)
+        numbers = [float(text.split()[0]) for text in browser.run(column) if text != "n/a"]
+        check(f"F1 is {order}", numbers == sorted(numbers, reverse=order == "descending"), numbers)
+    browser.run(f"{head}[{f1}].querySelector('button').click()")
+    check("the third click restores the order", browser.run(column) == before)
+    check("every heading cell has a scope",
+          browser.run("document.querySelectorAll('th:not([scope])').length") == 0)
+    check("tables have captions", browser.run(
+        "[...document.querySelectorAll('table')].every((table) => table.caption)"))
+
+
+def check_theme(browser):
+    ground = "getComputedStyle(document.body).backgroundColor"
+    browser.set_dark(True)
+    dark = browser.run(ground)
+    browser.set_dark(False)
+    light = browser.run(ground)
+    check("dark and light differ", dark != light, f"{dark} {light}")
+    browser.run("document.getElementById('theme').click()")
+    check("the button makes it dark", browser.run(ground) == dark)
+    browser.run("document.getElementById('theme').click()")
+    check("and light again", browser.run(ground) == light)
+
+
+def check_accessible(browser):
+    check("one main, one h1, navigation", browser.run(
+        "['main', 'h1', 'nav', 'header', 'footer'].every("
+        "(name) => document.querySelectorAll('body > ' + name + ', header > h1').length > 0)"))
+    check("links of the navigation lead somewhere", browser.run(
+        "[...document.querySelectorAll('nav a')].every("
+        "(link) => document.querySelector(link.getAttribute('href')))"))
+    check("ids are unique", browser.run(
+        "(() => { const all = [...document.querySelectorAll('[id]')].map((part) => part.id);"
+        " return new Set(all).size === all.length; })()"))
+    check("charts have a text alternative", browser.run(
+        "[...document.querySelectorAll('svg.raymoval-chart')].every("
+        "(chart) => chart.querySelector('title') && chart.querySelector('desc'))"))
+    check("controls have names", browser.run(
+        "[...document.querySelectorAll('input, select')].every((part) => part.labels.length > 0 ||"
+        " part.getAttribute('aria-label'))"))
+
+
+def check_points(browser):
+    """The street: a car that moves, walls that do not."""
+    view = "raymovalView"
+    # Beside each other: what `oracle` removes, `noop` keeps.
+    choose = """(id, name) => { const list = document.getElementById(id);
+        list.selectedIndex = [...list.options].findIndex((one) => one.textContent === name);
+        list.dispatchEvent(new Event('change')); }"""
+    browser.run(f"({choose})('left', 'oracle:default')")
+    browser.wait(f"{view}.clouds.length === 1 && {view}.cells[0].head.name === 'oracle:default'")
+    whole = colours(browser)
+    check("moving points that were removed are green", bluish_green(whole) > 100, bluish_green(whole))
+    check("static points are grey", grey(whole) > 1000, grey(whole))
+    check("the oracle misses nothing", vermillion(whole) == 0, vermillion(whole))
+    for kind, seen in ((0, grey), (2, bluish_green)):
+        browser.run(f"document.getElementById('kind-{kind}').click()")
+        check(f"kind {kind} can be hidden", seen(colours(browser)) < 0.02 * seen(whole) + 60)
+        browser.run(f"document.getElementById('kind-{kind}').click()")
+    check("and shown again", colours(browser) == whole)
+    for by in ("label", "height", "reason", "verdict"):
+        browser.run(f"document.querySelector('input[name=colour][value={by}]').click()")
+        check(f"coloured by {by}", (colours(browser) == whole) == (by == "verdict"))
+    browser.run(f"({choose})('right', 'noop:default')")
+    browser.wait(f"{view}.clouds.length === 2")
+    browser.run(f"{view}.lookAtAll()")
+    left, right = colours(browser, 0, 0.49), colours(browser, 0.51, 1)
+    check("the left half is the oracle's", bluish_green(left) > 20 and vermillion(left) == 0,
+          f"{bluish_green(left)} {vermillion(left)}")
+    check("the right half is noop's", vermillion(right) > 20 and bluish_green(right) == 0,
+          f"{vermillion(right)} {bluish_green(right)}")
+    browser.run(f"({choose})('right', 'nothing')")
+    browser.wait(f"{view}.clouds.length === 1")
+    browser.run(f"{view}.lookAtAll()")
+
+
+def check_scans(browser):
+    choose = "document.getElementById('mode').value = '%d';" \
+             "document.getElementById('mode').dispatchEvent(new Event('change'))"
+    amount = lambda: grey(colours(browser)) + bluish_green(colours(browser))
+    everything = amount()
+    browser.run(choose % 1)
+    first = amount()
+    check("up to scan 0 there are fewer points", 0 < first < everything, f"{first} {everything}")
+    browser.run("document.getElementById('canvas').focus()")
+    browser.press(".")
+    check("the full stop goes to the next scan",
+          browser.run("document.getElementById('scan').value") == "1")
+    check("more points up to scan 1", amount() >= first)
+    browser.run(choose % 0)
+
+
+def check_click(browser):
+    """Clicks where a removed point is drawn."""
+    place = browser.run("""(() => {
+      const {width, height, data} = raymovalView.pixels();
+      for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) {
+        const at = 4 * (y * width + x);
+        if (data[at + 1] > 90 && data[at] < 40 && data[at + 2] > 50) {
+          const box = document.getElementById('canvas').getBoundingClientRect();
+          return [box.left + (x + 0.5) * box.width / width,
+                  box.top + (height - y - 0.5) * box.height / height];
+        }
+      }
+      return null;
+    })()""")
+    check("a removed point can be seen", place is not None)
+    if place is None:
+        return
+    browser.click(*place)
+    told = browser.run("document.getElementById('point').textContent")
+    for word in ("scan", "moving-", "voxel of 0.2 m", "removed, rightly"):
+        check(f"a clicked point tells '{word}'", word in told, told)
+
+
+def check_reasons(browser):
+    """raymoval says why; its word stands beside a point that it removed."""
+    told = browser.run("""(async () => {
+      const view = raymovalView, list = document.getElementById('left');
+      list.selectedIndex = [...list.options].findIndex((one) => one.textContent === 'raymoval:offline');
+      await view.openCells();
+      const {tags} = view.cells[0];
+      for (let i = 0; i < view.data.count; ++i) {
+        if (tags[4 * i + 3] === 1) {
+          view.chosen = i;
+          view.tellChosen();
+          return document.getElementById('point').textContent;
+        }
+      }
+      return '';
+    })()""")
+    check("raymoval says why it removed a point", "saw through" in told, told)
+
+
+def check_counts(browser, results):
+    """The numbers beside the kinds are those of the masks: what oracle removes is what moves."""
+    counts = browser.run("raymovalView.data.head.cells.find((cell) => cell.name === 'oracle:default').counts")
+    noop = browser.run("raymovalView.data.head.cells.find((cell) => cell.name === 'noop:default').counts")
+    check("the oracle errs nowhere", counts[1] == 0 and counts[3] == 0, counts)
+    check("noop keeps everything", noop[1] == 0 and noop[2] == 0 and noop[0] == counts[0]
+          and noop[3] == counts[2], f"{noop} {counts}")
+    check("points are drawn where they are", browser.run(
+        "(() => { const v = raymovalView.data; for (let i = 0; i < v.count; i += 97) {"
+        " const at = v.world(i), voxel = v.voxel(i);"
+        " if (voxel.some((c, axis) => Math.floor(at[axis] / 0.2) !== c)) return false; }"
+        " return true; })()"))
+
+
+def main():
+    browser_path = chromium.find()
+    if browser_path is None:
+        print("report_test.py: no Chromium; scripts/install_dependencies.sh --tests brings it.")
+        return 77
+    raymoval = os.path.abspath(sys.argv[1])
+    with tempfile.TemporaryDirectory(prefix="raymoval-report-") as folder:
+        os.chdir(folder)
+        short = ["--sequence", "street", "--frames", "0:11", "--quiet", "--keep-removals"]
+        # A cell that fails, beside others.
+        with open("broken.json", "w") as file:
+            file.write('{"name": "broken", "sentence": "Fails.", "source": "test", "version": "1", "online": false, "command": ["sh", "-c", "echo the last words; exit 3"]}')
+        program(raymoval, "run", *short, "--method", "raymoval:offline",
+                "--method", f"external:{folder}/broken.json", "--out", "failed", code=1)
+        # 30 cells, none kept but by the default.
+        with open("many.json", "w") as file:
+            file.write('{"sequences": [{"path": "street", "frames": "0:3"}], "methods": ['
+                       '{"method": "raymoval:offline", "set": {"tau1": {"sweep": [%s]}}}]}'
+                       % ", ".join(f"{0.01 * i:.2f}" for i in range(1, 28)))
+        program(raymoval, "run", "many.json", "--quiet", "--keep-removals", "--out", "many")
+        # Points out of every range: nothing to score, nothing to show.
+        program(raymoval, "run", "--sequence", "street", "--frames", "0:1", "--range", "900:901",
+                "--quiet", "--keep-removals", "--method", "raymoval:offline", "--out", "empty", code=1)
+        for run in ("failed", "many", "empty"):
+            program(raymoval, "report", run, "--quiet")
+        program(raymoval, "report", "failed", "--against", "failed", "--no-points", "-o", "plain.html",
+                "--quiet")
+        with chromium.Browser(browser_path) as browser:
+            browser.open("failed/report.html")
+            check("the failed cell tells its reason",
+                  "the last words" in browser.run("document.getElementById('failures').textContent"))
+            check_tables(browser)
+            check_theme(browser)
+            check_accessible(browser)
+            open_view(browser)
+            check_counts(browser, None)
+            check_points(browser)
+            check_scans(browser)
+            check_click(browser)
+            check_reasons(browser)
+            browser.open("many/report.html")
+            check("30 cells are shown", browser.run(
+                "document.querySelectorAll('#cells tbody tr').length") == 30)
+            open_view(browser)
+            check("30 cells can be looked at", browser.run(
+                "document.getElementById('left').options.length") == 30)
+            check("the canvas is not blank", grey(colours(browser)) > 500)
+            browser.open("empty/report.html")
+            check("the empty cell is in the table", browser.run(
+                "document.querySelectorAll('#cells tbody tr').length") > 0)
+            browser.open("plain.html")
+            check("what changed is told", "cells are the same" in
+                  browser.run("document.getElementById('changes').textContent"))
+            check("no view where none is wanted", browser.run("!document.getElementById('viewer')"))
+            check("nothing was logged, thrown or asked of the network", not browser.problems,
+                  browser.problems)
+    print(f"report_test.py: {checks - failures} of {checks} checks hold")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
