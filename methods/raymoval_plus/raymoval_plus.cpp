@@ -58,6 +58,12 @@ std::vector<std::uint32_t> blocks_of(const WorldScan& world, const EvidenceMap& 
   return blocks;
 }
 
+/// Gives a scan's answer, and the reasons for it to whom they are of use.
+void hand_over(const WorldScan& world, RemovalSink& sink, const RunContext& context) {
+  sink.accept(world.scan.index, removed_points(world));
+  if (context.reasons != nullptr) context.reasons->accept(world.scan.index, world.reason);
+}
+
 /// Answers scans from a terrain and a map that hold what all scans say.
 class Answers {
  public:
@@ -79,11 +85,12 @@ class Answers {
   }
 
  private:
-  [[nodiscard]] Mask judged(Scan scan, const Marking& marking, const RunContext& context) const {
+  [[nodiscard]] WorldScan judged(Scan scan, const Marking& marking,
+                                 const RunContext& context) const {
     WorldScan world = in_world(std::move(scan), context.threads);
     measure_heights(terrain_, parameters_, context.threads, world);
     judge(map_, parameters_, marking, context, world);
-    return removed_points(world);
+    return world;
   }
 
   void judge_scans(const ScanSource& scans, const RunContext& context) {
@@ -95,7 +102,7 @@ class Answers {
         found_[index] = std::move(objects);
         return std::vector<int>();
       };
-      answers_[index] = PackedMask(judged(std::move(scan), note, context));
+      answers_[index] = PackedMask(removed_points(judged(std::move(scan), note, context)));
     });
   }
 
@@ -104,13 +111,13 @@ class Answers {
     context.begin_pass("raymoval_plus, answers", scans.size());
     for (std::size_t i = 0; i < scans.size(); ++i) {
       context.check_cancelled();
-      if (marked_[i].empty()) {
+      if (marked_[i].empty() && context.reasons == nullptr) {
         sink.accept(i, answers_[i].unpacked());
       } else {
         Scan scan = scans.load(i);
         const ScanScope timed(context.times, i);
         const auto mark = [&](const std::vector<ObjectSummary>&) { return marked_[i]; };
-        sink.accept(i, judged(std::move(scan), mark, context));
+        hand_over(judged(std::move(scan), mark, context), sink, context);
       }
       context.advance();
     }
@@ -131,6 +138,7 @@ class OfflineRemover : public Remover {
       : parameters_(parameters), terrain_(parameters), map_(parameters.voxel_size) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
     if (parameters_.terrain) find_terrain(scans, context);
     collect_voxels(scans, context);
     gather_evidence(scans, context);
@@ -179,6 +187,7 @@ class ArrivingRemover : public Remover {
   explicit ArrivingRemover(const RaymovalPlusParameters& parameters) : parameters_(parameters) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
     ArrivingScans arrived(scans.sensor(), parameters_);
     Follower follower(parameters_);
     for_each_scan("raymoval_plus, scans", scans, context, [&](Scan scan) {
@@ -193,7 +202,7 @@ class ArrivingRemover : public Remover {
         return follower.marked_now();
       };
       judge(arrived.map(), parameters_, mark, context, world);
-      sink.accept(world.scan.index, removed_points(world));
+      hand_over(world, sink, context);
     });
     if (parameters_.at_once) return;
     Answers(arrived.terrain(), arrived.map(), parameters_).run(scans, sink, context);

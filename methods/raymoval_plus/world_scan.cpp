@@ -10,6 +10,18 @@ constexpr std::size_t kGrain = 8192;  // Points.
 
 }  // namespace
 
+std::vector<std::string> reason_sentences() {
+  return {"no scan, or too few, saw through its voxel",
+          "it is ground",
+          "scans saw through its voxel, more than agree with it allow",
+          "most of the decided voxels around its own were seen through",
+          "its voxel was seen through, but few of the voxels around it were",
+          "it belongs to an object that was seen moving or is mostly seen through",
+          "it belongs to an object that hardly anything was seen through",
+          "what stands above it moved",
+          "what stands above it stays"};
+}
+
 WorldScan in_world(Scan scan, int threads) {
   WorldScan world;
   world.points.resize(scan.size());

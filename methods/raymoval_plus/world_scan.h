@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/scan.h"
@@ -18,7 +19,23 @@ struct WorldScan {
   std::vector<float> height;            ///< Above the ground, metres; infinite if unknown.
   std::vector<std::uint32_t> voxel;     ///< Number in the map, or `EvidenceMap::kNone` for ground.
   std::vector<Evidence> verdict;
+  std::vector<std::uint8_t> reason;  ///< A `Reason` for each verdict; empty unless asked for.
 };
+
+/// What decided on a point last.
+enum class Reason : std::uint8_t {
+  kNothingSeen,
+  kGround,
+  kSeenThrough,
+  kNeighboursRemove,
+  kNeighboursKeep,
+  kObjectRemoved,
+  kObjectKept,
+  kStandsOnRemoved,
+  kStandsOnKept,
+};
+/// A sentence for each, in order.
+std::vector<std::string> reason_sentences();
 
 /// Positions only.
 WorldScan in_world(Scan scan, int threads);
