@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "core/voxel_key.h"
 #include "datasets/cloud_file.h"
@@ -36,6 +37,11 @@ CleanedCloud cleaned_cloud(std::vector<Eigen::Vector3f> points) {
 }
 
 CleanedCloud read_cleaned_cloud(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw UsageError(path.string() + ": is a folder; expected the file of one map (.pcd, .ply, " +
+                     ".bin). Label files are scored with --predictions.");
+  }
   return cleaned_cloud(read_cloud(path).points);
 }
 

@@ -45,7 +45,11 @@ void check_nothing_left(const CLI::App& app, const std::string& help) {
   }
   const std::string name = unknown.substr(0, unknown.find('='));
   if (!name.starts_with("-")) {
-    throw UsageError("'" + name + "' was not expected here. See `" + help + " --help`.");
+    // Every file that a command writes follows an option.
+    const bool writes = app.get_option_no_throw("-o") != nullptr;
+    throw UsageError("'" + name + "' was not expected here." +
+                     (writes ? " To write there put -o before it." : "") + " See `" + help +
+                     " --help`.");
   }
   throw UsageError("unknown option '" + name + "'." + suggestion(name, option_names(app)) +
                    " See `" + help + " --help`.");

@@ -147,6 +147,8 @@ Command add_run_command(CLI::App& program) {
       "  raymoval run --sequence street --method raymoval:online --out out/street\n"
       "  raymoval run --sequence data/05 --frames 0:100 --method raymoval --set raymoval.tau0=0.2 "
       "--out out/05\n"
+      "  raymoval run --sequence street --method raymoval --protocol dynamicmap "
+      "--set protocol:dynamicmap.maximum_range=50 --out out/near\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval run simulated --out out/simulated --explain\n"

@@ -138,19 +138,22 @@ std::vector<const KeptCell*> KeptRun::cells_of(const std::string& sequence) cons
   return found;
 }
 
-Sequence KeptRun::open(const std::string& sequence, const OpenContext& context) const {
-  SequenceRequest place;
+SequenceRequest KeptRun::place_of(const std::string& sequence) const {
   const auto known = places_.find(sequence);
-  if (known != places_.end()) {
-    place = place_from(ordered_json::parse(known->second));
-  } else if (data_.empty()) {
+  if (known != places_.end()) return place_from(ordered_json::parse(known->second));
+  if (data_.empty()) {
     throw DataError(folder_.string() + ": run.json does not say where sequence '" + sequence +
                     "' is (it is missing, or of an earlier version). Say it with --data.");
-  } else {
-    if (!frames_.at(sequence).empty())
-      place.options.frames = parse_frame_range(frames_.at(sequence));
-    place.options.name = sequence;
   }
+  SequenceRequest place;
+  const std::string& frames = frames_.at(sequence);
+  if (!frames.empty()) place.options.frames = parse_frame_range(frames);
+  place.options.name = sequence;
+  return place;
+}
+
+Sequence KeptRun::open(const std::string& sequence, const OpenContext& context) const {
+  const SequenceRequest place = place_of(sequence);
   std::string wanted;
   for (const KeptCell* cell : cells_of(sequence)) {
     if (wanted.empty()) wanted = cell->fingerprint;
@@ -163,9 +166,9 @@ Sequence KeptRun::open(const std::string& sequence, const OpenContext& context) 
       Sequence opened = open_sequence(at, place.options, context);
       if (wanted.empty() || fingerprint(opened, context.threads) == wanted) return opened;
       problem = at +
-                ": is not the data that the run was made on: its fingerprint is another. It "
-                "was changed, or it is another sequence; say where the right one is with "
-                "--data, or run again.";
+                ": is not the data that the run was made on: its fingerprint is another. It was "
+                "changed, or it is another sequence; say where the right one is with --data, or "
+                "run again.";
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {

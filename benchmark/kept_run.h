@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmark/results.h"
+#include "benchmark/suite.h"
 #include "core/mask_store.h"
 #include "datasets/sequence.h"
 
@@ -54,6 +55,9 @@ class KeptRun {
   [[nodiscard]] MaskStore masks(const KeptCell& cell, const Sequence& sequence) const;
 
  private:
+  /// @throws DataError if neither run.json nor --data says it
+  [[nodiscard]] SequenceRequest place_of(const std::string& sequence) const;
+
   std::filesystem::path folder_;
   std::string data_;
   RunResults results_;

@@ -47,6 +47,9 @@ std::string latex_escaped(const std::string& text) {
       case '^':
         escaped += "\\textasciicircum{}";
         break;
+      case '`':
+        escaped += "\\`{}";
+        break;
       case '<':
         escaped += "\\textless{}";
         break;
@@ -148,12 +151,21 @@ class LatexTable {
   [[nodiscard]] double label_width(const Measures& by) const {
     return by.character * static_cast<double>(label_characters_) + by.gap;
   }
-  /// Long columns share what the others leave, and need 80 pt.
-  [[nodiscard]] static double width(const std::vector<Column>& columns, const Measures& by) {
+  /// Of neighbouring columns, each group at least as wide as its heading. Long columns share what
+  /// the others leave, and need 80 pt.
+  [[nodiscard]] double width(const std::vector<Column>& columns, const Measures& by) const {
     double sum = 0.0;
-    for (const Column& column : columns) {
-      sum +=
-          by.gap + (column.is_long ? 80.0 : by.character * static_cast<double>(column.characters));
+    for (std::size_t i = 0; i < columns.size();) {
+      const std::string& heading = table_.groups[columns[i].group].heading;
+      double group = 0.0;
+      std::size_t end = i;
+      for (; end < columns.size() && columns[end].group == columns[i].group; ++end) {
+        const auto characters = static_cast<double>(columns[end].characters);
+        group += by.gap + (columns[end].is_long ? 80.0 : by.character * characters);
+      }
+      const auto characters = static_cast<double>(heading.size());
+      sum += std::max(group, by.gap + by.character * characters);
+      i = end;
     }
     return sum;
   }
@@ -188,12 +200,14 @@ class LatexTable {
   [[nodiscard]] std::string float_text(std::size_t begin, std::size_t end) const {
     std::string text = "% needs \\usepackage{booktabs}\n\\begin{table}[htbp]\n\\centering\n";
     if (is_small_) text += "\\footnotesize\n\\setlength{\\tabcolsep}{3pt}\n";
-    text += "\\caption{" + latex_escaped(table_.title) + (begin > 0 ? " (continued)" : "") + "}\n";
+    text += "\\caption{" + latex_escaped(table_.title) + (begin > 0 ? " (continued)" : "") +
+            "}\n\\smallskip\n";
     for (std::size_t i = begin; i < end; ++i) {
       text += (i == begin ? "" : "\\par\\medskip\n") + block_text(blocks_[i]);
     }
     if (end < blocks_.size()) return text + "\\end{table}\n";
-    for (const std::string& note : table_.notes) text += "\n" + latex_escaped(note) + "\n";
+    for (const std::string& note : table_.notes)
+      text += "\n\\smallskip\n" + latex_escaped(note) + "\n";
     return text + "\\end{table}\n";
   }
 

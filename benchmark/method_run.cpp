@@ -8,6 +8,7 @@
 #include <cmath>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "benchmark/checked_sink.h"
 #include "benchmark/machine.h"
@@ -26,6 +27,21 @@ std::optional<double> quantile(const std::vector<double>& sorted, double share) 
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
+/// Mean of the values from `first` on, `count` of them.
+double mean_of(const std::vector<double>& values, std::size_t first, std::size_t count) {
+  const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+  return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(count), 0.0) /
+         static_cast<double>(count);
+}
+
+/// The first scans are left out: there is no map yet, and memory is new.
+void measure_growth(const std::vector<double>& by_scan, Measurement& measured) {
+  constexpr std::size_t kFewest = 300, kFirst = 50, kCount = 100;
+  if (by_scan.size() < kFewest) return;
+  measured.early_seconds = mean_of(by_scan, kFirst, kCount);
+  measured.late_seconds = mean_of(by_scan, by_scan.size() - kCount, kCount);
+}
+
 /// Largest memory of this process since `reset_peak_memory`, or of one that the method started.
 std::optional<double> peak_since_reset(bool was_reset) {
   const auto own = peak_memory_mib();
@@ -39,8 +55,9 @@ std::optional<double> peak_since_reset(bool was_reset) {
 Measurement measure(const StageTimes& times, const TimedSource& scans, double seconds,
                     int threads) {
   std::vector<double> by_scan = times.seconds_by_scan();
-  std::sort(by_scan.begin(), by_scan.end());
   Measurement measured;
+  measure_growth(by_scan, measured);
+  std::sort(by_scan.begin(), by_scan.end());
   measured.threads = threads;
   measured.mean_seconds = seconds / static_cast<double>(scans.size());
   measured.median_seconds = quantile(by_scan, 0.5);
@@ -93,6 +110,8 @@ ordered_json to_json(const Measurement& measured) {
   record["seconds_per_scan"]["mean"] = measured.mean_seconds;
   record["seconds_per_scan"]["median"] = number_or_null(measured.median_seconds);
   record["seconds_per_scan"]["p90"] = number_or_null(measured.p90_seconds);
+  record["seconds_per_scan"]["early"] = number_or_null(measured.early_seconds);
+  record["seconds_per_scan"]["late"] = number_or_null(measured.late_seconds);
   record["seconds_total"] = measured.total_seconds;
   record["seconds_load"] = measured.load_seconds;
   record["stages"] = ordered_json::array();
@@ -110,6 +129,9 @@ Measurement measurement_from(const ordered_json& json) {
   measured.mean_seconds = by_scan.at("mean").get<double>();
   measured.median_seconds = number_or_nothing(by_scan.at("median"));
   measured.p90_seconds = number_or_nothing(by_scan.at("p90"));
+  // Not in files of earlier versions.
+  measured.early_seconds = number_or_nothing(by_scan.value("early", ordered_json()));
+  measured.late_seconds = number_or_nothing(by_scan.value("late", ordered_json()));
   measured.total_seconds = json.at("seconds_total").get<double>();
   measured.load_seconds = json.at("seconds_load").get<double>();
   for (const ordered_json& stage : json.at("stages")) {

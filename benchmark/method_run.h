@@ -31,6 +31,9 @@ struct Measurement {
   int threads = 1;
   double mean_seconds = 0.0;  ///< Per scan, without waiting for scans.
   std::optional<double> median_seconds, p90_seconds;
+  /// Mean of scans 50 .. 149 and of the last 100, where the sequence has 300 scans or more: whether
+  /// a method gets slower the more it has seen.
+  std::optional<double> early_seconds, late_seconds;
   double total_seconds = 0.0;  ///< Without waiting for scans.
   double load_seconds = 0.0;   ///< Waiting for scans.
   std::vector<std::pair<std::string, double>> stages;

@@ -66,16 +66,34 @@ void write_removals(const std::filesystem::path& folder, const ScanSource& scans
   }
 }
 
+namespace {
+
+/// Who gives the folder above that of the label files is told.
+void check_level(const std::filesystem::path& folder, const Scan& scan) {
+  std::error_code error;
+  if (std::filesystem::exists(label_file(folder, scan), error)) return;
+  for (const char* below : {"labels", "predictions", "removals"}) {
+    if (!std::filesystem::exists(label_file(folder / below, scan), error)) continue;
+    throw DataError(folder.string() + ": holds no " + scan.name + ".label, but its folder " +
+                    below + "/ does. Name that one.");
+  }
+}
+
+}  // namespace
+
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
                         const std::function<void()>& after_scan) {
-  if (!std::filesystem::is_directory(folder)) {
-    throw DataError(folder.string() +
-                    ": no such folder; expected one with a NNNNNN.label file "
-                    "for each scan.");
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw DataError(
+        folder.string() +
+        (std::filesystem::exists(folder, error) ? ": is no folder" : ": no such folder") +
+        "; expected one with a NNNNNN.label file for each scan.");
   }
   MaskStore masks(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
+    if (i == 0) check_level(folder, scan);
     masks.set(i, read_mask(label_file(folder, scan), scan));
     after_scan();
   }

@@ -1,9 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/sequence_bench.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "core/files.h"
+
 namespace raymoval {
+namespace {
+
+void check_has_calibration(const Protocol& protocol, const Sequence& sequence) {
+  if (!protocol.reads_calibration() || sequence.T_camera_lidar) return;
+  throw DataError("protocol " + protocol.name() + " as asked for (frame = erasor) needs the " +
+                  "calibration of a camera (calib.txt, row Tr) and its poses; sequence '" +
+                  sequence.name +
+                  "' has those of the LiDAR. Leave the option at frame = sequence.");
+}
+
+}  // namespace
 
 void check_has_labels(const Sequence& sequence) {
   if (sequence.labels != nullptr) return;
@@ -22,11 +36,23 @@ SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolReques
   }
   for (const ProtocolRequest& request : requests) {
     scorers_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
+    check_has_calibration(*scorers_.back().protocol, sequence_);
   }
 }
 
 const std::string& SequenceBench::data_fingerprint() {
-  if (fingerprint_.empty()) fingerprint_ = fingerprint(sequence_, threads_);
+  if (!fingerprint_.empty()) return fingerprint_;
+  fingerprint_ = fingerprint(sequence_, threads_);
+  const bool calibrated = std::any_of(scorers_.begin(), scorers_.end(), [](const Scorer& scorer) {
+    return scorer.protocol->reads_calibration();
+  });
+  if (calibrated && sequence_.T_camera_lidar) {
+    const Eigen::Matrix4d calibration = sequence_.T_camera_lidar->matrix();
+    ContentHasher hasher;
+    hasher.add(fingerprint_);
+    hasher.add(calibration.data(), sizeof(double) * 16);
+    fingerprint_ = hasher.digest();
+  }
   return fingerprint_;
 }
 
@@ -36,6 +62,7 @@ EvaluationInput SequenceBench::input() const {
   input.labels = sequence_.labels.get();
   input.label_rule = sequence_.label_rule;
   input.range_m = sequence_.range_m;
+  input.T_camera_lidar = sequence_.T_camera_lidar;
   input.threads = threads_;
   input.progress = progress_;
   return input;

@@ -9,6 +9,9 @@
 namespace raymoval {
 namespace {
 
+/// Says that a setting is for a protocol: `erasor` is the name of a method too.
+const std::string kProtocolPrefix = "protocol:";
+
 /// A name that appears in folders and tables.
 void check_cell_name(const std::string& name) {
   const bool legal = !name.empty() && name.front() != '.' && name.size() <= 100 &&
@@ -29,7 +32,9 @@ Setting parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::size_t dot = equals == std::string::npos ? equals : text.rfind('.', equals);
   if (dot == std::string::npos || dot == 0 || dot + 1 == equals) {
-    throw UsageError("--set " + text + ": expected METHOD.key=value, such as raymoval.tau0=0.2.");
+    throw UsageError("--set " + text +
+                     ": expected METHOD.key=value, such as raymoval.tau0=0.2, or "
+                     "protocol:NAME.key=value, such as protocol:erasor.lift=0.");
   }
   return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
 }
@@ -101,9 +106,36 @@ void check_given_once(const std::vector<Setting>& settings) {
 
 }  // namespace
 
+namespace {
+
+/// What a setting may name, as far as `given` is near to it.
+[[noreturn]] void throw_no_target(const Suite& suite, const std::string& given) {
+  std::vector<std::string> names;
+  for (const MethodRequest& request : suite.methods) {
+    names.push_back(request.method.entry->name);
+    names.push_back(request.name);
+  }
+  for (const ProtocolRequest& request : suite.protocols) {
+    names.push_back(kProtocolPrefix + request.name);
+    if (request.name != given) continue;
+    throw UsageError("--set names '" + given +
+                     "', which is no method of this run but a protocol: " + "write " +
+                     names.back() + ".key=value.");
+  }
+  throw UsageError("--set names '" + given + "', which is not in this run." +
+                   suggestion(given, names));
+}
+
+}  // namespace
+
 void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
   check_given_once(settings);
   std::vector<bool> used(settings.size(), false);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!settings[i].target.starts_with(kProtocolPrefix)) continue;
+    set_protocol_option(suite.protocols, settings[i]);
+    used[i] = true;
+  }
   for (MethodRequest& request : suite.methods) {
     // The method's own settings first, so that one for a variant or a cell wins in any order.
     for (const bool whole_method : {true, false}) {
@@ -118,22 +150,18 @@ void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
     }
   }
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (used[i]) continue;
-    std::vector<std::string> names;
-    for (const MethodRequest& request : suite.methods) {
-      names.push_back(request.method.entry->name);
-      names.push_back(request.name);
-    }
-    throw UsageError("--set names '" + settings[i].target + "', which is not in this run." +
-                     suggestion(settings[i].target, names));
+    if (!used[i]) throw_no_target(suite, settings[i].target);
   }
 }
 
 void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting) {
+  const bool prefixed = setting.target.starts_with(kProtocolPrefix);
+  const std::string target =
+      prefixed ? setting.target.substr(kProtocolPrefix.size()) : setting.target;
   std::vector<std::string> names;
   for (ProtocolRequest& request : protocols) {
     names.push_back(request.name);
-    if (request.name != setting.target) continue;
+    if (request.name != target) continue;
     const std::string owner = "protocol " + request.protocol;
     const ParameterSpec& spec =
         find_parameter(owner, protocol_entry(request.protocol).parameters, setting.key);
@@ -142,7 +170,7 @@ void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting&
     return;
   }
   throw UsageError("--set names '" + setting.target + "', which is no protocol asked for." +
-                   suggestion(setting.target, names));
+                   suggestion(target, names));
 }
 
 const std::vector<std::string>& control_names() {

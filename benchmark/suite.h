@@ -48,7 +48,8 @@ struct Suite {
 
 /// `--set raymoval:online.tau0=0.2`, taken apart.
 struct Setting {
-  std::string target;  ///< Method ("raymoval"), method and variant, or cell name.
+  /// Method ("raymoval"), method and variant, cell name, or protocol ("protocol:erasor").
+  std::string target;
   std::string key;
   std::string value;
 };
@@ -74,11 +75,12 @@ const std::vector<ParameterSpec>& protocol_parameters(const std::string& name);
 /// Adds a protocol with its default options. @throws UsageError if the name is taken or unknown.
 ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as);
 
-/// Applies settings: those for a method to all its variants, then those that name a cell.
-/// @throws UsageError if one names no method of the suite, or the same value is set twice.
+/// Applies settings: those for protocols, those for a method to all its variants, then those that
+/// name a cell.
+/// @throws UsageError if one names nothing of the suite, or the same value is set twice.
 void apply_settings(Suite& suite, const std::vector<Setting>& settings);
 
-/// Sets an option of the protocol that `setting` names.
+/// Sets an option of the protocol that `setting` names, with or without "protocol:" before it.
 /// @throws UsageError if it is not among `protocols`, ConfigurationError for a key or value
 void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting);
 

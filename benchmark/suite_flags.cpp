@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/suite_flags.h"
 
+#include <algorithm>
+
 #include "benchmark/shipped_suites.h"
+#include "core/error.h"
+#include "datasets/frames.h"
 
 namespace raymoval {
 namespace {
@@ -13,6 +17,14 @@ void check_suite_alone(const SuiteFlags& flags) {
   if (!flags.methods.empty()) given = "--method";
   if (!flags.sequences.empty()) given = "--sequence";
   if (given.empty()) return;
+  // Who forgets "--sequence" gives a scene or a folder where a suite is expected.
+  const auto shipped = shipped_suite_names();
+  const bool is_suite = is_file(flags.suite) ||
+                        std::find(shipped.begin(), shipped.end(), flags.suite) != shipped.end();
+  if (!is_suite && flags.sequences.empty()) {
+    throw UsageError("'" + flags.suite + "' is no suite; to run on a sequence write --sequence " +
+                     flags.suite + ".");
+  }
   throw UsageError(given + " cannot be given together with the suite file " + flags.suite +
                    "; write it into the file, or leave the file out.");
 }
@@ -43,16 +55,16 @@ Suite suite_from_flags(const SuiteFlags& flags, const MethodRegistry& registry) 
 Suite SuiteFlags::resolved() const {
   const SuiteFlags& flags = *this;
   const MethodRegistry& registry = program_methods();
+  std::vector<Setting> parsed;  // First: "--set KEY VALUE" leaves VALUE to be taken for a suite.
+  for (const std::string& text : flags.settings) parsed.push_back(parse_setting(text));
   if (!flags.suite.empty()) check_suite_alone(flags);
   if (flags.suite.empty() && !data.empty()) {
     throw UsageError("--data goes with a suite file that names {data}; use --sequence.");
   }
   Suite made = flags.suite.empty() ? suite_from_flags(flags, registry)
                                    : read_suite(find_suite(flags.suite), registry, data);
-  std::vector<Setting> parsed;
-  for (const std::string& text : flags.settings) parsed.push_back(parse_setting(text));
-  apply_settings(made, parsed);
   if (made.protocols.empty()) add_protocol(made, "erasor", "");
+  apply_settings(made, parsed);
   if (made.controls) add_controls(made, registry);
   if (const int count = parse_threads(flags.threads); count > 0) made.threads = count;
   if (!time_limit.empty()) made.time_limit_s = parse_positive("--time-limit", time_limit);
@@ -73,7 +85,9 @@ void SuiteFlags::add_to(CLI::App& app) {
   app.add_option("--method", methods, "Method to run, NAME or NAME:variant")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  app.add_option("--set", settings, "Parameter: METHOD.key=value or METHOD:variant.key=...")
+  app.add_option("--set", settings,
+                 "Parameter: METHOD.key=value or METHOD:variant.key=...; option of a protocol: "
+                 "protocol:NAME.key=...")
       ->type_name("SETTING")
       ->allow_extra_args(false);
   app.add_option("--protocol", protocols, "Protocol to score by (default: erasor)")

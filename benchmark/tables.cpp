@@ -13,12 +13,15 @@
 namespace raymoval {
 namespace {
 
+constexpr const char* kErasor = "erasor";
+constexpr const char* kDynamicmap = "dynamicmap";
+
 /// A method's rates by sequence, from the run or from elsewhere.
 struct Column {
   std::string heading;
   std::vector<const RateValues*> by_sequence;  ///< Null: not known there.
   std::vector<std::string> status;             ///< Shown where there are no rates.
-  bool published = false;                      ///< F1 was printed with 3 decimals only.
+  int published_digits = 0;  ///< Decimals that were printed; 0: a column of the run.
 };
 
 const std::vector<std::string>& shown_rates() {
@@ -42,7 +45,7 @@ std::vector<Column> run_columns(const RunResults& results, const std::string& pr
   std::vector<Column> columns;
   for (const std::string& cell : results.cells) {
     if (results.is_swept(cell)) continue;  // Shown in a table of its own.
-    Column column{cell, {}, {}, false};
+    Column column{cell, {}, {}};
     bool wanted = false;
     for (const std::string& sequence : results.sequences) {
       const ResultRow* row = results.find(sequence, cell, protocol);
@@ -57,7 +60,7 @@ std::vector<Column> run_columns(const RunResults& results, const std::string& pr
 }
 
 Column outside_column(const std::vector<std::string>& sequences, const OutsideColumn& given) {
-  Column column{given.heading, {}, {}, true};
+  Column column{given.heading, {}, {}, given.protocol == kErasor ? 3 : 2};
   for (const std::string& sequence : sequences) {
     column.by_sequence.push_back(given.find(sequence));
     column.status.push_back("-");
@@ -65,18 +68,33 @@ Column outside_column(const std::vector<std::string>& sequences, const OutsideCo
   return column;
 }
 
-void add_outside(const RunResults& results, const std::vector<OutsideColumn>& outside,
+bool has(const std::vector<std::string>& rates, const std::string& rate) {
+  return std::find(rates.begin(), rates.end(), rate) != rates.end();
+}
+
+/// Whether published numbers are of the protocol that a run calls `protocol`. The strict variant of
+/// dynamicmap has the same rates by other rules.
+bool is_of(const OutsideColumn& given, const std::string& protocol,
+           const std::vector<std::string>& rates) {
+  if (given.protocol == kErasor) return has(rates, "PR") && has(rates, "RR");
+  return given.protocol == protocol;
+}
+
+void add_outside(const RunResults& results, const std::string& protocol,
+                 const std::vector<std::string>& rates, const std::vector<OutsideColumn>& outside,
                  std::vector<Column>& columns) {
   for (const OutsideColumn& given : outside) {
+    if (!is_of(given, protocol, rates)) continue;
     Column column = outside_column(results.sequences, given);
     const bool shared = std::any_of(column.by_sequence.begin(), column.by_sequence.end(),
-                                    [](const RateValues* rates) { return rates != nullptr; });
+                                    [](const RateValues* known) { return known != nullptr; });
     if (shared) columns.push_back(std::move(column));
   }
 }
 
 std::string column_text(const Column& column, const std::string& rate, double value) {
-  return column.published ? fixed_text(value, 3) : rate_text(rate, value);
+  return column.published_digits > 0 ? fixed_text(value, column.published_digits)
+                                     : rate_text(rate, value);
 }
 
 std::optional<double> rate_at(const Column& column, std::size_t sequence, const std::string& rate) {
@@ -168,10 +186,6 @@ TableRow f1_of_means_row(const std::vector<Column>& columns,
   return row;
 }
 
-bool has(const std::vector<std::string>& rates, const std::string& rate) {
-  return std::find(rates.begin(), rates.end(), rate) != rates.end();
-}
-
 TextTable rate_table(const std::vector<std::string>& sequences, const std::string& title,
                      const std::vector<Column>& columns, const std::vector<std::string>& rates,
                      bool ranked) {
@@ -205,7 +219,7 @@ TextTable method_table(const RunResults& results, const std::string& protocol,
                        const std::vector<OutsideColumn>& outside) {
   const std::vector<std::string> rates = rates_of(results, protocol);
   std::vector<Column> columns = run_columns(results, protocol, false);
-  if (has(rates, "PR") && has(rates, "RR")) add_outside(results, outside, columns);
+  add_outside(results, protocol, rates, outside, columns);
   TextTable table =
       rate_table(results.sequences, "Accuracy by protocol " + protocol, columns, rates, true);
   table.notes.push_back(rate_words(rates) +
@@ -224,16 +238,48 @@ TextTable control_table(const RunResults& results, const std::string& protocol) 
   return table;
 }
 
-TextTable published_table(const std::vector<OutsideColumn>& outside) {
+/// All published numbers of a protocol. Those of dynamicmap are on different kinds of data, over
+/// which no mean is taken.
+TextTable published_table(const std::vector<OutsideColumn>& outside, const std::string& protocol) {
   std::vector<std::string> sequences;
-  for (const auto& [name, rates] : outside.front().sequences) sequences.push_back(name);
+  std::vector<OutsideColumn> wanted;
+  for (const OutsideColumn& given : outside) {
+    if (given.protocol != protocol) continue;
+    wanted.push_back(given);
+    for (const auto& [name, rates] : given.sequences) {
+      if (!has(sequences, name)) sequences.push_back(name);
+    }
+  }
   std::vector<Column> columns;
-  for (const OutsideColumn& given : outside) columns.push_back(outside_column(sequences, given));
-  TextTable table = rate_table(sequences, "Published", columns, {"PR", "RR", "F1"}, true);
+  for (const OutsideColumn& given : wanted) columns.push_back(outside_column(sequences, given));
+  const bool erasor = protocol == kErasor;
+  TextTable table = erasor ? rate_table(sequences, "Published", columns, {"PR", "RR", "F1"}, true)
+                           : rate_table(sequences, "Published, DynamicMap benchmark", columns,
+                                        {"SA", "DA", "AA", "HA"}, false);
   table.notes.push_back(
-      "Values as printed (Raymoval paper, Table 2); the means are computed from them, since two of "
-      "the printed means are misprints.");
+      erasor ? "Values as printed (Raymoval paper, Table 2); the means are computed from them, "
+               "since two of the printed means are misprints."
+             : "As printed by the benchmark, DUFOMap and BeautyMap, to 2 decimals; -: not printed. "
+               "KITTI at every frame, without a range limit; which frames lie behind 01 is not "
+               "known. More in results/published/.");
   return table;
+}
+
+/// The published tables of the protocols that the run was scored by.
+std::vector<TextTable> published_tables(const RunResults& results,
+                                        const std::vector<OutsideColumn>& outside) {
+  std::vector<TextTable> tables;
+  for (const char* published : {kErasor, kDynamicmap}) {
+    const bool wanted = std::any_of(outside.begin(), outside.end(), [&](const auto& given) {
+      return given.protocol == published &&
+             std::any_of(results.protocols.begin(), results.protocols.end(),
+                         [&](const std::string& protocol) {
+                           return is_of(given, protocol, rates_of(results, protocol));
+                         });
+    });
+    if (wanted) tables.push_back(published_table(outside, published));
+  }
+  return tables;
 }
 
 /// At most so much of a text that somebody else wrote, cut between characters.
@@ -288,8 +334,9 @@ TextTable stage_table(const MethodTimes& times) {
 }  // namespace
 
 const RateValues* OutsideColumn::find(const std::string& name) const {
+  const std::string prefix = protocol == kErasor ? "kitti-" : "kth-";
   for (const auto& [sequence, values] : sequences) {
-    if (sequence == name || "kitti-" + sequence == name) return &values;
+    if (sequence == name || prefix + sequence == name) return &values;
   }
   return nullptr;
 }
@@ -302,10 +349,10 @@ std::vector<TextTable> make_tables(const RunResults& results,
     if (!methods.groups.empty()) tables.push_back(std::move(methods));
   }
   for (TextTable& sweep : sweep_tables(results)) tables.push_back(std::move(sweep));
-  if (!outside.empty()) tables.push_back(published_table(outside));
   const auto append = [&tables](std::vector<TextTable> more) {
     for (TextTable& table : more) tables.push_back(std::move(table));
   };
+  append(published_tables(results, outside));
   append(ranking_tables(results));
   append(compact_column_tables(results));
   for (const std::string& protocol : results.protocols) {

@@ -12,9 +12,11 @@ namespace raymoval {
 /// A column of rates that does not come from the run, such as a row of a paper.
 struct OutsideColumn {
   std::string heading;
+  std::string protocol;  ///< "erasor" or "dynamicmap".
   std::vector<std::pair<std::string, RateValues>> sequences;
 
-  /// Rates of the sequence called `name`, or `kitti-name` in a run; null if there are none.
+  /// Rates of what a run calls `name`, which may be called "05" elsewhere instead of "kitti-05"
+  /// (erasor) or "kth-05" (dynamicmap); null if there are none.
   [[nodiscard]] const RateValues* find(const std::string& name) const;
 };
 
@@ -22,8 +24,8 @@ struct OutsideColumn {
 /// (the paper's Table 2: best bold, second underlined, averages), where the protocols' rankings
 /// differ, what the removed points were, the controls, then the time of each stage (the paper's
 /// Table 3).
-/// @param outside columns set beside those of the run where the protocol has PR and RR and a
-///   sequence is in both; a table of all of them follows
+/// @param outside columns set beside those of the run where the protocol is theirs and a sequence
+///   is in both; a table of all of them follows
 std::vector<TextTable> make_tables(const RunResults& results,
                                    const std::vector<OutsideColumn>& outside = {});
 

@@ -2,7 +2,11 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME raymoval)
 set(CPACK_PACKAGE_VENDOR "The raymoval authors")
-set(CPACK_PACKAGE_CONTACT "The raymoval authors <raymoval@localhost>")
+# Who answers for a package is whoever hands it out. Nobody reads an address that ends in .invalid
+# (RFC 2606): it stands for packages that were made for one's own machines.
+set(RAYMOVAL_PACKAGE_CONTACT "The raymoval authors <nobody@raymoval.invalid>" CACHE STRING
+    "Maintainer of the Debian package, as Name <address>")
+set(CPACK_PACKAGE_CONTACT "${RAYMOVAL_PACKAGE_CONTACT}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGE_DESCRIPTION
     "Runs methods that remove moving objects from LiDAR maps, scores them by published protocols

@@ -1,3 +1,28 @@
+# Several source files of a folder compiled as one: a third of the work where headers cost more than
+# what is in the files. For builds that nobody edits in (scripts/test.sh): names in anonymous
+# namespaces have to differ within a group, and a forgotten #include may go unnoticed, so the
+# library of the release build is compiled file by file.
+set(RAYMOVAL_UNITY "" CACHE STRING "What to compile several files at a time: nothing, tests or all")
+set_property(CACHE RAYMOVAL_UNITY PROPERTY STRINGS "" tests all)
+
+# raymoval_unity(TARGET KIND SOURCE...): groups of up to eight files of one folder, if RAYMOVAL_UNITY
+# is "all" or KIND.
+function(raymoval_unity target kind)
+  if(NOT RAYMOVAL_UNITY STREQUAL "all" AND NOT RAYMOVAL_UNITY STREQUAL kind)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(source ${ARGN})
+    file(RELATIVE_PATH group ${PROJECT_SOURCE_DIR} ${source})
+    get_filename_component(group ${group} DIRECTORY)
+    string(MAKE_C_IDENTIFIER ${group} group)
+    math(EXPR count_${group} "${count_${group}} + 0")
+    math(EXPR part "${count_${group}} / 8")
+    math(EXPR count_${group} "${count_${group}} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${part})
+  endforeach()
+endfunction()
+
 # A room is a folder of the house and one static library, raymoval::<name>. Every source file below
 # the folder belongs to it.
 function(raymoval_room name)
@@ -6,6 +31,7 @@ function(raymoval_room name)
     message(FATAL_ERROR "no source file in ${name}/")
   endif()
   add_library(raymoval_${name} STATIC ${sources})
+  raymoval_unity(raymoval_${name} library ${sources})
   add_library(raymoval::${name} ALIAS raymoval_${name})
   target_compile_features(raymoval_${name} PUBLIC cxx_std_20)
   target_include_directories(raymoval_${name} PUBLIC

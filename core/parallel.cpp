@@ -7,7 +7,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -39,6 +41,30 @@ class FirstError {
   std::size_t chunk_ = 0;
 };
 
+/// Runs `work` with at most `threads` threads. An arena that is kept finds its threads still awake
+/// when one short loop follows another; a loop within a loop, or beside one, gets one of its own.
+template <class Work>
+void run_in_arena(int threads, Work&& work) {
+  struct Kept {
+    std::atomic_flag is_busy;
+    int threads = 0;
+    std::unique_ptr<tbb::task_arena> arena;
+  };
+  static Kept& kept = *new Kept;  // Never destroyed: TBB may be gone before it.
+  // TBB never runs more than this, and warns on standard error where it is asked to.
+  const int most = std::min(threads, tbb::info::default_concurrency());
+  if (kept.is_busy.test_and_set(std::memory_order_acquire)) {
+    tbb::task_arena(most).execute(work);
+    return;
+  }
+  if (kept.threads != most) {
+    kept.arena = std::make_unique<tbb::task_arena>(most);
+    kept.threads = most;
+  }
+  kept.arena->execute(work);
+  kept.is_busy.clear(std::memory_order_release);
+}
+
 }  // namespace
 
 void parallel_chunks(int threads, std::size_t count, std::size_t grain,
@@ -53,9 +79,7 @@ void parallel_chunks(int threads, std::size_t count, std::size_t grain,
     return;
   }
   FirstError first_error;
-  // TBB never runs more than this, and warns on standard error where it is asked to.
-  tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
-  arena.execute([&] {
+  run_in_arena(threads, [&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {

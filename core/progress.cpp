@@ -21,16 +21,18 @@ std::string duration_text(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
 }
 
-/// As much of `line` as fits into a line of the terminal behind `stream`: one that is broken cannot
-/// be cleared.
-std::string fitted(std::string line, std::FILE* stream) {
+/// Letters that fit into a line of the terminal behind `stream`; 0 if it is none.
+std::size_t line_width(std::FILE* stream) {
   winsize size{};
-  if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return line;
-  const std::size_t most = size.ws_col - 1;
+  if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return 0;
+  return size.ws_col - 1U;
+}
+
+/// The first `most` bytes of a line, cut between letters.
+std::string shortened(std::string line, std::size_t most) {
   if (line.size() <= most) return line;
-  std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
-  line.resize(end);
+  while (most > 0 && (static_cast<unsigned char>(line[most]) & 0xC0U) == 0x80U) --most;
+  line.resize(most);
   return line;
 }
 
@@ -84,7 +86,7 @@ void Progress::say(const std::string& line) {
 
 std::string Progress::status(Clock::time_point now) const {
   const double elapsed = duration<double>(now - started_).count();
-  std::string text = (context_.empty() ? "" : context_ + ": ") + task_ + ": " + std::to_string(done_) + " of " + std::to_string(total_);
+  std::string text = task_ + ": " + std::to_string(done_) + " of " + std::to_string(total_);
   if (done_ > 0 && elapsed > 0.5) {
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
     text += ", about " + duration_text(left) + " left";
@@ -92,15 +94,24 @@ std::string Progress::status(Clock::time_point now) const {
   return text;
 }
 
+std::string Progress::with_context(const std::string& line) const {
+  return context_.empty() ? line : context_ + ": " + line;
+}
+
 void Progress::print_terminal(Clock::time_point now) {
   printed_ = now;
-  std::fprintf(stream_, "\r\x1b[K%s", fitted(status(now), stream_).c_str());
+  // A line that the terminal breaks cannot be cleared. How far it is matters more than what it is.
+  std::string line = with_context(status(now));
+  if (const std::size_t width = line_width(stream_); width > 0 && line.size() > width) {
+    line = shortened(status(now), width);
+  }
+  std::fprintf(stream_, "\r\x1b[K%s", line.c_str());
   std::fflush(stream_);
 }
 
 void Progress::print_log(Clock::time_point now) {
   printed_ = now;
-  std::fprintf(stream_, "%s\n", status(now).c_str());
+  std::fprintf(stream_, "%s\n", with_context(status(now)).c_str());
 }
 
 }  // namespace raymoval

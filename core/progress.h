@@ -43,6 +43,7 @@ class Progress {
   void print_terminal(Clock::time_point now);
   void print_log(Clock::time_point now);
   [[nodiscard]] std::string status(Clock::time_point now) const;
+  [[nodiscard]] std::string with_context(const std::string& line) const;
 
   ProgressStyle style_;
   std::FILE* stream_;

@@ -44,10 +44,31 @@ std::string content_text(const fs::path& folder) {
   return join(names) + (more > 0 ? " and " + grouped_text(more) + " more" : "");
 }
 
+/// The folder above `path`, if that is a sequence and `path` its folder of scans or one of these;
+/// else empty.
+std::string sequence_above(const fs::path& path) {
+  fs::path folder = fs::absolute(path).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  for (int level = 0; level < 2; ++level) {
+    const fs::path name = folder.filename();
+    folder = folder.parent_path();
+    if ((name == "velodyne" || name == "pcd") && is_folder(folder / name)) return folder.string();
+  }
+  return "";
+}
+
 Sequence open_folder(const fs::path& folder, const SequenceOptions& options) {
   if (is_folder(folder / "velodyne")) return open_semantickitti(folder, options);
   if (is_folder(folder / "pcd")) return open_dynamicmap(folder, options);
-  if (!list_files(folder, cloud_extensions()).empty()) return open_files(folder, options);
+  if (!list_files(folder, cloud_extensions()).empty()) {
+    // With poses of its own it is a sequence whatever its name.
+    const std::string above = sequence_above(folder);
+    if (!above.empty() && !options.poses && list_files(folder, {".txt"}).empty()) {
+      throw DataError(folder.string() + ": holds scans only; the sequence they belong to is " +
+                      above + ".");
+    }
+    return open_files(folder, options);
+  }
   if (is_folder(folder / "sequences")) {
     throw UsageError(folder.string() + ": is a root with " + content_text(folder / "sequences") +
                      " in sequences/; say which one, such as " + folder.string() + ":05.");
@@ -136,10 +157,19 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   if (is_folder(path)) return open_folder(path, options);
   std::error_code error;
   if (fs::exists(path, error)) {
+    const std::string above = sequence_above(path);
+    if (!above.empty()) {
+      throw DataError(path + ": is a scan, expected the folder of its sequence: " + above + ".");
+    }
     throw DataError(path + ": is a file, expected a folder. " + kKnownLayouts);
   }
   const std::size_t colon = path.rfind(':');
   const std::string root = path.substr(0, colon);
+  for (const PaperSegment& segment : paper_segments()) {
+    if (path != segment.name) continue;
+    throw DataError(path + ": no such folder; the segment of that name is ROOT:" + path +
+                    ", with ROOT the folder of SemanticKITTI that holds sequences/.");
+  }
   if (colon == std::string::npos || !is_folder(root)) {
     throw DataError(root + ": no such folder." + scene_suggestion(root) + " " + kKnownLayouts);
   }

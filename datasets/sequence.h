@@ -51,6 +51,8 @@ struct Sequence {
   std::string poses_file;  ///< Name of the pose file, without a path.
   std::string source;      ///< Free text on origin and licence.
   std::optional<double> scan_period_s;
+  /// Calibration "Tr" where the pose file has poses of a camera; the scans' poses contain it.
+  std::optional<Pose> T_camera_lidar = std::nullopt;
 
   /// Path-free record for results: name, layout, frames, poses, sensor, label rule, range.
   [[nodiscard]] nlohmann::ordered_json record() const;

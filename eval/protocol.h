@@ -24,6 +24,8 @@ struct EvaluationInput {
   const LabelSource* labels = nullptr;
   LabelRule label_rule;
   RangeLimits range_m;  ///< Points outside are on neither side of the comparison.
+  /// Calibration of the camera whose poses the data set gives ("Tr"); none if they are the LiDAR's.
+  std::optional<Pose> T_camera_lidar = std::nullopt;
   int threads = 1;
   Progress* progress = nullptr;
 };
@@ -69,6 +71,8 @@ class Protocol {
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual std::string version() const = 0;  ///< Raised when counts may change.
   [[nodiscard]] virtual Configuration options() const = 0;
+  /// Whether counts depend on `EvaluationInput::T_camera_lidar` too.
+  [[nodiscard]] virtual bool reads_calibration() const { return false; }
   /// @throws DataError if there is nothing to score against (no point left after cropping).
   [[nodiscard]] virtual std::unique_ptr<TruthMap> prepare(const EvaluationInput& input) const = 0;
   /// @param truth what `prepare` of this protocol made from the same input

@@ -84,6 +84,10 @@ ConfiguredMethod MethodRegistry::configure(const std::string& name_and_variant) 
   if (const auto manifest = external_manifest(name_and_variant)) {
     return configure_external(manifest->string());
   }
+  if (name_and_variant.find(',') != std::string::npos) {
+    throw UsageError("method '" + name_and_variant +
+                     "': one at a time; give --method once for each of them.");
+  }
   const std::size_t colon = name_and_variant.find(':');
   const MethodEntry& entry = find(name_and_variant.substr(0, colon));
   if (colon == std::string::npos) return with_defaults(entry, entry.variants.front());

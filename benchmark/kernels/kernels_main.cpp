@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
     kernels_bench::register_image_kernels();
     kernels_bench::register_map_kernels();
     kernels_bench::register_scan_kernels();
+    kernels_bench::register_method_kernels();
     benchmark::RunSpecifiedBenchmarks();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "kernels: %s\n", error.what());

@@ -7,7 +7,9 @@ namespace raymoval::kernels_bench {
 void register_image_kernels();
 /// Insert, erase, look-up, upkeep and image against the size of the map.
 void register_map_kernels();
-/// The other steps of the scan loop, and the whole of it.
+/// Other steps of the scan loop.
 void register_scan_kernels();
+/// The whole scan loop.
+void register_method_kernels();
 
 }  // namespace raymoval::kernels_bench

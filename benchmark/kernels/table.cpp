@@ -2,93 +2,15 @@
 #include "benchmark/kernels/table.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 
-#include "core/error.h"
+#include "benchmark/kernels/goals.h"
+#include "benchmark/kernels/series.h"
 
 namespace raymoval::kernels_bench {
 namespace {
 
-using Json = nlohmann::json;
-
-/// Repetitions of one benchmark on one workload (or map size).
-struct Series {
-  std::vector<double> milliseconds;  ///< An iteration each.
-  std::map<std::string, double> counters;
-  std::string error;
-
-  [[nodiscard]] double median() const {
-    std::vector<double> sorted = milliseconds;
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t middle = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
-  }
-  [[nodiscard]] double counter(const std::string& name, double otherwise) const {
-    const auto found = counters.find(name);
-    return found == counters.end() ? otherwise : found->second;
-  }
-};
-
-/// By workload, then by kernel, in order of first appearance.
-struct Results {
-  std::vector<std::string> workloads, kernels;
-  std::map<std::pair<std::string, std::string>, Series> series;
-
-  Series* find(const std::string& kernel, const std::string& workload) {
-    const auto found = series.find({kernel, workload});
-    return found == series.end() ? nullptr : &found->second;
-  }
-};
-
-void remember(std::vector<std::string>& names, const std::string& name) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
-/// Processor time of the one thread, which other programs do not change much; wall time where
-/// several threads are at work.
-double in_milliseconds(const Json& run) {
-  const std::string unit = run.at("time_unit");
-  const std::string name = run.at("run_name");
-  const bool threaded =
-      name.find("2_threads") != std::string::npos || name.find("online_2") != std::string::npos;
-  const double scale = unit == "ns" ? 1e-6 : unit == "us" ? 1e-3 : unit == "ms" ? 1.0 : 1e3;
-  return run.at(threaded ? "real_time" : "cpu_time").get<double>() * scale;
-}
-
-void add_runs(const Json& file, Results& results) {
-  for (const Json& run : file.at("benchmarks")) {
-    if (run.value("run_type", "iteration") != "iteration") continue;
-    std::string name = run.at("run_name");
-    const std::size_t fixed = name.find("/iterations:");
-    if (fixed != std::string::npos) name.resize(fixed);
-    const std::size_t slash = name.find('/');
-    const std::string kernel = name.substr(0, slash);
-    const std::string workload = slash == std::string::npos ? "" : name.substr(slash + 1);
-    remember(results.kernels, kernel);
-    remember(results.workloads, workload);
-    Series& series = results.series[{kernel, workload}];
-    if (run.value("error_occurred", false)) {
-      series.error = run.value("error_message", "failed");
-      continue;
-    }
-    series.milliseconds.push_back(in_milliseconds(run));
-    for (const auto& [key, value] : run.items()) {
-      if (value.is_number()) series.counters[key] = value.get<double>();
-    }
-  }
-}
-
-std::string number(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", digits, value);
-  return text;
-}
-
 /// Kernels that ran on a workload.
-std::vector<std::string> slowest_first(Results& results, const std::string& workload) {
+std::vector<std::string> slowest_first(const Results& results, const std::string& workload) {
   std::vector<std::pair<double, std::string>> timed;
   for (const std::string& kernel : results.kernels) {
     const Series* series = results.find(kernel, workload);
@@ -101,8 +23,8 @@ std::vector<std::string> slowest_first(Results& results, const std::string& work
   return names;
 }
 
-std::string image_table(Results& results, const std::string& workload) {
-  Series* yardstick = results.find("dense_bitset_dda", workload);
+std::string image_table(const Results& results, const std::string& workload) {
+  const Series* yardstick = results.find("dense_bitset_dda", workload);
   if (yardstick == nullptr || yardstick->milliseconds.empty()) return "";
   std::string text = "\n## First-hit images, " + workload + "\n\n" +
                      "| kernel | ms an image, median | times as fast as dense_bitset_dda | steps a "
@@ -121,7 +43,7 @@ std::string image_table(Results& results, const std::string& workload) {
   return text;
 }
 
-std::string scan_table(Results& results) {
+std::string scan_table(const Results& results) {
   std::string text;
   for (const std::string& kernel : results.kernels) {
     for (const std::string& workload : results.workloads) {
@@ -147,7 +69,7 @@ std::string scan_table(Results& results) {
          text;
 }
 
-std::string map_table(Results& results) {
+std::string map_table(const Results& results) {
   std::string text;
   for (const std::string& size : results.workloads) {
     const auto cell = [&](const char* kernel, bool per_operation) -> std::string {
@@ -176,17 +98,10 @@ std::string map_table(Results& results) {
 }  // namespace
 
 std::string tables_of(const std::vector<std::string>& json_files) {
-  Results results;
-  for (const std::string& path : json_files) {
-    std::ifstream file(path);
-    try {
-      add_runs(Json::parse(file), results);
-    } catch (const Json::exception& error) {
-      throw DataError(path + ": this is not the JSON of Google Benchmark (" + error.what() + ").");
-    }
-  }
+  const Results results = read_results(json_files);
   std::string text =
       "# Kernels\n\nMedians of processor time; of wall time where two threads are at work.\n";
+  text += goals_table(results);
   for (const std::string& workload : results.workloads) text += image_table(results, workload);
   return text + scan_table(results) + map_table(results);
 }

@@ -27,9 +27,10 @@ void check_row_count(std::size_t rows, const char* what, const std::filesystem::
                   ". Take the file that belongs to these scans.");
 }
 
-/// `Tr`, LiDAR to camera; identity if the poses are those of the LiDAR.
-Pose lidar_to_pose_frame(const std::filesystem::path& folder, const SequenceSettings& settings) {
-  if (settings.poses_are_lidar) return Pose::Identity();
+/// `Tr`, LiDAR to camera; none if the poses are those of the LiDAR.
+std::optional<Pose> camera_calibration(const std::filesystem::path& folder,
+                                       const SequenceSettings& settings) {
+  if (settings.poses_are_lidar) return std::nullopt;
   const auto calibration = folder / "calib.txt";
   if (!is_file(calibration)) {
     throw DataError(calibration.string() +
@@ -113,7 +114,8 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   const auto pose_path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
   const PoseFile poses = read_pose_file(pose_path);
   check_row_count(poses.rows.size(), "poses", pose_path, files);
-  auto entries = frame_entries(chosen.files, poses, lidar_to_pose_frame(folder, settings),
+  const auto Tr = camera_calibration(folder, settings);
+  auto entries = frame_entries(chosen.files, poses, Tr.value_or(Pose::Identity()),
                                frame_times(folder, *settings.scan_period_s, files));
 
   Sequence sequence = make_sequence(settings, "semantickitti", chosen.range);
@@ -122,6 +124,7 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   }
   sequence.scans = std::make_shared<FileScanSource>(std::move(entries), FileScanSource::Traits{},
                                                     settings.sensor);
+  sequence.T_camera_lidar = Tr;
   sequence.poses_file = pose_path.filename().string();
   return sequence;
 }

@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "eval/checked_scan.h"
+#include "eval/erasor/frame.h"
 
 namespace raymoval::erasor {
 namespace {
@@ -21,6 +22,13 @@ std::int64_t PointCounts::*fate_of(const Eigen::Vector3d& point, LabelClass labe
   return horizontal_squared < limit * limit ? &PointCounts::cropped : &PointCounts::evaluated;
 }
 
+/// World pose of a scan in the frame that the options want.
+Pose pose_of(const Scan& scan, const EvaluationInput& input, const Options& options) {
+  return options.frame == FrameOption::kErasor
+             ? erasor_pose(scan.T_world_sensor, input.T_camera_lidar.value())
+             : scan.T_world_sensor;
+}
+
 struct PlacedScan {
   LabelledCloud cloud;  ///< World frame.
   PointCounts points;
@@ -31,6 +39,7 @@ PlacedScan place_scan(const EvaluationInput& input, const Options& options,
   const CheckedScan loaded = load_checked(input, masks, index);
   const Scan& scan = loaded.scan;
   const std::vector<std::uint32_t>& labels = loaded.labels;
+  const Pose T_world_sensor = pose_of(scan, input, options);
   PlacedScan placed;
   placed.cloud.points.reserve(scan.size());
   placed.cloud.labels.reserve(scan.size());
@@ -45,7 +54,7 @@ PlacedScan place_scan(const EvaluationInput& input, const Options& options,
       continue;
     }
     const Eigen::Vector3d lifted = point + Eigen::Vector3d(0.0, 0.0, options.lift);
-    placed.cloud.points.push_back(scan.T_world_sensor * lifted);
+    placed.cloud.points.push_back(T_world_sensor * lifted);
     placed.cloud.labels.push_back(labels[i]);
   }
   return placed;

@@ -93,9 +93,12 @@ class ErasorProtocol : public Protocol {
   [[nodiscard]] std::string name() const override { return "erasor"; }
   [[nodiscard]] std::string version() const override { return "1"; }
   [[nodiscard]] Configuration options() const override { return option_table().write(options_); }
+  [[nodiscard]] bool reads_calibration() const override {
+    return options_.frame == FrameOption::kErasor;
+  }
 
   [[nodiscard]] std::unique_ptr<TruthMap> prepare(const EvaluationInput& input) const override {
-    check_input(input, name());
+    check(input);
     const LabelClasses classes(effective_rule(input.label_rule, options_));
     DenseMap dense = accumulate(input, options_, classes, nullptr, "ground truth map");
     auto truth = std::make_unique<ErasorTruth>();
@@ -114,7 +117,7 @@ class ErasorProtocol : public Protocol {
 
   [[nodiscard]] ProtocolResult score(const EvaluationInput& input, const TruthMap& truth_map,
                                      const MaskStore& masks) const override {
-    check_input(input, name());
+    check(input);
     const auto* truth = dynamic_cast<const ErasorTruth*>(&truth_map);
     if (truth == nullptr || (options_.label_mode == LabelMode::kNearest && !truth->dense)) {
       throw InternalError("protocol erasor was given a truth map that it did not prepare");
@@ -128,13 +131,17 @@ class ErasorProtocol : public Protocol {
 
   [[nodiscard]] ProtocolResult score_cloud(const EvaluationInput& input, const TruthMap& truth_map,
                                            const CloudEstimate& cloud) const override {
-    check_input(input, name());
+    check(input);
     const auto* truth = dynamic_cast<const ErasorTruth*>(&truth_map);
     if (truth == nullptr) {
       throw InternalError("protocol erasor was given a truth map that it did not prepare");
     }
     if (options_.label_mode != LabelMode::kNearest) {
       throw UsageError("a cloud has no labels by index: expected label_mode = nearest.");
+    }
+    if (options_.frame != FrameOption::kSequence) {
+      throw UsageError(
+          "a cloud stands in the frame of the sequence's poses: expected frame = sequence.");
     }
     const LabelClasses classes(effective_rule(input.label_rule, options_));
     const LabelledVoxels estimate = cloud_map(input, classes, cloud.points());
@@ -145,6 +152,15 @@ class ErasorProtocol : public Protocol {
   }
 
  private:
+  void check(const EvaluationInput& input) const {
+    check_input(input, name());
+    if (!reads_calibration() || input.T_camera_lidar) return;
+    throw DataError(
+        "protocol erasor with frame = erasor needs a sequence with poses of a camera and their "
+        "calibration (calib.txt, row Tr); the poses of this one are those of the LiDAR. Leave the "
+        "option at frame = sequence.");
+  }
+
   [[noreturn]] static void throw_empty_truth(const PointCounts& points) {
     throw DataError("nothing to score against: of " +
                     grouped_text(static_cast<std::uint64_t>(points.out_of_range + points.ignored +

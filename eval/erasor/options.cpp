@@ -19,6 +19,12 @@ ParameterTable<Options> make_table() {
       .number("lift", &Options::lift,
               {"m", -1e3, 1e3, kCode,
                "Added to z in the sensor frame, so that the ground lies near 0."})
+      .choice("frame", &Options::frame,
+              {{"sequence", FrameOption::kSequence}, {"erasor", FrameOption::kErasor}},
+              {.source = kCode,
+               .sentence =
+                   "sequence: the frame of the poses, by the sequence's own calibration; erasor: "
+                   "the first camera's, by one calibration for all, as ERASOR's map tool has it."})
       .flag("truck_is_moving", &Options::truck_is_moving,
             {.source = "ERASOR, README; its 2021 scripts leave id 258 out",
              .sentence = "Whether label id 258 (moving truck) moves; false counts it as static."})

@@ -8,16 +8,14 @@ namespace raymoval::erasor {
 enum class LabelRuleOption { kBoth, kGeometry };
 enum class MatchingOption { kRadius, kSameCell };
 enum class LabelMode { kIndex, kNearest };
+enum class FrameOption { kSequence, kErasor };
 
 /// Options of the protocol; the defaults give the published numbers.
-///
-/// @note ERASOR's own world frame (the first camera's, re-axed, with one fixed calibration for all
-/// sequences) is no option: it needs the camera poses and the calibration apart from each other,
-/// and scans carry only their product. It would turn the lattice by less than a degree.
 struct Options {
   double voxel_size = 0.2;
   double minimum_horizontal_range = 2.7;
   double lift = 1.73;
+  FrameOption frame = FrameOption::kSequence;  ///< See `erasor_pose`.
   bool truck_is_moving = true;
   bool ignore_0_1 = false;
   LabelRuleOption label_rule = LabelRuleOption::kBoth;

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "methods/scan_passes.h"
+
 namespace raymoval {
 namespace {
 
@@ -11,14 +13,8 @@ class Replay : public Remover {
   explicit Replay(std::function<Mask(const Scan&)> mask_of) : mask_of_(std::move(mask_of)) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    context.begin_pass("masks", scans.size());
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      context.check_cancelled();
-      const Scan scan = scans.load(i);
-      const ScanScope timed(context.times, i);
-      sink.accept(i, mask_of_(scan));
-      context.advance();
-    }
+    for_each_scan("masks", scans, context,
+                  [&](const Scan& scan) { sink.accept(scan.index, mask_of_(scan)); });
   }
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPrefix = "raymoval-external-";
+constexpr const char* kFolderPrefix = "raymoval-external-";
 
 /// The lock is a file beside the folder, not in it, so that the program cannot touch it.
 fs::path lock_of(const fs::path& folder) {
@@ -58,7 +58,7 @@ void sweep(const fs::path& root) {
   for (auto entry = fs::directory_iterator(root, error);
        !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const fs::path lock = entry->path();
-    if (!lock.filename().string().starts_with(kPrefix) || lock.extension() != ".lock") continue;
+    if (!lock.filename().string().starts_with(kFolderPrefix) || lock.extension() != ".lock") continue;
     struct stat status {};
     if (::lstat(lock.c_str(), &status) != 0 || status.st_uid != ::geteuid()) continue;
     const int file = take_lock(lock, 0);
@@ -87,7 +87,7 @@ void remove_abandoned_working_folders() {
 WorkingFolder::WorkingFolder() {
   const fs::path root = temporary_root();
   sweep(root);
-  std::string name = (root / (std::string(kPrefix) + "XXXXXX")).string();
+  std::string name = (root / (std::string(kFolderPrefix) + "XXXXXX")).string();
   // The folder first: its random name is nobody else's from then on.
   if (::mkdtemp(name.data()) == nullptr) {
     throw DataError(root.string() + ": no working folder can be made there (" +

@@ -10,6 +10,7 @@
 #include "methods/octomap/occupancy_tree.h"
 #include "methods/octomap/point_filters.h"
 #include "methods/octomap/scan_cells.h"
+#include "methods/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -36,7 +37,7 @@ class OctomapRun {
   /// Only cells that hold a point are ever asked for, and no cell depends on another: the map is
   /// kept to those. Free space without any point is most of a map.
   void collect_cells() {
-    for_each_scan("octomap, cells", [this](const Scan& scan) {
+    for_each_scan("octomap, cells", scans_, context_, [this](const Scan& scan) {
       const std::vector<octomap::point3d> points = in_tree_frame(scan);
       const StageScope timed(context_.times, "cells");
       for (const octomap::point3d& point : points) {
@@ -46,7 +47,7 @@ class OctomapRun {
   }
 
   void build_map() {
-    for_each_scan("octomap", [this](const Scan& scan) {
+    for_each_scan("octomap", scans_, context_, [this](const Scan& scan) {
       const std::vector<octomap::point3d> points = in_tree_frame(scan);
       const std::vector<PointRole> roles = roles_of(scan.index, points);
       find_cells(scan, points, roles);
@@ -56,7 +57,7 @@ class OctomapRun {
   }
 
   void answer(RemovalSink& sink) {
-    for_each_scan("octomap, answers", [&](const Scan& scan) {
+    for_each_scan("octomap, answers", scans_, context_, [&](const Scan& scan) {
       const std::vector<octomap::point3d> points = in_tree_frame(scan);
       sink.accept(scan.index, removed(scan.index, points));
     });
@@ -64,18 +65,6 @@ class OctomapRun {
   }
 
  private:
-  template <class Visit>
-  void for_each_scan(const char* what, Visit&& visit) {
-    context_.begin_pass(what, scans_.size());
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(i);
-      const ScanScope timed(context_.times, i);
-      visit(scan);
-      context_.advance();
-    }
-  }
-
   [[nodiscard]] octomap::point3d rounded(const Eigen::Vector3d& point) const {
     return {static_cast<float>(point.x()), static_cast<float>(point.y()),
             static_cast<float>(point.z())};

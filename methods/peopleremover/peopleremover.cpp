@@ -12,7 +12,7 @@
 #include "methods/peopleremover/lattice_scan.h"
 #include "methods/peopleremover/thinning.h"
 #include "methods/peopleremover/traversal.h"
-#include "methods/peopleremover/workspaces.h"
+#include "methods/workspaces.h"
 
 namespace raymoval {
 namespace peopleremover {

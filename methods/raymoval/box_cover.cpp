@@ -74,8 +74,8 @@ int newly_covered(const Brick& left, const Candidate& box) {
   return count;
 }
 
-/// The best of the four boxes around the lowest voxel of word `x` of `left`.
-Candidate best_box(const Brick& brick, const Brick& left, int x) {
+/// The best of the boxes around the lowest voxel of word `x` of `left`: of two, or of four.
+Candidate best_box(const Brick& brick, const Brick& left, int x, bool thorough) {
   const std::uint64_t word = left.occupied[static_cast<std::size_t>(x)];
   const int y = std::countr_zero(word) / 8;
   const std::uint64_t seed = std::uint64_t{1} << (std::countr_zero(word) % 8);
@@ -83,7 +83,7 @@ Candidate best_box(const Brick& brick, const Brick& left, int x) {
   const std::uint64_t run = run_around(line, seed);
   Candidate best{x, x, y, y, run};
   int best_count = 0;
-  for (int kind = 0; kind < (run == seed ? 2 : 4); ++kind) {
+  for (int kind = 0; kind < (run == seed || !thorough ? 2 : 4); ++kind) {
     Candidate box{x, x, y, y, kind < 2 ? run : seed};
     if (kind % 2 == 0) {
       grow_x(brick, box);
@@ -102,17 +102,25 @@ Candidate best_box(const Brick& brick, const Brick& left, int x) {
   return best;
 }
 
-/// Drops the boxes that are not full and takes the others' voxels out of `left`.
-void keep_full_boxes(const Brick& brick, std::vector<BrickBox>& boxes, Brick& left) {
+Candidate candidate_of(BrickBox box) {
+  const std::uint64_t column =
+      (std::uint64_t{2} << box.last(2)) - (std::uint64_t{1} << box.first(2));
+  return {box.first(0), box.last(0), box.first(1), box.last(1), column};
+}
+
+void take_out(const Candidate& box, Brick& left) {
+  const std::uint64_t slice = box.slice();
+  for (int x = box.x0; x <= box.x1; ++x) left.occupied[static_cast<std::size_t>(x)] &= ~slice;
+}
+
+/// Drops the boxes that are not full.
+void keep_full_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
   std::erase_if(boxes, [&](BrickBox box) {
-    const std::uint64_t column =
-        (std::uint64_t{2} << box.last(2)) - (std::uint64_t{1} << box.first(2));
-    const Candidate kept{box.first(0), box.last(0), box.first(1), box.last(1), column};
+    const Candidate kept = candidate_of(box);
     const std::uint64_t slice = kept.slice();
     for (int x = kept.x0; x <= kept.x1; ++x) {
       if (!holds(brick, x, slice)) return true;
     }
-    for (int x = kept.x0; x <= kept.x1; ++x) left.occupied[static_cast<std::size_t>(x)] &= ~slice;
     return false;
   });
 }
@@ -120,15 +128,16 @@ void keep_full_boxes(const Brick& brick, std::vector<BrickBox>& boxes, Brick& le
 }  // namespace
 
 /// Covers what is in no box of `boxes` yet.
-void cover_brick(const Brick& brick, std::vector<BrickBox>& boxes) {
+void cover_brick(const Brick& brick, Change change, std::vector<BrickBox>& boxes) {
   Brick left = brick;
-  if (!boxes.empty()) keep_full_boxes(brick, boxes, left);
+  // What is added to a cover is small: two boxes to choose from are enough.
+  const bool thorough = boxes.empty();
+  if (change == Change::kShrunk) keep_full_boxes(brick, boxes);
+  for (const BrickBox box : boxes) take_out(candidate_of(box), left);
   for (int x = 0; x < Brick::kSide; ++x) {
     while (left.occupied[static_cast<std::size_t>(x)] != 0) {
-      const Candidate box = best_box(brick, left, x);
-      for (int i = box.x0; i <= box.x1; ++i) {
-        left.occupied[static_cast<std::size_t>(i)] &= ~box.slice();
-      }
+      const Candidate box = best_box(brick, left, x, thorough);
+      take_out(box, left);
       boxes.push_back(BrickBox::from({box.x0, box.y0, std::countr_zero(box.column)},
                                      {box.x1, box.y1, 63 - std::countl_zero(box.column)}));
     }
@@ -148,12 +157,12 @@ HWY_EXPORT(cover_brick);
 
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
   boxes.clear();
-  mend_cover(brick, boxes);
+  mend_cover(brick, Change::kGrown, boxes);
 }
 
-void mend_cover(const Brick& brick, std::vector<BrickBox>& boxes) {
+void mend_cover(const Brick& brick, Change change, std::vector<BrickBox>& boxes) {
   static const auto kernel = RAYMOVAL_KERNEL_FOR(cover_brick, InstructionSet::kBest);
-  kernel(brick, boxes);
+  kernel(brick, change, boxes);
 }
 
 BrickBox tight_box(const Brick& brick) {

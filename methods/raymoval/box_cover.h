@@ -55,10 +55,16 @@ struct BrickBox {
 /// @param boxes replaced
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes);
 
+/// What happened to a brick since its cover was made.
+enum class Change : std::uint8_t {
+  kGrown,   ///< Voxels came.
+  kShrunk,  ///< Voxels went; others may have come.
+};
+
 /// Mends a cover after voxels came and went: boxes that hold an empty voxel are dropped, and what
-/// is then in no box is covered as above. Several times faster than a new cover, and a little
-/// larger.
-void mend_cover(const Brick& brick, std::vector<BrickBox>& boxes);
+/// is then in no box is covered as above. From fewer boxes to
+/// choose from: several times faster than a new cover, and a little larger.
+void mend_cover(const Brick& brick, Change change, std::vector<BrickBox>& boxes);
 
 /// Smallest box that holds all occupied voxels of a brick that has one.
 BrickBox tight_box(const Brick& brick);

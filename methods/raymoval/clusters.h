@@ -22,13 +22,6 @@ struct Extent {
   [[nodiscard]] double thinnest_side() const { return (high - low).minCoeff(); }
 };
 
-/// Cluster number of each point, from 0, in order of each cluster's first point. Two points are
-/// joined if their distance is at most gap + growth * (the smaller of their ranges).
-/// @param points metres; @param ranges distance of each point from the sensor, metres
-std::vector<int> range_adaptive_clusters(const std::vector<Eigen::Vector3d>& points,
-                                         const std::vector<double>& ranges, double gap,
-                                         double growth);
-
 /// Component number of each voxel, from 0, in order of each component's first voxel. Two voxels are
 /// joined if they lie within `gap` cells of each other (Chebyshev).
 std::vector<int> voxel_components(const std::vector<VoxelKey>& voxels, int gap);

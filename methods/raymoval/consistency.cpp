@@ -11,15 +11,25 @@
 namespace raymoval {
 
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
-                       const RangeMargin& margin, int threads) {
-  Mask dynamic(scan.range.size(), 0);
-  parallel_for(threads, dynamic.size(), 8192, [&](std::size_t k) {
-    // Without branches: which points have a reference is anyone's guess.
-    const bool has_bin = scan.bin[k] >= 0;
-    const float reference = map_reference[has_bin ? static_cast<std::size_t>(scan.bin[k]) : 0];
-    const float range = scan.range[k];
-    const bool before = reference - range > margin.at(range);
-    dynamic[k] = static_cast<std::uint8_t>(has_bin & (reference != kNoRange) & before);
+                       const RangeMargin& margin, int threads, InstructionSet set) {
+  Mask dynamic(scan.range.size());
+  const kernels::Kernels kernel = kernels::kernels_for(set);
+  kernels::ConsistencyCheck job;
+  job.range = scan.range.data();
+  job.bin = scan.bin.data();
+  job.reference = map_reference.data();
+  job.tau0 = margin.tau0;
+  job.tau1 = margin.tau1;
+  job.dynamic = dynamic.data();
+  parallel_chunks(threads, dynamic.size(), 8192, [&](std::size_t begin, std::size_t end) {
+    const std::size_t middle = begin + (end - begin) / kernel.lanes * kernel.lanes;
+    kernel.check(job, begin, middle);
+    for (std::size_t k = middle; k < end; ++k) {
+      if (scan.bin[k] < 0) continue;
+      const float reference = map_reference[static_cast<std::size_t>(scan.bin[k])];
+      const float range = scan.range[k];
+      dynamic[k] = reference != kNoRange && reference - range > margin.at(range) ? 1 : 0;
+    }
   });
   return dynamic;
 }

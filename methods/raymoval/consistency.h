@@ -19,8 +19,10 @@ struct RangeMargin {
 /// Eq. 11 for every point with its own range: 1 where the map reference of its bin lies farther
 /// than the point by more than the margin at the point's range. Points in no bin, and bins without
 /// a map reference, give 0.
+/// @param set which kernel to use; the answer is the same for all
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
-                       const RangeMargin& margin, int threads = 1);
+                       const RangeMargin& margin, int threads = 1,
+                       InstructionSet set = InstructionSet::kBest);
 
 /// Distance that a ray takes to change its height by `height` metres, but at most `limit`: a return
 /// nearer than that behind a first hit may be the same ground, seen at a grazing angle through the

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "methods/raymoval/first_hit_sweep.h"
+#include "methods/workspaces.h"
 
 namespace raymoval {
 namespace {
@@ -157,6 +158,23 @@ void sort_by_distance(const BrickList& bricks, std::vector<std::uint32_t>& start
   }
 }
 
+/// Groups of boxes that all bricks together have at most.
+std::size_t most_groups(const OccupancyMap& map, const BrickList& bricks,
+                        const std::vector<std::uint32_t>& order) {
+  std::size_t most = 0;
+  for (const std::uint32_t brick : order) {
+    bool beside = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      beside |= bricks.low[k][brick] < 0.0F && bricks.high[k][brick] > 0.0F;
+    }
+    // Boxes beside the sensor are cut. They are rare; a bound that is too high costs address space
+    // only.
+    const std::size_t boxes = map.boxes(bricks.slot[brick]).size();
+    most += ((beside ? 8 : 1) * boxes + kGroup - 1) / kGroup;
+  }
+  return most;
+}
+
 /// The two world axes that are the farthest from the sensor's up axis.
 std::array<int, 2> level_axes(const std::array<double, 3>& up) {
   std::array<int, 3> axes = {0, 1, 2};
@@ -183,10 +201,13 @@ class FirstHitCaster::State {
     image.limits = limits_;
     image.directions = directions_;
     image.range.resize(static_cast<std::size_t>(grid_.size()));
-    const Frame frame = start_frame(map, T_world_sensor);
+    Frame frame = start_frame(map, T_world_sensor);
     gather_bricks(map, walls_, frame.maximum_range, bricks_);
-    kernels_.measure_bricks(frame);
+    parallel_chunks(threads, bricks_.count, 32 * kGroup, [&](std::size_t begin, std::size_t end) {
+      kernels_.measure_bricks(frame, begin, end);
+    });
     sort_by_distance(bricks_, starts_, order_);
+    frame.most_groups = most_groups(map, bricks_, order_);
     sweep(frame, threads, image.range.data());
   }
 
@@ -208,21 +229,29 @@ class FirstHitCaster::State {
     frame.level_axes = level_axes(frame.up);
     frame.minimum_range = static_cast<float>(limits_.minimum_range);
     frame.maximum_range = static_cast<float>(limits_.maximum_range);
+    frame.number = ++images_;
     frame.slack = static_cast<float>(1e-4 + 2e-6 * limits_.maximum_range);
     return frame;
   }
 
-  /// One part of the circle for one thread, a few parts a thread for several: a brick that lies in
-  /// two parts is expanded twice.
+  /// Each thread lists the bricks of one part of the circle; the parts are then swept in smaller
+  /// pieces, some of which take longer than others.
   void sweep(const Frame& frame, int threads, float* range) {
+    constexpr std::size_t kPiece = 3 * kGroup;
     const auto columns = static_cast<std::size_t>(grid_.azimuth_bins);
-    const std::size_t parts = threads <= 1 ? 1 : 4 * static_cast<std::size_t>(threads);
-    std::size_t grain = (columns + parts - 1) / parts;
-    grain = (grain + kGroup - 1) / kGroup * kGroup;
-    scratch_.resize(std::max(scratch_.size(), (columns + grain - 1) / grain));
-    parallel_chunks(threads, columns, grain, [&](std::size_t begin, std::size_t end) {
-      kernels_.sweep_columns(frame, static_cast<int>(begin), static_cast<int>(end),
-                             scratch_[begin / grain], range);
+    const auto parts = static_cast<std::size_t>(std::max(threads, 1));
+    const std::size_t width = (columns / parts / kPiece + 1) * kPiece;
+    lists_.resize((columns + width - 1) / width);
+    parallel_chunks(threads, columns, width, [&](std::size_t begin, std::size_t end) {
+      kernels_.list_columns(frame, static_cast<int>(begin), static_cast<int>(end),
+                            lists_[begin / width]);
+    });
+    const std::size_t piece = threads <= 1 ? width : kPiece;
+    parallel_chunks(threads, columns, piece, [&](std::size_t begin, std::size_t end) {
+      scratch_.with_one([&](sweep::Scratch& scratch) {
+        kernels_.sweep_columns(frame, lists_[begin / width], static_cast<int>(begin),
+                               static_cast<int>(end), scratch, range);
+      });
     });
   }
 
@@ -234,7 +263,9 @@ class FirstHitCaster::State {
   WallTables walls_;
   BrickList bricks_;
   std::vector<std::uint32_t> starts_, order_;
-  std::vector<sweep::Scratch> scratch_;
+  std::vector<sweep::ColumnLists> lists_;
+  Workspaces<sweep::Scratch> scratch_{[] { return std::make_unique<sweep::Scratch>(); }};
+  std::uint64_t images_ = 0;
 };
 
 FirstHitCaster::FirstHitCaster(const AngularGrid& grid, const RayLimits& limits, InstructionSet set)

@@ -48,7 +48,9 @@ struct Frame {
   std::array<int, 2> level_axes{};       ///< The two world axes that are the least upright.
   std::array<const float*, 3> planes{};  ///< Voxel walls along each axis from the sensor, metres.
   float minimum_range = 0.0F, maximum_range = 0.0F;
-  float slack = 0.0F;  ///< Bounds are widened by this, metres.
+  float slack = 0.0F;           ///< Bounds are widened by this, metres.
+  std::uint64_t number = 0;     ///< Another one for each image of a caster, from 1.
+  std::size_t most_groups = 0;  ///< Of boxes, if all bricks were expanded.
 };
 
 /// A brick in the list of a column.
@@ -58,10 +60,16 @@ struct ColumnEntry {
   float nearest;
 };
 
-/// Memory of one sweep, kept between images.
-struct Scratch {
-  std::vector<std::uint32_t> column_begin;
+/// Bricks seen in the columns begin .. end - 1, nearest first.
+struct ColumnLists {
+  int begin = 0, end = 0;
+  std::vector<std::uint32_t> starts;  ///< Of each column's entries, and the end of the last.
   std::vector<ColumnEntry> entries;
+};
+
+/// Memory of one thread's sweep, kept between images.
+struct Scratch {
+  std::uint64_t frame = 0;  ///< The image it is prepared for.
   /// Of each brick: where its boxes were expanded to, and how many.
   struct Expanded {
     std::uint32_t begin = 0;
@@ -74,17 +82,21 @@ struct Scratch {
   AlignedArray<float> pieces;  ///< Boxes of one brick, cut at the sensor's planes.
   AlignedArray<float> bounds;  ///< Of one brick's boxes in one column.
   std::vector<std::uint32_t> crossing;
-  std::vector<int> rows_inside;    ///< Of one column: rays inside a box at the minimum range.
   AlignedArray<float> directions;  ///< Inverse directions of one column.
   AlignedArray<float> depth;       ///< Ranges of kGroup columns.
 };
 
 /// The kernels of one instruction set.
 struct Kernels {
-  /// Fills what `BrickList` says it finds.
-  void (*measure_bricks)(const Frame& frame);
-  /// First hits of columns begin .. end - 1 into `range` (row by row, all columns).
-  void (*sweep_columns)(const Frame& frame, int begin, int end, Scratch& scratch, float* range);
+  /// Fills what `BrickList` says it finds for bricks begin .. end - 1; `begin` is a multiple of
+  /// kGroup, and so is `end` or it is the end of the list.
+  void (*measure_bricks)(const Frame& frame, std::size_t begin, std::size_t end);
+  /// Fills the lists of the columns begin .. end - 1.
+  void (*list_columns)(const Frame& frame, int begin, int end, ColumnLists& lists);
+  /// First hits of columns begin .. end - 1, which are all in `lists`, into `range` (row by row,
+  /// all columns).
+  void (*sweep_columns)(const Frame& frame, const ColumnLists& lists, int begin, int end,
+                        Scratch& scratch, float* range);
 };
 
 Kernels kernels_for(InstructionSet set);

@@ -33,23 +33,6 @@ OccupancyMap::Slot OccupancyMap::make_brick(const Eigen::Vector3i& brick) {
   return next;
 }
 
-void OccupancyMap::find_slots(const std::vector<VoxelIndex>& voxels, int threads,
-                              std::vector<Slot>& slots) const {
-  slots.resize(voxels.size());
-  parallel_chunks(threads, voxels.size(), 8192, [&](std::size_t begin, std::size_t end) {
-    Eigen::Vector3i last = brick_of(voxels[begin]);
-    Slot slot = find_slot(last);
-    for (std::size_t k = begin; k < end; ++k) {
-      const Eigen::Vector3i brick = brick_of(voxels[k]);
-      if (brick != last) {
-        last = brick;
-        slot = find_slot(brick);
-      }
-      slots[k] = slot;
-    }
-  });
-}
-
 bool OccupancyMap::erase(const VoxelIndex& voxel) {
   const Slot slot = find_slot(brick_of(voxel));
   if (slot == kNoBrick) return false;
@@ -58,7 +41,7 @@ bool OccupancyMap::erase(const VoxelIndex& voxel) {
   if ((word & bit) == 0) return false;
   word &= ~bit;
   --size_;
-  mark_changed(slot);
+  mark_changed(slot, Change::kShrunk);
   return true;
 }
 
@@ -111,7 +94,7 @@ void OccupancyMap::update_boxes(int threads) {
 bool OccupancyMap::cover_again(Slot slot, std::vector<BrickBox>& boxes) const {
   const auto present = this->boxes(slot);
   boxes.assign(present.begin(), present.end());
-  mend_cover(bricks_[slot], boxes);
+  mend_cover(bricks_[slot], is_changed_[slot] == 2 ? Change::kShrunk : Change::kGrown, boxes);
   // A mended cover gets worse with time.
   if (boxes.size() <= covers_[slot].fresh_count * 3U / 2U + 2U) return false;
   cover_with_boxes(bricks_[slot], boxes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -72,7 +73,7 @@ class OccupancyMap {
     if ((word & bit) != 0) return false;
     word |= bit;
     ++size_;
-    mark_changed(slot);
+    mark_changed(slot, Change::kGrown);
     return true;
   }
   /// True if the voxel was occupied.
@@ -100,9 +101,6 @@ class OccupancyMap {
     const auto found = index_.find(voxel_key(brick));
     return found == index_.end() ? kNoBrick : found->second;
   }
-  /// Brick of each voxel, kNoBrick where there is none. Quick where neighbours follow each other.
-  void find_slots(const std::vector<VoxelIndex>& voxels, int threads,
-                  std::vector<Slot>& slots) const;
   /// The brick's number; it is made if it is not there.
   Slot make_brick(const Eigen::Vector3i& brick);
   [[nodiscard]] const Brick& brick(Slot slot) const { return bricks_[slot]; }
@@ -143,10 +141,10 @@ class OccupancyMap {
   std::uint64_t& word_of(Slot slot, const VoxelIndex& voxel) {
     return bricks_[slot].occupied[static_cast<std::size_t>(voxel.x() & Brick::kMask)];
   }
-  void mark_changed(Slot slot) {
-    if (is_changed_[slot] != 0) return;
-    is_changed_[slot] = 1;
-    changed_.push_back(slot);
+  void mark_changed(Slot slot, Change change) {
+    std::uint8_t& mark = is_changed_[slot];
+    if (mark == 0) changed_.push_back(slot);
+    mark = std::max<std::uint8_t>(mark, change == Change::kShrunk ? 2 : 1);
   }
   /// New boxes of a changed brick. @return whether they were found from scratch
   bool cover_again(Slot slot, std::vector<BrickBox>& boxes) const;
@@ -158,7 +156,7 @@ class OccupancyMap {
   VoxelMap<Slot> index_;
   std::vector<Brick> bricks_;
   std::vector<Cover> covers_;
-  std::vector<std::uint8_t> is_changed_;
+  std::vector<std::uint8_t> is_changed_;  ///< 0 = no, 1 = it has grown, 2 = it lost voxels.
   std::vector<Slot> changed_;
   VoxelMap<std::uint32_t> tile_index_;
   std::vector<std::vector<BrickHead>> tiles_;

@@ -14,6 +14,7 @@
 #include "methods/raymoval/map_reference.h"
 #include "methods/raymoval/static_map.h"
 #include "methods/raymoval/validation.h"
+#include "methods/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -42,6 +43,13 @@ int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
   constexpr double kUnknownStep = 0.5 * std::numbers::pi / 180.0;
   const double step = sensor.elevation_step > 0.0 ? sensor.elevation_step : kUnknownStep;
   return std::clamp(static_cast<int>(std::ceil(step / grid.elevation_step())), 1, 100);
+}
+
+CastImage sweep_caster(const AngularGrid& grid, const RayLimits& limits) {
+  return [caster = std::make_shared<FirstHitCaster>(grid, limits)](
+             OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
+    caster->cast(map, T_world_sensor, threads, image);
+  };
 }
 
 /// A scan with what every step needs of it.
@@ -73,14 +81,14 @@ Mask validate_scan(const Scan& scan, const std::vector<VoxelIndex>& voxels, cons
 class RaymovalPass {
  public:
   RaymovalPass(const RaymovalParameters& parameters, const SensorModel& sensor,
-               const RunContext& context)
+               const RunContext& context, const MakeCaster& make_caster)
       : parameters_(parameters),
         sensor_(sensor),
         context_(context),
         grid_(grid_for(sensor, parameters)),
         map_(parameters.voxel_size, parameters.permanent_erase),
         erase_rows_(rows_of_a_beam(sensor, grid_, parameters)),
-        caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {}
+        cast_image_(make_caster(grid_, {parameters.minimum_range, parameters.maximum_range})) {}
 
   [[nodiscard]] StaticMap& map() { return map_; }
 
@@ -131,7 +139,7 @@ class RaymovalPass {
 
   void cast(const PreparedScan& prepared) {
     const StageScope timed(context_.times, "raycasting");
-    caster_.cast(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
+    cast_image_(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
   }
 
   /// The map reference of both tests, where the scan has a return.
@@ -140,7 +148,7 @@ class RaymovalPass {
     windowed_percentiles(
         first_hit_.range, prepared.projected.minimum_range, grid_, parameters_.neighbourhood,
         {parameters_.percentile, parameters_.erase_percentile}, context_.threads, references_);
-    map_.occupied().find_slots(prepared.voxels, context_.threads, slots_);
+    map_.look_up(prepared.voxels, context_.threads, known_);
   }
 
   /// Eq. 11; also points where the map was seen through before.
@@ -156,9 +164,9 @@ class RaymovalPass {
       candidates.assign(prepared.scan.size(), 0);
     }
     if (!parameters_.permanent_erase) return candidates;
-    parallel_for(context_.threads, candidates.size(), 8192, [&](std::size_t k) {
-      if (map_.was_erased(slots_[k], prepared.voxels[k])) candidates[k] = 1;
-    });
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      candidates[k] |= known_.states[k] == VoxelState::kErased ? 1 : 0;
+    }
     return candidates;
   }
 
@@ -222,11 +230,19 @@ class RaymovalPass {
       bricks.push_back(slot_of(voxel));
       number = static_cast<std::uint32_t>(bricks.size());
     }
-    std::vector<Brick> own(bricks.size());  // The scan's voxels in these bricks.
-    for (std::size_t k = 0; k < slots_.size(); ++k) {
-      if (slots_[k] == OccupancyMap::kNoBrick || number_of_[slots_[k]] == 0) continue;
+    std::vector<Brick> own(bricks.size());             // The scan's voxels in these bricks.
+    OccupancyMap::Slot last = OccupancyMap::kNoBrick;  // Neighbours often share a brick.
+    Brick* open = nullptr;
+    for (std::size_t k = 0; k < known_.slots.size(); ++k) {
+      const OccupancyMap::Slot slot = known_.slots[k];
+      if (slot != last) {
+        last = slot;
+        const std::uint32_t number = slot == OccupancyMap::kNoBrick ? 0 : number_of_[slot];
+        open = number == 0 ? nullptr : &own[number - 1];
+      }
+      if (open == nullptr) continue;
       const VoxelIndex& voxel = prepared.voxels[k];
-      own[number_of_[slots_[k]] - 1].add(voxel.x(), voxel.y(), voxel.z());
+      open->add(voxel.x(), voxel.y(), voxel.z());
     }
     std::erase_if(voxels, [&](const VoxelIndex& voxel) {
       return own[number_of_[slot_of(voxel)] - 1].contains(voxel.x(), voxel.y(), voxel.z());
@@ -258,7 +274,7 @@ class RaymovalPass {
   void integrate(const PreparedScan& prepared, const Mask& dynamic) {
     if (parameters_.map_source == MapSource::kNaive) return;
     const StageScope timed(context_.times, "integration");
-    map_.integrate(prepared.voxels, slots_, dynamic);
+    map_.integrate(prepared.voxels, known_, dynamic);
   }
 
   const RaymovalParameters& parameters_;
@@ -267,22 +283,23 @@ class RaymovalPass {
   AngularGrid grid_;
   StaticMap map_;
   int erase_rows_;
-  FirstHitCaster caster_;
+  CastImage cast_image_;
   VoxelMap<int> scans_without_return_;
   // Of the present scan; kept for their memory.
   FirstHitImage first_hit_;
   WindowPercentiles references_;
-  std::vector<OccupancyMap::Slot> slots_;  ///< Brick of each point.
-  std::vector<std::uint32_t> number_of_;   ///< Of each brick that may be seen through; else 0.
+  VoxelLookup known_;  ///< Of each point's voxel, before the scan changes the map.
+  std::vector<std::uint32_t> number_of_;  ///< Of each brick that may be seen through; else 0.
   std::vector<float> nearest_return_;
 };
 
 class RaymovalRemover : public Remover {
  public:
-  explicit RaymovalRemover(const RaymovalParameters& parameters) : parameters_(parameters) {}
+  RaymovalRemover(const RaymovalParameters& parameters, const MakeCaster& make_caster)
+      : parameters_(parameters), make_caster_(make_caster ? make_caster : sweep_caster) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    RaymovalPass pass(parameters_, scans.sensor(), context);
+    RaymovalPass pass(parameters_, scans.sensor(), context, make_caster_);
     if (parameters_.offline) {
       run_offline(pass, scans, sink, context);
     } else {
@@ -291,24 +308,10 @@ class RaymovalRemover : public Remover {
   }
 
  private:
-  /// Calls `visit` with each scan, timed and cancellable.
-  template <class Visit>
-  void for_each_scan(const char* what, const ScanSource& scans, const RunContext& context,
-                     bool backward, Visit&& visit) {
-    context.begin_pass(what, scans.size());
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      context.check_cancelled();
-      Scan scan = scans.load(backward ? scans.size() - 1 - i : i);
-      const ScanScope timed(context.times, scan.index);
-      visit(std::move(scan));
-      context.advance();
-    }
-  }
-
   void run_online(RaymovalPass& pass, const ScanSource& scans, RemovalSink& sink,
                   const RunContext& context) {
     PreparedScan prepared;
-    for_each_scan("raymoval", scans, context, false, [&](Scan scan) {
+    for_each_scan("raymoval", scans, context, [&](Scan scan) {
       const std::size_t index = scan.index;
       pass.prepare(std::move(scan), prepared);
       sink.accept(index, pass.process(prepared));
@@ -323,20 +326,20 @@ class RaymovalRemover : public Remover {
       pass.prepare(std::move(scan), prepared);
       pass.process(prepared);
     };
-    for_each_scan("raymoval", scans, context, false, process);
+    for_each_scan("raymoval", scans, context, process);
     if (parameters_.backward_pass) {
-      for_each_scan("raymoval, backward", scans, context, true, process);
+      for_each_scan("raymoval, backward", scans, context, process, ScanOrder::kBackward);
     }
     answer_from_map(pass.map(), scans, sink, context);
   }
 
   void collect_naive_map(RaymovalPass& pass, const ScanSource& scans, const RunContext& context) {
-    for_each_scan("raymoval, naive map", scans, context, false, [&](const Scan& scan) {
+    for_each_scan("raymoval, naive map", scans, context, [&](const Scan& scan) {
       const StageScope timed(context.times, "integration");
       const std::vector<VoxelIndex> voxels = voxels_of(pass.map(), scan, context.threads);
-      std::vector<OccupancyMap::Slot> slots;
-      pass.map().occupied().find_slots(voxels, context.threads, slots);
-      pass.map().integrate(voxels, slots, Mask(voxels.size(), 0));
+      VoxelLookup known;
+      pass.map().look_up(voxels, context.threads, known);
+      pass.map().integrate(voxels, known, Mask(voxels.size(), 0));
     });
   }
 
@@ -344,19 +347,23 @@ class RaymovalRemover : public Remover {
   void answer_from_map(const StaticMap& map, const ScanSource& scans, RemovalSink& sink,
                        const RunContext& context) {
     if (context.reasons != nullptr) context.reasons->explain(answer_reasons());
-    for_each_scan("raymoval, answers", scans, context, false, [&](const Scan& scan) {
-      const std::vector<VoxelIndex> voxels = voxels_of(map, scan, context.threads);
-      Mask removed = points_off_the_map(map, voxels, context);
+    RunContext own = context;  // Of one scan among others.
+    own.threads = 1;
+    if (context.threads > 1) own.times = nullptr;
+    const auto answer = [&](const Scan& scan) {
+      const std::vector<VoxelIndex> voxels = voxels_of(map, scan, own.threads);
+      Mask removed = points_off_the_map(map, voxels, own);
       const Mask off_map = context.reasons != nullptr ? removed : Mask{};
       if (parameters_.validate) {
-        const StageScope timed(context.times, "validation");
+        const StageScope timed(own.times, "validation");
         removed = validate_scan(scan, voxels, removed, map.occupied(), parameters_);
       }
       sink.accept(scan.index, removed);
       if (context.reasons != nullptr) {
         context.reasons->accept(scan.index, reasons_for(map, voxels, off_map, removed));
       }
-    });
+    };
+    for_scans_at_once("raymoval, answers", "answer and validation", scans, context, answer);
   }
 
   // Codes of `answer_reasons`.
@@ -387,11 +394,11 @@ class RaymovalRemover : public Remover {
   static Mask points_off_the_map(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
                                  const RunContext& context) {
     const StageScope timed(context.times, "answer");
-    Mask off(voxels.size(), 0);
-    std::vector<OccupancyMap::Slot> slots;
-    map.occupied().find_slots(voxels, context.threads, slots);
-    parallel_for(context.threads, voxels.size(), 8192, [&](std::size_t k) {
-      off[k] = map.occupied().contains(slots[k], voxels[k]) ? 0 : 1;
+    VoxelLookup known;
+    map.look_up(voxels, context.threads, known);
+    Mask off(voxels.size());
+    std::transform(known.states.begin(), known.states.end(), off.begin(), [](VoxelState state) {
+      return static_cast<std::uint8_t>(state == VoxelState::kOccupied ? 0 : 1);
     });
     return off;
   }
@@ -403,17 +410,19 @@ class RaymovalRemover : public Remover {
   }
 
   RaymovalParameters parameters_;
+  MakeCaster make_caster_;
 };
 
 }  // namespace
 
-std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters) {
+std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters,
+                                       const MakeCaster& make_caster) {
   if (!parameters.offline && parameters.map_source == MapSource::kNaive) {
     throw ConfigurationError(
         "raymoval.map_source = naive needs all scans, which an online run (offline = false) does "
         "not have; use map_source = growing.");
   }
-  return std::make_unique<RaymovalRemover>(parameters);
+  return std::make_unique<RaymovalRemover>(parameters, make_caster);
 }
 
 }  // namespace raymoval

@@ -110,6 +110,28 @@ bool voxelise(const Voxelisation& job, std::size_t begin, std::size_t end) {
   return hn::AllTrue(d, inside);
 }
 
+void check(const ConsistencyCheck& job, std::size_t begin, std::size_t end) {
+  const Doubles d;
+  const HalfFloats floats;
+  const HalfInts ints;
+  const hn::Rebind<std::uint8_t, HalfInts> bytes;
+  const auto infinite = hn::Set(floats, std::numeric_limits<float>::infinity());
+  for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
+    const auto bin = hn::LoadU(ints, job.bin + k);
+    const auto range = hn::LoadU(floats, job.range + k);
+    const auto reference = hn::GatherIndex(floats, job.reference, hn::Max(bin, hn::Zero(ints)));
+    const auto in_bin = hn::RebindMask(floats, hn::Gt(bin, hn::Set(ints, -1)));
+    const auto has_reference = hn::And(in_bin, hn::Lt(reference, infinite));
+    // The difference in float, the margin in double, as `check_consistency` says.
+    const D ahead = hn::PromoteTo(d, hn::Sub(reference, range));
+    const D margin = hn::Add(number(job.tau0), hn::Mul(number(job.tau1), hn::PromoteTo(d, range)));
+    const auto before = hn::IfThenElseZero(hn::Gt(ahead, margin), number(1.0));
+    const auto dynamic =
+        hn::IfThenElseZero(hn::RebindMask(ints, has_reference), hn::DemoteTo(ints, before));
+    hn::StoreU(hn::DemoteTo(bytes, dynamic), bytes, job.dynamic + k);
+  }
+}
+
 HWY_INLINE void order(F& a, F& b) {
   const F low = hn::Min(a, b);
   b = hn::Max(a, b);
@@ -266,6 +288,7 @@ Kernels kernels() {
           static_cast<int>(hn::Lanes(Floats())),
           &project,
           &voxelise,
+          &check,
           &percentiles,
           &minimum,
           &suspects};

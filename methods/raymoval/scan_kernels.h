@@ -36,6 +36,15 @@ struct Voxelisation {
   std::int32_t* voxels = nullptr;  ///< x y z of each point.
 };
 
+/// Eq. 11 for points.
+struct ConsistencyCheck {
+  const float* range = nullptr;       ///< Of each point.
+  const std::int32_t* bin = nullptr;  ///< Of each point; below 0 = in no bin.
+  const float* reference = nullptr;   ///< Of each bin; infinite = none.
+  double tau0 = 0.0, tau1 = 0.0;
+  std::uint8_t* dynamic = nullptr;
+};
+
 /// One row of eqs 8-9 for windows of 3 x 3.
 struct WindowRow {
   std::array<const float*, 3> values{};  ///< The rows above, here and below.
@@ -73,6 +82,8 @@ struct Kernels {
   void (*project)(const Projection& job, std::size_t begin, std::size_t end);
   /// The same. @return false if an index is beyond the limit
   bool (*voxelise)(const Voxelisation& job, std::size_t begin, std::size_t end);
+  /// Points begin .. end - 1, a multiple of `lanes`.
+  void (*check)(const ConsistencyCheck& job, std::size_t begin, std::size_t end);
   void (*percentiles)(const WindowRow& job);
   /// The columns `first` .. `first` + row_lanes - 1, which lie within the row; the first `skip` of
   /// them are not written.

@@ -1,7 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval/static_map.h"
 
+#include "core/parallel.h"
+
 namespace raymoval {
+
+void StaticMap::look_up(const std::vector<VoxelIndex>& voxels, int threads,
+                        VoxelLookup& found) const {
+  found.slots.resize(voxels.size());
+  found.states.resize(voxels.size());
+  static constexpr Brick kNothing;
+  parallel_chunks(threads, voxels.size(), 8192, [&](std::size_t begin, std::size_t end) {
+    Eigen::Vector3i last = OccupancyMap::brick_of(voxels[begin]);
+    Slot slot = occupied_.find_slot(last);
+    const Brick* occupied = nullptr;
+    const Brick* erased = nullptr;
+    const auto open_brick = [&] {
+      occupied = slot == OccupancyMap::kNoBrick ? &kNothing : &occupied_.brick(slot);
+      erased = erased_in(slot);
+      if (erased == nullptr) erased = &kNothing;
+    };
+    open_brick();
+    for (std::size_t k = begin; k < end; ++k) {
+      const VoxelIndex& voxel = voxels[k];
+      const Eigen::Vector3i brick = OccupancyMap::brick_of(voxel);
+      if (brick != last) {
+        last = brick;
+        slot = occupied_.find_slot(brick);
+        open_brick();
+      }
+      found.slots[k] = slot;
+      const int is_occupied = occupied->contains(voxel.x(), voxel.y(), voxel.z()) ? 1 : 0;
+      const int is_erased = erased->contains(voxel.x(), voxel.y(), voxel.z()) ? 2 : 0;
+      found.states[k] = static_cast<VoxelState>(is_occupied | is_erased);  // Never both.
+    }
+  });
+}
 
 void StaticMap::integrate(Slot slot, const VoxelIndex& voxel) {
   if (was_erased(slot, voxel)) {
@@ -12,13 +46,17 @@ void StaticMap::integrate(Slot slot, const VoxelIndex& voxel) {
   occupied_.insert(slot, voxel);
 }
 
-void StaticMap::integrate(const std::vector<VoxelIndex>& voxels, const std::vector<Slot>& slots,
+void StaticMap::integrate(const std::vector<VoxelIndex>& voxels, const VoxelLookup& found,
                           const Mask& dynamic) {
   Eigen::Vector3i last = Eigen::Vector3i::Zero();
   Slot last_slot = OccupancyMap::kNoBrick;
+  const VoxelIndex* present = nullptr;  // Neighbours often share a voxel.
   for (std::size_t k = 0; k < voxels.size(); ++k) {
-    if (dynamic[k] != 0) continue;
-    Slot slot = slots[k];
+    // What was erased since was occupied before, and for good.
+    if (dynamic[k] != 0 || (permanent_erase_ && found.states[k] != VoxelState::kEmpty)) continue;
+    if (present != nullptr && voxels[k] == *present) continue;
+    present = &voxels[k];
+    Slot slot = found.slots[k];
     if (slot == OccupancyMap::kNoBrick) {
       const Eigen::Vector3i brick = OccupancyMap::brick_of(voxels[k]);
       if (last_slot == OccupancyMap::kNoBrick || brick != last) {

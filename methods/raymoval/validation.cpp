@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "methods/range_adaptive_clusters.h"
+
 namespace raymoval {
 namespace {
 

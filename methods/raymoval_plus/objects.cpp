@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "methods/raymoval_plus/clusters.h"
+#include "methods/range_adaptive_clusters.h"
 
 namespace raymoval {
 namespace {
@@ -17,8 +17,8 @@ std::vector<int> clusters_of(const Scan& scan, const std::vector<std::size_t>& c
     points.push_back(scan.points[k]);
     ranges.push_back(scan.points[k].norm());
   }
-  return euclidean_clusters(points, ranges, static_cast<float>(parameters.cluster_gap),
-                            static_cast<float>(parameters.cluster_growth));
+  return range_adaptive_clusters(points, ranges, static_cast<float>(parameters.cluster_gap),
+                                 static_cast<float>(parameters.cluster_growth));
 }
 
 bool is_high(float height, const RaymovalPlusParameters& parameters) {

@@ -12,6 +12,7 @@
 #include "methods/raymoval_plus/range_image.h"
 #include "methods/raymoval_plus/terrain.h"
 #include "methods/raymoval_plus/verdicts.h"
+#include "methods/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -31,19 +32,6 @@ class RaymovalPlusRemover : public Remover {
   }
 
  private:
-  template <class Visit>
-  void for_each_scan(const char* what, const ScanSource& scans, const RunContext& context,
-                     Visit&& visit) {
-    context.begin_pass(what, scans.size());
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      context.check_cancelled();
-      Scan scan = scans.load(i);
-      const ScanScope timed(context.times, scan.index);
-      visit(std::move(scan));
-      context.advance();
-    }
-  }
-
   void find_terrain(const ScanSource& scans, const RunContext& context) {
     for_each_scan("raymoval_plus, terrain", scans, context, [&](const Scan& scan) {
       const StageScope timed(context.times, "terrain");

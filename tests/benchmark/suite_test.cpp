@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "eval/protocol.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"
 
@@ -67,6 +68,28 @@ TEST_CASE("A setting of a method reaches all variants; one of a variant wins in 
     CHECK(value(suite, 1, "size") == 6.0);
     CHECK(value(suite, 1, "gap") == 3.0);  // The variant's own value stays.
   }
+}
+
+TEST_CASE("A setting reaches a protocol under its name in the suite") {
+  Suite suite;
+  add_method(suite, "toy:a", "", toys());
+  add_protocol(suite, "erasor", "");
+  add_protocol(suite, "erasor", "fine");
+  const Setting setting = parse_setting("protocol:fine.voxel_size=0.1");
+  CHECK(setting.target == "protocol:fine");
+  apply_settings(suite, {setting, {"toy", "size", "5"}});
+  const auto voxel_size = [&](std::size_t i) {
+    return std::get<double>(
+        make_protocol("erasor", suite.protocols[i].options)->options()[0].second);
+  };
+  CHECK(voxel_size(0) == 0.2);
+  CHECK(voxel_size(1) == 0.1);
+  CHECK(value(suite, 0, "size") == 5.0);
+  CHECK_THROWS_WITH(apply_settings(suite, {{"protocol:fin", "lift", "0"}}),
+                    Contains("Did you mean 'fine'"));
+  CHECK_THROWS_WITH(apply_settings(suite, {{"protocol:erasor", "lifd", "0"}}), Contains("'lift'"));
+  CHECK_THROWS_WITH(apply_settings(suite, {{"erasor", "lift", "0"}}),
+                    Contains("write protocol:erasor.key=value"));
 }
 
 TEST_CASE("Settings that reach nothing, clash, or are illegal are errors") {

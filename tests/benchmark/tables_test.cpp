@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "benchmark/column_tables.h"
+#include "benchmark/published_columns.h"
 #include "core/error.h"
 #include "core/files.h"
 
@@ -101,7 +102,8 @@ TEST_CASE("The CSV has rates to 3 decimals, F1 to 4, and nothing where undefined
 TEST_CASE("Outside columns stand beside the run where a sequence is in both") {
   RunResults results = two_by_two();
   results.sequences[0] = results.rows[0].sequence = results.rows[2].sequence = "kitti-05";
-  const OutsideColumn paper{"paper", {{"05", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
+  const OutsideColumn paper{
+      "paper", "erasor", {{"05", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
   const std::vector<TextTable> tables = make_tables(results, {paper});
   REQUIRE(tables.size() == 2);
   REQUIRE(tables[0].groups.size() == 3);
@@ -161,6 +163,48 @@ TEST_CASE("A protocol with SA and DA has a table with its columns, and can be as
   REQUIRE(make_tables(results).size() == 1);
   CHECK(make_tables(results)[0].title == "Accuracy by protocol dynamicmap");
   CHECK_THROWS_WITH(choose_protocols(results, {"dynamicmpa"}), Contains("'dynamicmap'"));
+}
+
+TEST_CASE("Published numbers of a protocol stand beside those of that protocol only") {
+  RunResults results = two_by_two();
+  add_points_protocol(results);
+  for (ResultRow& row : results.rows) {
+    if (row.sequence == "s1") row.sequence = "kth-00";
+  }
+  results.sequences[0] = "kth-00";
+  const OutsideColumn paper{"A", "erasor", {{"00", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
+  const OutsideColumn kth{"B", "dynamicmap", {{"00", {{"SA", 96.76}, {"DA", 90.68}}}}};
+  std::vector<TextTable> tables = make_tables(results, {paper, kth});
+  // "kth-00" is every frame, and no segment of the first protocol's papers.
+  CHECK(tables[0].groups.size() == 2);
+  REQUIRE(tables[1].groups.size() == 3);
+  CHECK(tables[1].groups[2].heading == "B");
+  CHECK(tables[1].rows[0].cells[8].text == "96.76");
+  CHECK(tables[1].rows[0].cells[10].text == "-");  // AA is not printed.
+  CHECK(tables[1].rows[1].cells[8].text == "-");
+  CHECK(tables[2].title == "Published");
+  REQUIRE(tables[3].title == "Published, DynamicMap benchmark");
+  CHECK(tables[3].rows.size() == 1);  // No mean.
+  // The strict variant has the same rates by other rules.
+  for (ResultRow& row : results.rows) {
+    if (row.protocol == "dynamicmap") row.protocol = "dynamicmap-strict";
+  }
+  results.protocols[1] = "dynamicmap-strict";
+  tables = make_tables(results, {paper, kth});
+  CHECK(tables[1].groups.size() == 2);
+  CHECK(tables[2].title == "Published");
+  CHECK(tables[3].title != "Published, DynamicMap benchmark");
+}
+
+TEST_CASE("Every published file that tables use is read") {
+  std::size_t of_benchmark = 0;
+  for (const OutsideColumn& column : published_columns()) {
+    of_benchmark += column.protocol == "dynamicmap" ? 1 : 0;
+    for (std::size_t i = 0; i < column.sequences.size(); ++i) {
+      CHECK(column.find(column.sequences[i].first) == &column.sequences[i].second);
+    }
+  }
+  CHECK(of_benchmark == 10);  // Six of the benchmark, four that DUFOMap and BeautyMap add.
 }
 
 TEST_CASE("The ranking says where protocols put the methods in another order") {

@@ -10,7 +10,7 @@ short=(--sequence street --frames 0:2 --quiet)
 
 # Help and listings.
 expect 0 "Examples" --help
-for command in run plan table compare list describe score clean simulate inspect report; do expect 0 "Examples" "$command" --help; done
+for command in run plan table compare list describe score clean simulate inspect report picture; do expect 0 "Examples" "$command" --help; done
 expect 0 "raymoval 0" --version
 expect 0 "oracle" list
 for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
@@ -38,6 +38,9 @@ expect 2 "--sequence" run --method noop --out o
 expect 2 "Did you mean 'raymoval'" run "${short[@]}" --method raymovl --out o
 expect 2 "two methods" run "${short[@]}" --method noop --method noop:default --out o
 expect 2 "METHOD.key=value" run "${short[@]}" --method raymoval --set tau0=1 --out o
+expect 2 "write protocol:erasor.key=value" run "${short[@]}" --method noop --set erasor.lift=0 --out o
+expect 2 "'lift'" run "${short[@]}" --method noop --set protocol:erasor.lft=0 --out o
+expect 2 "no protocol asked for" run "${short[@]}" --method noop --set protocol:dynamicmap.distance=1 --out o
 expect 2 "'tau0'" run "${short[@]}" --method raymoval --set raymoval.tau=1 --out o
 expect 2 "out of range" run "${short[@]}" --method raymoval --set raymoval.tau0=-1 --out o
 expect 2 "not in this run" run "${short[@]}" --method raymoval --set noop.tau0=1 --out o
@@ -48,6 +51,11 @@ expect 2 "--range" run "${short[@]}" --method noop --range 5 --out o
 expect 2 "--range" run "${short[@]}" --method noop --range 9:5 --out o
 expect 2 "" run --sequence street --frames nine --method noop --out o
 expect 2 "" run --sequence street --sensor nose --method noop --out o
+expect 2 "--sequence street" run street --method noop --out o
+expect 2 "--method cannot be given" run simulated --method noop --out o
+expect 2 "expected METHOD.key=value" run "${short[@]}" --method raymoval --set raymoval.tau0 0.2 --out o
+expect 2 "once for each" run "${short[@]}" --method raymoval:online,raymoval:offline --out o
+expect 2 "ROOT:kitti-05" run --sequence kitti-05 --method noop --out o
 expect 2 "nowhere" run --sequence nowhere --method noop --out o
 expect 2 "nowhere" run nowhere.json --out o
 expect 2 "nothing to run on" plan
@@ -82,6 +90,15 @@ expect 0 "Published" table run --with-published
 expect 2 "'md'" table run --format mdx
 expect 2 "--with-published" table run --format csv --with-published
 
+# Options of a protocol from the command line; frame = erasor needs a camera's calibration.
+expect 0 "All controls are as they must be" run "${short[@]}" --method noop --protocol dynamicmap \
+  --set protocol:dynamicmap.maximum_range=10 --out near
+holds "a protocol's option is recorded" grep -q '"maximum_range": 10' \
+  near/cells/street/noop-default/cell.json
+expect 1 "has those of the LiDAR" run "${short[@]}" --method noop \
+  --set protocol:erasor.frame=erasor --out frame
+expect 2 "Did you mean 'erasor'" run "${short[@]}" --method noop --set protocol:erasor.frame=eraser --out o
+
 # A reference has no times and no machine; a run is compared with it by counts.
 expect 0 "wrote" compare run reference --update
 holds "a reference has no times" test -z "$(grep -F seconds reference/results.json)"
@@ -108,6 +125,10 @@ holds "score gives the counts of the run" diff <(counts score.json | tr -d ' ') 
   <(counts $cell/cell.json | tr -d ' ')
 expect 2 "--predictions" score "${short[@]}"
 expect 2 "no such folder" score "${short[@]}" --predictions nowhere
+expect 2 "removals/ does" score "${short[@]}" --predictions $cell
+expect 2 "is no folder" score "${short[@]}" --predictions $cell/removals/000000.label
+expect 2 "is a folder" score "${short[@]}" --cloud $cell/removals
+expect 2 "put -o before it" clean street map.pcd
 expect 2 "missing" score --sequence street --frames 0:3 --quiet --predictions $cell/removals
 expect 0 "SA" score "${short[@]}" --predictions $cell/removals --protocol dynamicmap \
   --set dynamicmap.distance=0.1
@@ -285,7 +306,75 @@ holds "an inspection with findings exits with 1" test $? -eq 1
 holds "a finding is named" grep -q '^finding poses-of-another-sequence: poses.txt: .* Take the' found.txt
 expect 2 "no such folder" inspect nowhere
 expect 2 "inspect what" inspect
+expect 2 "sim/town." inspect sim/town/velodyne
+expect 2 "is a scan" inspect sim/town/velodyne/000000.bin
 expect 2 "Did you mean '--json'" inspect sim/town --jason
+
+# Pictures: of points and of numbers, and what is missing for them.
+is_png() { [[ $(head -c 8 "$1" | od -An -tx1 | tr -d ' \n') == 89504e470d0a1a0a ]]; }
+expect 0 "" run "${short[@]}" --method raymoval:online --keep-removals --out shown
+expect 0 "" picture shown -o map.png --quiet
+holds "a map is a PNG" is_png map.png
+expect 0 "" picture shown -o detail.png --only 'street/raymoval*' --crop -10:20:-8:8 \
+  --resolution 0.25 --quiet
+expect 0 "" picture shown -o range.png --kind range --scan 1 --quiet
+expect 0 "" picture shown -o overview.png --kind overview --sequence street \
+  --method raymoval:online --quiet
+for file in detail range overview; do holds "$file is a PNG" is_png $file.png; done
+cp map.png before.png
+expect 0 "" picture shown -o map.png --quiet --threads 1
+holds "the same run gives the same picture" cmp before.png map.png
+for kind in pr-rr stages accuracy-time; do
+  expect 0 "" picture shown -o $kind.svg --kind $kind
+  holds "$kind is an SVG" grep -q '^<svg xmlns="http://www.w3.org/2000/svg"' $kind.svg
+done
+expect 2 "which run" picture -o map.png
+expect 2 "-o FILE.png" picture shown
+expect 2 "no such run folder" picture nowhere -o map.png
+expect 2 "Did you mean 'range'" picture shown -o map.png --kind rang
+expect 2 ".svg" picture shown -o map.png --kind stages
+expect 2 "--only" picture shown -o map.png --method raymoval:online
+expect 2 "--scan goes with --kind range" picture shown -o map.png --scan 1
+expect 2 "frames are 0:2" picture shown -o range.png --kind range --scan 9 --quiet
+expect 2 "expected the number of a frame" picture shown -o range.png --kind range --scan x --quiet
+expect 2 "XMIN:XMAX:YMIN:YMAX" picture shown -o map.png --crop 5:1:0:1 --quiet
+expect 2 "--size" picture shown -o map.png --size 7 --quiet
+expect 2 "coarser --resolution" picture shown -o map.png --resolution 0.0001 --quiet
+expect 2 "fits no cell" picture shown -o map.png --only nothing --quiet
+expect 2 "Did you mean 'street'" picture shown -o range.png --kind range --sequence stret --quiet
+expect 2 "--protocol" picture shown -o rates.svg --kind pr-rr --protocol erasr
+expect 2 "--keep-removals" picture run_scene -o map.png --only '*' --quiet
+expect 2 "nothing but controls" picture run_scene -o map.png --quiet
+RAYMOVAL_FONT=nowhere.ttf expect 2 "nowhere.ttf" picture shown -o map.png --quiet
+mv sim/town sim/elsewhere
+expect 0 "" run --sequence sim/elsewhere --name town --method noop --quiet --keep-removals --out kept
+mv sim/elsewhere sim/town
+expect 2 "--data" picture kept -o map.png --only '*' --quiet
+expect 0 "" picture kept -o map.png --only '*' --quiet --data sim
+expect 0 "" picture kept -o map.png --only '*' --quiet --data sim/town
+expect 2 "fingerprint" picture kept -o map.png --only '*' --quiet --data seed4
+
+# On a terminal one line tells cell, stage, scans done; in a log nothing but what is done; with
+# --quiet nothing at all. A narrow terminal cuts it.
+live() { script -qec "$*" /dev/null 2>&1 | tr -d '\r'; }
+if command -v script >/dev/null; then
+  live "$raymoval" run --sequence street --frames 0:12 --method raymoval:offline --out live >live.txt
+  holds "a live line names cell, stage and scans" \
+    grep -qF '[4/4] raymoval:offline on street: raymoval: ' live.txt
+  holds "a live line counts scans" grep -qF ': 0 of 13' live.txt
+  live "stty cols 30; $raymoval" clean street --method noop --frames 0:3 -o live.pcd >live.txt
+  holds "clean has one, without its context where the terminal is narrow" \
+    grep -qF 'masks: 0 of 4' live.txt
+  holds "nothing is wider than the terminal" test -z "$(grep -F 'noop:default on street: masks' \
+    live.txt)"
+  live "$raymoval" simulate town --scans 2 --sensor vlp16 -o live_town >live.txt
+  holds "simulate has one" grep -qF 'simulating town: 0 of 2' live.txt
+  live "$raymoval" clean street --method noop --frames 0:3 -o live.pcd --overwrite --quiet >live.txt
+  holds "--quiet has none" test -z "$(grep -F ' of 4' live.txt)"
+fi
+"$raymoval" run --sequence street --frames 0:2 --method noop --out log_run >out.txt 2>log.txt
+holds "a log has a line for each cell" test "$(grep -c '^\[[1-3]/3\] ' log.txt)" -eq 3
+holds "and nothing else" test "$(wc -l <log.txt)" -eq 3
 
 # An interrupted run ends by itself and goes on later.
 "$raymoval" run --sequence street --quiet --method raymoval:online --out stopped >out.txt 2>err.txt &

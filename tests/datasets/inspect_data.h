@@ -11,6 +11,7 @@
 
 #include "datasets/inspect/inspect.h"
 #include "datasets/simulated/simulated.h"
+#include "tests/datasets/temporary_folder.h"
 
 namespace raymoval::test {
 
@@ -79,6 +80,20 @@ struct EditedSequence : ScanSource, LabelSource {
     return inspect(sequence);
   }
 };
+
+/// The beams of an HDL-64E at every third azimuth: what a check needs to see, in a third of the
+/// time.
+inline const std::string& sparse_hdl64e() {
+  static const TemporaryFolder folder;
+  static const std::string path = [] {
+    std::string text = simulated_sensor_text("hdl64e");
+    const std::string step = "\"azimuth_step_deg\": 0.1728";
+    REQUIRE(text.find(step) != std::string::npos);
+    text.replace(text.find(step), step.size(), "\"azimuth_step_deg\": 0.5184");
+    return folder.write("sparse.json", text).string();
+  }();
+  return path;
+}
 
 /// A winding street of the suburb, which a car drives along at 6 m/s.
 inline SimulationOptions suburb(const std::string& sensor = "vlp16", std::size_t scans = 16) {

@@ -103,7 +103,7 @@ TEST_CASE("VIEWPOINT applied twice or not at all is named", "[inspect]") {
 
 TEST_CASE("a VIEWPOINT that is not the sensor's pose is named", "[inspect]") {
   // A sensor that looks down far enough for its blind zone to show.
-  const EditedSequence drive(suburb("hdl64e", 16));
+  const EditedSequence drive(suburb(sparse_hdl64e(), 16));
   const std::string range = R"({"range_m": {"min": 2.7}})";
   check_silent(inspect_dynamicmap({}, range, drive));
   PcdStyle inverse;

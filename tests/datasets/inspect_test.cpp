@@ -83,7 +83,7 @@ TEST_CASE("camera frames are told from the LiDAR's", "[inspect]") {
 TEST_CASE("points in camera axes are told by the ground", "[inspect]") {
   const Pose C = to_camera();
   // Enough beams to see the ground as a plane.
-  EditedSequence points(suburb("hdl64e", 10));
+  EditedSequence points(suburb(sparse_hdl64e(), 10));
   points.each_point([&](const Scan&, const Eigen::Vector3d& p) { return C * p; });
   EditedSequence both = points;
   both.each_pose([&](const Pose& pose) { return C * pose * C.inverse(); });
@@ -214,7 +214,7 @@ TEST_CASE("a count of labels that does not fit is named", "[inspect]") {
 }
 
 TEST_CASE("skewed scans are named, corrected ones are not", "[inspect]") {
-  SimulationOptions options = suburb("hdl64e", 14);
+  SimulationOptions options = suburb(sparse_hdl64e(), 14);
   options.scene = "country";  // At 10 m/s some pairs of scans are 6 m apart.
   options.rolling = Rolling::kSkewed;
   const InspectionReport report = EditedSequence(options).inspected();
@@ -231,7 +231,7 @@ TEST_CASE("a cut at a range is named", "[inspect]") {
 }
 
 TEST_CASE("the vehicle in view is a finding, or a note where its labels say so", "[inspect]") {
-  EditedSequence drive(suburb("hdl64e", 14));
+  EditedSequence drive(suburb(sparse_hdl64e(), 14));
   check_silent(drive.inspected());  // Nearer than what is evaluated.
   drive.range_m.min = 0.0;
   const InspectionReport noted = drive.inspected();

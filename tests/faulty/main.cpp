@@ -95,6 +95,51 @@ class Unsteady : public raymoval::Remover {
   }
 };
 
+/// Hands on another method's answer but for one in a hundred of the points that it removed.
+class Slipping : public raymoval::Remover {
+ public:
+  explicit Slipping(std::unique_ptr<raymoval::Remover> method) : method_(std::move(method)) {}
+
+  void run(const raymoval::ScanSource& scans, raymoval::RemovalSink& sink,
+           const raymoval::RunContext& context) override {
+    Sieve sieve(sink);
+    method_->run(scans, sieve, context);
+  }
+
+ private:
+  class Sieve : public raymoval::RemovalSink {
+   public:
+    explicit Sieve(raymoval::RemovalSink& sink) : sink_(sink) {}
+    void accept(std::size_t scan, const raymoval::Mask& mask) override {
+      raymoval::Mask slipped = mask;
+      std::size_t removed = 0;
+      for (std::uint8_t& flag : slipped) {
+        if (flag != 0 && ++removed % 100 == 0) flag = 0;
+      }
+      sink_.accept(scan, slipped);
+    }
+
+   private:
+    raymoval::RemovalSink& sink_;
+  };
+
+  std::unique_ptr<raymoval::Remover> method_;
+};
+
+/// The methods of raymoval itself, of which the one called FAULTY_SLIP loses some removals.
+void add_real_methods(raymoval::MethodRegistry& methods) {
+  const char* slip = std::getenv("FAULTY_SLIP");
+  for (const auto& entry : raymoval::MethodRegistry::built_in().entries()) {
+    raymoval::MethodEntry added = *entry;
+    if (slip != nullptr && added.name == slip) {
+      added.make = [make = entry->make](const raymoval::Configuration& values) {
+        return std::make_unique<Slipping>(make(values));
+      };
+    }
+    methods.add(added);
+  }
+}
+
 raymoval::MethodEntry entry_of(const std::string& name, const Deed& deed) {
   raymoval::MethodEntry entry = raymoval::noop_entry();
   entry.name = name;
@@ -111,9 +156,7 @@ raymoval::MethodEntry entry_of(const std::string& name, const Deed& deed) {
 
 int main(int argc, char** argv) {
   raymoval::MethodRegistry methods;
-  methods.add(raymoval::noop_entry());
-  methods.add(raymoval::remove_all_entry());
-  methods.add(raymoval::oracle_entry());
+  add_real_methods(methods);
   methods.add(entry_of("comb", [] {}));
   methods.add(entry_of("comb2", [] {}));
   methods.add(entry_of("crash", crash));

@@ -32,7 +32,9 @@ version=$("$build/raymoval" --version | grep -oE '[0-9]+\.[0-9]+\.[0-9]+')
 holds "its name" test "$(field Package)" = raymoval
 holds "its version is the program's" test "$(field Version)" = "$version"
 holds "its architecture" test "$(field Architecture)" = "$(dpkg --print-architecture)"
-holds "it says what it is" test -n "$(field Description)" -a -n "$(field Maintainer)"
+holds "it says what it is" test -n "$(field Description)"
+holds "its maintainer is who was configured" test "$(field Maintainer)" = \
+  "$(sed -n 's/^RAYMOVAL_PACKAGE_CONTACT:STRING=//p' "$build/CMakeCache.txt")"
 for library in libc6 libstdc++6 libtbb12 libembree3-3 libxxhash0 liboctomap1.9 libpcl-io1.13 \
   libpcl-common1.13 libpcl-sample-consensus1.13; do
   holds "it depends on $library" grep -qxF "$library" <(names_in Depends)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval/consistency.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
+#include <random>
 
 using namespace raymoval;
 
@@ -23,6 +25,32 @@ TEST_CASE("eq. 11 is strict: a difference equal to the margin is static") {
   scan.bin = {0};
   CHECK(check_consistency(scan, {10.0F}, {2.0, 0.0}) == Mask{0});
   CHECK(check_consistency(scan, {10.0F}, {1.999, 0.0}) == Mask{1});
+}
+
+TEST_CASE("eq. 11 gives the same for every instruction set") {
+  std::mt19937 random(8);
+  const auto pick = [&](int most) {
+    return static_cast<int>(random() % static_cast<unsigned>(most));
+  };
+  ProjectedScan scan;
+  std::vector<float> reference;
+  for (int bin = 0; bin < 50; ++bin) {
+    reference.push_back(bin % 7 == 0 ? kNoRange : 5.0F + 0.25F * static_cast<float>(pick(80)));
+  }
+  Mask expected;
+  const RangeMargin margin{0.5, 0.25};  // Differences equal to the margin occur: all are exact.
+  for (int k = 0; k < 203; ++k) {
+    scan.range.push_back(0.25F * static_cast<float>(pick(100)));
+    scan.bin.push_back(pick(52) - 2);
+    const float map =
+        scan.bin.back() < 0 ? kNoRange : reference[static_cast<std::size_t>(scan.bin.back())];
+    const double ahead = map - scan.range.back();
+    expected.push_back(map != kNoRange && ahead > 0.5 + 0.25 * scan.range.back() ? 1 : 0);
+  }
+  for (const InstructionSet set : supported_instruction_sets()) {
+    CHECK(check_consistency(scan, reference, margin, 1, set) == expected);
+  }
+  CHECK(std::count(expected.begin(), expected.end(), 1) > 20);
 }
 
 TEST_CASE("a bin is seen through if its scan lies beyond the map by the margin at the map") {

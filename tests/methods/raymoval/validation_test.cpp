@@ -39,49 +39,6 @@ RaymovalParameters lenient() {
 
 }  // namespace
 
-TEST_CASE("range-adaptive clusters: the same gap joins far away and not nearby") {
-  // Reach 0.3 + 0.02 r: 0.5 m at 10 m, 0.9 m at 30 m.
-  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0.7, 0, 0}, {3, 0, 0}};
-  CHECK(range_adaptive_clusters(points, {10, 10, 10}, 0.3, 0.02) == std::vector<int>{0, 1, 2});
-  CHECK(range_adaptive_clusters(points, {30, 30, 30}, 0.3, 0.02) == std::vector<int>{0, 0, 1});
-  // The smaller range of a pair decides.
-  CHECK(range_adaptive_clusters(points, {10, 30, 30}, 0.3, 0.02) == std::vector<int>{0, 1, 2});
-  CHECK(range_adaptive_clusters({}, {}, 0.3, 0.02).empty());
-}
-
-TEST_CASE("range-adaptive clusters equal the transitive closure of all pairs") {
-  std::mt19937 random(3);
-  const auto pick = [&](double high) {
-    return high * (static_cast<double>(random()) / 4294967296.0);
-  };
-  std::vector<Eigen::Vector3d> points;
-  std::vector<double> ranges;
-  for (int i = 0; i < 150; ++i) {
-    points.emplace_back(pick(8) - 4, pick(8) - 4, pick(2));
-    ranges.push_back(pick(40));
-  }
-  std::vector<int> expected(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) expected[i] = static_cast<int>(i);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      for (std::size_t j = 0; j < points.size(); ++j) {
-        const double reach = 0.3 + 0.02 * std::min(ranges[i], ranges[j]);
-        if ((points[i] - points[j]).norm() <= reach && expected[j] < expected[i]) {
-          expected[i] = expected[j];
-          changed = true;
-        }
-      }
-    }
-  }
-  const std::vector<int> found = range_adaptive_clusters(points, ranges, 0.3, 0.02);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      REQUIRE((found[i] == found[j]) == (expected[i] == expected[j]));
-    }
-  }
-}
-
 TEST_CASE("eq. 12: the width is the diagonal of the box from above") {
   Extent extent;
   extent.add({0, 0, 0});

@@ -2,9 +2,7 @@
 #include "methods/raymoval_plus/raymoval_plus.h"
 
 #include <catch2/catch.hpp>
-#include <random>
 
-#include "methods/raymoval_plus/clusters.h"
 #include "methods/raymoval_plus/evidence_map.h"
 #include "methods/raymoval_plus/range_image.h"
 #include "methods/raymoval_plus/terrain.h"
@@ -15,36 +13,6 @@
 using namespace raymoval;
 
 namespace {
-
-/// Components of the graph of all pairs within reach, and of pairs that share a cell.
-std::vector<int> slow_clusters(const std::vector<Eigen::Vector3f>& points,
-                               const std::vector<float>& ranges, float gap, float growth) {
-  std::vector<int> number(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) number[i] = static_cast<int>(i);
-  const double scale = std::sqrt(3.0F) / gap;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      for (std::size_t j = 0; j < points.size(); ++j) {
-        const float reach = gap + growth * std::min(ranges[i], ranges[j]);
-        const bool same_cell = voxel_index(points[i].cast<double>(), scale) ==
-                               voxel_index(points[j].cast<double>(), scale);
-        if ((points[i] - points[j]).squaredNorm() > reach * reach && !same_cell) continue;
-        if (number[i] <= number[j]) continue;
-        number[i] = number[j];
-        changed = true;
-      }
-    }
-  }
-  std::vector<int> order(points.size(), -1);
-  int next = 0;
-  for (int& n : number) {
-    int& renamed = order[static_cast<std::size_t>(n)];
-    if (renamed < 0) renamed = next++;
-    n = renamed;
-  }
-  return number;
-}
 
 ConfiguredMethod plus(const Configuration& settings = {}) {
   ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval_plus");
@@ -70,22 +38,6 @@ ObjectSummary walker(int scan, int dynamic, double agree_scans) {
 }
 
 }  // namespace
-
-TEST_CASE("clusters are those of all pairs") {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<float> at(-4.0F, 4.0F);
-  for (int round = 0; round < 20; ++round) {
-    std::vector<Eigen::Vector3f> points;
-    std::vector<float> ranges;
-    for (int i = 0; i < 150; ++i) {
-      points.emplace_back(at(random), at(random), 0.2F * at(random));
-      ranges.push_back(points.back().norm() + 3.0F * static_cast<float>(round));
-    }
-    CHECK(euclidean_clusters(points, ranges, 0.3F, 0.01F) ==
-          slow_clusters(points, ranges, 0.3F, 0.01F));
-  }
-  CHECK(euclidean_clusters({}, {}, 0.3F, 0.01F).empty());
-}
 
 TEST_CASE("a place agrees with, hides behind or stands in front of a return") {
   Scan scan;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace raymoval::peopleremover {
+namespace raymoval {
 
 /// Lends out work memory, so that there is one per thread at work and not one per scan.
 template <class Workspace>
@@ -43,4 +43,4 @@ class Workspaces {
   std::vector<std::unique_ptr<Workspace>> idle_;
 };
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval

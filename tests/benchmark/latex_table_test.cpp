@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "benchmark/text_table.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// One row, `groups` methods with PR, RR and F1.
+TextTable wide_table(std::size_t groups) {
+  TextTable table{"wide", "sequence", {}, {{"town", {}, false}}, {"A note."}};
+  for (std::size_t i = 0; i < groups; ++i) {
+    table.groups.push_back({"method" + std::to_string(i), {"PR", "RR", "F1"}});
+    for (const char* text : {"98.123", "91.000", "0.9443"}) {
+      table.rows[0].cells.push_back({text, Mark::kNone});
+    }
+  }
+  return table;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+std::string latex_of_label(const std::string& label) {
+  return to_latex({"t", "", {{"", {"x"}}}, {{label, {{"1", Mark::kNone}}, false}}, {}});
+}
+
+}  // namespace
+
+TEST_CASE("LaTeX shows every character as it is") {
+  CHECK_THAT(latex_of_label("a_b & 5% $#{}"), Contains("\na\\_b \\& 5\\% \\$\\#\\{\\} & 1 "));
+  CHECK_THAT(latex_of_label("\\~^<>|`"),
+             Contains("\\textbackslash{}\\textasciitilde{}\\textasciicircum{}\\textless{}"
+                      "\\textgreater{}\\textbar{}\\`{}"));
+  CHECK_THAT(latex_of_label("--set"), Contains("-{}-set"));
+  CHECK_THAT(latex_of_label("\xC3\xA9\xE2\x86\x92z\x01"), Contains("\n\xC3\xA9?z  & 1"));
+}
+
+TEST_CASE("A label cannot be taken for an option of the row before it") {
+  CHECK_THAT(latex_of_label("[2] x"), Contains("\n{}[2] x & 1"));
+  CHECK_THAT(latex_of_label("*"), Contains("\n{}* & 1"));
+}
+
+TEST_CASE("A table that is too wide is set smaller, then cut between methods") {
+  const std::string two = to_latex(wide_table(2));
+  CHECK(two.find("footnotesize") == std::string::npos);
+  CHECK(count(two, "\\begin{tabular}") == 1);
+  const std::string three = to_latex(wide_table(3));
+  CHECK_THAT(three, Contains("footnotesize"));
+  const std::string twelve = to_latex(wide_table(12));
+  // 345 pt hold a label of 8 letters (42 pt) and two or three methods of 99 pt.
+  CHECK(count(twelve, "\\begin{tabular}{lrrrrrrrrr}") == 4);
+  CHECK(count(twelve, "\\begin{table}") == 1);
+  CHECK(count(twelve, "\ntown & ") == 4);
+  CHECK(count(twelve, "A note.") == 1);
+  for (std::size_t i = 0; i < 12; ++i) {
+    CHECK(count(twelve, "{method" + std::to_string(i) + "}") == 1);
+  }
+}
+
+TEST_CASE("A table that is higher than a page goes on in another one") {
+  const std::string many = to_latex(wide_table(60));
+  CHECK(count(many, "\\begin{table}") > 1);
+  CHECK(count(many, "\\begin{table}") == count(many, "\\end{table}"));
+  CHECK(count(many, "(continued)") == count(many, "\\begin{table}") - 1);
+  CHECK(count(many, "A note.") == 1);
+}
+
+TEST_CASE("A long text is broken into lines, also behind slashes") {
+  const std::string text = "no/blank/in/this/path/of/more/than/one/line";
+  const TextTable table{"t", "cell", {{"", {"reason"}}}, {{"x", {{text, Mark::kNone}}, false}}, {}};
+  const std::string latex = to_latex(table);
+  CHECK_THAT(latex, Contains("{lp{") && Contains("\\raggedright no/\\allowbreak{}blank") &&
+                        Contains("\\tabularnewline"));
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "methods/range_adaptive_clusters.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "core/voxel_key.h"
+#include "methods/disjoint_sets.h"
+
+using namespace raymoval;
+
+namespace {
+
+/// Components of the graph of all pairs within reach, and of pairs that share a cell.
+std::vector<int> slow_clusters(const std::vector<Eigen::Vector3f>& points,
+                               const std::vector<float>& ranges, float gap, float growth) {
+  std::vector<int> number(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) number[i] = static_cast<int>(i);
+  const double scale = std::sqrt(3.0F) / gap;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        const float reach = gap + growth * std::min(ranges[i], ranges[j]);
+        const bool same_cell = voxel_index(points[i].cast<double>(), scale) ==
+                               voxel_index(points[j].cast<double>(), scale);
+        if ((points[i] - points[j]).squaredNorm() > reach * reach && !same_cell) continue;
+        if (number[i] <= number[j]) continue;
+        number[i] = number[j];
+        changed = true;
+      }
+    }
+  }
+  std::vector<int> order(points.size(), -1);
+  int next = 0;
+  for (int& n : number) {
+    int& renamed = order[static_cast<std::size_t>(n)];
+    if (renamed < 0) renamed = next++;
+    n = renamed;
+  }
+  return number;
+}
+
+}  // namespace
+
+TEST_CASE("range-adaptive clusters in single precision are those of all pairs") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> at(-4.0F, 4.0F);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Eigen::Vector3f> points;
+    std::vector<float> ranges;
+    for (int i = 0; i < 150; ++i) {
+      points.emplace_back(at(random), at(random), 0.2F * at(random));
+      ranges.push_back(points.back().norm() + 3.0F * static_cast<float>(round));
+    }
+    CHECK(range_adaptive_clusters(points, ranges, 0.3F, 0.01F) ==
+          slow_clusters(points, ranges, 0.3F, 0.01F));
+  }
+  CHECK(range_adaptive_clusters({}, {}, 0.3F, 0.01F).empty());
+}
+
+TEST_CASE("range-adaptive clusters: the same gap joins far away and not nearby") {
+  // Reach 0.3 + 0.02 r: 0.5 m at 10 m, 0.9 m at 30 m.
+  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0.7, 0, 0}, {3, 0, 0}};
+  CHECK(range_adaptive_clusters(points, {10, 10, 10}, 0.3, 0.02) == std::vector<int>{0, 1, 2});
+  CHECK(range_adaptive_clusters(points, {30, 30, 30}, 0.3, 0.02) == std::vector<int>{0, 0, 1});
+  // The smaller range of a pair decides.
+  CHECK(range_adaptive_clusters(points, {10, 30, 30}, 0.3, 0.02) == std::vector<int>{0, 1, 2});
+  CHECK(range_adaptive_clusters({}, {}, 0.3, 0.02).empty());
+}
+
+TEST_CASE("range-adaptive clusters equal the transitive closure of all pairs") {
+  std::mt19937 random(3);
+  const auto pick = [&](double high) {
+    return high * (static_cast<double>(random()) / 4294967296.0);
+  };
+  std::vector<Eigen::Vector3d> points;
+  std::vector<double> ranges;
+  for (int i = 0; i < 150; ++i) {
+    points.emplace_back(pick(8) - 4, pick(8) - 4, pick(2));
+    ranges.push_back(pick(40));
+  }
+  std::vector<int> expected(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) expected[i] = static_cast<int>(i);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        const double reach = 0.3 + 0.02 * std::min(ranges[i], ranges[j]);
+        if ((points[i] - points[j]).norm() <= reach && expected[j] < expected[i]) {
+          expected[i] = expected[j];
+          changed = true;
+        }
+      }
+    }
+  }
+  const std::vector<int> found = range_adaptive_clusters(points, ranges, 0.3, 0.02);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      REQUIRE((found[i] == found[j]) == (expected[i] == expected[j]));
+    }
+  }
+}
+
+TEST_CASE("range-adaptive clusters with a reach of thousands of cells") {
+  // Reach 0.01 + 0.2 * 100 = 20.01 m, cells of 6 mm.
+  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {50, 0, 0}, {20, 0, 0}, {70.02, 0, 0}};
+  CHECK(range_adaptive_clusters(points, {100, 100, 100, 100}, 0.01, 0.2) ==
+        std::vector<int>{0, 1, 0, 2});
+}
+
+TEST_CASE("disjoint sets are numbered by their first elements") {
+  DisjointSets sets(5);
+  sets.join(4, 1);
+  sets.join(3, 4);
+  CHECK(sets.numbers() == std::vector<int>{0, 1, 2, 1, 1});
+  CHECK(sets.root(3) == 1);
+}
