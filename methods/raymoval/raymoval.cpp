@@ -88,7 +88,9 @@ class RaymovalPass {
         grid_(grid_for(sensor, parameters)),
         map_(parameters.voxel_size, parameters.permanent_erase),
         erase_rows_(rows_of_a_beam(sensor, grid_, parameters)),
-        cast_image_(make_caster(grid_, {parameters.minimum_range, parameters.maximum_range})) {}
+        cast_image_(make_caster(grid_, {parameters.minimum_range, parameters.maximum_range})) {
+    known_.remembers = true;
+  }
 
   [[nodiscard]] StaticMap& map() { return map_; }
 

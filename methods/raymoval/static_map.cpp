@@ -5,14 +5,35 @@
 
 namespace raymoval {
 
+StaticMap::Slot StaticMap::find_known(const Eigen::Vector3i& brick,
+                                      std::vector<VoxelLookup::KnownBrick>& table) const {
+  const VoxelKey key = voxel_key(brick);
+  // 32 x 32 x 4 bricks: neighbours share lines of the cache.
+  VoxelLookup::KnownBrick& known = table[static_cast<std::size_t>(
+      (brick.z() & 3) << 10 | (brick.y() & 31) << 5 | (brick.x() & 31))];
+  if (known.key == key) return known.slot;
+  const Slot slot = occupied_.find_slot(brick);
+  if (slot != OccupancyMap::kNoBrick) known = {key, slot};  // Bricks keep their numbers.
+  return slot;
+}
+
 void StaticMap::look_up(const std::vector<VoxelIndex>& voxels, int threads,
                         VoxelLookup& found) const {
   found.slots.resize(voxels.size());
   found.states.resize(voxels.size());
   static constexpr Brick kNothing;
-  parallel_chunks(threads, voxels.size(), 8192, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t kGrain = 8192, kKnownBricks = 4096;
+  const std::size_t parts = (voxels.size() + kGrain - 1) / kGrain;
+  if (found.remembers && found.bricks.size() < parts) {
+    found.bricks.resize(parts, std::vector<VoxelLookup::KnownBrick>(kKnownBricks));
+  }
+  parallel_chunks(threads, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const auto find_slot = [&](const Eigen::Vector3i& brick) {
+      return found.remembers ? find_known(brick, found.bricks[begin / kGrain])
+                             : occupied_.find_slot(brick);
+    };
     Eigen::Vector3i last = OccupancyMap::brick_of(voxels[begin]);
-    Slot slot = occupied_.find_slot(last);
+    Slot slot = find_slot(last);
     const Brick* occupied = nullptr;
     const Brick* erased = nullptr;
     const auto open_brick = [&] {
@@ -26,7 +47,7 @@ void StaticMap::look_up(const std::vector<VoxelIndex>& voxels, int threads,
       const Eigen::Vector3i brick = OccupancyMap::brick_of(voxel);
       if (brick != last) {
         last = brick;
-        slot = occupied_.find_slot(brick);
+        slot = find_slot(brick);
         open_brick();
       }
       found.slots[k] = slot;

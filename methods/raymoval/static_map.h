@@ -17,6 +17,15 @@ enum class VoxelState : std::uint8_t {
 struct VoxelLookup {
   std::vector<OccupancyMap::Slot> slots;  ///< Bricks; kNoBrick where there is none.
   std::vector<VoxelState> states;
+
+  /// A brick that was found before. Points of the same part of a scan see much the same bricks from
+  /// scan to scan, and the hash grid of a large map is too large for a processor's cache.
+  struct KnownBrick {
+    VoxelKey key = ~VoxelKey{0};
+    OccupancyMap::Slot slot = OccupancyMap::kNoBrick;
+  };
+  bool remembers = false;                       ///< For look-ups scan after scan in one map.
+  std::vector<std::vector<KnownBrick>> bricks;  ///< By part of the scan, then by place.
 };
 
 /// The map M of the paper with what it must remember: which voxels were seen
@@ -59,6 +68,9 @@ class StaticMap {
   void erase(const VoxelIndex& voxel);
 
  private:
+  /// `find_slot` with the help of a table of bricks found before.
+  [[nodiscard]] Slot find_known(const Eigen::Vector3i& brick,
+                                std::vector<VoxelLookup::KnownBrick>& table) const;
   static constexpr std::uint32_t kNothingErased = ~std::uint32_t{0};
 
   /// Erased voxels of a brick (`slot` may be kNoBrick); null if it has none.
