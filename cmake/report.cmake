@@ -20,7 +20,7 @@ function(raymoval_fetch_three)
       message(FATAL_ERROR "npm is missing; run scripts/install_dependencies.sh, ${without_view}")
     endif()
     message(STATUS "Fetching three ${three_version}")
-    execute_process(COMMAND ${RAYMOVAL_NPM} pack three@${three_version} --silent
+    execute_process(COMMAND ${RAYMOVAL_NPM} pack three@${three_version} --loglevel=error
                             --pack-destination ${report_build}
                     WORKING_DIRECTORY ${report_build} RESULT_VARIABLE status
                     OUTPUT_VARIABLE told ERROR_VARIABLE told)

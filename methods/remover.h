@@ -25,8 +25,8 @@ class RemovalSink {
   virtual void accept(std::size_t scan, const Mask& mask) = 0;
 };
 
-/// Takes why a method removed or kept each point, where it can say: a code per point, and a sentence
-/// for each code. It is shown to people who look at single points and changes no score.
+/// Takes why a method removed or kept each point, where it can say: a code per point, and a
+/// sentence for each code. It is shown to people who look at single points and changes no score.
 class ReasonSink {
  public:
   virtual ~ReasonSink() = default;

@@ -65,8 +65,10 @@ std::string head_html(const TextTable& table) {
   if (grouped) {
     html += "<tr><th scope=\"col\" rowspan=\"2\">" + corner + "</th>";
     for (const TableGroup& group : table.groups) {
-      html += "<th scope=\"colgroup\" class=\"group\" colspan=\"" +
-              std::to_string(group.columns.size()) + "\">" + html_text(group.heading) + "</th>";
+      const std::string span = "colspan=\"" + std::to_string(group.columns.size()) + "\">";
+      html += group.heading.empty() ? "<td " + span + "</td>"
+                                    : "<th scope=\"colgroup\" class=\"group\" " + span +
+                                          html_text(group.heading) + "</th>";
     }
     html += "</tr>\n";
   }

@@ -23,7 +23,7 @@ std::optional<std::string> part_of(const std::string& column, const std::string&
 /// @param kind name of the columns with what is not lost
 TextTable loss_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
                      const std::string& title) {
-  TextTable table{title, "points", {{"", {"points"}}}, {}, {}};
+  TextTable table{title, "of", {{"", {"points"}}}, {}, {}};
   for (const MethodColumns* method : methods) table.groups[0].columns.push_back(method->cell);
   std::vector<std::string> columns;
   for (const MethodColumns* method : methods) {

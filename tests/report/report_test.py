@@ -183,6 +183,9 @@ def check_click(browser):
     told = browser.run("document.getElementById('point').textContent")
     for word in ("scan", "moving-", "voxel of 0.2 m", "removed, rightly"):
         check(f"a clicked point tells '{word}'", word in told, told)
+    browser.run("document.getElementById('canvas').focus()")
+    browser.press("Escape")
+    check("Escape forgets it", browser.run("document.getElementById('point').textContent") == "")
 
 
 def check_reasons(browser):

@@ -129,6 +129,7 @@ class View {
       case ',': this.stepScan(-1); return true;
       case '.': this.stepScan(1); return true;
       case 'Home': this.lookAtAll(); return true;
+      case 'Escape': this.forgetPoint(); return true;
       case '1': case '2': case '3': case '4': element(`kind-${event.key - 1}`).click(); return true;
     }
     return false;
@@ -149,9 +150,7 @@ class View {
     element('scan').value = '0';
     element('mode').value = '0';
     this.stage.setTrajectory(data.head.trajectory);
-    this.stage.mark(null);
-    this.chosen = undefined;
-    element('point').replaceChildren();
+    this.forgetPoint();
     await this.openCells();
     this.tellScan();
     tellThinning(data.head);
@@ -259,6 +258,12 @@ class View {
 
   tellChosen() {
     tellPoint(this.data, this.cells, this.chosen);
+  }
+
+  forgetPoint() {
+    this.chosen = undefined;
+    this.stage.mark(null);
+    element('point').replaceChildren();
   }
 
   tell(text) {
