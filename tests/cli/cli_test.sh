@@ -95,7 +95,7 @@ expect 0 "All controls are as they must be" run "${short[@]}" --method noop --pr
   --set protocol:dynamicmap.maximum_range=10 --out near
 holds "a protocol's option is recorded" grep -q '"maximum_range": 10' \
   near/cells/street/noop-default/cell.json
-expect 1 "has those of the LiDAR" run "${short[@]}" --method noop \
+expect 2 "has those of the LiDAR" run "${short[@]}" --method noop \
   --set protocol:erasor.frame=erasor --out frame
 expect 2 "Did you mean 'erasor'" run "${short[@]}" --method noop --set protocol:erasor.frame=eraser --out o
 
