@@ -16,7 +16,7 @@ using test::TemporaryFolder;
 
 namespace {
 
-std::size_t entries(const std::filesystem::path& folder) {
+std::size_t files_in(const std::filesystem::path& folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
@@ -57,13 +57,13 @@ TEST_CASE("A file keeps what it held until all of the new content has its name")
   CHECK(read_text(path) == "before");
   file.commit();
   CHECK(read_text(path) == "count 2, points");
-  CHECK(entries(folder.path()) == 1);
+  CHECK(files_in(folder.path()) == 1);
 }
 
 TEST_CASE("A file that is given up leaves nothing") {
   const TemporaryFolder folder;
   { FileWriter(folder.path() / "a.txt").append("half"); }
-  CHECK(entries(folder.path()) == 0);
+  CHECK(files_in(folder.path()) == 0);
 }
 
 TEST_CASE("Only what was appended can be overwritten") {
@@ -85,5 +85,5 @@ TEST_CASE("A full disk is told, and what was there stays") {
                       Contains("a.txt: cannot be written") && Contains("Nothing was changed"));
   }
   CHECK(read_text(path) == "before");
-  CHECK(entries(folder.path()) == 1);
+  CHECK(files_in(folder.path()) == 1);
 }

@@ -28,7 +28,7 @@ MemorySequence small_street() {
   return MemorySequence({first, second});
 }
 
-EvaluationInput input_of(const MemorySequence& sequence) {
+EvaluationInput columns_input(const MemorySequence& sequence) {
   EvaluationInput input = sequence.input();
   input.range_m = {0.0, 50.0};
   input.label_rule.ignored = {99};
@@ -59,7 +59,7 @@ bool has_column(const std::vector<ColumnValue>& values, const std::string& name)
 
 TEST_CASE("columns of a small street", "[columns]") {
   const MemorySequence sequence = small_street();
-  const auto values = column_values(tally_removals(input_of(sequence), sequence.masks()));
+  const auto values = column_values(tally_removals(columns_input(sequence), sequence.masks()));
   // Seven points count: static 40 40 40 50, of which one is removed; moving 252 252 253, of which
   // two are.
   check_share(values, "precision", 2, 3);
@@ -92,7 +92,7 @@ TEST_CASE("columns of a small street", "[columns]") {
 
 TEST_CASE("columns of the controls", "[columns]") {
   const MemorySequence sequence = small_street();
-  const EvaluationInput input = input_of(sequence);
+  const EvaluationInput input = columns_input(sequence);
   const auto of = [&](const MaskStore& masks) {
     return column_values(tally_removals(input, masks));
   };
@@ -116,7 +116,7 @@ TEST_CASE("columns count the points that the erasor protocol evaluates", "[colum
   CloudShape shape;
   shape.points = 2000;
   const MemorySequence sequence = random_sequence(shape);
-  EvaluationInput input = input_of(sequence);
+  EvaluationInput input = columns_input(sequence);
   input.range_m = {2.9, 4.9};
   const ProtocolResult erasor = score_erasor(input, sequence.masks());
   const RemovalTally tally = tally_removals(input, sequence.masks());

@@ -29,7 +29,7 @@ ProtocolResult score_row(const std::vector<std::pair<std::uint32_t, bool>>& poin
   return score_erasor(sequence.input(), sequence.masks(), settings);
 }
 
-const Rate& rate_named(const ProtocolResult& result, const std::string& name) {
+const Rate& edge_rate(const ProtocolResult& result, const std::string& name) {
   for (const Rate& rate : result.rates) {
     if (rate.name == name) return rate;
   }
@@ -63,9 +63,9 @@ TEST_CASE("nothing dynamic: RR and F1 are undefined, PR is not", "[erasor][edge]
   CHECK(result.rate("PR").value() == Approx(200.0 / 3));
   CHECK_FALSE(result.rate("RR").has_value());
   CHECK_FALSE(result.rate("F1").has_value());
-  CHECK_THAT(rate_named(result, "RR").undefined_reason, Contains("no dynamic voxel"));
-  CHECK_THAT(rate_named(result, "F1").undefined_reason, Contains("no dynamic voxel"));
-  CHECK(rate_named(result, "PR").undefined_reason.empty());
+  CHECK_THAT(edge_rate(result, "RR").undefined_reason, Contains("no dynamic voxel"));
+  CHECK_THAT(edge_rate(result, "F1").undefined_reason, Contains("no dynamic voxel"));
+  CHECK(edge_rate(result, "PR").undefined_reason.empty());
 }
 
 TEST_CASE("nothing static: PR and F1 are undefined, RR is not", "[erasor][edge]") {
@@ -73,7 +73,7 @@ TEST_CASE("nothing static: PR and F1 are undefined, RR is not", "[erasor][edge]"
   CHECK_FALSE(result.rate("PR").has_value());
   CHECK(result.rate("RR") == 50.0);
   CHECK_FALSE(result.rate("F1").has_value());
-  CHECK_THAT(rate_named(result, "F1").undefined_reason, Contains("no static voxel"));
+  CHECK_THAT(edge_rate(result, "F1").undefined_reason, Contains("no static voxel"));
 }
 
 TEST_CASE("an empty estimate scores 0, 100, 0 with a warning", "[erasor][edge]") {
