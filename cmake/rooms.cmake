@@ -1,14 +1,12 @@
 # Several source files of a folder compiled as one: a third of the work where headers cost more than
-# what is in the files. For builds that nobody edits in (scripts/test.sh): names in anonymous
-# namespaces have to differ within a group, and a forgotten #include may go unnoticed, so the
-# library of the release build is compiled file by file.
-set(RAYMOVAL_UNITY "" CACHE STRING "What to compile several files at a time: nothing, tests or all")
-set_property(CACHE RAYMOVAL_UNITY PROPERTY STRINGS "" tests all)
+# what is in the files. For builds that nobody edits in (the sanitizers in scripts/test.sh): names in
+# anonymous namespaces have to differ within a group, and a forgotten #include may go unnoticed, so
+# the release build is made file by file.
+option(RAYMOVAL_UNITY "Compile the library several files at a time" OFF)
 
-# raymoval_unity(TARGET KIND SOURCE...): groups of up to eight files of one folder, if RAYMOVAL_UNITY
-# is "all" or KIND.
-function(raymoval_unity target kind)
-  if(NOT RAYMOVAL_UNITY STREQUAL "all" AND NOT RAYMOVAL_UNITY STREQUAL kind)
+# raymoval_unity(TARGET SOURCE...): groups of up to eight files of one folder.
+function(raymoval_unity target)
+  if(NOT RAYMOVAL_UNITY)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
@@ -31,7 +29,7 @@ function(raymoval_room name)
     message(FATAL_ERROR "no source file in ${name}/")
   endif()
   add_library(raymoval_${name} STATIC ${sources})
-  raymoval_unity(raymoval_${name} library ${sources})
+  raymoval_unity(raymoval_${name} ${sources})
   add_library(raymoval::${name} ALIAS raymoval_${name})
   target_compile_features(raymoval_${name} PUBLIC cxx_std_20)
   target_include_directories(raymoval_${name} PUBLIC
