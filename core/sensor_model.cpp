@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 const std::vector<SensorModel>& known_sensors() {
   // Data sheet values; azimuth steps at 10 Hz.

@@ -15,7 +15,6 @@ namespace {
 // More than any sensor's record; these guard the arithmetic that follows.
 constexpr int kLargestCount = 65536;
 constexpr std::size_t kLargestRow = 1 << 20;
-constexpr std::uint64_t kMostPoints = 0xFFFFFFFFU;
 
 /// Lines of a header, one by one, with what is needed to report them.
 class HeaderLines {
@@ -58,7 +57,7 @@ class HeaderLines {
 };
 
 void check_fields(const CloudHeader& header, const std::filesystem::path& path) {
-  if (header.row_bytes() > kLargestRow || header.points > kMostPoints) {
+  if (header.row_bytes() > kLargestRow || header.points > kMostCloudPoints) {
     throw DataError(path.string() + ": " + grouped_text(header.points) + " points of " +
                     grouped_text(header.row_bytes()) +
                     " bytes are more than a scan can have; the header is damaged.");
@@ -158,7 +157,7 @@ class PcdHeaderParser {
 
   std::uint64_t point_count() const {
     const auto read = [&](const char* name) {
-      return lines_.number<std::uint64_t>(entry(name, 1).front(), 0, kMostPoints);
+      return lines_.number<std::uint64_t>(entry(name, 1).front(), 0, kMostCloudPoints);
     };
     const std::uint64_t by_size = read("WIDTH") * read("HEIGHT");
     if (!entries_.contains("POINTS")) return by_size;
@@ -275,7 +274,7 @@ CloudHeader parse_ply_header(std::string_view bytes, const std::filesystem::path
     } else if (words[0] == "element") {
       const bool vertex = words.size() == 3 && words[1] == "vertex";
       if (vertex != (elements++ == 0)) lines.fail("expected 'element vertex COUNT' once, first.");
-      if (vertex) header.points = lines.number<std::uint64_t>(words[2], 0, kMostPoints);
+      if (vertex) header.points = lines.number<std::uint64_t>(words[2], 0, kMostCloudPoints);
     } else if (words[0] == "property") {
       if (elements == 0) lines.fail("a property before any element.");
       if (elements == 1) header.fields.push_back(ply_field(lines, words));

@@ -12,6 +12,9 @@
 
 namespace raymoval {
 
+/// Points of one file: what .pcd and .ply readers, ours among them, hold counts in.
+constexpr std::uint64_t kMostCloudPoints = 0xFFFFFFFFU;
+
 /// One named value (or `count` of them) of a point record.
 struct CloudField {
   std::string name;

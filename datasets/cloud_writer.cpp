@@ -8,14 +8,13 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
+#include "datasets/cloud_header.h"
 
 namespace raymoval {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "cloud files are little-endian");
 
-/// What .pcd and .ply readers, ours among them, hold counts in.
-constexpr std::uint64_t kMostPoints = 0xFFFFFFFFU;
 constexpr std::size_t kMostDigits = 10;
 
 /// As many blanks as `count` lacks digits, `times` over.
@@ -75,8 +74,8 @@ void CloudWriter::add(const std::vector<Eigen::Vector3f>& points,
                         std::to_string(intensity.size()) + " intensities");
   }
   points_ += points.size();
-  if (points_ > kMostPoints) {
-    throw DataError(file_.path().string() + ": more than " + grouped_text(kMostPoints) +
+  if (points_ > kMostCloudPoints) {
+    throw DataError(file_.path().string() + ": more than " + grouped_text(kMostCloudPoints) +
                     " points, which no reader takes. Nothing was changed; choose fewer frames or a "
                     "voxel size.");
   }

@@ -5,15 +5,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "datasets/sequence.h"
 
 namespace raymoval::kernels_bench {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNearest = 2.7, kFarthest = 50.0;  // Points of the map, metres from the sensor.
 
 /// Which points of a sequence a map is made of.

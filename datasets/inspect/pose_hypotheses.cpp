@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "datasets/frames.h"
 #include "datasets/poses.h"
@@ -17,7 +18,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// Metres from scan to scan that no vehicle goes, and that a moving one always exceeds: beyond them

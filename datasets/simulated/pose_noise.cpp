@@ -2,8 +2,8 @@
 #include "datasets/simulated/pose_noise.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "datasets/simulated/random.h"
 
 namespace raymoval::simulated {
@@ -24,7 +24,6 @@ std::vector<Pose> pose_errors(const PoseNoise& noise, double severity, std::size
                               double period_s, std::uint64_t seed) {
   std::vector<Pose> errors(count, Pose::Identity());
   if (severity == 0.0) return errors;
-  constexpr double kDegree = std::numbers::pi / 180.0;
   Vector6 drift_size;
   drift_size << noise.drift_m, noise.drift_m, 0.5 * noise.drift_m,
       Eigen::Vector3d::Constant(noise.drift_deg * kDegree);

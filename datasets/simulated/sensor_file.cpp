@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "datasets/simulated/random.h"
 
@@ -15,7 +16,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 /// More than any sensor takes; what a sweep holds in memory is bounded by it.
 constexpr double kMostShots = 1e7;
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "datasets/file_source.h"
 #include "datasets/frames.h"
@@ -19,7 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kRoad = 40;
 

@@ -3,16 +3,14 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/simulated/bodies.h"
 
 namespace raymoval::simulated {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Errors of paths and speed profiles, with the place in the file put before them.
 template <class Make>

@@ -58,7 +58,8 @@ void sweep(const fs::path& root) {
   for (auto entry = fs::directory_iterator(root, error);
        !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const fs::path lock = entry->path();
-    if (!lock.filename().string().starts_with(kFolderPrefix) || lock.extension() != ".lock") continue;
+    if (!lock.filename().string().starts_with(kFolderPrefix) || lock.extension() != ".lock")
+      continue;
     struct stat status {};
     if (::lstat(lock.c_str(), &status) != 0 || status.st_uid != ::geteuid()) continue;
     const int file = take_lock(lock, 0);

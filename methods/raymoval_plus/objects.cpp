@@ -137,19 +137,17 @@ std::vector<ObjectSummary> summaries(const ScanObjects& objects, const WorldScan
                                      const RaymovalPlusParameters& parameters) {
   std::vector<ObjectSummary> all(objects.size.size());
   for (ObjectSummary& object : all) {
-    object.low.setConstant(1e30F);
-    object.high.setConstant(-1e30F);
+    object.low.setConstant(1e30);
+    object.high.setConstant(-1e30);
     object.center.setZero();
   }
   const Eigen::Vector3d sensor = world.scan.T_world_sensor.translation();
   for (std::size_t i = 0; i < objects.points.size(); ++i) {
     const std::size_t k = objects.points[i];
     ObjectSummary& object = all[static_cast<std::size_t>(objects.number[i])];
-    // Sums are taken around the sensor, where single precision is exact enough.
-    const Eigen::Vector3f point = (world.points[k] - sensor).cast<float>();
-    object.low = object.low.cwiseMin(point);
-    object.high = object.high.cwiseMax(point);
-    object.center += point;
+    object.low = object.low.cwiseMin(world.points[k]);
+    object.high = object.high.cwiseMax(world.points[k]);
+    object.center += world.points[k];
     ++object.points;
     if (world.verdict[k] == Evidence::kDynamic) {
       ++object.dynamic;
@@ -160,17 +158,13 @@ std::vector<ObjectSummary> summaries(const ScanObjects& objects, const WorldScan
   std::vector<ObjectSummary> followed;
   for (std::size_t c = 0; c < all.size(); ++c) {
     ObjectSummary& object = all[c];
-    if (object.points < parameters.track_points ||
-        object.width() > static_cast<float>(parameters.track_width)) {
+    if (object.points < parameters.track_points || object.width() > parameters.track_width) {
       continue;
     }
-    object.center /= static_cast<float>(object.points);
-    object.range = object.center.norm();
+    object.center /= object.points;
+    object.range = static_cast<float>((object.center - sensor).norm());
     object.agree_scans /= static_cast<float>(std::max(object.points - object.dynamic, 1));
     object.cluster = static_cast<int>(c);
-    for (Eigen::Vector3f* const place : {&object.low, &object.high, &object.center}) {
-      *place += sensor.cast<float>();
-    }
     followed.push_back(object);
   }
   return followed;

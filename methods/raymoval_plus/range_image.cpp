@@ -6,12 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "core/angle.h"
+
 namespace raymoval {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// A bin is a little wider than a beam, so that few bins stay empty where a surface goes on.
 constexpr double kBeamsPerColumn = 1.45;
 

@@ -66,12 +66,12 @@ bool is_explained(const ObjectSummary& object, const Motion& motion,
 /// Distance from where the track is expected, or a negative number if it cannot be the same.
 double Follower::mismatch(const Track& track, const ObjectSummary& found, int gap) const {
   const ObjectSummary& last = track.nodes.back().object;
-  const Eigen::Vector3f expected = last.center + track.velocity * static_cast<float>(gap);
+  const Eigen::Vector3d expected = last.center + track.velocity * gap;
   const double distance = (found.center - expected).head<2>().norm();
   const double gate = 0.6 + 0.35 * track.velocity.norm() * gap;
   if (distance > gate) return -1.0;
-  const Eigen::Array3f size = last.high - last.low, found_size = found.high - found.low;
-  if (((size - found_size).abs() > 0.6F + 0.3F * size.max(found_size)).any()) return -1.0;
+  const Eigen::Array3d size = last.high - last.low, found_size = found.high - found.low;
+  if (((size - found_size).abs() > 0.6 + 0.3 * size.max(found_size)).any()) return -1.0;
   return distance;
 }
 
@@ -95,16 +95,20 @@ void Follower::step(std::size_t scan, const std::vector<ObjectSummary>& objects)
   retire(scan);
   for (std::size_t k = 0; k < objects.size(); ++k) {
     if (used[k] == 0 && is_dynamic(objects[k], parameters_)) {
-      active_.push_back({{{scan, objects[k]}}, Eigen::Vector3f::Zero()});
+      active_.push_back({{{scan, objects[k]}}, Eigen::Vector3d::Zero()});
     }
   }
 }
 
 void Follower::extend(Track& track, TrackNode node) const {
   const TrackNode& last = track.nodes.back();
-  const Eigen::Vector3f moved = (node.object.center - last.object.center) /
-                                static_cast<float>(gap_between(last.scan, node.scan));
-  track.velocity = track.nodes.size() == 1 ? moved : 0.5F * (track.velocity + moved);
+  const Eigen::Vector3d moved =
+      (node.object.center - last.object.center) / gap_between(last.scan, node.scan);
+  if (track.nodes.size() == 1) {
+    track.velocity = moved;
+  } else {
+    track.velocity = 0.5 * (track.velocity + moved);
+  }
   track.nodes.push_back(node);
 }
 

@@ -12,15 +12,15 @@ namespace raymoval {
 
 /// A cluster of one scan as the tracks see it; world frame, metres.
 struct ObjectSummary {
-  Eigen::Vector3f low, high;  ///< Bounding box.
-  Eigen::Vector3f center;     ///< Mean of the points.
+  Eigen::Vector3d low, high;  ///< Bounding box.
+  Eigen::Vector3d center;     ///< Mean of the points.
   float range = 0.0F;         ///< Distance of the centre from the sensor.
   float agree_scans = 0.0F;   ///< Mean number of scans that agree with the points not dynamic.
   int points = 0;
   int dynamic = 0;  ///< Points found dynamic.
   int cluster = 0;  ///< Number within its scan.
 
-  [[nodiscard]] float width() const { return (high - low).head<2>().norm(); }
+  [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
 };
 
 struct TrackNode {
@@ -30,7 +30,7 @@ struct TrackNode {
 
 struct Track {
   std::vector<TrackNode> nodes;
-  Eigen::Vector3f velocity = Eigen::Vector3f::Zero();  ///< Metres a scan, in the order followed.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Metres a scan, in the order followed.
 };
 
 /// Follows dynamic objects from scan to scan, scans given in ascending or descending order.

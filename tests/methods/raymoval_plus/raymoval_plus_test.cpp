@@ -35,9 +35,9 @@ SensorModel half_degree_sensor() {
 /// A walker of half a metre who moves 0.2 m a scan along x; `dynamic` of 20 points are dynamic.
 ObjectSummary walker(int scan, int dynamic, float agree_scans) {
   ObjectSummary object;
-  object.center = {0.2F * static_cast<float>(scan), 0.0F, 1.0F};
-  object.low = object.center - Eigen::Vector3f(0.25F, 0.25F, 0.7F);
-  object.high = object.center + Eigen::Vector3f(0.25F, 0.25F, 0.7F);
+  object.center = {0.2 * scan, 0.0, 1.0};
+  object.low = object.center - Eigen::Vector3d(0.25, 0.25, 0.7);
+  object.high = object.center + Eigen::Vector3d(0.25, 0.25, 0.7);
   object.range = 10.0F;
   object.points = 20;
   object.dynamic = dynamic;
