@@ -36,7 +36,7 @@ WorldScan ArrivingScans::add(Scan scan, int threads, StageTimes* times) {
   }
   {
     const StageScope timed(times, "earlier scans");
-    ask_kept_scans(first_voxel, threads);
+    ask_kept_scans(first_voxel, world.scan.T_world_sensor.translation(), threads);
   }
   const StageScope timed(times, "evidence");
   add_evidence(image_, world.scan.T_world_sensor, parameters_, threads, map_);
@@ -47,17 +47,21 @@ WorldScan ArrivingScans::add(Scan scan, int threads, StageTimes* times) {
   return world;
 }
 
-void ArrivingScans::ask_kept_scans(std::size_t first_voxel, int threads) {
-  parallel_for(threads, map_.size() - first_voxel, 256, [&](std::size_t i) {
-    const std::size_t voxel = first_voxel + i;
-    const Eigen::Vector3d centroid = map_.centroid(voxel);
+void ArrivingScans::ask_kept_scans(std::size_t first_voxel, const Eigen::Vector3d& center,
+                                   int threads) {
+  parallel_chunks(threads, map_.size() - first_voxel, 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> places;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3f place = (map_.centroid(first_voxel + i) - center).cast<float>();
+      places.insert(places.end(), place.data(), place.data() + 3);
+    }
+    std::vector<SeenPlace> seen;
     for (const Kept& kept : kept_) {
-      const double distance = (centroid - kept.center).norm();
-      if (distance > parameters_.evidence_range_max || distance < parameters_.evidence_range_min) {
-        continue;
+      kept.image.see(places, kept.T_sensor_world * Eigen::Translation3d(center), seen);
+      for (const SeenPlace& place : seen) {
+        count(place.seen, place.range, parameters_,
+              map_.evidence(first_voxel + begin + place.place));
       }
-      const Seen seen = kept.image.test((kept.T_sensor_world * centroid).cast<float>());
-      count(seen, distance, parameters_, map_.evidence(voxel));
     }
   });
   for (std::size_t voxel = first_voxel; voxel < map_.size(); ++voxel) {
@@ -70,8 +74,7 @@ void ArrivingScans::keep(RangeImage image, const Pose& T_world_sensor) {
   if (kept_.size() == static_cast<std::size_t>(parameters_.history_scans)) {
     kept_.erase(kept_.begin());
   }
-  kept_.push_back(
-      {std::move(image), T_world_sensor.inverse(Eigen::Isometry), T_world_sensor.translation()});
+  kept_.push_back({std::move(image), T_world_sensor.inverse(Eigen::Isometry)});
 }
 
 }  // namespace raymoval

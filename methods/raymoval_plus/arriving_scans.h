@@ -30,9 +30,9 @@ class ArrivingScans {
   struct Kept {
     RangeImage image;
     Pose T_sensor_world;
-    Eigen::Vector3d center;
   };
-  void ask_kept_scans(std::size_t first_voxel, int threads);
+  /// @param center the sensor, in the world frame
+  void ask_kept_scans(std::size_t first_voxel, const Eigen::Vector3d& center, int threads);
   void keep(RangeImage image, const Pose& T_world_sensor);
 
   RaymovalPlusParameters parameters_;

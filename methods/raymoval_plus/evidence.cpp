@@ -29,20 +29,17 @@ void count(Seen seen, double distance, const RaymovalPlusParameters& parameters,
 void add_evidence(const RangeImage& image, const Pose& T_world_sensor,
                   const RaymovalPlusParameters& parameters, int threads, EvidenceMap& map) {
   const Pose T_sensor_world = T_world_sensor.inverse(Eigen::Isometry);
-  const Eigen::Vector3d center = T_world_sensor.translation();
-  const auto tiles = map.tiles_near(center, parameters.evidence_range_max);
+  map.settle();
+  const auto tiles = map.tiles_near(T_world_sensor.translation(), parameters.evidence_range_max);
   // One tile to a thread at a time: voxels of a block are decided by one thread.
   parallel_for(threads, tiles.size(), 1, [&](std::size_t t) {
-    for (const std::uint32_t voxel : *tiles[t]) {
-      const Eigen::Vector3d centroid = map.centroid(voxel);
-      const double distance = (centroid - center).norm();
-      if (distance > parameters.evidence_range_max || distance < parameters.evidence_range_min) {
-        continue;
-      }
-      const Seen seen = image.test((T_sensor_world * centroid).cast<float>());
-      if (seen != Seen::kAgree && seen != Seen::kFree) continue;
+    const EvidenceMap::Tile& tile = *tiles[t];
+    thread_local std::vector<SeenPlace> seen;
+    image.see(tile.places, T_sensor_world * Eigen::Translation3d(tile.origin), seen);
+    for (const SeenPlace& place : seen) {
+      const std::uint32_t voxel = tile.voxels[place.place];
       VoxelEvidence& evidence = map.evidence(voxel);
-      count(seen, distance, parameters, evidence);
+      count(place.seen, place.range, parameters, evidence);
       map.set_decision(voxel, decide(evidence, parameters));
     }
   });

@@ -19,15 +19,14 @@ std::uint32_t EvidenceMap::add(const Eigen::Vector3d& point, Blocks::Cursor& cur
   dynamic_.resize(blocks_.block_count(), 0);
   if (number == kNone) {
     number = static_cast<std::uint32_t>(voxels_.size());
-    voxels_.emplace_back().index = voxel;
     block_of_.push_back(cursor.block);
-    const auto [tile, fresh] =
-        tile_numbers_.emplace(voxel_key(voxel.x() >> kTileShift, voxel.y() >> kTileShift, 0),
-                              static_cast<std::uint32_t>(tiles_.size()));
-    if (fresh) tiles_.emplace_back();
-    tiles_[tile->second].push_back(number);
+    add_voxel(voxel);
   }
   Voxel& sums = voxels_[number];
+  if (!sums.is_unsettled) {
+    sums.is_unsettled = true;
+    unsettled_.push_back(number);
+  }
   if (sums.count < kMostPoints) {
     const auto part = [&](int axis) {
       const double offset = point[axis] * inverse_ - voxel[axis];
@@ -41,6 +40,35 @@ std::uint32_t EvidenceMap::add(const Eigen::Vector3d& point, Blocks::Cursor& cur
   return number;
 }
 
+void EvidenceMap::add_voxel(const VoxelIndex& index) {
+  const VoxelIndex at(index.x() >> kTileShift, index.y() >> kTileShift, 0);
+  const auto [found, fresh] =
+      tile_numbers_.emplace(voxel_key(at), static_cast<std::uint32_t>(tiles_.size()));
+  if (fresh) {
+    const double side = (1 << kTileShift) * size_;
+    // Tiles reach from the deepest to the highest voxel; the first one is in the middle enough.
+    tiles_.push_back({{at.x() * side, at.y() * side, index.z() * size_}, {}, {}});
+  }
+  Tile& tile = tiles_[found->second];
+  Voxel& voxel = voxels_.emplace_back();
+  voxel.index = index;
+  voxel.tile = found->second;
+  voxel.place = static_cast<std::uint32_t>(tile.voxels.size());
+  tile.voxels.push_back(static_cast<std::uint32_t>(voxels_.size() - 1));
+  tile.places.resize(tile.places.size() + 3);
+}
+
+void EvidenceMap::settle() {
+  for (const std::uint32_t number : unsettled_) {
+    Voxel& voxel = voxels_[number];
+    voxel.is_unsettled = false;
+    Tile& tile = tiles_[voxel.tile];
+    const Eigen::Vector3f offset = (centroid(number) - tile.origin).cast<float>();
+    std::copy_n(offset.data(), 3, tile.places.begin() + 3 * std::ptrdiff_t{voxel.place});
+  }
+  unsettled_.clear();
+}
+
 Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
   const Voxel& sums = voxels_[voxel];
   const double scale = 1.0 / (kFraction * sums.count), half = 0.5 / kFraction;
@@ -48,13 +76,13 @@ Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
   return (sums.index.cast<double>() + offset) * size_;
 }
 
-std::vector<const std::vector<std::uint32_t>*> EvidenceMap::tiles_near(
-    const Eigen::Vector3d& center, double range) const {
+std::vector<const EvidenceMap::Tile*> EvidenceMap::tiles_near(const Eigen::Vector3d& center,
+                                                              double range) const {
   const double side = (1 << kTileShift) * size_;
   const int reach = static_cast<int>(std::ceil(range / side));
   const int cx = static_cast<int>(std::floor(center.x() / side));
   const int cy = static_cast<int>(std::floor(center.y() / side));
-  std::vector<const std::vector<std::uint32_t>*> near;
+  std::vector<const Tile*> near;
   for (int y = cy - reach; y <= cy + reach; ++y) {
     for (int x = cx - reach; x <= cx + reach; ++x) {
       const auto found = tile_numbers_.find(voxel_key(x, y, 0));

@@ -45,11 +45,17 @@ class EvidenceMap {
   /// Mean of the voxel's points so far, world frame, metres.
   [[nodiscard]] Eigen::Vector3d centroid(std::size_t voxel) const;
 
-  /// Voxels of each tile of 12.8 m x 12.8 m (64 voxels) of the ground that has a part within
-  /// `range` metres of `center`, seen from above; tiles in a fixed order. A block belongs to one
-  /// tile.
-  [[nodiscard]] std::vector<const std::vector<std::uint32_t>*> tiles_near(
-      const Eigen::Vector3d& center, double range) const;
+  /// 64 x 64 columns of voxels. A block belongs to one tile.
+  struct Tile {
+    Eigen::Vector3d origin;             ///< World frame, metres.
+    std::vector<std::uint32_t> voxels;  ///< In order of their first points.
+    std::vector<float> places;          ///< x y z of each voxel's mean from the origin, metres.
+  };
+  /// Brings the means in `Tile::places` up to date with what was added.
+  void settle();
+  /// Tiles that have a part within `range` metres of `center`, seen from above, in a fixed order.
+  [[nodiscard]] std::vector<const Tile*> tiles_near(const Eigen::Vector3d& center,
+                                                    double range) const;
 
   [[nodiscard]] const VoxelEvidence& evidence(std::size_t voxel) const {
     return voxels_[voxel].evidence;
@@ -69,13 +75,15 @@ class EvidenceMap {
 
  private:
   static constexpr int kTileShift = 6;
-  /// All of a voxel in one place in memory: the evidence of a scan passes over most of the map.
+  void add_voxel(const VoxelIndex& index);
   struct Voxel {
     VoxelIndex index;
     /// Sums of the points' offsets from the lower corner in 1/256 of the edge.
     std::uint32_t x = 0, y = 0, z = 0, count = 0;
     VoxelEvidence evidence;
     Evidence decision = Evidence::kUndecided, verdict = Evidence::kUndecided;
+    bool is_unsettled = false;
+    std::uint32_t tile = 0, place = 0;  ///< Where its mean stands.
   };
 
   double size_, inverse_;
@@ -84,7 +92,8 @@ class EvidenceMap {
   std::vector<Voxel> voxels_;
   std::vector<std::uint32_t> block_of_;
   VoxelMap<std::uint32_t> tile_numbers_;
-  std::vector<std::vector<std::uint32_t>> tiles_;
+  std::vector<Tile> tiles_;
+  std::vector<std::uint32_t> unsettled_;  ///< Voxels.
 };
 
 }  // namespace raymoval

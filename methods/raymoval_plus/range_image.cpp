@@ -16,10 +16,40 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 /// A bin is a little wider than a beam, so that few bins stay empty where a surface goes on.
 constexpr double kBeamsPerColumn = 1.45;
 
+/// Room for what the kernels say of places; one for each thread.
+struct Sights {
+  AlignedArray<float> range;
+  AlignedArray<std::int32_t> column, row;
+  AlignedArray<std::uint32_t> chosen;
+
+  kernels::Sights room_for(std::size_t places) {
+    constexpr std::size_t kMostLanes = 16;
+    range.require(places + kMostLanes);
+    column.require(places + kMostLanes);
+    row.require(places + kMostLanes);
+    chosen.require(places);
+    return {range.data(), column.data(), row.data()};
+  }
+};
+
+kernels::SightPlaces in_sensor_frame(const float* places, std::size_t count, const Pose& pose) {
+  kernels::SightPlaces job{places, count, {}, {}};
+  for (std::size_t i = 0; i < 9; ++i) {
+    job.rotation[i] = static_cast<float>(
+        pose.linear()(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3)));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    job.translation[i] = static_cast<float>(pose.translation()[static_cast<Eigen::Index>(i)]);
+  }
+  return job;
+}
+
 }  // namespace
 
-RangeImage::RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& parameters)
+RangeImage::RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& parameters,
+                       InstructionSet set)
     : parameters_(parameters),
+      kernels_(kernels::sight_kernels_for(set)),
       half_voxel_(static_cast<float>(0.5 * parameters.voxel_size)),
       agree_constant_(static_cast<float>(parameters.agree_constant)),
       agree_slope_(static_cast<float>(parameters.agree_slope)),
@@ -41,23 +71,24 @@ RangeImage::RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& 
   const double high = std::min(sensor.elevation_max + margin, std::numbers::pi / 2.0);
   rows_ = std::clamp(static_cast<int>(std::ceil((high - low) / wanted_elevation)), 1, 3600);
   elevation_step_ = static_cast<float>((high - low) / rows_);
-  elevation_min_ = static_cast<float>(low);
   stride_ = columns_ + 2 * kMargin;
+  grid_ = {1.0F / azimuth_step_, 1.0F / elevation_step_, static_cast<float>(low), columns_};
 }
 
 void RangeImage::fill(const Scan& scan) {
   bins_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(stride_),
                {kInfinite, -kInfinite});
-  for (const Eigen::Vector3f& point : scan.points) {
-    const float range = point.norm();
-    if (range < static_cast<float>(parameters_.minimum_range)) continue;
-    const int column = std::min(
-        static_cast<int>((std::atan2(point.y(), point.x()) + kPi) / azimuth_step_), columns_ - 1);
-    const int r = static_cast<int>(
-        std::floor((std::asin(point.z() / range) - elevation_min_) / elevation_step_));
-    if (r < 0 || r >= rows_) continue;
+  Sights sights;
+  kernels_.locate(grid_,
+                  in_sensor_frame(scan.points.empty() ? nullptr : scan.points.front().data(),
+                                  scan.size(), Pose::Identity()),
+                  sights.room_for(scan.size()));
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const float range = sights.range[k];
+    const int r = sights.row[k];
+    if (range < static_cast<float>(parameters_.minimum_range) || r < 0 || r >= rows_) continue;
     Bin& bin = bins_[static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_) +
-                     static_cast<std::size_t>(column + kMargin)];
+                     static_cast<std::size_t>(sights.column[k] + kMargin)];
     bin.nearest = std::min(bin.nearest, range);
     bin.farthest = std::max(bin.farthest, range);
   }
@@ -99,55 +130,93 @@ void RangeImage::fill_windows() {
   }
 }
 
-RangeImage::Window RangeImage::window_of(const Eigen::Vector3f& place, float range) const {
-  const int column = std::min(
-      static_cast<int>((std::atan2(place.y(), place.x()) + kPi) / azimuth_step_), columns_ - 1);
-  const int center = static_cast<int>(
-      std::floor((std::asin(place.z() / range) - elevation_min_) / elevation_step_));
+RangeImage::Window RangeImage::window_at(float range) const {
   const float half = half_voxel_ / range;
-  const int wide =
-      std::clamp(static_cast<int>(half / azimuth_step_), parameters_.window_columns, kMargin - 1);
-  const int high = std::max(static_cast<int>(half / elevation_step_), parameters_.window_rows);
-  return {column, center, wide, high};
+  return {
+      std::clamp(static_cast<int>(half / azimuth_step_), parameters_.window_columns, kMargin - 1),
+      std::max(static_cast<int>(half / elevation_step_), parameters_.window_rows)};
+}
+
+bool RangeImage::agrees_with(float range, const Bin& bin) const {
+  const float agree = agree_constant_ + agree_slope_ * range;
+  return std::abs(bin.nearest - range) <= agree || std::abs(bin.farthest - range) <= agree;
 }
 
 Seen RangeImage::test(const Eigen::Vector3f& place) const {
-  const float range = place.norm();
-  const Window window = window_of(place, range);
-  if (window.wide == parameters_.window_columns && window.high == parameters_.window_rows &&
-      window.center >= 0 && window.center < rows_) {
-    // Most places lie behind all returns of their window.
-    const Bin all = row(windows_, window.center)[kMargin + window.column];
-    if (all.nearest == kInfinite) return Seen::kUnknown;
-    if (all.farthest < range - (agree_constant_ + agree_slope_ * range)) return Seen::kOccluded;
-  }
-  return test_bins(range, window);
-}
-
-Seen RangeImage::test_every_bin(const Eigen::Vector3f& place) const {
-  const float range = place.norm();
-  return test_bins(range, window_of(place, range));
-}
-
-Seen RangeImage::test_bins(float range, const Window& window) const {
-  const auto [column, center, wide, high] = window;
-  const int low_row = std::max(center - high, 0), high_row = std::min(center + high, rows_ - 1);
-
-  const float agree = agree_constant_ + agree_slope_ * range;
-  const float beyond = range + occluded_constant_ + occluded_slope_ * range;
+  Sights sights;
+  kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights.room_for(1));
+  const float range = sights.range[0];
+  const int r = sights.row[0];
+  const auto [wide, high] = window_at(range);
   bool agrees = false, occluded = false, below = false;
-  for (int r = low_row; r <= high_row; ++r) {
-    const Bin* const bins = row(bins_, r) + kMargin + column;
-    bool any = false;
+  for (int at = std::max(r - high, 0); at <= std::min(r + high, rows_ - 1); ++at) {
     for (int c = -wide; c <= wide; ++c) {
-      const Bin bin = bins[c];
-      agrees |= std::abs(bin.nearest - range) <= agree || std::abs(bin.farthest - range) <= agree;
-      occluded |= bin.nearest < beyond;
-      any |= bin.nearest < kInfinite;
+      const Bin bin = row(bins_, at)[kMargin + sights.column[0] + c];
+      agrees |= agrees_with(range, bin);
+      occluded |= bin.nearest < range + occluded_constant_ + occluded_slope_ * range;
+      below |= bin.nearest < kInfinite && at <= r;
     }
-    below |= any && r <= center;
   }
   if (agrees) return Seen::kAgree;
+  if (occluded) return Seen::kOccluded;
+  return below ? Seen::kFree : Seen::kUnknown;
+}
+
+void RangeImage::see(const std::vector<float>& places, const Pose& T_sensor_places,
+                     std::vector<SeenPlace>& seen) const {
+  thread_local Sights sights;
+  const std::size_t count = places.size() / 3;
+  kernels::SightWindows windows;
+  windows.pairs = &windows_.front().nearest;
+  windows.stride = stride_;
+  windows.margin = kMargin;
+  windows.rows = rows_;
+  // A little farther than where windows grow: roundings may go either way.
+  windows.least_range = 1.001F * half_voxel_ /
+                        std::min(azimuth_step_ * static_cast<float>(parameters_.window_columns + 1),
+                                 elevation_step_ * static_cast<float>(parameters_.window_rows + 1));
+  windows.agree[0] = agree_constant_;
+  windows.agree[1] = agree_slope_;
+  windows.range_min = static_cast<float>(parameters_.evidence_range_min);
+  windows.range_max = static_cast<float>(parameters_.evidence_range_max);
+  const kernels::Sights room = sights.room_for(count);
+  const std::size_t chosen =
+      kernels_.choose(grid_, in_sensor_frame(places.data(), count, T_sensor_places), windows, room,
+                      sights.chosen.data());
+  seen.clear();
+  for (std::size_t i = 0; i < chosen; ++i) {
+    const std::uint32_t k = sights.chosen[i];
+    const float range = sights.range[k];
+    const Seen says = look(range, sights.column[k], sights.row[k]);
+    if (says == Seen::kAgree || says == Seen::kFree) seen.push_back({k, says, range});
+  }
+}
+
+Seen RangeImage::look(float range, int column, int r) const {
+  const auto [wide, high] = window_at(range);
+  const float agree = agree_constant_ + agree_slope_ * range;
+  const float beyond = range + occluded_constant_ + occluded_slope_ * range;
+  const float farther = std::max(range + agree, beyond);
+  const std::ptrdiff_t place = kMargin + column;
+  bool occluded = false, below = false;
+  for (int at = std::max(r - high, 0); at <= std::min(r + high, rows_ - 1); ++at) {
+    if (wide == parameters_.window_columns) {
+      // Few rows have returns at about the place's range.
+      const Bin all = row(row_windows_, at)[place];
+      const bool hides = all.farthest < range - agree;
+      if (hides || all.nearest > farther) {
+        occluded |= all.nearest < beyond;
+        below |= all.nearest < kInfinite && at <= r;
+        continue;
+      }
+    }
+    const Bin* const bins = row(bins_, at) + place;
+    for (int c = -wide; c <= wide; ++c) {
+      if (agrees_with(range, bins[c])) return Seen::kAgree;
+      occluded |= bins[c].nearest < beyond;
+      below |= bins[c].nearest < kInfinite && at <= r;
+    }
+  }
   if (occluded) return Seen::kOccluded;
   return below ? Seen::kFree : Seen::kUnknown;
 }

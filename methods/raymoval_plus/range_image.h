@@ -1,32 +1,46 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/scan.h"
 #include "core/sensor_model.h"
-#include "methods/raymoval_plus/evidence_map.h"
 #include "methods/raymoval_plus/parameters.h"
+#include "methods/raymoval_plus/sight_kernels.h"
 
 namespace raymoval {
 
 /// What one scan says of a place.
 enum class Seen : std::uint8_t { kUnknown, kAgree, kOccluded, kFree };
 
+/// A place that a scan says something of.
+struct SeenPlace {
+  std::uint32_t place;  ///< Its number.
+  Seen seen;            ///< kAgree or kFree.
+  float range;          ///< Metres from the sensor.
+};
+
 /// Nearest and farthest return of a scan in each direction, about one beam to a bin, and the
 /// three-way test of a place against the bins around it.
 class RangeImage {
  public:
-  RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& parameters);
+  /// @param set which kernels to use; the answer is the same for all
+  RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& parameters,
+             InstructionSet set = InstructionSet::kBest);
 
   /// Replaces the image with that of `scan`.
   void fill(const Scan& scan);
   /// What the scan says of a place of the sensor frame (metres): **agree** if any return of the
   /// window lies at its range, else **occluded** if any is nearer, else **free** if there is a
-  /// return at or below it, else **unknown**. Any agreement saves, any occlusion abstains.
+  /// return at or below it, else **unknown**. Any agreement saves, any occlusion abstains. Looks at
+  /// every bin of the window: slow, and what `see` has to come out as.
   [[nodiscard]] Seen test(const Eigen::Vector3f& place) const;
-  /// The same by a look at every bin of the window, without the short cut for most places.
-  [[nodiscard]] Seen test_every_bin(const Eigen::Vector3f& place) const;
+  /// Replaces `seen` with all places that the scan agrees with or sees through, ascending, as
+  /// `test` has it. Most places need no look at their window, so this is many times faster.
+  /// @param places x y z, x y z, ... of any frame, metres, not far from its origin
+  void see(const std::vector<float>& places, const Pose& T_sensor_places,
+           std::vector<SeenPlace>& seen) const;
 
  private:
   /// Columns repeated at either end, so that no window has to wrap around.
@@ -41,14 +55,17 @@ class RangeImage {
   /// Nearest and farthest return of the least window around each bin.
   void fill_windows();
   struct Window {
-    int column, center;  ///< Bin of the place; `center` may lie beyond the rows.
-    int wide, high;      ///< Half sizes, bins.
+    int wide, high;  ///< Half sizes, bins.
   };
-  [[nodiscard]] Window window_of(const Eigen::Vector3f& place, float range) const;
-  [[nodiscard]] Seen test_bins(float range, const Window& window) const;
+  [[nodiscard]] Window window_at(float range) const;
+  [[nodiscard]] bool agrees_with(float range, const Bin& bin) const;
+  /// Looks at the window around a bin; `r` may lie beyond the rows.
+  [[nodiscard]] Seen look(float range, int column, int r) const;
 
   RaymovalPlusParameters parameters_;
-  float azimuth_step_, elevation_step_, elevation_min_;
+  kernels::SightKernels kernels_;
+  kernels::SightGrid grid_;
+  float azimuth_step_, elevation_step_;
   float half_voxel_, agree_constant_, agree_slope_, occluded_constant_, occluded_slope_;
   int columns_, rows_, stride_;
   std::vector<Bin> bins_, row_windows_, windows_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/sensor_model.h"
+#include "core/angle.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,8 +12,6 @@ using namespace raymoval;
 using Catch::Matchers::Contains;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Beams at -10, -9 ... 10 degrees, each with a point every half degree from `first` to `last`;
 /// the beam at -10 degrees sees 10 m far, the next 11 m, the last 30 m.

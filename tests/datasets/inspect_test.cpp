@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "datasets/simulated/library.h"
 #include "tests/datasets/inspect_data.h"
 
@@ -12,8 +13,6 @@ using namespace raymoval;
 using namespace raymoval::test;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// LiDAR (x ahead, y left, z up) to camera (x right, y down, z ahead).
 Pose to_camera() {

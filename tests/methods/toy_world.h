@@ -7,12 +7,11 @@
 #include <numbers>
 #include <vector>
 
+#include "core/angle.h"
 #include "core/mask_store.h"
 #include "methods/remover.h"
 
 namespace raymoval::toy {
-
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Axis-aligned solid in world coordinates, metres.
 struct Box {

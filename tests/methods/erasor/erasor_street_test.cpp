@@ -187,8 +187,7 @@ TEST_CASE("off the lattice few verdicts change", "[erasor]") {
   std::size_t points = 0;
   for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
   Pose turned = toy::whole_motion(0.037, 0.081, 0, 0);
-  turned.linear() =
-      Eigen::AngleAxisd(17 * toy::kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  turned.linear() = Eigen::AngleAxisd(17 * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (const Pose& motion :
        {toy::whole_motion(0.1, 0.1, 0.1, 0), toy::whole_motion(0.037, 0.081, 0.113, 0), turned}) {
     const auto changed = toy::verdicts_changed_by(motion, method, world);

@@ -118,7 +118,7 @@ TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
   Pose slope = Pose::Identity();
   slope.translation() << 103.7, -55.1, 4.2;
   slope.linear() = (Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
-                    Eigen::AngleAxisd(20 * toy::kDegree, Eigen::Vector3d::UnitY()))
+                    Eigen::AngleAxisd(20 * kDegree, Eigen::Vector3d::UnitY()))
                        .toRotationMatrix();
   toy::HandScans scans;
   scans.add(road_and(kCar), slope);

@@ -3,14 +3,13 @@
 #include <numbers>
 #include <set>
 
+#include "core/angle.h"
 #include "tests/methods/raymoval/random_map.h"
 
 using namespace raymoval;
 using random_map::Random;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Any size, from odd and tiny to several vectors a column.
 AngularGrid random_grid(Random& random) {

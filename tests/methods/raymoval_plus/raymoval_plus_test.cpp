@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "core/angle.h"
 #include "methods/raymoval_plus/dense_blocks.h"
 #include "methods/raymoval_plus/evidence.h"
 #include "methods/raymoval_plus/evidence_map.h"
@@ -79,28 +80,65 @@ TEST_CASE("a return above a place does not make it free") {
   CHECK(image.test({5.0F, 0.0F, 5.0F * std::tan(0.5F * 0.01745329F)}) == Seen::kFree);
 }
 
-TEST_CASE("the short cut of a place's test changes no answer") {
+TEST_CASE("places are seen alike one by one, all at once, and by every instruction set") {
   std::mt19937 random(3);
-  std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.4F, 0.3F), range(1.0F, 70.0F);
-  Scan scan;
-  for (int i = 0; i < 20000; ++i) {
+  std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.4F, 0.3F), range(1.0F, 90.0F);
+  const auto somewhere = [&](float steeper) {
     const float a = angle(random);
-    scan.points.push_back(range(random) *
-                          Eigen::Vector3f(std::cos(a), std::sin(a), slope(random)).normalized());
-  }
-  RangeImage image(half_degree_sensor(), RaymovalPlusParameters{});
-  image.fill(scan);
-  std::array<int, 4> found{};
-  for (int i = 0; i < 50000; ++i) {
-    const float a = angle(random);
-    const Eigen::Vector3f place =
+    return Eigen::Vector3f(
         range(random) *
-        Eigen::Vector3f(std::cos(a), std::sin(a), 1.5F * slope(random)).normalized();
-    const Seen seen = image.test(place);
-    REQUIRE(seen == image.test_every_bin(place));
-    ++found[static_cast<std::size_t>(seen)];
+        Eigen::Vector3f(std::cos(a), std::sin(a), steeper * slope(random)).normalized());
+  };
+  Scan scan;
+  for (int i = 0; i < 20000; ++i) scan.points.push_back(somewhere(1.0F));
+  std::vector<float> places;
+  for (int i = 0; i < 50003; ++i) {
+    const Eigen::Vector3f place = somewhere(1.5F);
+    places.insert(places.end(), place.data(), place.data() + 3);
+  }
+  const RaymovalPlusParameters parameters;
+  std::array<int, 4> found{};
+  for (const InstructionSet set : supported_instruction_sets()) {
+    RangeImage image(half_degree_sensor(), parameters, set);
+    image.fill(scan);
+    std::vector<SeenPlace> seen;
+    image.see(places, Pose::Identity(), seen);
+    auto next = seen.begin();
+    for (std::uint32_t k = 0; k < places.size() / 3; ++k) {
+      const Eigen::Vector3f place = Eigen::Map<const Eigen::Vector3f>(places.data() + 3 * k);
+      const bool near = place.norm() >= static_cast<float>(parameters.evidence_range_min) &&
+                        place.norm() <= static_cast<float>(parameters.evidence_range_max);
+      const Seen wanted = image.test(place);
+      ++found[static_cast<std::size_t>(wanted)];
+      const bool told = next != seen.end() && next->place == k;
+      REQUIRE(told == (near && (wanted == Seen::kAgree || wanted == Seen::kFree)));
+      if (!told) continue;
+      REQUIRE(next->seen == wanted);
+      ++next;
+    }
+    CHECK(next == seen.end());
   }
   for (const int count : found) CHECK(count > 100);
+}
+
+TEST_CASE("a place is looked up where the formulas of azimuth and elevation say") {
+  // One return a direction; the same direction agrees, others as far apart as two windows do not.
+  const RaymovalPlusParameters parameters;
+  for (int degrees = -180; degrees <= 180; degrees += 7) {
+    for (const int up : {-9, -3, 0, 8}) {
+      const double a = degrees * kDegree, e = up * kDegree;
+      const Eigen::Vector3d way(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+      Scan scan;
+      scan.points.push_back((20.0 * way).cast<float>());
+      RangeImage image(half_degree_sensor(), parameters);
+      image.fill(scan);
+      CHECK(image.test((20.1 * way).cast<float>()) == Seen::kAgree);
+      const double other = a + 8.0 * kDegree;
+      const Eigen::Vector3d aside(std::cos(e) * std::cos(other), std::cos(e) * std::sin(other),
+                                  std::sin(e));
+      CHECK(image.test((20.1 * aside).cast<float>()) == Seen::kUnknown);
+    }
+  }
 }
 
 TEST_CASE("blocks hold what was put into their cells, for either sign") {
