@@ -47,7 +47,7 @@ void EvidenceMap::add_voxel(const VoxelIndex& index) {
   if (fresh) {
     const double side = (1 << kTileShift) * size_;
     // Tiles reach from the deepest to the highest voxel; the first one is in the middle enough.
-    tiles_.push_back({{at.x() * side, at.y() * side, index.z() * size_}, {}, {}});
+    tiles_.push_back({{at.x() * side, at.y() * side, index.z() * size_}, {}, {}, {}});
   }
   Tile& tile = tiles_[found->second];
   Voxel& voxel = voxels_.emplace_back();
@@ -56,6 +56,7 @@ void EvidenceMap::add_voxel(const VoxelIndex& index) {
   voxel.place = static_cast<std::uint32_t>(tile.voxels.size());
   tile.voxels.push_back(static_cast<std::uint32_t>(voxels_.size() - 1));
   tile.places.resize(tile.places.size() + 3);
+  tile.evidence.emplace_back();
 }
 
 void EvidenceMap::settle() {
@@ -76,13 +77,13 @@ Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
   return (sums.index.cast<double>() + offset) * size_;
 }
 
-std::vector<const EvidenceMap::Tile*> EvidenceMap::tiles_near(const Eigen::Vector3d& center,
-                                                              double range) const {
+std::vector<EvidenceMap::Tile*> EvidenceMap::tiles_near(const Eigen::Vector3d& center,
+                                                        double range) {
   const double side = (1 << kTileShift) * size_;
   const int reach = static_cast<int>(std::ceil(range / side));
   const int cx = static_cast<int>(std::floor(center.x() / side));
   const int cy = static_cast<int>(std::floor(center.y() / side));
-  std::vector<const Tile*> near;
+  std::vector<Tile*> near;
   for (int y = cy - reach; y <= cy + reach; ++y) {
     for (int x = cx - reach; x <= cx + reach; ++x) {
       const auto found = tile_numbers_.find(voxel_key(x, y, 0));

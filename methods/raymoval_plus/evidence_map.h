@@ -50,17 +50,19 @@ class EvidenceMap {
     Eigen::Vector3d origin;             ///< World frame, metres.
     std::vector<std::uint32_t> voxels;  ///< In order of their first points.
     std::vector<float> places;          ///< x y z of each voxel's mean from the origin, metres.
+    std::vector<VoxelEvidence> evidence;
   };
   /// Brings the means in `Tile::places` up to date with what was added.
   void settle();
   /// Tiles that have a part within `range` metres of `center`, seen from above, in a fixed order.
-  [[nodiscard]] std::vector<const Tile*> tiles_near(const Eigen::Vector3d& center,
-                                                    double range) const;
+  [[nodiscard]] std::vector<Tile*> tiles_near(const Eigen::Vector3d& center, double range);
 
   [[nodiscard]] const VoxelEvidence& evidence(std::size_t voxel) const {
-    return voxels_[voxel].evidence;
+    return tiles_[voxels_[voxel].tile].evidence[voxels_[voxel].place];
   }
-  [[nodiscard]] VoxelEvidence& evidence(std::size_t voxel) { return voxels_[voxel].evidence; }
+  [[nodiscard]] VoxelEvidence& evidence(std::size_t voxel) {
+    return tiles_[voxels_[voxel].tile].evidence[voxels_[voxel].place];
+  }
   /// What the voxel's own evidence amounts to. Threads may set voxels of different blocks.
   [[nodiscard]] Evidence decision(std::size_t voxel) const { return voxels_[voxel].decision; }
   void set_decision(std::size_t voxel, Evidence decision);
@@ -80,7 +82,6 @@ class EvidenceMap {
     VoxelIndex index;
     /// Sums of the points' offsets from the lower corner in 1/256 of the edge.
     std::uint32_t x = 0, y = 0, z = 0, count = 0;
-    VoxelEvidence evidence;
     Evidence decision = Evidence::kUndecided, verdict = Evidence::kUndecided;
     bool is_unsettled = false;
     std::uint32_t tile = 0, place = 0;  ///< Where its mean stands.

@@ -204,9 +204,7 @@ void judge_low_points(const RaymovalPlusParameters& parameters, WorldScan& world
     Standing& standing = columns[voxel_key(at.x(), at.y(), 0)];
     ++(world.verdict[k] == Evidence::kDynamic ? standing.dynamic : standing.fixed);
   }
-  for (std::size_t k = 0; k < world.points.size(); ++k) {
-    if (world.voxel[k] == EvidenceMap::kNone || !(world.height[k] < low)) continue;
-    const VoxelIndex at = voxel_index(world.points[k], scale);
+  const auto around = [&](const VoxelIndex& at) {
     Standing sum;
     for (int n = 0; n < 9; ++n) {
       const auto found = columns.find(voxel_key(at.x() + n % 3 - 1, at.y() + n / 3 - 1, 0));
@@ -214,6 +212,16 @@ void judge_low_points(const RaymovalPlusParameters& parameters, WorldScan& world
       sum.dynamic += found->second.dynamic;
       sum.fixed += found->second.fixed;
     }
+    return sum;
+  };
+  VoxelIndex last(0, 0, 0);
+  Standing sum = around(last);
+  for (std::size_t k = 0; k < world.points.size(); ++k) {
+    if (world.voxel[k] == EvidenceMap::kNone || !(world.height[k] < low)) continue;
+    const VoxelIndex at = voxel_index(world.points[k], scale);
+    // The next point is mostly beside this one.
+    if (at.x() != last.x() || at.y() != last.y()) sum = around(at);
+    last = at;
     if (sum.dynamic > 0 && sum.dynamic >= 2 * sum.fixed) {
       world.verdict[k] = Evidence::kDynamic;
     } else if (sum.fixed > 0 && sum.fixed >= 2 * sum.dynamic) {

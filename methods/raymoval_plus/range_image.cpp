@@ -130,18 +130,6 @@ void RangeImage::fill_windows() {
   }
 }
 
-RangeImage::Window RangeImage::window_at(float range) const {
-  const float half = half_voxel_ / range;
-  return {
-      std::clamp(static_cast<int>(half / azimuth_step_), parameters_.window_columns, kMargin - 1),
-      std::max(static_cast<int>(half / elevation_step_), parameters_.window_rows)};
-}
-
-bool RangeImage::agrees_with(float range, const Bin& bin) const {
-  const float agree = agree_constant_ + agree_slope_ * range;
-  return std::abs(bin.nearest - range) <= agree || std::abs(bin.farthest - range) <= agree;
-}
-
 Seen RangeImage::test(const Eigen::Vector3f& place) const {
   Sights sights;
   kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights.room_for(1));

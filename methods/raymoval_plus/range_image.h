@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -57,8 +59,16 @@ class RangeImage {
   struct Window {
     int wide, high;  ///< Half sizes, bins.
   };
-  [[nodiscard]] Window window_at(float range) const;
-  [[nodiscard]] bool agrees_with(float range, const Bin& bin) const;
+  [[nodiscard]] Window window_at(float range) const {
+    const float half = half_voxel_ / range;
+    return {
+        std::clamp(static_cast<int>(half / azimuth_step_), parameters_.window_columns, kMargin - 1),
+        std::max(static_cast<int>(half / elevation_step_), parameters_.window_rows)};
+  }
+  [[nodiscard]] bool agrees_with(float range, const Bin& bin) const {
+    const float agree = agree_constant_ + agree_slope_ * range;
+    return std::abs(bin.nearest - range) <= agree || std::abs(bin.farthest - range) <= agree;
+  }
   /// Looks at the window around a bin; `r` may lie beyond the rows.
   [[nodiscard]] Seen look(float range, int column, int r) const;
 

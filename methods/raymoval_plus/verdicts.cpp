@@ -118,15 +118,6 @@ void vote_in_block(std::uint32_t block, const RaymovalPlusParameters& parameters
 
 }  // namespace
 
-Evidence decide(const VoxelEvidence& evidence, const RaymovalPlusParameters& parameters) {
-  const double needed = parameters.free_constant + parameters.free_per_agree * evidence.agree_scans;
-  const bool came_or_left =
-      parameters.run_scans > 0 && (evidence.leading_free >= parameters.run_scans ||
-                                   evidence.trailing_free >= parameters.run_scans);
-  if (came_or_left || evidence.free_scans >= needed) return Evidence::kDynamic;
-  return evidence.agree_scans >= parameters.static_agree ? Evidence::kStatic : Evidence::kUndecided;
-}
-
 void vote(const std::vector<std::uint32_t>& blocks, const RaymovalPlusParameters& parameters,
           int threads, EvidenceMap& map) {
   const int radius = std::min(parameters.vote_radius, kMaximumRadius);

@@ -8,9 +8,6 @@
 
 namespace raymoval {
 
-/// Static, dynamic or undecided, from the numbers of scans that saw through and that agree.
-Evidence decide(const VoxelEvidence& evidence, const RaymovalPlusParameters& parameters);
-
 /// Each voxel of these blocks takes the majority of the decided voxels within `vote_radius` cells
 /// (Chebyshev).
 void vote(const std::vector<std::uint32_t>& blocks, const RaymovalPlusParameters& parameters,
