@@ -47,7 +47,7 @@ TEST_CASE("a frame range that makes no sense says what the form is", "[frames]")
                            "9:3", "1:99999999999999999999", " 1:2"}) {
     CAPTURE(text);
     const auto message = message_of<UsageError>([&] { parse_frame_range(text); });
-    check_says(message, {"'" + std::string(text) + "'", "START:STOP:STRIDE"});
+    check_says(message, {"'" + std::string(text) + "'", "FIRST:LAST or FIRST:LAST:STRIDE"});
   }
 }
 

@@ -275,7 +275,8 @@ TEST_CASE("sequence.json with a wrong key or value says which", "[semantickitti]
     return open_error<ConfigurationError>(folder.text());
   };
   check_says(error(R"({"sensr": "hdl64e"})"), {"sequence.json", "'sensr'", "'sensor'"});
-  check_says(error(R"({"range_m": {"mni": 1}})"), {"range_m", "'mni'", "min, max"});
+  check_says(error(R"({"range_m": {"mni": 1}})"), {"range_m", "'mni'", "Did you mean 'min'"});
+  check_says(error(R"({"range_m": {"far": 1}})"), {"range_m", "'far'", "min, max"});
   check_says(error(R"({"range_m": {"min": 9, "max": 3}})"), {"min 9", "max 3"});
   check_says(error(R"({"range_m": {"min": -1}})"), {"range_m.min", "-1"});
   check_says(error(R"({"scan_period_s": "fast"})"), {"scan_period_s", "fast"});
