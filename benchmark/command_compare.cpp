@@ -89,7 +89,9 @@ Command add_compare_command(CLI::App& program) {
       ->type_name("TOLERANCE")
       ->allow_extra_args(false);
   app->add_option("--time-band", flags->time_band,
-                  "Slower than the reference by more than this factor is worse");
+                  "Slower than the reference by more than this factor is worse (default: times are "
+                  "shown, never judged)")
+      ->type_name("FACTOR");
   app->add_flag("--update", flags->update,
                 "Make RUN the new REFERENCE, without times and machine; compare nothing");
   app->footer(

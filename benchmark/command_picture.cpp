@@ -73,6 +73,7 @@ void check_flags(const PictureFlags& flags) {
                      " file. Give the name that ending.");
   }
   check_options(flags);
+  check_folder_of(flags.output);
 }
 
 WorldWindow parse_crop(const std::string& text) {
@@ -200,7 +201,8 @@ void add_options(CLI::App& app, PictureFlags& flags) {
                  "map, overview: XMIN:XMAX:YMIN:YMAX, metres of the world frame (default: the "
                  "sensor's way and 30 m around)")
       ->type_name("WINDOW");
-  app.add_option("--resolution", flags.resolution, "map: metres per pixel (default: by --size)");
+  app.add_option("--resolution", flags.resolution, "map: metres per pixel (default: by --size)")
+      ->type_name("METRES");
   app.add_option("--size", flags.size,
                  "Longer side of a panel, or width of range images, in pixels")
       ->type_name("PIXELS");
@@ -210,7 +212,8 @@ void add_options(CLI::App& app, PictureFlags& flags) {
                  "Where the sequences are, if no longer where the run found them: a sequence's "
                  "folder, or one that holds them by name")
       ->type_name("PATH");
-  app.add_option("--threads", flags.threads, "At most so many threads (default: all cores)");
+  app.add_option("--threads", flags.threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
   app.add_flag("--quiet", flags.quiet, "No progress");
 }
 

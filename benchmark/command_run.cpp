@@ -91,8 +91,13 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
 }
 
 ExitCode run(const RunFlags& flags) {
-  check_flags(flags);
+  if (flags.what.suite.empty() && flags.what.sequences.empty()) {
+    throw UsageError(
+        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence PATH "
+        "--method NAME --out DIR`.");
+  }
   const Suite suite = flags.what.resolved();
+  check_flags(flags);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   RunOptions options;
   options.out = flags.out;
