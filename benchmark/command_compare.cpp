@@ -97,7 +97,8 @@ Command add_compare_command(CLI::App& program) {
   app->footer(
       "Counts must be equal; other data, protocols or parameters are not comparable.\n"
       "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\nExamples:\n"
-      "  raymoval compare out/street results/reference/street\n"
+      "  raymoval run quick --out out/quick\n"
+      "  raymoval compare out/quick results/reference/street\n"
       "  raymoval compare out/new out/old --tolerance F1=0.002 --time-band 3");
   return {app, [flags] { return compare(*flags); }};
 }

@@ -108,11 +108,11 @@ ExitCode run_program(int argc, const char* const* argv) {
   program.require_subcommand(0, 1);  // So that a run folder may be called "run".
   program.footer(
       "Examples:\n"
-      "  raymoval run --sequence street --method raymoval:online --out out/street\n"
+      "  raymoval run quick --out out/quick\n"
       "  raymoval run simulated --out out/simulated\n"
-      "  raymoval table out/street\n"
-      "  raymoval report out/street -o street.html\n"
-      "  raymoval compare out/street results/reference/street\n"
+      "  raymoval table out/quick\n"
+      "  raymoval report out/quick -o quick.html\n"
+      "  raymoval compare out/quick results/reference/street\n"
       "  raymoval describe raymoval\n"
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval inspect data/05\n"

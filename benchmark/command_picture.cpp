@@ -229,11 +229,14 @@ Command add_picture_command(CLI::App& program) {
       "Shown are\nthe points that are evaluated. A pixel of a map shows what became of most of its "
       "moving points, if at\nleast a tenth as many move as stand, else of most of its static ones. "
       "Charts need the run folder only.\nExamples:\n"
-      "  raymoval picture out/street -o maps.png\n"
-      "  raymoval picture out/simulated -o town.png --only 'town/raymoval*' --size 800\n"
+      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
+      "--keep-removals --out out/05\n"
+      "  raymoval picture out/05 -o maps.png\n"
+      "  raymoval picture out/05 -o map.png --only '05/raymoval*' --size 800\n"
       "  raymoval picture out/05 -o detail.png --crop -20:60:-15:15 --resolution 0.1\n"
       "  raymoval picture out/05 -o scan.png --kind range --method raymoval:offline --scan 30\n"
       "  raymoval picture out/05 -o overview.png --kind overview --method raymoval:offline\n"
+      "  raymoval run simulated --out out/simulated\n"
       "  raymoval picture out/simulated -o rates.svg --kind pr-rr\n"
       "  raymoval picture out/simulated -o stages.svg --kind stages");
   return {app, [flags] { return draw(*flags); }};

@@ -108,7 +108,15 @@ for command in run plan score clean simulate inspect report picture table compar
   "$raymoval" $command --help >help.txt
   holds "$command --help names its values" test -z "$(grep -E '^ .*\b(TEXT|INT|FLOAT)\b' help.txt)"
 done
-expect 0 "raymoval_plus:offline" clean --help
+expect 0 "default: raymoval_plus:offline" clean --help
+expect 0 "never judged" compare --help
+expect 0 "About thirty" inspect --help
+for command in "" compare; do
+  # shellcheck disable=SC2086
+  expect 0 "raymoval compare out/quick results/reference/street" $command --help
+done
+expect 0 "variants worth a comparison" list suites
+expect 0 "this project" describe raymoval_plus
 expect 0 "raymoval_plus:offline removed" clean street --frames 0:2 --quiet -o best.pcd
 holds "no refused command left anything" test ! -e o -a ! -e map.pcd
 
