@@ -46,7 +46,7 @@ std::string_view take_digits(std::string_view& text) {
 FrameRange parse_frame_range(const std::string& text) {
   const auto parts = split(text, ':');
   if (parts.size() < 2 || parts.size() > 3) {
-    const bool number = parse_number<long>(text).has_value();
+    const bool number = parse_number<long>(text).value_or(-1) >= 0;
     throw UsageError("frame range '" + text + "': " + kRangeForm +
                      (number ? " A single frame is " + text + ":" + text + "." : ""));
   }

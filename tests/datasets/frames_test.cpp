@@ -51,6 +51,16 @@ TEST_CASE("a frame range that makes no sense says what the form is", "[frames]")
   }
 }
 
+TEST_CASE("one number is not taken for a range, but told how to be one", "[frames]") {
+  const auto message = [](const char* text) {
+    return message_of<UsageError>([&] { parse_frame_range(text); });
+  };
+  check_says(message("5"), {"100:200, ::2. A single frame is 5:5."});
+  for (const char* text : {"-5", "x", "1:2:3:4"}) {
+    CHECK_THAT(message(text), !Catch::Contains("single frame"));
+  }
+}
+
 TEST_CASE("a range selects with its ends included and strides from its start", "[frames]") {
   const auto files = numbered({3, 4, 5, 6, 7, 8});
   CHECK(numbers_of(choose_frames(files, parse_frame_range("4:8:2"), "d")) ==
