@@ -34,7 +34,7 @@ void parse_shard(const std::string& text, CellSelection& selection) {
 }
 
 std::vector<bool> select_cells(const CellSelection& selection,
-                               const std::vector<std::string>& cells) {
+                               const std::vector<std::string>& cells, const std::string& of) {
   std::vector<bool> chosen(cells.size(), selection.only.empty());
   for (const std::string& pattern : selection.only) {
     bool any = false;
@@ -43,7 +43,7 @@ std::vector<bool> select_cells(const CellSelection& selection,
       chosen[i] = any = true;
     }
     if (!any) {
-      throw UsageError("--only '" + pattern + "' fits no cell of this suite." +
+      throw UsageError("--only '" + pattern + "' fits no cell of this " + of + "." +
                        suggestion(pattern, cells));
     }
   }

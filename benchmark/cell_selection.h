@@ -22,8 +22,10 @@ void parse_shard(const std::string& text, CellSelection& selection);
 /// neighbours, so that a part reads few sequences; the parts differ by one cell at most, and every
 /// cell is in exactly one.
 /// @param cells "SEQUENCE/NAME"
+/// @param of what they are the cells of, for messages
 /// @throws UsageError if a pattern fits no cell
 std::vector<bool> select_cells(const CellSelection& selection,
-                               const std::vector<std::string>& cells);
+                               const std::vector<std::string>& cells,
+                               const std::string& of = "suite");
 
 }  // namespace raymoval

@@ -8,6 +8,7 @@
 
 #include "benchmark/removal_files.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
 #include "datasets/file_source.h"
@@ -30,12 +31,8 @@ void check_cloud_path(const fs::path& path, bool overwrite) {
   if (std::find(known.begin(), known.end(), path.extension().string()) == known.end()) {
     throw UsageError(path.string() + ": expected a file name that ends in " + join(known) + ".");
   }
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  check_folder_of(path);
   std::error_code error;
-  if (!fs::is_directory(folder, error)) {
-    throw UsageError(path.string() + ": there is no folder " + folder.string() +
-                     ". Make it first.");
-  }
   const fs::file_status there = fs::status(path, error);
   if (fs::is_directory(there)) {
     throw UsageError(path.string() + ": is a folder, expected a file name.");

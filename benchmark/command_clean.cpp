@@ -13,7 +13,7 @@ namespace {
 
 struct CleanFlags {
   std::string path, output, dynamic, labels, voxel, threads;
-  std::string method = "raymoval:offline";
+  std::string method = "raymoval_plus:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
   bool overwrite = false;
@@ -57,12 +57,14 @@ void write_outputs(const ScanSource& scans, const MaskSpool& masks, CleanOutputs
 CleanPaths checked_paths(const CleanFlags& flags) {
   if (flags.path.empty()) throw UsageError("clean what? Expected `raymoval clean PATH -o FILE`.");
   if (flags.output.empty()) throw UsageError("-o FILE is missing: name the cleaned map's file.");
+  check_not_both(flags.path);
   CleanPaths paths{flags.output, flags.dynamic, flags.labels, flags.overwrite};
   check_paths(paths);
   return paths;
 }
 
-Sequence opened(const CleanFlags& flags, const CleanPaths& paths, Progress& progress) {
+Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const ConfiguredMethod& method,
+                Progress& progress) {
   const int given = parse_threads(flags.threads);
   Sequence sequence =
       open_sequence(flags.path, flags.reading.options(),
@@ -72,6 +74,10 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, Progress& prog
                     sequence.frames + ").");
   }
   check_apart_from(sequence, paths);
+  if (method.entry->needs_truth && !sequence.labels) {
+    throw UsageError("sequence '" + sequence.name + "' has no labels, and " + method.entry->name +
+                     " answers from them; choose another --method.");
+  }
   return sequence;
 }
 
@@ -79,7 +85,7 @@ ExitCode clean(const CleanFlags& flags, Progress& progress) {
   const CleanPaths paths = checked_paths(flags);
   const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
   const ConfiguredMethod method = configured(flags);
-  const Sequence sequence = opened(flags, paths, progress);
+  const Sequence sequence = opened(flags, paths, method, progress);
   progress.set_context(method.full_name() + " on " + sequence.name);
   CleanOutputs outputs(paths, voxel);
   const TimedSource scans(*sequence.scans);
@@ -87,8 +93,8 @@ ExitCode clean(const CleanFlags& flags, Progress& progress) {
   find_removals(flags, method, sequence, scans, masks, progress);
   write_outputs(*sequence.scans, masks, outputs, progress);
   print(method.full_name() + " removed " + grouped_text(masks.removed_count()) + " of " +
-        grouped_text(masks.point_count()) + " points in " + grouped_text(scans.size()) +
-        " scans; " + flags.output + " has " + grouped_text(outputs.map_points()) + " points.\n");
+        counted_text(masks.point_count(), "point") + " in " + counted_text(scans.size(), "scan") +
+        "; " + flags.output + " has " + counted_text(outputs.map_points(), "point") + ".\n");
   return ExitCode::kDone;
 }
 
@@ -115,13 +121,16 @@ Command add_clean_command(CLI::App& program) {
   app->add_option("--dynamic", flags->dynamic, "What was removed, as a map")->type_name("FILE");
   app->add_option("--labels", flags->labels, "Folder for a label file per scan (251 = removed)")
       ->type_name("DIR");
-  app->add_option("--voxel", flags->voxel, "One point per cell of this size in metres");
-  app->add_option("--method", flags->method, "Method (default: raymoval:offline)");
+  app->add_option("--voxel", flags->voxel, "One point per cell of this size")->type_name("METRES");
+  app->add_option("--method", flags->method,
+                  "Method (default: raymoval_plus:offline, the best of them)")
+      ->type_name("NAME");
   app->add_option("--set", flags->settings, "Parameter: METHOD.key=value")
       ->type_name("SETTING")
       ->allow_extra_args(false);
   flags->reading.add_to(*app);
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
   app->add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(

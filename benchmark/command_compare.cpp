@@ -89,13 +89,16 @@ Command add_compare_command(CLI::App& program) {
       ->type_name("TOLERANCE")
       ->allow_extra_args(false);
   app->add_option("--time-band", flags->time_band,
-                  "Slower than the reference by more than this factor is worse");
+                  "Slower than the reference by more than this factor is worse (default: times are "
+                  "shown, never judged)")
+      ->type_name("FACTOR");
   app->add_flag("--update", flags->update,
                 "Make RUN the new REFERENCE, without times and machine; compare nothing");
   app->footer(
       "Counts must be equal; other data, protocols or parameters are not comparable.\n"
       "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\nExamples:\n"
-      "  raymoval compare out/street results/reference/street\n"
+      "  raymoval run quick --out out/quick\n"
+      "  raymoval compare out/quick results/reference/street\n"
       "  raymoval compare out/new out/old --tolerance F1=0.002 --time-band 3");
   return {app, [flags] { return compare(*flags); }};
 }

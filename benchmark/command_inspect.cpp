@@ -33,12 +33,11 @@ std::string report_text(const InspectionReport& report) {
       std::count_if(report.findings.begin(), report.findings.end(),
                     [](const Finding& f) { return f.severity == Severity::kNote; }));
   const std::size_t findings = report.findings.size() - notes;
-  text +=
-      report.sequence + ": " + grouped_text(findings) + (findings == 1 ? " finding" : " findings");
-  if (notes > 0) text += ", " + grouped_text(notes) + (notes == 1 ? " note" : " notes");
+  text += report.sequence + ": " + counted_text(findings, "finding");
+  if (notes > 0) text += ", " + counted_text(notes, "note");
   if (report.scans == 0) return text + "; the sequence cannot be opened.\n";
   return text + " (" + report.layout + ", " + grouped_text(report.scans_read) + " of " +
-         grouped_text(report.scans) + " scans read).\n";
+         counted_text(report.scans, "scan") + " read).\n";
 }
 
 std::string report_json(const InspectionReport& report) {
@@ -78,6 +77,7 @@ ExitCode inspect_command(const InspectFlags& flags) {
   if (flags.path.empty()) {
     throw UsageError("inspect what? Name a sequence folder, ROOT:05, or a scene.");
   }
+  check_not_both(flags.path);
   const int given = parse_threads(flags.threads);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   const InspectionReport report =
@@ -98,10 +98,11 @@ Command add_inspect_command(CLI::App& program) {
   flags->reading.add_to(*app);
   app->add_flag("--json", flags->json, "Print findings and measured numbers as JSON");
   app->add_flag("--list", flags->list, "Say what is looked for, and what to do about each");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
-      "One line per finding: what is wrong, where, what was expected, what to do. About two dozen\n"
+      "One line per finding: what is wrong, where, what was expected, what to do. About thirty\n"
       "scans are read, and the poses, times and file sizes of all.\n"
       "Exit codes: 0 nothing found, 1 findings, 2 cannot be read as asked.\n"
       "Examples:\n"

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "benchmark/commands.h"
@@ -31,6 +32,12 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+bool may_be_sequence(const std::string& path) {
+  std::error_code error;
+  return is_scene(path) || std::filesystem::is_directory(path.substr(0, path.rfind(':')), error) ||
+         std::filesystem::is_directory(path, error);
+}
+
 /// Options and words that no command knows are kept by the parser; here they become an error that
 /// names the nearest one known.
 void check_nothing_left(const CLI::App& app, const std::string& help) {
@@ -47,12 +54,33 @@ void check_nothing_left(const CLI::App& app, const std::string& help) {
   if (!name.starts_with("-")) {
     // Every file that a command writes follows an option.
     const bool writes = app.get_option_no_throw("-o") != nullptr;
-    throw UsageError("'" + name + "' was not expected here." +
-                     (writes ? " To write there put -o before it." : "") + " See `" + help +
-                     " --help`.");
+    const bool reads = !writes && app.get_option_no_throw("--sequence") != nullptr;
+    throw UsageError(
+        "'" + name + "' was not expected here." +
+        (writes ? " To write there put -o before it." : "") +
+        (reads && may_be_sequence(name) ? " Name it with --sequence " + name + "." : "") +
+        " See `" + help + " --help`.");
   }
   throw UsageError("unknown option '" + name + "'." + suggestion(name, option_names(app)) +
                    " See `" + help + " --help`.");
+}
+
+/// "raymoval clean": what was being read of the command line.
+std::string parsed_command(const CLI::App& program) {
+  const std::vector<CLI::App*> commands = program.get_subcommands();
+  return "raymoval" + (commands.empty() ? "" : " " + commands.front()->get_name());
+}
+
+/// The parser's message, which says "--output: 1 required FILE missing" of an option without value.
+std::string parse_problem(const CLI::ParseError& error) {
+  constexpr std::string_view kRequired = ": 1 required ";
+  constexpr std::string_view kMissing = " missing";
+  const std::string text = error.what();
+  const std::size_t at = text.find(kRequired);
+  if (at == std::string::npos || !text.ends_with(kMissing)) return text;
+  const std::size_t type = at + kRequired.size();
+  return text.substr(0, at) + ": " + text.substr(type, text.size() - kMissing.size() - type) +
+         " is missing after it.";
 }
 
 const Command& chosen_command(const CLI::App& program, const std::vector<Command>& commands) {
@@ -80,11 +108,11 @@ ExitCode run_program(int argc, const char* const* argv) {
   program.require_subcommand(0, 1);  // So that a run folder may be called "run".
   program.footer(
       "Examples:\n"
-      "  raymoval run --sequence street --method raymoval:online --out out/street\n"
+      "  raymoval run quick --out out/quick\n"
       "  raymoval run simulated --out out/simulated\n"
-      "  raymoval table out/street\n"
-      "  raymoval report out/street -o street.html\n"
-      "  raymoval compare out/street results/reference/street\n"
+      "  raymoval table out/quick\n"
+      "  raymoval report out/quick -o quick.html\n"
+      "  raymoval compare out/quick results/reference/street\n"
       "  raymoval describe raymoval\n"
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval inspect data/05\n"
@@ -105,7 +133,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       program.exit(error);
       return ExitCode::kDone;
     }
-    throw UsageError(error.what() + std::string(" See `raymoval --help`."));
+    throw UsageError(parse_problem(error) + " See `" + parsed_command(program) + " --help`.");
   }
   return chosen_command(program, commands).run();
 }
@@ -127,12 +155,16 @@ const std::atomic<bool>& interrupt_flag() {
 }
 
 void SequenceFlags::add_to(CLI::App& app) {
-  app.add_option("--frames", frames, "Frames FIRST:LAST:STRIDE, ends included; parts may be empty");
-  app.add_option("--poses", poses, "Pose file: a name in the sequence folder, or a path");
-  app.add_option("--label-rule", label_rule, "JSON file that says which labels move");
-  app.add_option("--range", range, "MIN:MAX in metres; points beyond are not evaluated");
-  app.add_option("--sensor", sensor, "Name of a known sensor (see `raymoval list sensors`)");
-  app.add_option("--name", name, "Name of the sequence in results");
+  app.add_option("--frames", frames, "Frames, ends included; parts may be empty")
+      ->type_name("FIRST:LAST:STRIDE");
+  app.add_option("--poses", poses, "Pose file: a name in the sequence folder, or a path")
+      ->type_name("FILE");
+  app.add_option("--label-rule", label_rule, "JSON file that says which labels move")
+      ->type_name("FILE");
+  app.add_option("--range", range, "Metres; points beyond are not evaluated")->type_name("MIN:MAX");
+  app.add_option("--sensor", sensor, "Name of a known sensor (see `raymoval list sensors`)")
+      ->type_name("NAME");
+  app.add_option("--name", name, "Name of the sequence in results")->type_name("NAME");
 }
 
 std::string SequenceFlags::first_given() const {

@@ -73,6 +73,7 @@ void check_flags(const PictureFlags& flags) {
                      " file. Give the name that ending.");
   }
   check_options(flags);
+  check_folder_of(flags.output);
 }
 
 WorldWindow parse_crop(const std::string& text) {
@@ -200,7 +201,8 @@ void add_options(CLI::App& app, PictureFlags& flags) {
                  "map, overview: XMIN:XMAX:YMIN:YMAX, metres of the world frame (default: the "
                  "sensor's way and 30 m around)")
       ->type_name("WINDOW");
-  app.add_option("--resolution", flags.resolution, "map: metres per pixel (default: by --size)");
+  app.add_option("--resolution", flags.resolution, "map: metres per pixel (default: by --size)")
+      ->type_name("METRES");
   app.add_option("--size", flags.size,
                  "Longer side of a panel, or width of range images, in pixels")
       ->type_name("PIXELS");
@@ -210,7 +212,8 @@ void add_options(CLI::App& app, PictureFlags& flags) {
                  "Where the sequences are, if no longer where the run found them: a sequence's "
                  "folder, or one that holds them by name")
       ->type_name("PATH");
-  app.add_option("--threads", flags.threads, "At most so many threads (default: all cores)");
+  app.add_option("--threads", flags.threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
   app.add_flag("--quiet", flags.quiet, "No progress");
 }
 
@@ -226,11 +229,14 @@ Command add_picture_command(CLI::App& program) {
       "Shown are\nthe points that are evaluated. A pixel of a map shows what became of most of its "
       "moving points, if at\nleast a tenth as many move as stand, else of most of its static ones. "
       "Charts need the run folder only.\nExamples:\n"
-      "  raymoval picture out/street -o maps.png\n"
-      "  raymoval picture out/simulated -o town.png --only 'town/raymoval*' --size 800\n"
+      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
+      "--keep-removals --out out/05\n"
+      "  raymoval picture out/05 -o maps.png\n"
+      "  raymoval picture out/05 -o map.png --only '05/raymoval*' --size 800\n"
       "  raymoval picture out/05 -o detail.png --crop -20:60:-15:15 --resolution 0.1\n"
       "  raymoval picture out/05 -o scan.png --kind range --method raymoval:offline --scan 30\n"
       "  raymoval picture out/05 -o overview.png --kind overview --method raymoval:offline\n"
+      "  raymoval run simulated --out out/simulated\n"
       "  raymoval picture out/simulated -o rates.svg --kind pr-rr\n"
       "  raymoval picture out/simulated -o stages.svg --kind stages");
   return {app, [flags] { return draw(*flags); }};

@@ -45,6 +45,7 @@ std::string size_text(std::size_t bytes) {
 
 ExitCode report(const ReportFlags& flags) {
   if (flags.run.empty()) throw UsageError("which run? Expected `raymoval report RUN`.");
+  if (!flags.output.empty()) check_folder_of(flags.output);
   const int threads = parse_threads(flags.threads);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   PageRequest request;
@@ -63,6 +64,7 @@ ExitCode report(const ReportFlags& flags) {
   }
   request.methods = &program_methods();
   request.with_points = !flags.no_points && !page_file("view.js").empty();
+  request.points_needed = !flags.data.empty();  // Who says where the data is means it.
   request.threads = threads > 0 ? threads : hardware_threads();
   request.progress = &progress;
   request.cancel = &interrupt_flag();
@@ -92,9 +94,11 @@ Command add_report_command(CLI::App& program) {
   app->add_option("--data", flags->data, "Where the sequences are, if not where the run read them")
       ->type_name("PATH");
   app->add_option("--points", flags->points,
-                  "At most so many points in the page (default: 1000000)");
+                  "At most so many points in the page (default: 1000000)")
+      ->type_name("N");
   app->add_flag("--no-points", flags->no_points, "Without the 3-D view");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
       "The page is one file: it needs no network, opens from disk, and can be handed around. Its\n"

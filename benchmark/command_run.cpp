@@ -91,8 +91,13 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
 }
 
 ExitCode run(const RunFlags& flags) {
-  check_flags(flags);
+  if (flags.what.suite.empty() && flags.what.sequences.empty()) {
+    throw UsageError(
+        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence PATH "
+        "--method NAME --out DIR`.");
+  }
   const Suite suite = flags.what.resolved();
+  check_flags(flags);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   RunOptions options;
   options.out = flags.out;
@@ -144,9 +149,10 @@ Command add_run_command(CLI::App& program) {
       "The controls noop, remove-all and oracle are added and checked. A cell that is there "
       "already\nis not run again. Each method runs in a process of its own: one that crashes or "
       "exceeds a limit\nis a failed cell, and the rest goes on.\nExamples:\n"
-      "  raymoval run --sequence street --method raymoval:online --out out/street\n"
-      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval --set raymoval.tau0=0.2 "
-      "--out out/05\n"
+      "  raymoval run --sequence street --method raymoval:online --keep-removals --out out/street\n"
+      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
+      "--keep-removals --out out/05\n"
+      "  raymoval run --sequence data/05 --method raymoval --set raymoval.tau0=0.2 --out out/tau0\n"
       "  raymoval run --sequence street --method raymoval --protocol dynamicmap "
       "--set protocol:dynamicmap.maximum_range=50 --out out/near\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"

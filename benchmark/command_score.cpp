@@ -171,6 +171,7 @@ class Scoring {
 
 void check_flags(const ScoreFlags& flags) {
   if (flags.sequence.empty()) throw UsageError("--sequence PATH is missing.");
+  check_not_both(flags.sequence);
   if (flags.predictions.empty() && flags.cloud.empty()) {
     throw UsageError(
         "--predictions DIR is missing: the folder with a label file for each scan (or a map with "
@@ -179,6 +180,7 @@ void check_flags(const ScoreFlags& flags) {
   if (!flags.predictions.empty() && !flags.cloud.empty()) {
     throw UsageError("--predictions and --cloud exclude each other; score them one by one.");
   }
+  if (!flags.json.empty()) check_folder_of(flags.json);
   if (flags.cloud.empty() && !flags.voxel.empty()) {
     throw UsageError("--voxel goes with --cloud: it says how the cloud was thinned.");
   }
@@ -230,8 +232,8 @@ Command add_score_command(CLI::App& program) {
                   "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses")
       ->type_name("FILE");
   app->add_option("--voxel", flags->voxel,
-                  "Voxel in metres to which the cloud was thinned; thins the oracle's likewise")
-      ->type_name("SIZE");
+                  "Voxel to which the cloud was thinned; thins the oracle's likewise")
+      ->type_name("METRES");
   app->add_option("--protocol", flags->protocols, "Protocol to score by (default: erasor)")
       ->type_name("NAME")
       ->allow_extra_args(false);
@@ -240,7 +242,8 @@ Command add_score_command(CLI::App& program) {
       ->allow_extra_args(false);
   flags->reading.add_to(*app);
   app->add_option("--json", flags->json, "Write counts and rates to this file")->type_name("FILE");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
       "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "

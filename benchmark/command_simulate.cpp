@@ -51,8 +51,8 @@ std::string content_text(const std::string& folder) {
       moving += sequence.label_rule.classify(word) == LabelClass::kMoving ? 1 : 0;
     }
   }
-  return grouped_text(sequence.scans->size()) + " scans, " + grouped_text(points) + " points, " +
-         grouped_text(moving) + " of them on moving objects";
+  return counted_text(sequence.scans->size(), "scan") + ", " + counted_text(points, "point") +
+         ", " + grouped_text(moving) + " of them on moving objects";
 }
 
 ExitCode simulate(const SimulateFlags& flags) {
@@ -85,17 +85,21 @@ Command add_simulate_command(CLI::App& program) {
       ->type_name("SCENE");
   app->add_option("-o,--output", flags->output, "New folder, in SemanticKITTI layout")
       ->type_name("DIR");
-  app->add_option("--seed", flags->seed, "Of movers, noise and poses (default: 1)");
-  app->add_option("--scans", flags->scans, "Number of scans (default: the scene's own)");
+  app->add_option("--seed", flags->seed, "Of movers, noise and poses (default: 1)")->type_name("N");
+  app->add_option("--scans", flags->scans, "Number of scans (default: the scene's own)")
+      ->type_name("N");
   app->add_option("--sensor", flags->sensor,
                   "Sensor (see `raymoval list simulated-sensors`) or sensor file")
       ->type_name("NAME");
   app->add_flag("--perfect-poses", flags->perfect_poses, "Poses without error: --pose-noise 0");
   app->add_option("--pose-noise", flags->pose_noise,
-                  "Severity of the error of poses; 1 (default) is a good odometry");
+                  "Severity of the error of poses; 1 (default) is a good odometry")
+      ->type_name("FACTOR");
   app->add_option("--rolling", flags->rolling,
-                  "skewed or corrected: a scan is taken while the sensor moves (default: none)");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)");
+                  "skewed or corrected: a scan is taken while the sensor moves (default: none)")
+      ->type_name("KIND");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
       "The same options give the same bytes. Commands that take a sequence also take a scene by\n"

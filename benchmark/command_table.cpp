@@ -61,7 +61,7 @@ Command add_table_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("table", "Prints the tables of a run");
   app->allow_extras();
   app->add_option("run", flags->run, "Run folder")->type_name("RUN");
-  app->add_option("--format", flags->format, "md (default), csv, tex or json");
+  app->add_option("--format", flags->format, "md (default), csv, tex or json")->type_name("FORMAT");
   app->add_option("--protocol", flags->protocols, "Only what this protocol says (default: all)")
       ->type_name("NAME")
       ->allow_extra_args(false);

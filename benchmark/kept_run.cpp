@@ -81,6 +81,19 @@ std::vector<std::string> places_below(const path& data, const std::string& given
   return places;
 }
 
+/// `data` as a path that is never taken for a scene. @throws UsageError if it leads nowhere
+std::string data_folder(const std::string& data) {
+  std::error_code error;
+  const std::string root = data.substr(0, data.rfind(':'));  // ROOT:05
+  if (!std::filesystem::is_directory(data, error) && !std::filesystem::is_directory(root, error)) {
+    throw UsageError("--data " + data +
+                     ": no such folder; expected a sequence's folder, or one that holds them by "
+                     "name.");
+  }
+  const bool plain = data.find('/') == std::string::npos;
+  return plain ? (path(".") / data).string() : data;
+}
+
 }  // namespace
 
 bool KeptCell::has_removals() const {
@@ -94,8 +107,9 @@ std::string keep_removals_remedy(const KeptCell& cell) {
          "cells without it are run.";
 }
 
-KeptRun::KeptRun(const std::string& run, std::string data) : data_(std::move(data)) {
+KeptRun::KeptRun(const std::string& run, const std::string& data) {
   const path file = find_results(run);
+  if (!data.empty()) data_ = data_folder(data);
   folder_ = file.parent_path();
   const ordered_json json = read_sealed(file);
   results_ = parse_results(json, file.string());

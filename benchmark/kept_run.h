@@ -36,8 +36,9 @@ class KeptRun {
   /// @param run its folder
   /// @param data where the sequences are now, if not where run.json says: one sequence's folder, or
   ///   a folder that holds them by their names; empty: as run.json says
-  /// @throws UsageError if there is no such run; DataError if its files are damaged
-  KeptRun(const std::string& run, std::string data);
+  /// @throws UsageError if there is no such run, or no folder `data`; DataError if its files are
+  ///   damaged
+  KeptRun(const std::string& run, const std::string& data);
 
   [[nodiscard]] const RunResults& results() const { return results_; }
   /// Every sequence x method of the suite in the run's order, also those without a result.

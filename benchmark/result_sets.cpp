@@ -74,12 +74,17 @@ std::filesystem::path find_results(const std::string& given) {
   if (!std::filesystem::is_directory(path)) {
     throw UsageError(given + ": no such run folder; expected what `raymoval run --out` made.");
   }
-  if (!std::filesystem::exists(path / "results.json")) {
+  const auto holds = [&](const char* name) { return std::filesystem::exists(path / name); };
+  if (holds("results.json")) return path / "results.json";
+  // A run that was stopped early may have cells only.
+  if (holds("run.json") || holds("cells")) {
     throw UsageError(given +
                      ": has no results.json; the run did not reach its end. Start it again "
                      "with the same --out to go on.");
   }
-  return path / "results.json";
+  throw UsageError(given +
+                   ": is no run folder (no run.json in it); expected what `raymoval run --out` "
+                   "made.");
 }
 
 ResultSet read_result_set(const std::filesystem::path& results) {

@@ -35,8 +35,10 @@ std::vector<Sequence> open_sequences(const Suite& suite, const OpenContext& cont
     check_has_labels(sequences.back());
     for (std::size_t i = 0; i + 1 < sequences.size(); ++i) {
       if (folder_name(sequences[i].name) == folder_name(sequences.back().name)) {
-        throw UsageError("two sequences of this run are called '" + sequences.back().name +
-                         "'. Give each its own \"name\" in a suite file.");
+        throw UsageError("two sequences of this run are called '" + sequences.back().name + "' (" +
+                         suite.sequences[i].path + " and " + request.path +
+                         "). Run them into two folders, the second with --name NAME, or give each "
+                         "a \"name\" in a suite file.");
       }
     }
   }

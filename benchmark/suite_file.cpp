@@ -78,16 +78,23 @@ std::string located(const std::string& path, Places& places) {
   return there ? text : path;
 }
 
+/// The path of a sequence. A scene is only one where no folder of its name stands beside the file.
+std::string sequence_path(const std::string& path, Places& places, const std::string& where) {
+  const std::string both = scene_or_folder(path, places.folder);
+  if (!both.empty()) throw ConfigurationError(where + ": " + both);
+  return located(path, places);
+}
+
 SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
   SequenceRequest request;
   if (item.is_string()) {
-    request.path = located(item.get<std::string>(), places);
+    request.path = sequence_path(item.get<std::string>(), places, where);
     return request;
   }
   check_keys(item, {"path", "name", "frames", "poses", "label_rule", "range_m", "sensor"}, where);
   const auto path = text_of(item, "path", where);
   if (!path) throw ConfigurationError(where + ": 'path' is missing.");
-  request.path = located(*path, places);
+  request.path = sequence_path(*path, places, where);
   SequenceOptions& options = request.options;
   options.name = text_of(item, "name", where);
   options.poses = text_of(item, "poses", where);

@@ -10,6 +10,26 @@
 namespace raymoval {
 namespace {
 
+/// What a path is that was given where a suite is expected; empty for what may be a suite.
+std::string sequence_kind(const std::string& path) {
+  const auto shipped = shipped_suite_names();
+  const bool known = std::find(shipped.begin(), shipped.end(), path) != shipped.end();
+  if (known || is_file(path)) return "";
+  if (is_folder(path)) return "folder";
+  if (is_scene(path)) return "scene";
+  const std::size_t colon = path.rfind(':');
+  return colon != std::string::npos && is_folder(path.substr(0, colon)) ? "sequence" : "";
+}
+
+/// Who forgets "--sequence" gives a folder or a scene for the suite.
+void check_is_suite(const std::string& path) {
+  const std::string kind = sequence_kind(path);
+  if (kind.empty()) return;  // Whoever reads the suite says what else is wrong.
+  throw UsageError(path + ": is a " + kind +
+                   ", expected a suite file. To run on it: `raymoval run --sequence " + path +
+                   " --method NAME --out DIR`.");
+}
+
 /// What a suite file says cannot be said on the command line as well.
 void check_suite_alone(const SuiteFlags& flags) {
   std::string given = flags.sequence.first_given();
@@ -17,14 +37,6 @@ void check_suite_alone(const SuiteFlags& flags) {
   if (!flags.methods.empty()) given = "--method";
   if (!flags.sequences.empty()) given = "--sequence";
   if (given.empty()) return;
-  // Who forgets "--sequence" gives a scene or a folder where a suite is expected.
-  const auto shipped = shipped_suite_names();
-  const bool is_suite = is_file(flags.suite) ||
-                        std::find(shipped.begin(), shipped.end(), flags.suite) != shipped.end();
-  if (!is_suite && flags.sequences.empty()) {
-    throw UsageError("'" + flags.suite + "' is no suite; to run on a sequence write --sequence " +
-                     flags.suite + ".");
-  }
   throw UsageError(given + " cannot be given together with the suite file " + flags.suite +
                    "; write it into the file, or leave the file out.");
 }
@@ -44,7 +56,10 @@ Suite suite_from_flags(const SuiteFlags& flags, const MethodRegistry& registry) 
   }
   Suite suite;
   const SequenceOptions options = flags.sequence.options();
-  for (const std::string& path : flags.sequences) suite.sequences.push_back({path, options});
+  for (const std::string& path : flags.sequences) {
+    check_not_both(path);
+    suite.sequences.push_back({path, options});
+  }
   for (const std::string& method : flags.methods) add_method(suite, method, "", registry);
   for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");
   return suite;
@@ -57,7 +72,10 @@ Suite SuiteFlags::resolved() const {
   const MethodRegistry& registry = program_methods();
   std::vector<Setting> parsed;  // First: "--set KEY VALUE" leaves VALUE to be taken for a suite.
   for (const std::string& text : flags.settings) parsed.push_back(parse_setting(text));
-  if (!flags.suite.empty()) check_suite_alone(flags);
+  if (!flags.suite.empty()) {
+    if (flags.sequences.empty()) check_is_suite(flags.suite);
+    check_suite_alone(flags);
+  }
   if (flags.suite.empty() && !data.empty()) {
     throw UsageError("--data goes with a suite file that names {data}; use --sequence.");
   }
@@ -94,11 +112,14 @@ void SuiteFlags::add_to(CLI::App& app) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   sequence.add_to(app);
-  app.add_option("--threads", threads, "At most so many threads (default: all cores)");
+  app.add_option("--threads", threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
   app.add_option("--time-limit", time_limit,
-                 "Seconds a cell may take (default: 30 for each scan, at least 600)");
+                 "Seconds a cell may take (default: 30 for each scan, at least 600)")
+      ->type_name("SECONDS");
   app.add_option("--memory-limit", memory_limit,
-                 "MiB of memory a method may use (default: nine tenths of the machine's)");
+                 "MiB of memory a method may use (default: nine tenths of the machine's)")
+      ->type_name("MIB");
 }
 
 }  // namespace raymoval

@@ -14,8 +14,15 @@ install(DIRECTORY benchmark/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
 install(DIRECTORY results/published results/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} USE_SOURCE_PERMISSIONS
         PATTERN "__pycache__" EXCLUDE)
-install(FILES methods/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME methods.md)
+# Where pages and pictures stand in the repository, so that their links lead there.
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+     methods/README.md methods/*/README.md datasets/*/README.md
+     results/pictures/*.png results/schema/*.json)
+foreach(page ${pages})
+  get_filename_component(folder ${page} DIRECTORY)
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
 # The program holds three.js, whose licence asks to be named with it.
 file(READ LICENSE copyright)
 if(RAYMOVAL_REPORT_3D)

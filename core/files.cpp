@@ -80,6 +80,13 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
   file.commit();
 }
 
+void check_folder_of(const std::filesystem::path& path) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  std::error_code error;
+  if (std::filesystem::is_directory(folder, error)) return;
+  throw UsageError(path.string() + ": there is no folder " + folder.string() + ". Make it first.");
+}
+
 nlohmann::json read_json(const std::filesystem::path& path) {
   return parse_json(read_text(path), path.string());
 }

@@ -20,6 +20,10 @@ std::string read_text(const std::filesystem::path& path);
 /// the same folder, fsync, rename, fsync of the folder. @throws DataError (disk full, no rights).
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// For files that are written after long work. @throws UsageError if the folder of `path` is
+/// missing
+void check_folder_of(const std::filesystem::path& path);
+
 /// JSON with // and /* */ comments. @throws ConfigurationError with line, column and reason.
 nlohmann::json read_json(const std::filesystem::path& path);
 

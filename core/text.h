@@ -19,6 +19,9 @@ std::string fixed_text(double value, int decimals);
 /// 1234567 -> "1,234,567".
 std::string grouped_text(std::uint64_t value);
 
+/// "1 scan", "2,000 scans".
+std::string counted_text(std::uint64_t count, const std::string& noun);
+
 /// The whole of `text` read as a number (a leading '+' is allowed); nothing if any character is
 /// left over or the value does not fit.
 template <class Number>
@@ -39,9 +42,9 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// "a, b, c".
 std::string join(const std::vector<std::string>& parts, std::string_view separator = ", ");
 
-/// The candidate with the smallest edit distance to `name`, or nothing if none is near: more than
-/// one letter and more than a third of the longer name would have to change, and neither contains
-/// the other.
+/// The candidate with the smallest edit distance to `name` (a swap of neighbours is one change), or
+/// nothing if none is near: more than one letter and more than a third of the longer name would
+/// have to change, and neither contains the other.
 std::optional<std::string> closest_name(std::string_view name,
                                         const std::vector<std::string>& candidates);
 

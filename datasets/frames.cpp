@@ -12,8 +12,8 @@ namespace raymoval {
 namespace {
 
 constexpr const char* kRangeForm =
-    "expected START:STOP:STRIDE over frame numbers, ends inclusive, any part may be empty: "
-    "2350:2670:2, 100:200, ::2.";
+    "expected FIRST:LAST or FIRST:LAST:STRIDE over frame numbers, ends included, any part may be "
+    "empty: 2350:2670:2, 100:200, ::2.";
 
 /// Part of a range; empty text gives nothing.
 std::optional<long> range_part(const std::string& text, std::string_view part, const char* what,
@@ -41,22 +41,18 @@ std::string_view take_digits(std::string_view& text) {
   return digits;
 }
 
-std::string extent_text(const std::vector<NumberedFile>& files) {
-  return grouped_text(files.size()) + " frames from " + std::to_string(files.front().number) +
-         " to " + std::to_string(files.back().number);
-}
-
 }  // namespace
 
 FrameRange parse_frame_range(const std::string& text) {
   const auto parts = split(text, ':');
   if (parts.size() < 2 || parts.size() > 3) {
-    throw UsageError("frame range '" + text + "' has " + std::to_string(parts.size()) + " parts; " +
-                     kRangeForm);
+    const bool number = parse_number<long>(text).value_or(-1) >= 0;
+    throw UsageError("frame range '" + text + "': " + kRangeForm +
+                     (number ? " A single frame is " + text + ":" + text + "." : ""));
   }
   FrameRange range;
-  range.first = range_part(text, parts[0], "start", 0);
-  range.last = range_part(text, parts[1], "stop", 0);
+  range.first = range_part(text, parts[0], "first", 0);
+  range.last = range_part(text, parts[1], "last", 0);
   if (parts.size() == 3) range.stride = range_part(text, parts[2], "stride", 1).value_or(1);
   if (range.first && range.last && *range.first > *range.last) {
     throw UsageError("frame range '" + text + "' stops before it starts; " + kRangeForm);
@@ -69,6 +65,11 @@ std::string frame_range_text(const FrameRange& range) {
     return value ? std::to_string(*value) : std::string();
   };
   return part(range.first) + ":" + part(range.last) + ":" + std::to_string(range.stride);
+}
+
+std::string frame_extent_text(const std::vector<NumberedFile>& files) {
+  return counted_text(files.size(), "frame") + " from " + std::to_string(files.front().number) +
+         " to " + std::to_string(files.back().number);
 }
 
 bool natural_less(std::string_view a, std::string_view b) {
@@ -146,7 +147,8 @@ ChosenFrames choose_frames(const std::vector<NumberedFile>& files, const FrameRa
   const std::string asked = where + ": --frames " + frame_range_text(range);
   if (*used.first < files.front().number || *used.last > files.back().number ||
       *used.first > *used.last) {
-    throw DataError(asked + " reaches outside the data, which has " + extent_text(files) + ".");
+    throw DataError(asked + " reaches outside the data, which has " + frame_extent_text(files) +
+                    ".");
   }
   ChosenFrames chosen{{}, used};
   long expected = *used.first;
@@ -160,7 +162,7 @@ ChosenFrames choose_frames(const std::vector<NumberedFile>& files, const FrameRa
   }
   if (range.first || range.last) {
     throw DataError(asked + ": there is no file for frame " + std::to_string(expected) +
-                    "; the folder has " + extent_text(files) +
+                    "; the folder has " + frame_extent_text(files) +
                     ". Add the file, or choose frames without the gap.");
   }
   return chosen;

@@ -41,6 +41,9 @@ struct ChosenFrames {
   FrameRange range;  ///< With both ends filled in.
 };
 
+/// "4 frames from 2350 to 2356". @param files at least one, in order of number
+std::string frame_extent_text(const std::vector<NumberedFile>& files);
+
 /// Selects `range` from `files` (in order of number, at least one). The stride counts from the
 /// first frame of the range. With an end given, every frame of the range has to exist; with none,
 /// what is on disk is the sequence, so that partial copies of a data set can be used.

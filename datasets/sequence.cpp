@@ -176,6 +176,24 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   return open_semantickitti_root(root, path.substr(colon + 1), options);
 }
 
+bool is_scene(const std::string& path) {
+  return path == "street" || names_scene(path);
+}
+
+std::string scene_or_folder(const std::string& path, const fs::path& base) {
+  if (!is_scene(path) || !is_folder(base / path)) return "";
+  const std::string both =
+      path + ": is a scene and also a folder here; write ./" + path + " for the folder, or ";
+  // The street has no options to be told by.
+  if (path == "street") return both + "start where there is no such folder for the scene.";
+  return both + path.substr(0, path.find(':')) + ":seed=1 for the scene.";
+}
+
+void check_not_both(const std::string& path) {
+  const std::string both = scene_or_folder(path);
+  if (!both.empty()) throw UsageError(both);
+}
+
 std::string fingerprint(const Sequence& sequence, int threads) {
   const std::size_t count = sequence.scans->size();
   std::vector<std::string> digests(count);

@@ -17,7 +17,7 @@
 
 namespace raymoval {
 
-/// `START:STOP:STRIDE` over frame numbers, ends inclusive; any part may be empty (`::2`).
+/// `FIRST:LAST:STRIDE` over frame numbers, ends included; any part may be empty (`::2`).
 struct FrameRange {
   std::optional<long> first;
   std::optional<long> last;
@@ -71,18 +71,30 @@ struct OpenContext {
 /// - `ROOT:05`, the whole sequence `ROOT/sequences/05` of a SemanticKITTI root;
 /// - `ROOT:kitti-05`, the segment of that sequence which the field compares on (kitti-00, -01, -02,
 ///   -05, -07, see `paper_segments`); `options.frames` replaces its frame range;
-/// - `street`, the small built-in scene, made in memory (write `./street` for a folder of that
-///   name);
+/// - `street`, the small built-in scene, made in memory;
 /// - a simulated scene (see `raymoval list scenes`) or the path of a scene file, with options or
 ///   without: `town`, `town:scans=60,seed=3,sensor=vlp16,pose_noise=0,rolling=skewed`. `sensor` is
 ///   a name or path of a simulated sensor; what is not given is as `SimulationOptions` says. It is
 ///   generated once into the cache folder (`default_cache_root`) and read from there like any
 ///   other sequence in SemanticKITTI layout.
-/// A `sequence.json` in the folder may say more, see `read_settings`; `options` stand above it.
+/// The name of a scene is the scene also where a folder has it: write `./town` for the folder, and
+/// see `scene_or_folder`. A `sequence.json` in the folder may say more, see `read_settings`;
+/// `options` stand above it.
 /// @throws DataError, UsageError or ConfigurationError saying what was found and what was expected;
 /// Cancelled
 Sequence open_sequence(const std::string& path, const SequenceOptions& options,
                        const OpenContext& context = {});
+
+/// Whether `open_sequence` takes `path` for a scene: `street`, a simulated one, a scene file.
+bool is_scene(const std::string& path);
+
+/// What to tell a user who may mean either: `path` names a scene, and a folder of that name stands
+/// in `base`. Empty if only one is there.
+/// @param base folder that the user's paths start from; empty: the current one
+std::string scene_or_folder(const std::string& path, const std::filesystem::path& base = {});
+
+/// @throws UsageError with the text of `scene_or_folder`
+void check_not_both(const std::string& path);
 
 /// Hash of everything a method or protocol reads: points, reflectance, times, poses and labels of
 /// the chosen frames, sensor model, label rule and range limits. File and sequence names are left

@@ -32,7 +32,7 @@ while [[ $# -gt 0 ]]; do
       shift 2
       ;;
     -h | --help)
-      sed -n '3,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+      sed -n '3,11s/^# \{0,1\}//p' scripts/benchmark.sh
       exit 0
       ;;
     *) fail "unknown argument '$1'; usage: scripts/benchmark.sh [--out DIR]" ;;

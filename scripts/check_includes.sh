@@ -1,8 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Arrows between rooms point one way: core <- datasets, methods, eval <- benchmark.
+#
+#   scripts/check_includes.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+case ${1:-} in
+  "") ;;
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/check_includes.sh; exit 0 ;;
+  *) echo "check_includes.sh: '$1' is unknown; expected nothing." >&2; exit 2 ;;
+esac
 
 bad=0
 # check ROOM FORBIDDEN...: no file of ROOM may include from a forbidden room.

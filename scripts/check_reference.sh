@@ -2,8 +2,16 @@
 # SPDX-License-Identifier: MIT
 # Runs the quick suite and compares it with results/reference/street. Exit code as of
 # `raymoval compare`: 0 the same or better, 1 worse, 2 not comparable.
+#
+#   scripts/check_reference.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+case ${1:-} in
+  "") ;;
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/check_reference.sh; exit 0 ;;
+  *) echo "check_reference.sh: '$1' is unknown; expected nothing." >&2; exit 2 ;;
+esac
 
 reference=results/reference/street
 if [[ ! -e $reference/results.json ]]; then

@@ -5,6 +5,10 @@
 #
 #   scripts/check_tree.sh [FOLDER]      default: this repository
 set -euo pipefail
+case ${1:-} in
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
+  -*) echo "check_tree.sh: '$1' is unknown; expected a folder or nothing." >&2; exit 2 ;;
+esac
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 known='.ci .clang-format .gitattributes .gitignore CHANGELOG.md CITATION.cff CMakeLists.txt

@@ -9,6 +9,9 @@
 # it is: ctest plays it back from then on.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+case ${1:-} in
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/fuzz.sh; exit 0 ;;
+esac
 seconds=${1:-600}
 [[ $# -gt 0 ]] && shift
 if ! [[ $seconds =~ ^[1-9][0-9]*$ ]]; then

@@ -18,6 +18,7 @@ packages=(
 )
 case ${1:-} in
   "") ;;
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
   --tests) packages+=(snakemake python3-jsonschema python3-numpy texlive-latex-base
     texlive-latex-recommended chromium) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing or --tests." >&2; exit 2 ;;

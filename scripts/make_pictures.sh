@@ -8,6 +8,10 @@
 # The same program, fonts and libraries give the same bytes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+case ${1:-} in
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/make_pictures.sh; exit 0 ;;
+  -*) echo "make_pictures.sh: '$1' is unknown; expected nothing, or the folder RUN." >&2; exit 2 ;;
+esac
 
 raymoval=build/release/raymoval
 if [[ ! -x $raymoval ]]; then

@@ -73,6 +73,9 @@ END
 }
 
 what=()
+case ${1:-} in
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/reproduce.sh; exit 0 ;;
+esac
 if [[ ${1:-} == semantickitti ]]; then
   if [[ -z ${2:-} ]]; then
     echo "reproduce.sh: say where the data is: scripts/reproduce.sh semantickitti ROOT" >&2

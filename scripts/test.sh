@@ -2,8 +2,16 @@
 # SPDX-License-Identifier: MIT
 # Everything that has to hold before a change is merged. Goes on after a failure; the last line is
 # "N passed, N failed", and the exit code is 1 if anything failed.
+#
+#   scripts/test.sh        installs what the tests need first
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+
+case ${1:-} in
+  "") ;;
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/test.sh; exit 0 ;;
+  *) echo "test.sh: '$1' is unknown; expected nothing." >&2; exit 2 ;;
+esac
 
 passed=0
 failed=0

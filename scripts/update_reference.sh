@@ -7,6 +7,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+case ${1:-} in
+  "") ;;
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/update_reference.sh; exit 0 ;;
+  *) echo "update_reference.sh: '$1' is unknown; expected nothing." >&2; exit 2 ;;
+esac
+
 cmake --preset release
 cmake --build --preset release --target raymoval_program
 out=$(mktemp -d)

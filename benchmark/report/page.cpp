@@ -88,6 +88,7 @@ Points collect_points(const PageRequest& request) {
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {  // The rest of the report is no worse for it.
+      if (request.points_needed) throw;
       points.warnings.push_back(error.what());
     }
   }

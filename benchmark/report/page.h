@@ -19,6 +19,7 @@ struct PageRequest {
   const MethodRegistry* methods = nullptr;
   bool with_points = true;       ///< Whether there is a 3-D view.
   std::size_t points = 1000000;  ///< At most so many in the whole page.
+  bool points_needed = false;    ///< Whether a sequence that cannot be opened again ends it.
   int threads = 1;
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
@@ -30,7 +31,8 @@ struct Page {
   std::vector<std::string> warnings;  ///< Such as a sequence whose points are gone.
 };
 
-/// The report as one HTML file that needs nothing else. @throws Cancelled
+/// The report as one HTML file that needs nothing else. @throws Cancelled; DataError where
+/// `points_needed`
 Page make_page(const PageRequest& request);
 
 }  // namespace raymoval

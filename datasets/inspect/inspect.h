@@ -10,7 +10,7 @@
 
 namespace raymoval {
 
-/// Looks for the usual mistakes in the data of `sequence`: up to two dozen scans are read, evenly
+/// Looks for the usual mistakes in the data of `sequence`: about thirty scans are read, evenly
 /// spread, and the poses, sizes and times of all. Nothing is changed.
 /// @throws DataError if a scan cannot be read; Cancelled
 InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* cancel = nullptr);

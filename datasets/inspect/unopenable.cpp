@@ -45,7 +45,7 @@ Finding count_finding(const fs::path& poses, std::size_t rows, const fs::path& f
   Finding finding;
   finding.check = "poses-of-another-sequence";
   finding.where = poses.filename().string();
-  finding.what = "holds " + grouped_text(rows) + " poses for " + grouped_text(least) + " scans";
+  finding.what = "holds " + counted_text(rows, "pose") + " for " + counted_text(least, "scan");
   finding.expected = "one pose a scan";
   const auto others = fitting_files(folder, least, most);
   finding.remedy = others.empty()

@@ -90,6 +90,48 @@ std::vector<std::string> sequences_of(const std::filesystem::path& root) {
   return names;
 }
 
+/// "0:3:2" of the frames there are; empty if no range has just them.
+std::string whole_range_text(const std::vector<NumberedFile>& files) {
+  const long first = files.front().number;
+  const long last = files.back().number;
+  const long stride = files.size() > 1 ? files[1].number - first : 1;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].number != first + static_cast<long>(i) * stride) return "";
+  }
+  const std::string text = std::to_string(first) + ":" + std::to_string(last);
+  return stride == 1 ? text : text + ":" + std::to_string(stride);
+}
+
+/// What to say of data that lacks frames of a segment.
+std::string lacks_frames_text(const std::filesystem::path& folder, const std::string& segment,
+                              const FrameRange& frames, const std::vector<NumberedFile>& files) {
+  const std::string part = whole_range_text(files);
+  return folder.string() + ": segment " + segment + " is frames " + frame_range_text(frames) +
+         ", but the data has " + frame_extent_text(files) +
+         ". Copy the missing ones, or name your own part: --sequence " +
+         folder.parent_path().parent_path().string() + ":" + folder.filename().string() +
+         (part.empty() ? "" : " --frames " + part) + ".";
+}
+
+/// @param segment whose frames these are if the user named none; empty: of the user
+ChosenFrames chosen_frames(const std::vector<NumberedFile>& files, const FrameRange& frames,
+                           const std::filesystem::path& folder, const std::string& segment) {
+  try {
+    return choose_frames(files, frames, folder.string());
+  } catch (const DataError&) {
+    if (segment.empty()) throw;
+    throw DataError(lacks_frames_text(folder, segment, frames, files));
+  }
+}
+
+/// @throws UsageError if `root` holds no sequences at all
+void check_is_root(const std::filesystem::path& root) {
+  if (is_folder(root / "sequences")) return;
+  throw UsageError(root.string() +
+                   ": holds no folder sequences/; expected the root of SemanticKITTI, with "
+                   "sequences/00 and so on in it.");
+}
+
 }  // namespace
 
 const std::vector<PaperSegment>& paper_segments() {
@@ -110,7 +152,8 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   const SequenceSettings settings = read_settings(folder, options, defaults);
 
   const auto files = list_numbered_files(folder / "velodyne", ".bin");
-  const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
+  const ChosenFrames chosen =
+      chosen_frames(files, settings.frames, folder, options.frames ? "" : name);
   const auto pose_path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
   const PoseFile poses = read_pose_file(pose_path);
   check_row_count(poses.rows.size(), "poses", pose_path, files);
@@ -131,7 +174,9 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
 
 Sequence open_semantickitti_root(const std::filesystem::path& root, const std::string& selection,
                                  const SequenceOptions& options) {
-  std::vector<std::string> choices = sequences_of(root);
+  check_is_root(root);
+  const std::vector<std::string> there = sequences_of(root);
+  std::vector<std::string> choices = there;
   if (std::find(choices.begin(), choices.end(), selection) != choices.end()) {
     return open_semantickitti(root / "sequences" / selection, options);
   }
@@ -141,12 +186,15 @@ Sequence open_semantickitti_root(const std::filesystem::path& root, const std::s
     const auto folder = root / "sequences" / segment.sequence;
     if (!is_folder(folder)) {
       throw DataError(folder.string() + ": no such folder; segment " + selection +
-                      " is part of sequence " + segment.sequence + " of SemanticKITTI.");
+                      " is part of sequence " + segment.sequence +
+                      " of SemanticKITTI, and sequences/ holds " +
+                      (there.empty() ? "no folder" : join(there)) + ".");
     }
     return open_semantickitti(folder, options, segment.name, segment.frames);
   }
+  const auto near = closest_name(selection, choices);
   throw UsageError(root.string() + ": has no sequence '" + selection + "'." +
-                   suggestion(selection, choices) +
+                   (near ? " Did you mean '" + *near + "'?" : "") +
                    " A root holds sequences/NN; known here: " + join(choices) + ".");
 }
 

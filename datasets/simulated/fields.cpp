@@ -27,7 +27,9 @@ bool Fields::has(const std::string& key) const {
 }
 
 const nlohmann::json& Fields::member(const std::string& key) const {
-  if (!has(key)) fail(key, "a value; it has no default");
+  if (!has(key)) {
+    throw ConfigurationError(where_ + ": key '" + key + "' is missing; it has no default.");
+  }
   return json_.at(key);
 }
 

@@ -23,10 +23,10 @@ NamedText find(const std::vector<BuiltInFile>& files, const std::string& what,
                const std::string& name) {
   if (name.ends_with(".json")) {
     const std::filesystem::path path(name);
-    return {path.stem().string(), read_text(path)};
+    return {path.stem().string(), read_text(path), name};
   }
   for (const BuiltInFile& file : files) {
-    if (file.name == name) return {name, std::string(file.text)};
+    if (file.name == name) return {name, std::string(file.text), name + ".json"};
   }
   throw UsageError("there is no simulated " + what + " '" + name + "'." +
                    suggestion(name, names_of(files)) + " A path to a file must end in .json.");
@@ -39,7 +39,7 @@ nlohmann::json parse(const NamedText& file) {
     const std::size_t byte = std::min(error.byte, file.text.size());
     const auto end = file.text.begin() + static_cast<std::ptrdiff_t>(byte);
     const auto line = 1 + std::count(file.text.begin(), end, '\n');
-    throw ConfigurationError(file.name + ".json: line " + std::to_string(line) +
+    throw ConfigurationError(file.file + ": line " + std::to_string(line) +
                              ": not valid JSON (a comma or a quote is missing or surplus near).");
   }
 }
@@ -54,11 +54,11 @@ NamedText find_sensor(const std::string& name) {
 }
 
 WorldFile parse_world(const NamedText& file) {
-  return world_from_json(parse(file), file.name);
+  return world_from_json(parse(file), file.file);
 }
 
 SensorFile parse_sensor(const NamedText& file) {
-  return sensor_from_json(parse(file), file.name);
+  return sensor_from_json(parse(file), file.file);
 }
 
 }  // namespace raymoval::simulated

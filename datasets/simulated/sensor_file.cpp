@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -180,8 +181,8 @@ SensorModel SensorFile::model() const {
   return model;
 }
 
-SensorFile sensor_from_json(const nlohmann::json& json, const std::string& name) {
-  const Fields f(json, name,
+SensorFile sensor_from_json(const nlohmann::json& json, const std::string& file) {
+  const Fields f(json, file,
                  {"description",
                   "kind",
                   "banks",
@@ -204,7 +205,7 @@ SensorFile sensor_from_json(const nlohmann::json& json, const std::string& name)
                   "dropout",
                   "range_at_10_percent_m"});
   SensorFile sensor;
-  sensor.name = name;
+  sensor.name = std::filesystem::path(file).stem().string();
   sensor.description = f.text("description", "");
   read_pattern(f, sensor);
   check_size(f, sensor);

@@ -53,7 +53,8 @@ struct SensorFile {
   [[nodiscard]] SensorModel model() const;
 };
 
+/// @param file its path for messages; the stem is the name of the sensor
 /// @throws ConfigurationError naming the place in the file, what is wrong and what was expected.
-SensorFile sensor_from_json(const nlohmann::json& json, const std::string& name);
+SensorFile sensor_from_json(const nlohmann::json& json, const std::string& file);
 
 }  // namespace raymoval::simulated

@@ -2,6 +2,7 @@
 #include "datasets/simulated/world_file.h"
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/angle.h"
@@ -179,12 +180,12 @@ EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
 
 }  // namespace
 
-WorldFile world_from_json(const nlohmann::json& json, const std::string& name) {
-  const Fields f(json, name,
+WorldFile world_from_json(const nlohmann::json& json, const std::string& file) {
+  const Fields f(json, file,
                  {"description", "sensor", "scans", "range_m", "seed", "terrain", "roads", "rows",
                   "places", "movers", "flows", "ego"});
   WorldFile world;
-  world.name = name;
+  world.name = std::filesystem::path(file).stem().string();
   world.description = f.text("description", "");
   world.sensor = f.text("sensor", "hdl64e");
   world.scans = f.integer("scans", world.scans, 1, 100000);

@@ -94,8 +94,8 @@ struct WorldFile {
   EgoSpec ego;
 };
 
-/// @param name of the world, for messages and results
+/// @param file its path for messages; the stem is the name of the world
 /// @throws ConfigurationError naming the place in the file, what is wrong and what was expected.
-WorldFile world_from_json(const nlohmann::json& json, const std::string& name);
+WorldFile world_from_json(const nlohmann::json& json, const std::string& file);
 
 }  // namespace raymoval::simulated

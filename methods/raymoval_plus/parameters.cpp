@@ -8,7 +8,7 @@ namespace {
 
 using Table = ParameterTable<RaymovalPlusParameters>;
 using P = RaymovalPlusParameters;
-constexpr const char* kSource = "raymoval_plus/README.md";
+constexpr const char* kSource = "this project";
 
 void add_terrain(Table& table) {
   table
@@ -148,7 +148,7 @@ MethodEntry raymoval_plus_entry() {
   entry.name = "raymoval_plus";
   entry.sentence =
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
-  entry.source = "methods/raymoval_plus/README.md";
+  entry.source = "this project";
   entry.version = "2";
   entry.parameters = raymoval_plus_parameters().specs();
   entry.variants = {

@@ -7,6 +7,10 @@
 #   scripts/workflow/test_slurm.sh [SUITE]          default: simulated-quick
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+case ${1:-} in
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/workflow/test_slurm.sh; exit 0 ;;
+  -*) echo "test_slurm.sh: '$1' is unknown; expected nothing, or a suite." >&2; exit 2 ;;
+esac
 suite=${1:-simulated-quick}
 program=build/release/raymoval
 

@@ -81,6 +81,12 @@ TEST_CASE("Digits are grouped by three") {
   CHECK(grouped_text(std::numeric_limits<std::uint64_t>::max()) == "18,446,744,073,709,551,615");
 }
 
+TEST_CASE("One of a thing has no plural") {
+  CHECK(counted_text(0, "scan") == "0 scans");
+  CHECK(counted_text(1, "scan") == "1 scan");
+  CHECK(counted_text(1234, "pose") == "1,234 poses");
+}
+
 TEST_CASE("A number is the whole text or nothing") {
   CHECK(parse_number<double>("+2.5") == 2.5);
   CHECK_FALSE(parse_number<double>("+-2.5").has_value());
@@ -118,6 +124,8 @@ TEST_CASE("The closest name is that with the fewest changes, if it is near") {
   CHECK(closest_name("voxel", {"percentile", "voxel_size"}) == "voxel_size");  // Part of it.
   CHECK_FALSE(closest_name("vo", {"voxel_size"}).has_value());  // Too short for a part.
   CHECK_FALSE(closest_name("x", {}).has_value());
+  CHECK(closest_name("twon", {"highway", "town"}) == "town");    // A swap is 1 of 4 changes.
+  CHECK(closest_name("raods", {"movers", "roads"}) == "roads");  // 1 of 5.
 }
 
 TEST_CASE("A suggestion names the near one, or all") {

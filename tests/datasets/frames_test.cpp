@@ -47,7 +47,17 @@ TEST_CASE("a frame range that makes no sense says what the form is", "[frames]")
                            "9:3", "1:99999999999999999999", " 1:2"}) {
     CAPTURE(text);
     const auto message = message_of<UsageError>([&] { parse_frame_range(text); });
-    check_says(message, {"'" + std::string(text) + "'", "START:STOP:STRIDE"});
+    check_says(message, {"'" + std::string(text) + "'", "FIRST:LAST or FIRST:LAST:STRIDE"});
+  }
+}
+
+TEST_CASE("one number is not taken for a range, but told how to be one", "[frames]") {
+  const auto message = [](const char* text) {
+    return message_of<UsageError>([&] { parse_frame_range(text); });
+  };
+  check_says(message("5"), {"100:200, ::2. A single frame is 5:5."});
+  for (const char* text : {"-5", "x", "1:2:3:4"}) {
+    CHECK_THAT(message(text), !Catch::Contains("single frame"));
   }
 }
 

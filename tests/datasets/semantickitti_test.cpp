@@ -109,6 +109,13 @@ TEST_CASE("a root opens by sequence number or by the name of a segment", "[seman
   CHECK(segment.scans->size() == 101);  // Both ends: table of the evaluation protocol.
   CHECK(open_sequence(folder.text() + ":kitti-01", with_frames("0:4:2")).scans->size() == 3);
   check_says(open_error(folder.text() + ":kitti-05"), {"2350:2670:2", "3 frames from 0 to 2"});
+  check_says(open_error(folder.text() + ":kitti-05"), {folder.text() + ":05 --frames 0:2."});
+  // What is there may have a stride, or no range of its own.
+  std::filesystem::remove(folder / "sequences/05/velodyne/000001.bin");
+  check_says(open_error(folder.text() + ":kitti-05"), {"2 frames", ":05 --frames 0:2:2."});
+  std::filesystem::remove(folder / "sequences/01/velodyne/000001.bin");
+  std::filesystem::remove(folder / "sequences/01/velodyne/000151.bin");
+  check_says(open_error(folder.text() + ":kitti-01"), {"250 frames from 0 to 251", ":01."});
   check_says(open_error(folder.text() + ":kitti-07"), {"sequences/07", "no such folder"});
   check_says(open_error<UsageError>(folder.text() + ":kiti-01"), {"Did you mean 'kitti-01'"});
   check_says(open_error<UsageError>(folder.text() + ":99"), {"'99'", "01, 05, kitti-00"});
@@ -275,7 +282,8 @@ TEST_CASE("sequence.json with a wrong key or value says which", "[semantickitti]
     return open_error<ConfigurationError>(folder.text());
   };
   check_says(error(R"({"sensr": "hdl64e"})"), {"sequence.json", "'sensr'", "'sensor'"});
-  check_says(error(R"({"range_m": {"mni": 1}})"), {"range_m", "'mni'", "min, max"});
+  check_says(error(R"({"range_m": {"mni": 1}})"), {"range_m", "'mni'", "Did you mean 'min'"});
+  check_says(error(R"({"range_m": {"far": 1}})"), {"range_m", "'far'", "min, max"});
   check_says(error(R"({"range_m": {"min": 9, "max": 3}})"), {"min 9", "max 3"});
   check_says(error(R"({"range_m": {"min": -1}})"), {"range_m.min", "-1"});
   check_says(error(R"({"scan_period_s": "fast"})"), {"scan_period_s", "fast"});

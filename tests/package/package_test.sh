@@ -51,10 +51,25 @@ for path in bin/raymoval include/raymoval/methods/remover.h include/raymoval/met
   lib/libraymoval_eval.a lib/cmake/raymoval/raymovalConfig.cmake \
   share/raymoval/suites/quick.json share/raymoval/published/raymoval_table2.json \
   share/raymoval/schema/manifest.schema.json share/doc/raymoval/copyright \
-  share/doc/raymoval/methods.md share/doc/raymoval/examples/cpp_method/near_points.cpp \
+  share/doc/raymoval/methods/README.md \
+  share/doc/raymoval/methods/raymoval/README.md share/doc/raymoval/datasets/simulated/README.md \
+  share/doc/raymoval/results/pictures/maps.png share/doc/raymoval/examples/cpp_method/near_points.cpp \
   share/doc/raymoval/examples/external/voxel_counts/manifest.json; do
   holds "it holds $path" test -s "root/usr/$path"
 done
+# dead_links FOLDER: links of its pages to files that are not there.
+dead_links() {
+  local page link
+  find "$1" -name '*.md' | while read -r page; do
+    grep -oE '\]\([^)#: ]+' "$page" | sed 's/^](//' | while read -r link; do
+      [[ -e $(dirname "$page")/$link ]] || echo "$page: $link"
+    done
+  done
+}
+dead=$(dead_links root/usr/share/doc/raymoval)
+holds "its pages have no dead links: $dead" test -z "$dead"
+holds "no folder of its documentation is empty" test -z \
+  "$(find root/usr/share/doc/raymoval -type d -empty)"
 found=$(grep -rlF -e "$source/" -e "$build" root)
 holds "no file tells where it was built: $found" test -z "$found"
 

@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What the program advises when a folder, a suite, a run or an output is not what it takes it for.
+# Usage: advice_test.sh PATH/TO/raymoval
+set -uo pipefail
+raymoval=$(readlink -f "$1")
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+export RAYMOVAL_CACHE=$work/cache
+short=(--sequence street --frames 0:2 --quiet)
+
+expect 0 "2 scans" simulate town -o data/05 --scans 2 --sensor vlp16 --seed 3 --quiet
+expect 0 ": 1 scan, " simulate town -o one --scans 1 --sensor vlp16 --quiet
+mkdir -p unlabelled/sequences empty
+cp -r data/05 unlabelled/sequences/05
+rm -r unlabelled/sequences/05/labels
+expect 0 "" run --sequence data/05 --name town --method noop --quiet --keep-removals --out kept
+
+# A name that is a scene and a folder is told apart by the user.
+cp -r data/05 town
+mkdir street
+both="town: is a scene and also a folder here; write ./town for the folder, or town:seed=1 for the scene."
+expect 2 "$both" run --sequence town --method noop --out o
+expect 2 "$both" clean town -o map.pcd
+expect 2 "$both" score --sequence town --predictions empty
+expect 2 "$both" inspect town
+expect 2 "write ./street for the folder" run "${short[@]}" --method noop --out o
+rmdir street
+expect 0 "2 of 2 scans read" inspect ./town --quiet
+expect 0 "of 2 scans read" inspect town:scans=2,sensor=vlp16 --quiet
+mkdir -p suites/town
+echo '{"sequences": ["town"], "methods": ["noop"]}' >suites/both.json
+expect 2 "suites/both.json: sequences[0]: $both" run suites/both.json --out o
+expect 0 "" picture kept -o map.png --only '*' --quiet --data town
+rm -r town suites/town
+expect 2 "--data town: no such folder" picture kept -o map.png --only '*' --quiet --data town
+
+# A page with points is not replaced by one without them where --data leads elsewhere.
+expect 0 "wrote" report kept -o page.html --quiet --data data/05
+cp page.html before.html
+expect 2 "no such folder" report kept -o page.html --quiet --data nowhere
+expect 2 "fingerprint" report kept -o page.html --quiet --data one
+expect 2 "no known layout" report kept -o page.html --quiet --data empty
+holds "the page is as it was" cmp page.html before.html
+
+# Folders and scenes where a suite is expected, and words too many.
+for command in run plan; do
+  expect 2 "data/05: is a folder, expected a suite file. To run on it: \`raymoval run --sequence data/05" \
+    $command data/05
+done
+expect 2 "town: is a scene, expected a suite file." run town --out o
+expect 2 "data/05: is a folder" run data/05 --method noop --out o
+expect 2 "unlabelled:05: is a sequence" plan unlabelled:05
+expect 2 "Name it with --sequence data/05." score data/05
+expect 2 "run what?" run
+expect 2 "run what?" run --method noop
+expect 2 "a method with --method" plan --sequence data/05
+
+# Folders that are no runs; references have no run.json.
+for command in table report "compare kept" "picture -o p.png"; do
+  # shellcheck disable=SC2086
+  expect 2 "data/05: is no run folder (no run.json in it)" $command data/05
+done
+mkdir reference early early/cells
+cp kept/results.json reference
+expect 0 "noop" table reference
+expect 2 "did not reach its end" table early
+
+# Roots of SemanticKITTI that are none, or incomplete.
+for suite in kth semantickitti; do
+  expect 2 "empty: holds no folder sequences/; expected the root of SemanticKITTI" \
+    run $suite --data empty --out o
+done
+expect 2 "and sequences/ holds 05." inspect unlabelled:kitti-00
+expect 2 "unlabelled/sequences/05: segment kitti-05 is frames 2350:2670:2, but the data has 2 frames from 0 to 1. Copy the missing ones, or name your own part: --sequence unlabelled:05 --frames 0:1." \
+  clean unlabelled:kitti-05 -o map.pcd
+expect 2 "has no sequence '06'. Did you mean '05'? A root holds sequences/NN; known here: 05, kitti" \
+  inspect unlabelled:06
+expect 2 "sequence 'town' has no labels, and oracle answers from them; choose another --method." \
+  clean unlabelled:05 -o map.pcd --method oracle --quiet
+
+# Where a file cannot be written is told before the work.
+there="there is no folder nowhere. Make it first."
+expect 2 "nowhere/a.json: $there" score --sequence data/05 --predictions empty --json nowhere/a.json
+expect 2 "nowhere/a.png: $there" picture kept -o nowhere/a.png
+expect 2 "nowhere/a.html: $there" report kept -o nowhere/a.html
+
+# Slips of words, values and options without one.
+expect 2 "Did you mean 'town'" simulate twon -o o
+expect 2 "A single frame is 5:5." inspect data/05 --frames 5
+expect 2 "fits no cell of this run" picture kept -o map.png --only nothing --quiet
+expect 2 "fits no cell of this suite" run simulated --only nothing --out o
+expect 2 "are called 'town' (data/05 and one). Run them into two folders, the second with --name NAME" \
+  run --sequence data/05 --sequence one --method noop --out o
+expect 2 "--output: FILE is missing after it. See \`raymoval clean --help\`." clean data/05 --output
+expect 2 "--frames: FIRST:LAST:STRIDE is missing after it. See \`raymoval run --help\`." run --frames
+
+# Scene and sensor files go by their paths.
+mkdir files
+echo '{"roads": []}' >files/w.json
+expect 2 "files/w.json: key 'ego' is missing; it has no default." simulate files/w.json -o o
+echo '{"kind": "spinning"}' >files/s.json
+expect 2 "files/s.json: 'banks' is nothing" simulate town -o o --sensor files/s.json --scans 1
+echo '{' >files/w.json
+expect 2 "files/w.json: line 2" simulate files/w.json -o o
+
+# Names of values are those of the field, not of the parser.
+for command in run plan score clean simulate inspect report picture table compare; do
+  "$raymoval" $command --help >help.txt
+  holds "$command --help names its values" test -z "$(grep -E '^ .*\b(TEXT|INT|FLOAT)\b' help.txt)"
+done
+expect 0 "default: raymoval_plus:offline" clean --help
+expect 0 "never judged" compare --help
+expect 0 "About thirty" inspect --help
+for command in "" compare; do
+  # shellcheck disable=SC2086
+  expect 0 "raymoval compare out/quick results/reference/street" $command --help
+done
+expect 0 "variants worth a comparison" list suites
+expect 0 "this project" describe raymoval_plus
+expect 0 "raymoval_plus:offline removed" clean street --frames 0:2 --quiet -o best.pcd
+holds "no refused command left anything" test ! -e o -a ! -e map.pcd
+
+finish advice
