@@ -57,6 +57,8 @@ void EvidenceMap::add_voxel(const VoxelIndex& index) {
   tile.voxels.push_back(static_cast<std::uint32_t>(voxels_.size() - 1));
   tile.places.resize(tile.places.size() + 3);
   tile.evidence.emplace_back();
+  decisions_.push_back(Evidence::kUndecided);
+  verdicts_.push_back(Evidence::kUndecided);
 }
 
 void EvidenceMap::settle() {
@@ -94,7 +96,7 @@ std::vector<EvidenceMap::Tile*> EvidenceMap::tiles_near(const Eigen::Vector3d& c
 }
 
 void EvidenceMap::set_decision(std::size_t voxel, Evidence decision) {
-  Evidence& now = voxels_[voxel].decision;
+  Evidence& now = decisions_[voxel];
   if (now == decision) return;
   std::uint8_t& dynamic = dynamic_[block_of_[voxel]];
   if (now == Evidence::kDynamic) --dynamic;

@@ -64,11 +64,11 @@ class EvidenceMap {
     return tiles_[voxels_[voxel].tile].evidence[voxels_[voxel].place];
   }
   /// What the voxel's own evidence amounts to. Threads may set voxels of different blocks.
-  [[nodiscard]] Evidence decision(std::size_t voxel) const { return voxels_[voxel].decision; }
+  [[nodiscard]] Evidence decision(std::size_t voxel) const { return decisions_[voxel]; }
   void set_decision(std::size_t voxel, Evidence decision);
   /// What its neighbours made of that.
-  [[nodiscard]] Evidence verdict(std::size_t voxel) const { return voxels_[voxel].verdict; }
-  void set_verdict(std::size_t voxel, Evidence verdict) { voxels_[voxel].verdict = verdict; }
+  [[nodiscard]] Evidence verdict(std::size_t voxel) const { return verdicts_[voxel]; }
+  void set_verdict(std::size_t voxel, Evidence verdict) { verdicts_[voxel] = verdict; }
 
   [[nodiscard]] const Blocks& blocks() const { return blocks_; }
   [[nodiscard]] std::uint32_t block_of(std::size_t voxel) const { return block_of_[voxel]; }
@@ -82,7 +82,6 @@ class EvidenceMap {
     VoxelIndex index;
     /// Sums of the points' offsets from the lower corner in 1/256 of the edge.
     std::uint32_t x = 0, y = 0, z = 0, count = 0;
-    Evidence decision = Evidence::kUndecided, verdict = Evidence::kUndecided;
     bool is_unsettled = false;
     std::uint32_t tile = 0, place = 0;  ///< Where its mean stands.
   };
@@ -91,6 +90,7 @@ class EvidenceMap {
   Blocks blocks_;
   std::vector<std::uint8_t> dynamic_;  ///< By block.
   std::vector<Voxel> voxels_;
+  std::vector<Evidence> decisions_, verdicts_;  ///< By voxel.
   std::vector<std::uint32_t> block_of_;
   VoxelMap<std::uint32_t> tile_numbers_;
   std::vector<Tile> tiles_;

@@ -29,9 +29,10 @@ class Ballot {
   }
   /// Sums the cube around each of the block's cells, one axis after the other.
   void count() {
-    sum_along(1);
-    sum_along(side_);
-    sum_along(side_ * side_);
+    const int plane = side_ * side_;
+    sum_along(1, side_, plane);
+    sum_along(side_, 1, plane);
+    sum_along(plane, 1, side_);
   }
   [[nodiscard]] std::uint32_t around(const VoxelIndex& cell) const {
     return votes_[offset(cell.x() + radius_, cell.y() + radius_, cell.z() + radius_)];
@@ -41,16 +42,20 @@ class Ballot {
   [[nodiscard]] std::size_t offset(int x, int y, int z) const {
     return static_cast<std::size_t>((z * side_ + y) * side_ + x);
   }
-  void sum_along(int step) {
-    const int cells = side_ * side_ * side_;
-    for (int i = 0; i < cells; ++i) {
-      const int at = (i / step) % side_;
-      if (at < radius_ || at >= side_ - radius_) continue;
+  /// Replaces each cell of the lines along `step` by the sum of `radius_` cells to either side;
+  /// the other strides say where the lines begin. Votes stay in their halves.
+  void sum_along(int step, int stride, int other_stride) {
+    for (int line = 0; line < side_ * side_; ++line) {
+      const int begin = (line % side_) * stride + (line / side_) * other_stride;
+      const std::uint32_t* const from = votes_.data() + begin;
+      std::uint32_t* const to = sums_.data() + begin;
       std::uint32_t sum = 0;
-      for (int k = -radius_; k <= radius_; ++k) {
-        sum += votes_[static_cast<std::size_t>(i + k * step)];
+      for (int c = 0; c < 2 * radius_; ++c) sum += from[c * step];
+      for (int c = radius_; c < side_ - radius_; ++c) {
+        sum += from[(c + radius_) * step];
+        to[c * step] = sum;
+        sum -= from[(c - radius_) * step];
       }
-      sums_[static_cast<std::size_t>(i)] = sum;
     }
     std::swap(votes_, sums_);
   }
