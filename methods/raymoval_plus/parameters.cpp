@@ -149,7 +149,7 @@ MethodEntry raymoval_plus_entry() {
   entry.sentence =
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
   entry.source = "this project";
-  entry.version = "2";
+  entry.version = "3";
   entry.parameters = raymoval_plus_parameters().specs();
   entry.variants = {
       {"offline", "Every point answered from all scans.", false, {}},

@@ -5,6 +5,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -119,6 +120,43 @@ TEST_CASE("places are seen alike one by one, all at once, and by every instructi
     CHECK(next == seen.end());
   }
   for (const int count : found) CHECK(count > 100);
+}
+
+TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders") {
+  std::mt19937 random(4);
+  std::normal_distribution<float> place(0.0F, 20.0F);
+  const float columns = 1440.0F, full = 2.0F * std::numbers::pi_v<float>;
+  const kernels::SightGrid grid{columns / full, 300.0F, -0.5F, 1440};
+  const Pose turned(Eigen::Translation3d(3.0, -2.0, 1.0) *
+                    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+  const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> rotation = turned.linear().cast<float>();
+  std::vector<Eigen::Vector3f> places(5001);
+  for (Eigen::Vector3f& at : places) at = {place(random), place(random), 0.3F * place(random)};
+  kernels::SightPlaces job{places.front().data(), places.size(), {}, {3.0F, -2.0F, 1.0F}};
+  std::copy_n(rotation.data(), 9, job.rotation.begin());
+  for (const InstructionSet set : supported_instruction_sets()) {
+    std::vector<float> range(places.size() + 16);
+    std::vector<std::int32_t> column(range.size()), row(range.size());
+    kernels::sight_kernels_for(set).locate(grid, job, {range.data(), column.data(), row.data()});
+    int on_borders = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Eigen::Vector3d at = turned * places[k].cast<double>();
+      const double r = at.norm();
+      const double x =
+          (std::atan2(at.y(), at.x()) + std::numbers::pi) * static_cast<double>(columns / full);
+      const double y = (std::asin(at.z() / r) + 0.5) * 300.0;
+      REQUIRE(range[k] == Approx(r).epsilon(1e-6));
+      // 1e-3 of a bin is 3e-6 radians or more.
+      const auto on_border = [](double bin) { return std::abs(bin - std::round(bin)) < 1e-3; };
+      if (on_border(x) || on_border(y)) {
+        ++on_borders;
+        continue;
+      }
+      REQUIRE(column[k] == static_cast<int>(x));
+      REQUIRE(row[k] == static_cast<int>(std::floor(y)));
+    }
+    CHECK(on_borders < 50);
+  }
 }
 
 TEST_CASE("a place is looked up where the formulas of azimuth and elevation say") {
