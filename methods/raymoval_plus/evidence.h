@@ -30,6 +30,13 @@ inline void count(Seen seen, float distance, const RaymovalPlusParameters& param
   }
 }
 
+/// Enough scans agree with a voxel, and none saw through it: it was there all the time.
+inline bool was_always_there(const VoxelEvidence& evidence,
+                             const RaymovalPlusParameters& parameters) {
+  return parameters.settled_scans > 0 && evidence.free_scans == 0 &&
+         evidence.agree_scans >= parameters.settled_scans;
+}
+
 /// Static, dynamic or undecided, from the numbers of scans that saw through and that agree.
 inline Evidence decide(const VoxelEvidence& evidence, const RaymovalPlusParameters& parameters) {
   const double needed = parameters.free_constant + parameters.free_per_agree * evidence.agree_scans;

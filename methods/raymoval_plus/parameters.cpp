@@ -111,8 +111,9 @@ void add_groups(Table& table) {
                 "A group of dynamic points this large stays dynamic in a static cluster."})
       .integer("settled_scans", &P::settled_scans,
                {"scans", 0, 10000, kSource,
-                "Points of voxels that so many scans agree with are left out when a mixed cluster "
-                "is divided; 0 for no division."})
+                "With so many scans that agree and none that saw through, a voxel is not outvoted; "
+                "points of voxels with so many are left out when a mixed cluster is divided; 0 for "
+                "neither."})
       .flag("tracks", &P::tracks,
             {.source = kSource, .sentence = "Follow dynamic clusters over scans."})
       .number("track_dynamic_share", &P::track_dynamic_share,
@@ -149,7 +150,7 @@ MethodEntry raymoval_plus_entry() {
   entry.sentence =
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
   entry.source = "this project";
-  entry.version = "3";
+  entry.version = "4";
   entry.parameters = raymoval_plus_parameters().specs();
   entry.variants = {
       {"offline", "Every point answered from all scans.", false, {}},

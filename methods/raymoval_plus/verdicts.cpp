@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/parallel.h"
+#include "methods/raymoval_plus/evidence.h"
 
 namespace raymoval {
 namespace {
@@ -111,6 +112,10 @@ void vote_in_block(std::uint32_t block, const RaymovalPlusParameters& parameters
   }
   ballot.count();
   for_voxels(map, block, [&](std::uint32_t v) {
+    if (was_always_there(map.evidence(v), parameters)) {
+      map.set_verdict(v, map.decision(v));
+      return;
+    }
     const std::uint32_t votes = ballot.around(map.index(v) - corner);
     const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
     const double share =

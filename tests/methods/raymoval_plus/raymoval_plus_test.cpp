@@ -234,6 +234,33 @@ TEST_CASE("runs of scans that see through are counted at either end of a voxel's
   CHECK(evidence.trailing_free == 1);
 }
 
+TEST_CASE("a pole that scans always agreed with stays in a crowd") {
+  // Static voxels at cell 0, dynamic ones at the two on either side of each: 4 of 5 votes.
+  const RaymovalPlusParameters parameters;
+  struct Pole {
+    int agree_scans, free_scans;
+    Evidence verdict;
+  };
+  for (const Pole pole : {Pole{parameters.settled_scans, 0, Evidence::kStatic},
+                          Pole{parameters.settled_scans - 1, 0, Evidence::kDynamic},
+                          Pole{50, 1, Evidence::kDynamic}}) {
+    EvidenceMap map(0.2);
+    EvidenceMap::Blocks::Cursor cursor;
+    for (int cell = -2; cell <= 2; ++cell) {
+      const auto voxel = map.add({0.2 * cell + 0.1, 0.1, 0.1}, cursor);
+      map.set_decision(voxel, cell == 0 ? Evidence::kStatic : Evidence::kDynamic);
+      if (cell != 0) continue;
+      map.evidence(voxel).agree_scans = static_cast<std::uint16_t>(pole.agree_scans);
+      map.evidence(voxel).free_scans = static_cast<std::uint16_t>(pole.free_scans);
+    }
+    std::vector<std::uint32_t> blocks(map.blocks().block_count());
+    std::iota(blocks.begin(), blocks.end(), 0U);
+    vote(blocks, parameters, 1, map);
+    CHECK(map.verdict(map.find({0.1, 0.1, 0.1}, cursor)) == pole.verdict);
+    CHECK(map.verdict(map.find({0.3, 0.1, 0.1}, cursor)) == Evidence::kDynamic);
+  }
+}
+
 TEST_CASE("neighbours outvote a voxel within three cells and no farther") {
   EvidenceMap map(0.2);
   EvidenceMap::Blocks::Cursor cursor;
