@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the pictures of README.md anew, from simulated scenes, into results/pictures/.
+# Makes the pictures of README.md and of methods/raymoval_plus/ anew, from simulated scenes, into
+# results/pictures/.
 #
 #   scripts/make_pictures.sh            # builds what is missing, runs, draws: a few minutes
-#   scripts/make_pictures.sh RUN        # draws an earlier run of this script again
+#   scripts/make_pictures.sh RUN        # draws the earlier runs RUN and RUN-plus again
 #
 # The same program, fonts and libraries give the same bytes.
 set -euo pipefail
@@ -30,7 +31,34 @@ run=${1:-out/pictures}
 "$raymoval" picture "$run" -o $pictures/range_images.png --kind range --sequence town \
   --method raymoval_plus:offline --scan 40 --size 900
 
-for picture in maps overview range_images; do
+# The steps of raymoval_plus, and where it fails.
+mkdir -p "$run-plus"
+cat >"$run-plus.json" <<'EOF'
+{
+  "sequences": ["suburb", "crossing", "town"],
+  "methods": [
+    {"method": "raymoval_plus:offline", "as": "evidence",
+     "set": {"vote_radius": 0, "objects": false, "tracks": false, "low_points": false}},
+    {"method": "raymoval_plus:offline", "as": "with-vote",
+     "set": {"objects": false, "tracks": false, "low_points": false}},
+    {"method": "raymoval_plus:offline", "as": "all-steps"}
+  ],
+  "protocols": ["erasor"]
+}
+EOF
+"$raymoval" run "$run-plus.json" --keep-removals --out "$run-plus" >/dev/null
+# failure NAME SEQUENCE CROP: a place of a cleaned map.
+failure() {
+  "$raymoval" picture "$run-plus" -o "$pictures/plus_$1.png" --only "$2/all-steps*" --crop "$3" \
+    --resolution 0.1
+}
+"$raymoval" picture "$run-plus" -o $pictures/plus_steps.png --only 'suburb/*' \
+  --crop 10:58:-14:14 --resolution 0.1
+failure follower crossing -12:28:-14:14
+failure gardens suburb -12:28:-14:18
+failure early_walkers town -20:20:-12:16
+
+for picture in maps overview range_images plus_steps plus_follower plus_gardens plus_early_walkers; do
   bytes=$(stat -c %s "$pictures/$picture.png")
   echo "$pictures/$picture.png: $bytes bytes"
   if ((bytes > 300000)); then
