@@ -52,13 +52,14 @@ failure() {
   "$raymoval" picture "$run-plus" -o "$pictures/plus_$1.png" --only "$2/all-steps*" --crop "$3" \
     --resolution 0.1
 }
-"$raymoval" picture "$run-plus" -o $pictures/plus_steps.png --only 'suburb/*' \
+"$raymoval" picture "$run-plus" -o $pictures/plus_steps.png --only 'suburb/evidence*' \
+  --only 'suburb/with-vote*' --only 'suburb/all-steps*' \
   --crop 10:58:-14:14 --resolution 0.1
 failure follower crossing -12:28:-14:14
 failure gardens suburb -12:28:-14:18
-failure early_walkers town -20:20:-12:16
+failure last_movers town 88:124:-4:24
 
-for picture in maps overview range_images plus_steps plus_follower plus_gardens plus_early_walkers; do
+for picture in maps overview range_images plus_steps plus_follower plus_gardens plus_last_movers; do
   bytes=$(stat -c %s "$pictures/$picture.png")
   echo "$pictures/$picture.png: $bytes bytes"
   if ((bytes > 300000)); then
