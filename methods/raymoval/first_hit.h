@@ -75,15 +75,15 @@ struct FirstHitImage {
 /// rays that graze an edge or lie within a face. It does not depend on threads or the instruction
 /// set.
 ///
-/// **What lost.** Milliseconds an image of 720 x 450 on one Zen 5 core shared with others, KITTI
-/// raw drive 0005, map of its static points, 38 steps a ray, same run (scripts/benchmark.sh has
-/// them all): this 3.1 with AVX-512, 3.9 with AVX2, 7.0 with SSE4, 55 without vectors; OctoMap's
-/// castRay 411; walks on a hash set 230, on hashed bricks 158, on a dense block of bits 88; sixteen
-/// rays in lockstep on the dense block 29; the dense walk for those directions only in which the
-/// scan has a return 17. Within this design: cutting boxes near the minimum range into voxels
-/// beforehand (3.0 against 2.5), casting the rays concerned one by one (5.6 against 2.5), and
-/// covering changed bricks from scratch instead of mending their covers (upkeep 1.6 against 0.8 a
-/// scan; the image takes the same time).
+/// **What lost.** Milliseconds an image of 720 x 450 on one Zen 5 core, KITTI raw drive 0005, map
+/// of its static points, 38 steps a ray, same run (scripts/benchmark.sh has them all): this 2.8
+/// with AVX-512, 3.6 with AVX2, 6.4 with SSE4, 56 without vectors; OctoMap's castRay 367; walks on
+/// a hash set 191, on hashed bricks 156, on a dense block of bits 86; sixteen rays in lockstep on
+/// the dense block 28; the dense walk for those directions only in which the scan has a return 17.
+/// Within this design: cutting boxes near the minimum range into voxels beforehand (3.0
+/// against 2.5), casting the rays concerned one by one (5.6 against 2.5), and covering changed
+/// bricks from scratch instead of mending their covers (upkeep 1.6 against 0.8 a scan; the image
+/// takes the same time).
 class FirstHitCaster {
  public:
   FirstHitCaster(const AngularGrid& grid, const RayLimits& limits,
