@@ -30,6 +30,24 @@ std::size_t point_count(const ReportFlags& flags) {
                    ": expected a whole number from 1000 to 20000000, such as 300000.");
 }
 
+/// Whether the page gets a 3-D view. Whoever says where its points are, and gets none, is told.
+bool with_points(const ReportFlags& flags) {
+  const bool built_in = !page_file("view.js").empty();
+  const std::string given = !flags.data.empty()     ? "--data " + flags.data
+                            : !flags.points.empty() ? "--points " + flags.points
+                                                    : "";
+  if (!given.empty() && flags.no_points) {
+    throw UsageError(given +
+                     ": is for the 3-D view, which --no-points leaves out. Drop one of them.");
+  }
+  if (!given.empty() && !built_in) {
+    throw UsageError(given +
+                     ": is for the 3-D view, which this program was built without. Drop it, or "
+                     "build with -DRAYMOVAL_REPORT_3D=ON.");
+  }
+  return built_in && !flags.no_points;
+}
+
 /// Papers' rows, where they are shipped: a report is worth having without them.
 std::vector<OutsideColumn> papers() {
   try {
@@ -50,6 +68,7 @@ ExitCode report(const ReportFlags& flags) {
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   PageRequest request;
   request.points = point_count(flags);
+  request.with_points = with_points(flags);
   const std::filesystem::path results = find_results(flags.run);
   const KeptRun run(flags.run, flags.data);
   const nlohmann::ordered_json json = read_sealed(results);
@@ -63,7 +82,6 @@ ExitCode report(const ReportFlags& flags) {
     request.reference = flags.against;
   }
   request.methods = &program_methods();
-  request.with_points = !flags.no_points && !page_file("view.js").empty();
   request.points_needed = !flags.data.empty();  // Who says where the data is means it.
   request.threads = threads > 0 ? threads : hardware_threads();
   request.progress = &progress;

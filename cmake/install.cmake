@@ -17,7 +17,7 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} USE_SOURCE_PERMIS
 # Where pages and pictures stand in the repository, so that their links lead there.
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-     methods/README.md methods/*/README.md datasets/*/README.md
+     methods/README.md methods/*/*.md datasets/*/README.md
      results/pictures/*.png results/schema/*.json)
 foreach(page ${pages})
   get_filename_component(folder ${page} DIRECTORY)

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # What the program advises when a folder, a suite, a run or an output is not what it takes it for.
-# Usage: advice_test.sh PATH/TO/raymoval
+# Usage: advice_test.sh PATH/TO/raymoval 1|0
+# 1 where its reports have a 3-D view.
 set -uo pipefail
 raymoval=$(readlink -f "$1")
+view=$2
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export RAYMOVAL_CACHE=$work/cache
 short=(--sequence street --frames 0:2 --quiet)
@@ -35,12 +37,20 @@ rm -r town suites/town
 expect 2 "--data town: no such folder" picture kept -o map.png --only '*' --quiet --data town
 
 # A page with points is not replaced by one without them where --data leads elsewhere.
-expect 0 "wrote" report kept -o page.html --quiet --data data/05
-cp page.html before.html
-expect 2 "no such folder" report kept -o page.html --quiet --data nowhere
-expect 2 "fingerprint" report kept -o page.html --quiet --data one
-expect 2 "no known layout" report kept -o page.html --quiet --data empty
-holds "the page is as it was" cmp page.html before.html
+if [[ $view -eq 1 ]]; then
+  expect 0 "wrote" report kept -o page.html --quiet --data data/05
+  cp page.html before.html
+  expect 2 "no such folder" report kept -o page.html --quiet --data nowhere
+  expect 2 "fingerprint" report kept -o page.html --quiet --data one
+  expect 2 "no known layout" report kept -o page.html --quiet --data empty
+  holds "the page is as it was" cmp page.html before.html
+else
+  expect 2 "which this program was built without" report kept -o page.html --quiet --data data/05
+  expect 2 "which this program was built without" report kept -o page.html --points 5000
+  expect 0 "wrote" report kept -o page.html --quiet
+fi
+expect 2 "--data data/05: is for the 3-D view, which --no-points leaves out" \
+  report kept --no-points --data data/05
 
 # Folders and scenes where a suite is expected, and words too many.
 for command in run plan; do

@@ -35,6 +35,11 @@ holds() {
   "${@:2}" >out.txt 2>err.txt || complain "$1"
 }
 
+# wait_for FILE PROCESS: until the file is there, or the process that should write it is gone.
+wait_for() {
+  until [[ -e $1 ]] || ! kill -0 "$2" 2>/dev/null; do sleep 0.05; done
+}
+
 # same_but_times DIR DIR: the same files, but for what differs from run to run.
 same_but_times() {
   diff <(without_times "$1") <(without_times "$2")

@@ -381,12 +381,13 @@ holds "and nothing else" test "$(wc -l <log.txt)" -eq 3
 # An interrupted run ends by itself and goes on later.
 "$raymoval" run --sequence street --quiet --method raymoval:online --out stopped >out.txt 2>err.txt &
 process=$!
-for _ in $(seq 100); do [[ -e stopped/cells/street/oracle-default/cell.json ]] && break; sleep 0.1; done
+finished=stopped/cells/street/oracle-default/cell.json
+wait_for $finished $process
 # A shell's background jobs ignore SIGINT unless they ask for it, as the program does.
 kill -INT $process
 wait $process
 holds "an interrupted run exits with 1" test $? -eq 1
-holds "finished cells stay" test -s stopped/cells/street/oracle-default/cell.json
+holds "finished cells stay" test -s $finished
 holds "nothing claims to be complete" test ! -e stopped/results.json
 
 finish cli

@@ -119,7 +119,7 @@ expect 2 "Did you mean 'a/comb:default'" "${run[@]}" --out single --cell a/comb:
 slow=(run --sequence street --frames 0:3 --quiet --method hang --out busy)
 "$raymoval" "${slow[@]}" >busy.txt 2>&1 &
 process=$!
-for _ in $(seq 200); do [[ -e busy/cells/street/oracle-default/cell.json ]] && break; sleep 0.05; done
+wait_for busy/cells/street/oracle-default/cell.json $process
 expect 2 "another run is writing there (process $process on $(uname -n))" "${slow[@]}"
 expect 2 "another run is writing there" "${slow[@]}" --cell street/noop:default
 expect 0 "keep  street / noop:default" "${slow[@]}" --explain
@@ -130,7 +130,7 @@ expect 0 "" "${slow[@]}" --only noop:default
 holds "no lock is left" test ! -e busy/run.lock
 "$raymoval" "${slow[@]}" --cell street/hang:default >busy.txt 2>&1 &
 process=$!
-for _ in $(seq 200); do [[ -e busy/cells/street/hang-default/run.lock ]] && break; sleep 0.05; done
+wait_for busy/cells/street/hang-default/run.lock $process
 expect 2 "another run is writing there" "${slow[@]}" --cell street/hang:default
 expect 0 "" "${slow[@]}" --cell street/noop:default
 expect 2 "another run is writing there" "${slow[@]}" --only noop:default
