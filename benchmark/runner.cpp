@@ -28,19 +28,38 @@ constexpr double kSecondsPerScan = 30.0;
 constexpr double kLeastSeconds = 600.0;
 constexpr double kShareOfMemory = 0.9;
 
-std::vector<Sequence> open_sequences(const Suite& suite, const OpenContext& context) {
-  std::vector<Sequence> sequences;
+/// The sequences' names. Scenes are not generated for it: what is wrong with names shows before.
+std::vector<std::string> sequence_names(const Suite& suite) {
+  std::vector<std::string> names;
   for (const SequenceRequest& request : suite.sequences) {
-    sequences.push_back(open_sequence(request.path, request.options, context));
-    check_has_labels(sequences.back());
-    for (std::size_t i = 0; i + 1 < sequences.size(); ++i) {
-      if (folder_name(sequences[i].name) == folder_name(sequences.back().name)) {
-        throw UsageError("two sequences of this run are called '" + sequences.back().name + "' (" +
+    names.push_back(sequence_name(request.path, request.options));
+    for (std::size_t i = 0; i + 1 < names.size(); ++i) {
+      if (folder_name(names[i]) == folder_name(names.back())) {
+        throw UsageError("two sequences of this run are called '" + names.back() + "' (" +
                          suite.sequences[i].path + " and " + request.path +
                          "). Run them into two folders, the second with --name NAME, or give each "
                          "a \"name\" in a suite file.");
       }
     }
+  }
+  return names;
+}
+
+std::vector<std::string> cell_names(const Suite& suite) {
+  std::vector<std::string> names;
+  for (const std::string& sequence : sequence_names(suite)) {
+    for (const MethodRequest& request : suite.methods) {
+      names.push_back(sequence + "/" + request.name);
+    }
+  }
+  return names;
+}
+
+std::vector<Sequence> open_sequences(const Suite& suite, const OpenContext& context) {
+  std::vector<Sequence> sequences;
+  for (const SequenceRequest& request : suite.sequences) {
+    sequences.push_back(open_sequence(request.path, request.options, context));
+    check_has_labels(sequences.back());
   }
   return sequences;
 }
@@ -80,17 +99,12 @@ class Runner {
         options_(options),
         store_(options.out),
         threads_(suite.threads > 0 ? suite.threads : hardware_threads()) {
-    sequences_ = open_sequences(suite_, {threads_, options_.progress, options_.cancel});
     for (const ProtocolRequest& request : suite_.protocols) {
       (void)make_protocol(request.protocol, request.options);  // Bad options show before the work.
     }
-    std::vector<std::string> names;
-    for (const Sequence& sequence : sequences_) {
-      for (const MethodRequest& request : suite_.methods) {
-        names.push_back(sequence.name + "/" + request.name);
-      }
-    }
+    const std::vector<std::string> names = cell_names(suite_);
     selected_ = select_cells(options_.selection, names);
+    sequences_ = open_sequences(suite_, {threads_, options_.progress, options_.cancel});
     cells_.resize(names.size());
   }
 

@@ -15,6 +15,7 @@
 #include "datasets/files/files.h"
 #include "datasets/frames.h"
 #include "datasets/semantickitti/semantickitti.h"
+#include "datasets/simulated/library.h"
 #include "datasets/simulated/scene_text.h"
 #include "datasets/simulated/street.h"
 
@@ -174,6 +175,12 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
     throw DataError(root + ": no such folder." + scene_suggestion(root) + " " + kKnownLayouts);
   }
   return open_semantickitti_root(root, path.substr(colon + 1), options);
+}
+
+std::string sequence_name(const std::string& path, const SequenceOptions& options) {
+  if (options.name) return *options.name;
+  if (path == "street" || !names_scene(path)) return open_sequence(path, options).name;
+  return simulated::find_world(parse_scene(path).scene).name;
 }
 
 bool is_scene(const std::string& path) {

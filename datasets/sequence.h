@@ -85,6 +85,10 @@ struct OpenContext {
 Sequence open_sequence(const std::string& path, const SequenceOptions& options,
                        const OpenContext& context = {});
 
+/// The name that `open_sequence` would give, told without generating a scene.
+/// @throws as open_sequence where more has to be looked at than the name
+std::string sequence_name(const std::string& path, const SequenceOptions& options);
+
 /// Whether `open_sequence` takes `path` for a scene: `street`, a simulated one, a scene file.
 bool is_scene(const std::string& path);
 

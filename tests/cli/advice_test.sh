@@ -99,6 +99,7 @@ expect 2 "Did you mean 'town'" simulate twon -o o
 expect 2 "A single frame is 5:5." inspect data/05 --frames 5
 expect 2 "fits no cell of this run" picture kept -o map.png --only nothing --quiet
 expect 2 "fits no cell of this suite" run simulated --only nothing --out o
+holds "nothing was generated to find out" test -z "$(find cache -name 'highway*')"
 expect 2 "are called 'town' (data/05 and one). Run them into two folders, the second with --name NAME" \
   run --sequence data/05 --sequence one --method noop --out o
 expect 2 "--output: FILE is missing after it. See \`raymoval clean --help\`." clean data/05 --output

@@ -11,6 +11,7 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/sequence.h"
 #include "datasets/simulated/pose_noise.h"
 #include "datasets/simulated/simulated.h"
 #include "tests/simulated/scenes.h"
@@ -153,6 +154,22 @@ TEST_CASE("the cache makes a sequence once, whoever asks at once") {
   const auto written = fs::last_write_time(found[0] / "poses.txt");
   CHECK(cached_simulation(small(), scratch.path(), 1, nullptr) == found[0]);
   CHECK(fs::last_write_time(found[0] / "poses.txt") == written);
+}
+
+TEST_CASE("a scene's name is told without generating it, and is the one it is opened by") {
+  const ScratchFolder scratch;
+  setenv("RAYMOVAL_CACHE", scratch.path().c_str(), 1);
+  for (const std::string path : {"town:scans=1,sensor=vlp16,seed=4", "street"}) {
+    const std::string name = sequence_name(path, {});
+    CHECK_FALSE(fs::exists(scratch.path() / "simulated"));
+    CHECK(name == path.substr(0, path.find(':')));
+    SequenceOptions named;
+    named.name = "mine";
+    CHECK(sequence_name(path, named) == "mine");
+    CHECK(open_sequence(path, {}).name == name);
+    fs::remove_all(scratch.path() / "simulated");
+  }
+  unsetenv("RAYMOVAL_CACHE");
 }
 
 TEST_CASE("the cache tells apart whatever changes the bytes") {
