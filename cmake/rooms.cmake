@@ -1,14 +1,16 @@
 # Several source files of a folder compiled as one: a third of the work where headers cost more than
-# what is in the files. For builds that nobody edits in (the sanitizers in scripts/test.sh): names in
-# anonymous namespaces have to differ within a group, and a forgotten #include may go unnoticed, so
-# the release build is made file by file.
-option(RAYMOVAL_UNITY "Compile the library several files at a time" OFF)
+# what is in the files. For builds that nobody edits in (scripts/test.sh): names in anonymous
+# namespaces have to differ within a group, and a forgotten #include may go unnoticed, so what others
+# build on is made file by file in the release build.
+set(RAYMOVAL_UNITY "" CACHE STRING
+    "Rooms that are compiled several files at a time, such as core;benchmark")
 
-# raymoval_unity(TARGET SOURCE...): groups of up to eight files of one folder.
-function(raymoval_unity target)
-  if(NOT RAYMOVAL_UNITY)
+# raymoval_unity(ROOM SOURCE...): groups of up to eight files of one folder.
+function(raymoval_unity room)
+  if(NOT room IN_LIST RAYMOVAL_UNITY)
     return()
   endif()
+  set(target raymoval_${room})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   foreach(source ${ARGN})
     file(RELATIVE_PATH group ${PROJECT_SOURCE_DIR} ${source})
@@ -29,7 +31,7 @@ function(raymoval_room name)
     message(FATAL_ERROR "no source file in ${name}/")
   endif()
   add_library(raymoval_${name} STATIC ${sources})
-  raymoval_unity(raymoval_${name} ${sources})
+  raymoval_unity(${name} ${sources})
   add_library(raymoval::${name} ALIAS raymoval_${name})
   target_compile_features(raymoval_${name} PUBLIC cxx_std_20)
   target_include_directories(raymoval_${name} PUBLIC
