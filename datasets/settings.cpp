@@ -94,7 +94,7 @@ void check_settings(const SequenceSettings& settings) {
       choices.emplace_back("estimated");
       throw ConfigurationError("sensor '" + *settings.sensor + "' of sequence " + settings.name +
                                " is unknown." + suggestion(*settings.sensor, choices) +
-                               " Known are: " + join(choices) + ".");
+                               " 'estimated' takes the field of view from the scans.");
     }
   }
 }
