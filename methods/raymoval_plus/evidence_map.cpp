@@ -16,10 +16,13 @@ constexpr std::uint32_t kMostPoints = 1U << 24;
 std::uint32_t EvidenceMap::add(const Eigen::Vector3d& point, Blocks::Cursor& cursor) {
   const VoxelIndex voxel = index_of(point);
   std::uint32_t& number = blocks_.make(voxel, cursor);
-  dynamic_.resize(blocks_.block_count(), 0);
   if (number == kNone) {
     number = static_cast<std::uint32_t>(voxels_.size());
-    block_of_.push_back(cursor.block);
+    slots_.push_back(
+        static_cast<std::uint32_t>(cursor.block * Blocks::kCells + Blocks::offset(voxel)));
+    dynamic_.resize(blocks_.block_count(), 0);
+    decisions_.resize(blocks_.block_count() * Blocks::kCells, Evidence::kUndecided);
+    verdicts_.resize(decisions_.size(), Evidence::kUndecided);
     add_voxel(voxel);
   }
   Voxel& sums = voxels_[number];
@@ -57,8 +60,6 @@ void EvidenceMap::add_voxel(const VoxelIndex& index) {
   tile.voxels.push_back(static_cast<std::uint32_t>(voxels_.size() - 1));
   tile.places.resize(tile.places.size() + 3);
   tile.evidence.emplace_back();
-  decisions_.push_back(Evidence::kUndecided);
-  verdicts_.push_back(Evidence::kUndecided);
 }
 
 void EvidenceMap::settle() {
@@ -96,9 +97,9 @@ std::vector<EvidenceMap::Tile*> EvidenceMap::tiles_near(const Eigen::Vector3d& c
 }
 
 void EvidenceMap::set_decision(std::size_t voxel, Evidence decision) {
-  Evidence& now = decisions_[voxel];
+  Evidence& now = decisions_[slots_[voxel]];
   if (now == decision) return;
-  std::uint8_t& dynamic = dynamic_[block_of_[voxel]];
+  std::uint8_t& dynamic = dynamic_[block_of(voxel)];
   if (now == Evidence::kDynamic) --dynamic;
   if (decision == Evidence::kDynamic) ++dynamic;
   now = decision;

@@ -64,14 +64,20 @@ class EvidenceMap {
     return tiles_[voxels_[voxel].tile].evidence[voxels_[voxel].place];
   }
   /// What the voxel's own evidence amounts to. Threads may set voxels of different blocks.
-  [[nodiscard]] Evidence decision(std::size_t voxel) const { return decisions_[voxel]; }
+  [[nodiscard]] Evidence decision(std::size_t voxel) const { return decisions_[slots_[voxel]]; }
   void set_decision(std::size_t voxel, Evidence decision);
   /// What its neighbours made of that.
-  [[nodiscard]] Evidence verdict(std::size_t voxel) const { return verdicts_[voxel]; }
-  void set_verdict(std::size_t voxel, Evidence verdict) { verdicts_[voxel] = verdict; }
+  [[nodiscard]] Evidence verdict(std::size_t voxel) const { return verdicts_[slots_[voxel]]; }
+  void set_verdict(std::size_t voxel, Evidence verdict) { verdicts_[slots_[voxel]] = verdict; }
 
   [[nodiscard]] const Blocks& blocks() const { return blocks_; }
-  [[nodiscard]] std::uint32_t block_of(std::size_t voxel) const { return block_of_[voxel]; }
+  [[nodiscard]] std::uint32_t block_of(std::size_t voxel) const {
+    return slots_[voxel] / static_cast<std::uint32_t>(Blocks::kCells);
+  }
+  /// Decisions on a block's cells, in their order; undecided where there is no voxel.
+  [[nodiscard]] const Evidence* decisions(std::uint32_t block) const {
+    return decisions_.data() + block * Blocks::kCells;
+  }
   /// Number of voxels of a block decided dynamic.
   [[nodiscard]] int dynamic_in(std::uint32_t block) const { return dynamic_[block]; }
 
@@ -90,8 +96,8 @@ class EvidenceMap {
   Blocks blocks_;
   std::vector<std::uint8_t> dynamic_;  ///< By block.
   std::vector<Voxel> voxels_;
-  std::vector<Evidence> decisions_, verdicts_;  ///< By voxel.
-  std::vector<std::uint32_t> block_of_;
+  std::vector<std::uint32_t> slots_;            ///< By voxel: block and cell, ...
+  std::vector<Evidence> decisions_, verdicts_;  ///< ... by which these are stored.
   VoxelMap<std::uint32_t> tile_numbers_;
   std::vector<Tile> tiles_;
   std::vector<std::uint32_t> unsettled_;  ///< Voxels.

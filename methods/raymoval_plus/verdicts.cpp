@@ -13,63 +13,68 @@ namespace {
 constexpr int kSide = EvidenceMap::Blocks::kSideXY;
 constexpr int kMaximumRadius = 2 * kSide;  // Two blocks to either side are looked at.
 
-/// Votes in a cube of cells around a block.
-class Ballot {
- public:
-  explicit Ballot(int radius) : radius_(radius), side_(kSide + 2 * radius) {
-    const auto cells = static_cast<std::size_t>(side_ * side_ * side_);
-    votes_.resize(cells);
-    sums_.resize(cells);
-  }
-  void clear() { std::fill(votes_.begin(), votes_.end(), 0U); }
-  /// Adds a vote at a cell relative to the block's lower corner; ignored outside the cube.
-  void add(const VoxelIndex& cell, std::uint32_t vote) {
-    const VoxelIndex at = cell.array() + radius_;
-    if ((at.array() < 0).any() || (at.array() >= side_).any()) return;
-    votes_[offset(at.x(), at.y(), at.z())] = vote;
-  }
-  /// Sums the cube around each of the block's cells, one axis after the other.
-  void count() {
-    const int plane = side_ * side_;
-    sum_along(1, side_, plane);
-    sum_along(side_, 1, plane);
-    sum_along(plane, 1, side_);
-  }
-  [[nodiscard]] std::uint32_t around(const VoxelIndex& cell) const {
-    return votes_[offset(cell.x() + radius_, cell.y() + radius_, cell.z() + radius_)];
-  }
-
- private:
-  [[nodiscard]] std::size_t offset(int x, int y, int z) const {
-    return static_cast<std::size_t>((z * side_ + y) * side_ + x);
-  }
-  /// Replaces each cell of the lines along `step` by the sum of `radius_` cells to either side;
-  /// the other strides say where the lines begin. Votes stay in their halves.
-  void sum_along(int step, int stride, int other_stride) {
-    for (int line = 0; line < side_ * side_; ++line) {
-      const int begin = (line % side_) * stride + (line / side_) * other_stride;
-      const std::uint32_t* const from = votes_.data() + begin;
-      std::uint32_t* const to = sums_.data() + begin;
-      std::uint32_t sum = 0;
-      for (int c = 0; c < 2 * radius_; ++c) sum += from[c * step];
-      for (int c = radius_; c < side_ - radius_; ++c) {
-        sum += from[(c + radius_) * step];
-        to[c * step] = sum;
-        sum -= from[(c - radius_) * step];
-      }
-    }
-    std::swap(votes_, sums_);
-  }
-
-  int radius_, side_;
-  std::vector<std::uint32_t> votes_, sums_;
-};
-
 /// Dynamic votes in the upper half, all decided ones in the lower.
 std::uint32_t vote_of(Evidence evidence) {
   if (evidence == Evidence::kUndecided) return 0;
   return evidence == Evidence::kDynamic ? 0x10001U : 1U;
 }
+
+/// Votes in a cube of cells: a block, and `radius` cells to either side of it.
+class Ballot {
+ public:
+  explicit Ballot(int radius) : radius_(radius), side_(kSide + 2 * radius) {
+    votes_.resize(static_cast<std::size_t>(side_ * side_ * side_));
+    planes_.resize(static_cast<std::size_t>(side_ * side_ * kSide));
+    rows_.resize(static_cast<std::size_t>(side_ * kSide * kSide));
+  }
+  void clear() { std::fill(votes_.begin(), votes_.end(), 0U); }
+  /// Adds the votes of a block that lies `corner` cells from this one, where they are in the cube.
+  void add(const VoxelIndex& corner, const Evidence* decisions) {
+    const VoxelIndex low = (corner.array() + radius_).max(0);
+    const VoxelIndex high = (corner.array() + radius_ + kSide).min(side_);
+    for (int z = low.z(); z < high.z(); ++z) {
+      for (int y = low.y(); y < high.y(); ++y) {
+        const Evidence* const row =
+            decisions + ((z - corner.z() - radius_) * kSide + y - corner.y() - radius_) * kSide;
+        std::uint32_t* const votes = votes_.data() + (z * side_ + y) * side_;
+        for (int x = low.x(); x < high.x(); ++x) votes[x] = vote_of(row[x - corner.x() - radius_]);
+      }
+    }
+  }
+  /// Sums the cube around each of the block's cells: planes first, then their rows, then cells.
+  void count() {
+    sum_windows(votes_.data(), side_ * side_, planes_.data());
+    for (int z = 0; z < kSide; ++z) {
+      sum_windows(planes_.data() + z * side_ * side_, side_, rows_.data() + z * kSide * side_);
+    }
+    for (int line = 0; line < kSide * kSide; ++line) {
+      sum_windows(rows_.data() + line * side_, 1, sums_.data() + line * kSide);
+    }
+  }
+  /// @param cell its place in the block
+  [[nodiscard]] std::uint32_t around(std::size_t cell) const { return sums_[cell]; }
+
+ private:
+  /// Of `side_` slices of `size` votes each the sums of 2 `radius_` + 1 neighbours, `kSide` of
+  /// them. Votes stay in their halves.
+  void sum_windows(const std::uint32_t* slices, int size, std::uint32_t* sums) const {
+    std::copy_n(slices, size, sums);
+    for (int s = 1; s <= 2 * radius_; ++s) {
+      for (int i = 0; i < size; ++i) sums[i] += slices[s * size + i];
+    }
+    for (int s = 1; s < kSide; ++s) {
+      const std::uint32_t* const leaves = slices + (s - 1) * size;
+      const std::uint32_t* const enters = slices + (s + 2 * radius_) * size;
+      for (int i = 0; i < size; ++i) {
+        sums[s * size + i] = sums[(s - 1) * size + i] - leaves[i] + enters[i];
+      }
+    }
+  }
+
+  int radius_, side_;
+  std::vector<std::uint32_t> votes_, planes_, rows_;
+  std::array<std::uint32_t, EvidenceMap::Blocks::kCells> sums_{};
+};
 
 /// Blocks around a block, itself included.
 std::vector<std::uint32_t> blocks_around(const EvidenceMap& map, std::uint32_t block, int reach) {
@@ -86,13 +91,23 @@ std::vector<std::uint32_t> blocks_around(const EvidenceMap& map, std::uint32_t b
   return around;
 }
 
-/// Calls `visit(voxel)` for each voxel of a block.
+/// Calls `visit(voxel, cell)` for each voxel of a block.
 template <class Visit>
 void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
   const std::uint32_t* const cells = map.blocks().cells(block);
   for (std::size_t i = 0; i < EvidenceMap::Blocks::kCells; ++i) {
-    if (cells[i] != EvidenceMap::kNone) visit(cells[i]);
+    if (cells[i] != EvidenceMap::kNone) visit(cells[i], i);
   }
+}
+
+/// What a voxel's own decision becomes among its neighbours.
+Evidence outvoted(Evidence decision, std::uint32_t votes,
+                  const RaymovalPlusParameters& parameters) {
+  const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
+  if (decided == 0) return Evidence::kUndecided;
+  const double share =
+      decision == Evidence::kDynamic ? parameters.vote_keep : parameters.vote_share;
+  return dynamic >= share * decided ? Evidence::kDynamic : Evidence::kStatic;
 }
 
 void vote_in_block(std::uint32_t block, const RaymovalPlusParameters& parameters, int radius,
@@ -100,29 +115,21 @@ void vote_in_block(std::uint32_t block, const RaymovalPlusParameters& parameters
   const auto around = blocks_around(map, block, (radius + kSide - 1) / kSide);
   if (std::none_of(around.begin(), around.end(),
                    [&](std::uint32_t other) { return map.dynamic_in(other) > 0; })) {
-    for_voxels(map, block, [&](std::uint32_t v) { map.set_verdict(v, map.decision(v)); });
+    for_voxels(map, block,
+               [&](std::uint32_t v, std::size_t) { map.set_verdict(v, map.decision(v)); });
     return;
   }
-  const VoxelIndex corner = map.blocks().block_index(block) * kSide;
+  const VoxelIndex center = map.blocks().block_index(block);
   ballot.clear();
   for (const std::uint32_t other : around) {
-    for_voxels(map, other, [&](std::uint32_t v) {
-      ballot.add(map.index(v) - corner, vote_of(map.decision(v)));
-    });
+    ballot.add((map.blocks().block_index(other) - center) * kSide, map.decisions(other));
   }
   ballot.count();
-  for_voxels(map, block, [&](std::uint32_t v) {
-    if (was_always_there(map.evidence(v), parameters)) {
-      map.set_verdict(v, map.decision(v));
-      return;
-    }
-    const std::uint32_t votes = ballot.around(map.index(v) - corner);
-    const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
-    const double share =
-        map.decision(v) == Evidence::kDynamic ? parameters.vote_keep : parameters.vote_share;
-    map.set_verdict(v, decided == 0                 ? Evidence::kUndecided
-                       : dynamic >= share * decided ? Evidence::kDynamic
-                                                    : Evidence::kStatic);
+  for_voxels(map, block, [&](std::uint32_t v, std::size_t cell) {
+    const Evidence decision = map.decision(v);
+    map.set_verdict(v, was_always_there(map.evidence(v), parameters)
+                           ? decision
+                           : outvoted(decision, ballot.around(cell), parameters));
   });
 }
 

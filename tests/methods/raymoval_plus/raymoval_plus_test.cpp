@@ -282,6 +282,43 @@ TEST_CASE("neighbours outvote a voxel within three cells and no farther") {
   CHECK(at(10) == Evidence::kUndecided);
 }
 
+TEST_CASE("votes are those of a count over all voxels, whatever the radius") {
+  std::mt19937 random(7);
+  EvidenceMap map(0.2);
+  EvidenceMap::Blocks::Cursor cursor;
+  std::uniform_int_distribution<int> place(-11, 12), kind(0, 5);
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector3d point(place(random), place(random), place(random));
+    const auto voxel = map.add(0.2 * (point + Eigen::Vector3d::Constant(0.5)), cursor);
+    const int k = kind(random);
+    map.set_decision(voxel, k == 0   ? Evidence::kUndecided
+                            : k == 1 ? Evidence::kDynamic
+                                     : Evidence::kStatic);
+  }
+  std::vector<std::uint32_t> blocks(map.blocks().block_count());
+  std::iota(blocks.begin(), blocks.end(), 0U);
+  const int radius = GENERATE(1, 2, 3, 4, 5, 8);
+  RaymovalPlusParameters parameters;
+  parameters.vote_radius = radius;
+  parameters.vote_share = parameters.vote_keep = 0.2;
+  vote(blocks, parameters, 2, map);
+  int wrong = 0, dynamic_verdicts = 0;
+  for (std::size_t v = 0; v < map.size(); ++v) {
+    int decided = 0, dynamic = 0;
+    for (std::size_t w = 0; w < map.size(); ++w) {
+      if ((map.index(v) - map.index(w)).cwiseAbs().maxCoeff() > radius) continue;
+      decided += map.decision(w) != Evidence::kUndecided ? 1 : 0;
+      dynamic += map.decision(w) == Evidence::kDynamic ? 1 : 0;
+    }
+    const bool expected = decided > 0 && dynamic >= 0.2 * decided;
+    wrong += expected != (map.verdict(v) == Evidence::kDynamic) ? 1 : 0;
+    dynamic_verdicts += expected ? 1 : 0;
+  }
+  CHECK(wrong == 0);
+  CHECK(dynamic_verdicts > 100);
+  CHECK(dynamic_verdicts < static_cast<int>(map.size()) - 100);
+}
+
 TEST_CASE("ground is the low quantile, without pits and walls") {
   RaymovalPlusParameters parameters;
   Terrain terrain(parameters);
