@@ -76,9 +76,10 @@ class Ballot {
   std::array<std::uint32_t, EvidenceMap::Blocks::kCells> sums_{};
 };
 
-/// Blocks around a block, itself included.
-std::vector<std::uint32_t> blocks_around(const EvidenceMap& map, std::uint32_t block, int reach) {
-  std::vector<std::uint32_t> around;
+/// Replaces `around` with the blocks around a block, itself included.
+void find_around(const EvidenceMap& map, std::uint32_t block, int reach,
+                 std::vector<std::uint32_t>& around) {
+  around.clear();
   const VoxelIndex& center = map.blocks().block_index(block);
   for (int z = -reach; z <= reach; ++z) {
     for (int y = -reach; y <= reach; ++y) {
@@ -88,7 +89,6 @@ std::vector<std::uint32_t> blocks_around(const EvidenceMap& map, std::uint32_t b
       }
     }
   }
-  return around;
 }
 
 /// Calls `visit(voxel, cell)` for each voxel of a block.
@@ -111,8 +111,8 @@ Evidence outvoted(Evidence decision, std::uint32_t votes,
 }
 
 void vote_in_block(std::uint32_t block, const RaymovalPlusParameters& parameters, int radius,
-                   Ballot& ballot, EvidenceMap& map) {
-  const auto around = blocks_around(map, block, (radius + kSide - 1) / kSide);
+                   Ballot& ballot, std::vector<std::uint32_t>& around, EvidenceMap& map) {
+  find_around(map, block, (radius + kSide - 1) / kSide, around);
   if (std::none_of(around.begin(), around.end(),
                    [&](std::uint32_t other) { return map.dynamic_in(other) > 0; })) {
     for_voxels(map, block,
@@ -140,8 +140,9 @@ void vote(const std::vector<std::uint32_t>& blocks, const RaymovalPlusParameters
   const int radius = std::min(parameters.vote_radius, kMaximumRadius);
   parallel_chunks(threads, blocks.size(), 256, [&](std::size_t begin, std::size_t end) {
     Ballot ballot(radius);
+    std::vector<std::uint32_t> around;
     for (std::size_t i = begin; i < end; ++i) {
-      vote_in_block(blocks[i], parameters, radius, ballot, map);
+      vote_in_block(blocks[i], parameters, radius, ballot, around, map);
     }
   });
 }
