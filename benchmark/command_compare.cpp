@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
+#include "benchmark/colour.h"
 #include "benchmark/commands.h"
 #include "benchmark/result_sets.h"
 #include "core/text.h"
@@ -51,6 +52,18 @@ std::filesystem::path reference_file(const std::string& reference) {
   return file;
 }
 
+std::string coloured_verdicts(const std::string& text) {
+  return coloured_phrases(text,
+                          {{"Worse", Colour::kBad},
+                           {"worse", Colour::kBad},
+                           {"Better", Colour::kGood},
+                           {"better, no regression", Colour::kGood},
+                           {"no regression", Colour::kGood},
+                           {"Not comparable", Colour::kNotice},
+                           {"not comparable", Colour::kNotice}},
+                          stdout);
+}
+
 ExitCode compare(const CompareFlags& flags) {
   if (flags.run.empty() || flags.reference.empty()) {
     throw UsageError("two results are needed: expected `raymoval compare RUN REFERENCE`.");
@@ -65,7 +78,7 @@ ExitCode compare(const CompareFlags& flags) {
   }
   const Comparison comparison = compare_results(
       read_result_set(run), read_result_set(find_results(flags.reference)), options);
-  print(comparison_text(comparison));
+  print(coloured_verdicts(comparison_text(comparison)));
   if (comparison.verdict() == ExitCode::kCannotDo) {
     throw UsageError("the results are not comparable: " + comparison.incomparable.front() + ".");
   }

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <new>
 
+#include "benchmark/colour.h"
 #include "benchmark/commands.h"
 #include "core/text.h"
 
@@ -117,7 +118,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval inspect data/05\n"
       "  raymoval simulate town -o data/town\n"
-      "`raymoval COMMAND --help` says more. Exit codes: 0 done, 1 a cell or a check failed or got "
+      "`raymoval help COMMAND` says more. Exit codes: 0 done, 1 a cell or a check failed or got "
       "worse,\n"
       "2 cannot be done as asked, 3 internal error.");
   const std::vector<Command> commands = {
@@ -125,7 +126,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       add_table_command(program),    add_compare_command(program), add_list_command(program),
       add_describe_command(program), add_score_command(program),   add_clean_command(program),
       add_simulate_command(program), add_inspect_command(program), add_picture_command(program),
-      add_report_command(program)};
+      add_report_command(program),   add_help_command(program),    add_completion_command(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -139,7 +140,8 @@ ExitCode run_program(int argc, const char* const* argv) {
 }
 
 ExitCode tell(const std::string& message, ExitCode code) {
-  std::fprintf(stderr, "raymoval: %s\n", message.c_str());
+  std::fprintf(stderr, "%s %s\n", coloured("raymoval:", Colour::kBad, stderr).c_str(),
+               message.c_str());
   return code;
 }
 

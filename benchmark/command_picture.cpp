@@ -185,7 +185,8 @@ void add_options(CLI::App& app, PictureFlags& flags) {
   app.add_option("-o,--output", flags.output, "The picture: .png, charts .svg; replaced if there")
       ->type_name("FILE");
   app.add_option("--kind", flags.kind,
-                 "map (default), range, overview; charts: pr-rr, stages, accuracy-time")
+                 "map (default), range, overview, pr-rr, stages or accuracy-time; the last three "
+                 "are charts")
       ->type_name("KIND");
   app.add_option("--only", flags.only,
                  "map: only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the "

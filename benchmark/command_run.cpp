@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "benchmark/colour.h"
 #include "benchmark/commands.h"
 #include "benchmark/method_process.h"
 #include "benchmark/runner.h"
@@ -23,12 +24,16 @@ struct RunFlags {
   bool quiet = false;
 };
 
+std::string red(const std::string& text) {
+  return coloured(text, Colour::kBad, stderr);
+}
+
 void tell_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
-    std::fprintf(stderr, "raymoval: cell failed: %s\n", failure.c_str());
+    std::fprintf(stderr, "%s %s\n", red("raymoval: cell failed:").c_str(), failure.c_str());
   }
   for (const std::string& problem : summary.controls) {
-    std::fprintf(stderr, "raymoval: controls are off: %s\n", problem.c_str());
+    std::fprintf(stderr, "%s %s\n", red("raymoval: controls are off:").c_str(), problem.c_str());
   }
   if (collect && !summary.missing.empty()) {
     std::fprintf(stderr, "raymoval: cells are missing: %s\n", join(summary.missing).c_str());

@@ -34,6 +34,8 @@ Command add_clean_command(CLI::App& program);
 Command add_simulate_command(CLI::App& program);
 Command add_inspect_command(CLI::App& program);
 Command add_report_command(CLI::App& program);
+Command add_help_command(CLI::App& program);  ///< `program` has to live as long as the command.
+Command add_completion_command(CLI::App& program);  ///< The same.
 
 /// The methods that this program knows, see `run_command_line`.
 const MethodRegistry& program_methods();

@@ -8,6 +8,7 @@
 #include "benchmark/cell.h"
 #include "benchmark/cell_store.h"
 #include "benchmark/checked_sink.h"
+#include "benchmark/colour.h"
 #include "benchmark/controls_check.h"
 #include "benchmark/folder_lock.h"
 #include "benchmark/results.h"
@@ -277,10 +278,10 @@ class Runner {
 
   void keep_in_memory(std::size_t sequence, std::size_t method, ordered_json cell) {
     ++summary_.cells;
-    const std::string line = "[" + std::to_string(summary_.cells) + "/" +
-                             std::to_string(cells_.size()) + "] " +
-                             cell["name"].get<std::string>() + " on " +
-                             cell["sequence"].get<std::string>() + ": " + outcome(cell);
+    const std::string line =
+        "[" + std::to_string(summary_.cells) + "/" + std::to_string(cells_.size()) + "] " +
+        cell["name"].get<std::string>() + " on " + cell["sequence"].get<std::string>() + ": " +
+        (cell["status"] == "ok" ? outcome(cell) : coloured(outcome(cell), Colour::kBad, stderr));
     if (cell["status"] != "ok") summary_.failures.push_back(failure_text(cell));
     cell_at(sequence, method) = std::move(cell);
     if (options_.progress == nullptr) return;

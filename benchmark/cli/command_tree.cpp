@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/cli/command_tree.h"
+
+#include <algorithm>
+#include <array>
+
+#include "benchmark/shipped_suites.h"
+#include "core/sensor_model.h"
+#include "core/text.h"
+#include "datasets/simulated/simulated.h"
+#include "eval/protocol.h"
+
+namespace raymoval {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words scene_words() {
+  Words words = simulated_scene_names();
+  words.emplace_back("street");
+  return words;
+}
+
+Words method_words(const MethodRegistry& methods) {
+  Words words;
+  for (const auto& entry : methods.entries()) {
+    words.push_back(entry->name);
+    for (const MethodVariant& variant : entry->variants) {
+      words.push_back(entry->name + ":" + variant.name);
+    }
+  }
+  words.emplace_back("external:");
+  return words;
+}
+
+void add_keys(const std::string& owner, const std::vector<ParameterSpec>& specs, Words& words) {
+  for (const ParameterSpec& spec : specs) words.push_back(owner + "." + spec.name + "=");
+}
+
+Words setting_words(const MethodRegistry& methods) {
+  Words words;
+  for (const auto& entry : methods.entries()) add_keys(entry->name, entry->parameters, words);
+  for (const ProtocolEntry& entry : protocol_entries()) {
+    add_keys("protocol:" + entry.name, entry.parameters, words);
+  }
+  return words;
+}
+
+Words protocol_words() {
+  Words words;
+  for (const ProtocolEntry& entry : protocol_entries()) words.push_back(entry.name);
+  return words;
+}
+
+/// What `describe` describes.
+Words described_words(const MethodRegistry& methods) {
+  Words words = method_words(methods);
+  for (const std::string& name : protocol_words()) words.push_back("protocol:" + name);
+  return words;
+}
+
+std::vector<ValueSet> common_values(const MethodRegistry& methods) {
+  return {{.name = "none"},
+          {.name = "files", .files = true},
+          {.name = "folders", .folders = true},
+          {.name = "methods", .words = method_words(methods)},
+          {.name = "described", .words = described_words(methods)},
+          {.name = "settings", .words = setting_words(methods), .goes_on = true},
+          {.name = "protocols", .words = protocol_words()},
+          {.name = "sequences", .words = scene_words(), .folders = true},
+          {.name = "scenes", .words = simulated_scene_names(), .files = true},
+          {.name = "suites", .words = shipped_suite_names(), .files = true},
+          {.name = "sensors", .words = sensor_model_names()},
+          {.name = "simulated_sensors", .words = simulated_sensor_names(), .files = true}};
+}
+
+/// The set for an option of which --help says that its value is a `type`; empty: its sentence names
+/// the values.
+std::string set_of_type(const std::string& command, const std::string& option,
+                        const std::string& type) {
+  static const std::array<std::array<const char*, 2>, 12> by_type = {{{"FILE", "files"},
+                                                                      {"DIR", "folders"},
+                                                                      {"RUN", "folders"},
+                                                                      {"ROOT", "folders"},
+                                                                      {"REFERENCE", "folders"},
+                                                                      {"PATH", "sequences"},
+                                                                      {"SCENE", "scenes"},
+                                                                      {"SUITE", "suites"},
+                                                                      {"SETTING", "settings"},
+                                                                      {"KIND", ""},
+                                                                      {"FORMAT", ""},
+                                                                      {"WHAT", ""}}};
+  for (const auto& [name, set] : by_type) {
+    if (type == name) return set;
+  }
+  if (type == "LAYOUT" || type == "SHELL") return "";
+  if (type == "COMMAND") return "commands";
+  if (type != "NAME") return "none";
+  if (command == "describe") return "described";
+  if (option == "--method") return "methods";
+  if (option == "--protocol") return "protocols";
+  if (option == "--sensor") return command == "simulate" ? "simulated_sensors" : "sensors";
+  return option == "--sequence" ? "sequences" : "none";
+}
+
+/// A set of the words of `sentence`, found by its name in `values`.
+std::string set_of_sentence(const std::string& command, const OptionText& option,
+                            std::vector<ValueSet>& values) {
+  const Words words = words_named_first(option.sentence);
+  if (words.size() < 2) return "none";
+  std::string name =
+      command + "_" + (option.long_name.empty() ? "word" : option.long_name.substr(2));
+  std::replace(name.begin(), name.end(), '-', '_');
+  values.push_back({.name = name, .words = words});
+  return name;
+}
+
+OptionText option_text(const std::string& command, const CLI::Option& option,
+                       std::vector<ValueSet>& values) {
+  OptionText text;
+  if (!option.get_lnames().empty()) text.long_name = "--" + option.get_lnames().front();
+  if (!option.get_snames().empty()) text.short_name = "-" + option.get_snames().front();
+  text.sentence = option.get_description();
+  text.repeats = option.get_items_expected_max() > 1;
+  if (option.get_expected_max() == 0) return text;  // A flag.
+  text.value = option.get_type_name();
+  text.value_set = set_of_type(command, text.long_name, text.value);
+  if (text.value_set.empty()) text.value_set = set_of_sentence(command, text, values);
+  return text;
+}
+
+CommandText command_text(const CLI::App& app, std::vector<ValueSet>& values) {
+  CommandText text{.name = app.get_name(),
+                   .sentence = app.get_description(),
+                   .options = {},
+                   .words = {},
+                   .footer = app.get_footer()};
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;  // Not shown by --help.
+    auto& list = option->get_positional() ? text.words : text.options;
+    list.push_back(option_text(text.name, *option, values));
+  }
+  return text;
+}
+
+bool is_word(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '-';
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> words_named_first(const std::string& sentence) {
+  Words words;
+  const std::string first = sentence.substr(0, sentence.find_first_of(";:."));
+  for (const std::string_view piece : split(first, ',')) {
+    for (const std::string_view part : split_blanks(piece)) {
+      if (part == "or" || part == "(default)") continue;
+      if (!is_word(std::string(part))) return words;
+      words.emplace_back(part);
+    }
+  }
+  return words;
+}
+
+CommandTree command_tree(const CLI::App& program, const MethodRegistry& methods) {
+  CommandTree tree;
+  tree.values = common_values(methods);
+  tree.program = command_text(program, tree.values);
+  ValueSet names{.name = "commands"};
+  for (const CLI::App* app : program.get_subcommands(std::function<bool(const CLI::App*)>())) {
+    if (app->get_group().empty()) continue;
+    tree.commands.push_back(command_text(*app, tree.values));
+    names.words.push_back(app->get_name());
+  }
+  tree.values.push_back(names);
+  return tree;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace raymoval {
+
+/// What a colour says. The words say it too: nothing is told by colour alone.
+enum class Colour {
+  kGood,    ///< Green: done, better.
+  kBad,     ///< Red: an error, failed, worse.
+  kNotice,  ///< Yellow: not comparable, worth a look.
+};
+
+/// True if `stream` is a terminal that shows colours (the environment's TERM is set and is not
+/// "dumb") and its user wants them (NO_COLOR is not set, or empty; see https://no-color.org).
+/// Files and pipes never get colours.
+bool shows_colours(std::FILE* stream);
+
+/// `text` in a colour if `stream` shows colours, else `text`.
+std::string coloured(const std::string& text, Colour colour, std::FILE* stream);
+
+/// `text` with each phrase coloured where a line begins with "phrase:" or ends with "phrase.".
+std::string coloured_phrases(const std::string& text,
+                             const std::vector<std::pair<std::string, Colour>>& phrases,
+                             std::FILE* stream);
+
+}  // namespace raymoval
