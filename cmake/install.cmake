@@ -14,10 +14,23 @@ install(DIRECTORY benchmark/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
 install(DIRECTORY results/published results/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} USE_SOURCE_PERMISSIONS
         PATTERN "__pycache__" EXCLUDE)
+if(NOT RAYMOVAL_SANITIZE)
+  set(texts ${PROJECT_BINARY_DIR}/share/shell)
+  install(FILES ${texts}/raymoval.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${texts}/raymoval
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${texts}/raymoval.fish
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  # Debian's zsh looks into the first below /usr, and into the second below /usr/local, where others
+  # look always.
+  foreach(folder vendor-completions site-functions)
+    install(FILES ${texts}/_raymoval DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder})
+  endforeach()
+endif()
 # Where pages and pictures stand in the repository, so that their links lead there.
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-     methods/README.md methods/*/*.md datasets/*/README.md
+     docs/*.md methods/README.md methods/*/*.md datasets/*/README.md
      results/pictures/*.png results/schema/*.json)
 foreach(page ${pages})
   get_filename_component(folder ${page} DIRECTORY)

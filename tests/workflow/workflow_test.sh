@@ -44,4 +44,43 @@ code=$?
 holds "a failed cell is told by the exit code" test $code -ne 0
 holds "the others have their results" grep -q "^b,comb,default,erasor,ok" flow/results.csv
 holds "and it has its reason" grep -q "crashed: signal 11" flow/results.json
+
+# An installed copy, called from another folder: it finds the program beside it, and the profile
+# finds its script. sbatch and scontrol are stand-ins that run each job at once.
+mkdir -p installed/bin installed/share/raymoval stubs elsewhere
+ln -s "$raymoval" installed/bin/raymoval
+cp -r "$source_folder/scripts/workflow" installed/share/raymoval/
+cat >stubs/sbatch <<'STUB'
+#!/usr/bin/env bash
+echo "$*" >>"$SLURM_STUB/submitted"
+bash "${@: -1}" >"$SLURM_STUB/job.txt" 2>&1 && state=COMPLETED || state=FAILED
+number=$(wc -l <"$SLURM_STUB/submitted")
+echo "JobId=$number JobState=$state" >"$SLURM_STUB/job.$number"
+echo "$number"
+STUB
+printf '#!/usr/bin/env bash\ncat "$SLURM_STUB/job.${@: -1}"\n' >stubs/scontrol
+chmod +x stubs/*
+cat >small.json <<'JSON'
+{ "sequences": [{"path": "street", "frames": "0:2"}], "methods": ["comb"], "controls": false }
+JSON
+# installed_workflow SNAKEFILE OPTIONS...: called from the folder elsewhere, with the stand-ins.
+installed_workflow() {
+  (cd elsewhere && HOME=$work PATH=$work/stubs:$PATH SLURM_STUB=$work/stubs snakemake -s "$@") \
+    >workflow.txt 2>&1
+}
+installed_workflow "$work/installed/share/raymoval/workflow/Snakefile" \
+  --profile "$work/installed/share/raymoval/workflow/slurm" --latency-wait 5 \
+  --max-status-checks-per-second 10 --config "suite=$work/small.json" "out=$work/by_slurm" \
+  "options=--memory-limit 2000"
+holds "an installed workflow ends well: $(tail -3 workflow.txt)" test $? -eq 0
+holds "its cell was a job of Slurm" grep -q -- "--mem=4000 --time=120" stubs/submitted
+expect 0 "" run small.json --quiet --out plain_small
+holds "its files are those of a plain run" same_but_times plain_small by_slurm
+mkdir copied
+cp "$source_folder/scripts/workflow/Snakefile" copied/
+installed_workflow "$work/copied/Snakefile" --cores 1 -n --config suite=quick out=x
+holds "without a program: it says what to do" grep -q "or say where it is" workflow.txt
+ln -s "$raymoval" stubs/raymoval
+installed_workflow "$work/copied/Snakefile" --cores 1 -n -p --config suite=quick out=x
+holds "a program in PATH is found" grep -q "^$work/stubs/raymoval plan quick" workflow.txt
 finish workflow
