@@ -12,7 +12,7 @@ esac
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 known='.ci .clang-format .gitattributes .gitignore CHANGELOG.md CITATION.cff CMakeLists.txt
-CMakePresets.json LICENSE README.md benchmark cmake core datasets eval examples methods results
+CMakePresets.json LICENSE README.md benchmark cmake core datasets docs eval examples methods results
 scripts tests'
 most_bytes=1048576
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 # From a fresh clone to a comparison table: installs, builds, runs, prints.
 #
+#   scripts/reproduce.sh --quick                     one short simulated scene: ends with a table and
+#                                                    a page, at most a minute after the build
 #   scripts/reproduce.sh                             the suite `simulated`: six simulated scenes
 #   scripts/reproduce.sh semantickitti ROOT          the paper's Tables 2 and 3 from SemanticKITTI;
 #                                                    ROOT holds sequences/00, 01, 02, 05 and 07
@@ -73,6 +75,7 @@ END
 }
 
 what=()
+quick=
 case ${1:-} in
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/reproduce.sh; exit 0 ;;
 esac
@@ -87,13 +90,28 @@ if [[ ${1:-} == semantickitti ]]; then
   data="SemanticKITTI in $root"
   label=semantickitti
   what=(semantickitti --data "$root")
+elif [[ ${1:-} == --quick && $# -eq 1 ]]; then
+  quick=1
+  data="a short scene"
+  label=quick
+  # One scene of 60 scans, and of each method the variant that does best.
+  what=(--sequence town:scans=60)
+  for method in raymoval_plus:offline peopleremover:normals octomap:ground raymoval:offline \
+    dufomap:offline erasor:version2 removert:rm3; do
+    what+=(--method "$method")
+  done
 elif [[ $# -gt 0 ]]; then
-  echo "reproduce.sh: '$1' is unknown; expected nothing, or semantickitti ROOT." >&2
+  [[ $1 != --quick ]] || shift
+  echo "reproduce.sh: '$1' is unknown; expected nothing, --quick, or semantickitti ROOT." >&2
   exit 2
 fi
 
 scripts/install_dependencies.sh
-cmake --preset release
+# Files compiled several at a time build sooner. A build folder that is there stays as it is.
+sooner=()
+[[ -z $quick || -e build/release/CMakeCache.txt ]] ||
+  sooner=("-DRAYMOVAL_UNITY=core;datasets;methods;eval;benchmark")
+cmake --preset release "${sooner[@]}"
 cmake --build --preset release --target raymoval_program
 
 if [[ ${#what[@]} -gt 0 ]]; then
@@ -116,6 +134,12 @@ out=results/run-$label
 [[ -z ${RAYMOVAL_OUT:-} ]] || out=$(from_caller "$RAYMOVAL_OUT")
 
 echo "reproduce.sh: running on $data, results go to $out"
+if [[ -n $quick ]]; then
+  build/release/raymoval run "${what[@]}" --keep-removals --out "$out"
+  build/release/raymoval report "$out" --quiet
+  echo "reproduce.sh: open $(readlink -f "$out")/report.html in a browser: tables, charts, and the points in 3-D."
+  exit
+fi
 if [[ $label != semantickitti ]]; then
   exec build/release/raymoval run "${what[@]}" --out "$out"
 fi

@@ -1,8 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# scripts/reproduce.sh says which files of SemanticKITTI are missing before it does anything else.
+# scripts/reproduce.sh says which files of SemanticKITTI are missing before it does anything else;
+# with --quick it ends with a table and a page.
+# Usage: reproduce_test.sh PATH/TO/raymoval
 set -uo pipefail
-raymoval=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../../scripts/reproduce.sh")
+program=$(readlink -f "$1")
+scripts=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../../scripts")
+raymoval=$scripts/reproduce.sh
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 # says CODE TEXT ARGUMENTS...: as `expect`, for the script.
@@ -36,4 +40,26 @@ says 2 "sequence 00, frames 4390:4530:2: all there" semantickitti root --check
 says 2 "missing: $work/root/sequences/07/poses.txt" semantickitti root --check
 says 2 "002350.label and 1 more of labels/ up to frame 2670" semantickitti root
 says 2 "SemanticKITTI label data" semantickitti root
+
+# --quick, in a copy where nothing is installed or built, and whose program makes the scene shorter.
+says 2 "'now' is unknown" --quick now
+says 2 "'--quik' is unknown; expected nothing, --quick, or semantickitti ROOT" --quik
+mkdir -p copy/scripts copy/build/release stubs
+cp "$scripts/reproduce.sh" copy/scripts/
+printf '#!/usr/bin/env bash\n' | tee copy/scripts/install_dependencies.sh >stubs/cmake
+cat >copy/build/release/raymoval <<STUB
+#!/usr/bin/env bash
+echo "\$*" >>"$work/asked.txt"
+exec "$program" "\${@/#town:scans=*/town:scans=4}"
+STUB
+chmod +x copy/scripts/* stubs/cmake copy/build/release/raymoval
+raymoval=$work/copy/scripts/reproduce.sh
+export RAYMOVAL_CACHE=$work/cache RAYMOVAL_OUT=$work/first
+PATH=$work/stubs:$PATH says 0 "reproduce.sh: open $work/first/report.html in a browser" --quick
+for method in raymoval_plus raymoval octomap peopleremover removert erasor dufomap; do
+  holds "--quick: the table has $method" grep -q "^town,$method,.*,ok," first/results.csv
+done
+holds "--quick: the scene is short" grep -qE "run --sequence town:scans=[1-9][0-9] " asked.txt
+holds "--quick: the page has the points" grep -q "keep-removals" asked.txt
+holds "--quick: there is a page" test -s first/report.html
 finish reproduce

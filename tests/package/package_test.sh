@@ -54,7 +54,12 @@ for path in bin/raymoval include/raymoval/methods/remover.h include/raymoval/met
   share/doc/raymoval/methods/README.md \
   share/doc/raymoval/methods/raymoval/README.md share/doc/raymoval/datasets/simulated/README.md \
   share/doc/raymoval/results/pictures/maps.png share/doc/raymoval/examples/cpp_method/near_points.cpp \
-  share/doc/raymoval/examples/external/voxel_counts/manifest.json; do
+  share/doc/raymoval/examples/external/voxel_counts/manifest.json \
+  share/doc/raymoval/README.md share/doc/raymoval/docs/your-data.md \
+  share/man/man1/raymoval.1 share/bash-completion/completions/raymoval \
+  share/zsh/vendor-completions/_raymoval share/fish/vendor_completions.d/raymoval.fish \
+  share/raymoval/workflow/Snakefile share/raymoval/workflow/slurm/config.yaml \
+  share/raymoval/workflow/slurm/raymoval-job-status.sh; do
   holds "it holds $path" test -s "root/usr/$path"
 done
 # dead_links FOLDER: links of its pages to files that are not there.
@@ -78,6 +83,21 @@ clean=(env -i HOME="$work" PATH=/usr/bin:/bin LC_ALL=C)
 holds "it tells its version" "${clean[@]}" "$raymoval" --version
 holds "it knows its suites" grep -q '^quick ' <("${clean[@]}" "$raymoval" list suites)
 holds "it knows its scenes" grep -q '^town ' <("${clean[@]}" "$raymoval" list scenes)
+holds "its manual page is the program's" diff root/usr/share/man/man1/raymoval.1 \
+  <("${clean[@]}" "$raymoval" help --man)
+for shell in bash:bash-completion/completions/raymoval zsh:zsh/vendor-completions/_raymoval \
+  fish:fish/vendor_completions.d/raymoval.fish; do
+  holds "its completion for ${shell%%:*} is the program's" diff "root/usr/share/${shell#*:}" \
+    <("${clean[@]}" "$raymoval" completion "${shell%%:*}")
+done
+if command -v snakemake >/dev/null; then
+  mkdir elsewhere
+  (cd elsewhere && "${clean[@]}" snakemake -s "$work/root/usr/share/raymoval/workflow/Snakefile" \
+    --cores 1 --dry-run --printshellcmds --config suite=quick out=run) >workflow.txt 2>&1
+  holds "its workflow finds its program" grep -q "^$raymoval plan quick" workflow.txt
+else
+  echo "package_test.sh: snakemake is missing; the packaged workflow is not tried."
+fi
 holds "it runs" "${clean[@]}" "$raymoval" run --sequence street --frames 0:5 --quiet \
   --method raymoval:online --out run
 holds "it scores" grep -q '^street,raymoval,online,erasor,ok,' run/results.csv
