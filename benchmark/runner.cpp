@@ -78,7 +78,8 @@ ChildLimits limits_for(const Suite& suite, std::size_t scans) {
 /// "PR 98.123, RR 91.000, F1 0.9443 (12.3 ms per scan)", or what went wrong.
 std::string outcome(const ordered_json& cell) {
   if (cell["status"] != "ok") {
-    return cell["status"].get<std::string>() + ", " + cell["reason"].get<std::string>();
+    return coloured(cell["status"].get<std::string>() + ", " + cell["reason"].get<std::string>(),
+                    Colour::kBad, stderr);
   }
   std::string text;
   for (const ordered_json& protocol : cell["protocols"]) {
@@ -278,10 +279,10 @@ class Runner {
 
   void keep_in_memory(std::size_t sequence, std::size_t method, ordered_json cell) {
     ++summary_.cells;
-    const std::string line =
-        "[" + std::to_string(summary_.cells) + "/" + std::to_string(cells_.size()) + "] " +
-        cell["name"].get<std::string>() + " on " + cell["sequence"].get<std::string>() + ": " +
-        (cell["status"] == "ok" ? outcome(cell) : coloured(outcome(cell), Colour::kBad, stderr));
+    const std::string line = "[" + std::to_string(summary_.cells) + "/" +
+                             std::to_string(cells_.size()) + "] " +
+                             cell["name"].get<std::string>() + " on " +
+                             cell["sequence"].get<std::string>() + ": " + outcome(cell);
     if (cell["status"] != "ok") summary_.failures.push_back(failure_text(cell));
     cell_at(sequence, method) = std::move(cell);
     if (options_.progress == nullptr) return;

@@ -1,0 +1,142 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The README and docs/ are true: their links lead somewhere, every command in them is one that the
+# program understands, and those that end soon are run, on small data. Data, runs and scenes that
+# pages take for granted (data/05, out/05, ...) are made here; each page starts with them anew.
+# Usage: docs_test.sh PATH/TO/raymoval
+set -uo pipefail
+raymoval=$(readlink -f "$1")
+source_folder=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../..")
+source "$source_folder/tests/cli/checks.sh"
+mapfile -t pages < <(cd "$source_folder" && ls README.md docs/*.md)
+page_text() { cat "$source_folder/$1"; }
+
+# --- links ---
+# anchors PAGE: what #... may lead to.
+anchors() {
+  sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'
+}
+for page in "${pages[@]}" methods/README.md; do
+  while read -r link; do
+    target=$source_folder/$(dirname "$page")/${link%%#*}
+    [[ $link != \#* ]] || target=$source_folder/$page
+    holds "$page: $link leads somewhere" test -e "$target"
+    [[ $link == *#* ]] || continue
+    holds "$page: $link is a heading" grep -qxF -- "${link#*#}" <(anchors "$target")
+  done < <(page_text "$page" | grep -oE '\]\([^)]+\)' | sed 's/^](//; s/)$//' | grep -v '^https\?:')
+done
+for page in "${pages[@]}"; do
+  [[ $page == README.md ]] || holds "README.md links to $page" grep -qF "($page)" "$source_folder/README.md"
+done
+holds "README.md is short" test "$(page_text README.md | grep -v '^|' | wc -w)" -le 1100
+
+# --- options: each is one of the program's or of a script's, or known to be another program's ---
+commands=$("$raymoval" --help | sed -n '/^Subcommands:/,/^$/p' | awk 'NR > 1 && NF { print $1 }')
+for command in $commands; do
+  "$raymoval" "$command" --help | grep -oE '^  (-[a-zA-Z],)?--[a-z-]+|^  -[a-zA-Z] ' |
+    tr ',' '\n' | tr -d ' ' >"options.$command"
+done
+{
+  cat options.*
+  echo --version
+  grep -ohE -- '--[a-z][a-z-]+' "$source_folder"/scripts/*.sh "$source_folder"/scripts/workflow/*.sh
+  # Of cmake, apt and snakemake.
+  printf '%s\n' --preset --build --no-install-recommends --cores --config --profile
+} | sort -u >known_options
+for page in "${pages[@]}"; do
+  for option in $(page_text "$page" | grep -oE -- '(^|[^a-z-])--[a-z][a-z-]+' | grep -oE -- '--.*' | sort -u); do
+    holds "$page: there is an option $option" grep -qxF -- "$option" known_options
+  done
+done
+
+# --- commands ---
+# check_command PAGE WORD...: the words after "raymoval" begin with a command and have its options.
+check_command() {
+  local page=$1 command=${2:-} word
+  shift 2
+  [[ $command != -* ]] || return 0
+  holds "$page: there is a command 'raymoval $command'" grep -qxF -- "$command" <<<"$commands" || return
+  for word in "$@"; do
+    [[ $word == -[a-zA-Z-]* && $word != -[0-9]* ]] || continue
+    holds "$page: raymoval $command has $word" grep -qxF -- "${word%%=*}" "options.$command"
+  done
+}
+# code_lines PAGE: lines of its code blocks, without comments behind them.
+code_lines() { page_text "$1" | grep -E '^    [^ ]' | sed -E 's/^    //; s/  +#.*$//; s/ # .*$//'; }
+# spans PAGE: what stands between backticks, a line each.
+spans() { page_text "$1" | grep -v '^    ' | tr '\n' ' ' | grep -oE '`[^`]+`' | tr -d '`'; }
+for page in "${pages[@]}" methods/README.md; do
+  while read -r line; do
+    line=${line%%|*}  # What follows is another program's.
+    eval "words=(${line//[<>()]/ })" 2>/dev/null || continue
+    check_command "$page" "${words[@]:1}"
+  done < <({ code_lines "$page"; spans "$page"; } | grep -oE '(^|\()raymoval( .*)?$' | tr -d '(' | grep -v '^raymoval$')
+  while read -r script rest; do
+    holds "$page: there is $script" test -x "$source_folder/$script"
+  done < <({ code_lines "$page"; spans "$page"; } | grep -E '^scripts/[a-z_/]+\.sh')
+done
+
+# --- running them ---
+export RAYMOVAL_CACHE=$work/cache
+small=(--quiet --sensor vlp16)
+mkdir -p ready/kitti/sequences ready/out
+cd ready || exit 1
+expect 0 "" simulate town -o data/05 --scans 12 "${small[@]}"
+ln -s ../../data/05 kitti/sequences/05
+ln -s data/05/labels labels
+ln -s "$source_folder/examples" examples
+mkdir my_scans
+cp data/05/velodyne/*.bin my_scans/
+grep -v '^P' data/05/calib.txt | head -1 >calib_row
+cp data/05/poses.txt my_scans/
+# The suite of the page, on small data.
+sed -n '/^    {$/,/^    }$/p' "$source_folder/docs/compare-methods.md" |
+  sed 's/scans=60/scans=3,sensor=vlp16/; s/0:200:2/0:6:2/; s/"repeats": 3/"repeats": 2/' >my_suite.json
+holds "the page of suites has a suite" grep -q '"sweep"' my_suite.json
+run=(run --sequence data/05 --quiet)
+expect 0 "" "${run[@]}" --method raymoval_plus --method raymoval:online --keep-removals --name 05 --out out/05
+for name in old new; do expect 0 "" "${run[@]}" --method raymoval:online --out out/$name; done
+expect 0 "" clean data/05 -o static.pcd --method raymoval:online --quiet
+rm calib_row
+cd "$work" || exit 1
+
+# These take long or need what is not here; that they are understood is checked above.
+not_run='^(run (quick|simulated|simulated-quick|semantickitti) |compare out/quick |completion )'
+# The example of a method in Python.
+export RAYMOVAL_PYTHON=/usr/bin/python3
+if ! $RAYMOVAL_PYTHON -c 'import numpy' 2>/dev/null; then
+  not_run=${not_run%)}'|.*external:)'
+  echo "docs_test.sh: /usr/bin/python3 has no numpy; the external method is not run."
+fi
+ran=0
+for page in "${pages[@]}"; do
+  cp -r ready sandbox
+  cd sandbox || exit 1
+  case $page in
+    docs/clean.md) rm static.pcd ;;
+    README.md) rm -r static.pcd out/05 ;;
+  esac
+  while read -r line; do
+    line=${line#raymoval }
+    [[ $line =~ $not_run ]] && continue
+    line=${line//\/data\/kitti/kitti}
+    line=${line//--scans 100/--scans 3 --sensor vlp16}
+    line=${line//town:scans=60/town:scans=3,sensor=vlp16}
+    eval "words=($line)"
+    ran=$((ran + 1))
+    case $line in
+      # Small data is not good data: findings are an answer.
+      inspect*) "$raymoval" "${words[@]}" --quiet >out.txt 2>err.txt
+        holds "$page: raymoval $line: done, or findings" test $? -le 1 ;;
+      # Cells that no machine has run are missing, which it says.
+      *--collect*) "$raymoval" "${words[@]}" --quiet >out.txt 2>err.txt
+        holds "$page: raymoval $line: done, or cells are missing" test $? -le 1 ;;
+      *) expect 0 "" "${words[@]}" ;;
+    esac
+  done < <(code_lines "$page" | grep '^raymoval ' | grep -v '|')
+  cd "$work" || exit 1
+  rm -rf sandbox
+done
+holds "commands of the pages were run: $ran" test "$ran" -ge 40
+echo "docs_test.sh: $ran commands were run"
+finish docs
