@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/cli/command_tree.h"
+
+#include <catch2/catch.hpp>
+
+#include "benchmark/cli/completion.h"
+#include "benchmark/cli/manual_page.h"
+#include "core/error.h"
+
+using namespace raymoval;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// A program with one command: an option with named values, one that repeats, a flag, a short name,
+/// an option that --help hides, and a word.
+struct SmallProgram {
+  std::string format, output, word, hidden;
+  std::vector<std::string> methods;
+  bool quiet = false;
+  CLI::App app{"small: draws. It does nothing else.", "small"};
+
+  SmallProgram() {
+    CLI::App* draw = app.add_subcommand("draw", "Draws it's own [things]");
+    draw->add_option("run", word, "Run folder")->type_name("RUN");
+    draw->add_option("--format", format, "md (default), csv or tex")->type_name("FORMAT");
+    draw->add_option("--method", methods, "Method")->type_name("NAME")->allow_extra_args(false);
+    draw->add_option("-o,--output", output, "Where to")->type_name("FILE");
+    draw->add_option("--hidden", hidden, "")->group("");
+    draw->add_flag("--quiet", quiet, "No progress");
+    draw->footer("A sentence.\nExamples:\n  small draw '.x' -o a\\b\nThe end.");
+    app.add_subcommand("secret", "")->group("");
+  }
+};
+
+const OptionText& option(const CommandText& command, const std::string& name) {
+  for (const OptionText& found : command.options) {
+    if (found.long_name == name) return found;
+  }
+  throw InternalError("no option " + name);
+}
+
+}  // namespace
+
+TEST_CASE("the values of an option are the words that its sentence names first", "[cli]") {
+  CHECK(words_named_first("md (default), csv, tex or json") == Words{"md", "csv", "tex", "json"});
+  CHECK(words_named_first("skewed or corrected: a scan is taken while the sensor moves") ==
+        Words{"skewed", "corrected"});
+  CHECK(words_named_first("map, pr-rr or stages; the last two are charts") ==
+        Words{"map", "pr-rr", "stages"});
+  CHECK(words_named_first("Metres; points beyond are not evaluated").empty());
+  CHECK(words_named_first("").empty());
+}
+
+TEST_CASE("the command tree has what --help shows and nothing else", "[cli]") {
+  const SmallProgram program;
+  const CommandTree tree = command_tree(program.app, MethodRegistry::built_in());
+  REQUIRE(tree.commands.size() == 1);
+  const CommandText& draw = tree.commands.front();
+  CHECK(draw.name == "draw");
+  CHECK(draw.options.size() == 5);  // With --help.
+  CHECK(option(draw, "--method").repeats);
+  CHECK(option(draw, "--method").value_set == "methods");
+  CHECK_FALSE(option(draw, "--output").repeats);
+  CHECK(option(draw, "--output").short_name == "-o");
+  CHECK(option(draw, "--output").value_set == "files");
+  CHECK(option(draw, "--quiet").value_set.empty());
+  CHECK(option(draw, "--format").value_set == "draw_format");
+  REQUIRE(draw.words.size() == 1);
+  CHECK(draw.words.front().value == "RUN");
+}
+
+TEST_CASE("signs that a shell or troff would take for its own are protected", "[cli]") {
+  const SmallProgram program;
+  const CommandTree tree = command_tree(program.app, MethodRegistry::built_in());
+  CHECK(completion_script(tree, "zsh").find(R"('draw:Draws it'\''s own [things]')") !=
+        std::string::npos);
+  CHECK(completion_script(tree, "fish").find(R"(-d 'Draws it\'s own [things]')") !=
+        std::string::npos);
+  const std::string page = manual_page(tree);
+  CHECK(page.find("small draw \\(aq.x\\(aq \\-o a\\eb") != std::string::npos);
+  CHECK(page.find("hidden") == std::string::npos);
+  CHECK(page.find("secret") == std::string::npos);
+  CHECK_THROWS_AS(completion_script(tree, "tcsh"), UsageError);
+}
