@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "benchmark/colour.h"
 #include "benchmark/commands.h"
 #include "benchmark/result_sets.h"
+#include "benchmark/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -54,13 +54,13 @@ std::filesystem::path reference_file(const std::string& reference) {
 
 std::string coloured_verdicts(const std::string& text) {
   return coloured_phrases(text,
-                          {{"Worse", Colour::kBad},
-                           {"worse", Colour::kBad},
-                           {"Better", Colour::kGood},
-                           {"better, no regression", Colour::kGood},
-                           {"no regression", Colour::kGood},
-                           {"Not comparable", Colour::kNotice},
-                           {"not comparable", Colour::kNotice}},
+                          {{"Worse", TerminalColour::kBad},
+                           {"worse", TerminalColour::kBad},
+                           {"Better", TerminalColour::kGood},
+                           {"better, no regression", TerminalColour::kGood},
+                           {"no regression", TerminalColour::kGood},
+                           {"Not comparable", TerminalColour::kNotice},
+                           {"not comparable", TerminalColour::kNotice}},
                           stdout);
 }
 

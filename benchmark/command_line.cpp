@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <new>
 
-#include "benchmark/colour.h"
 #include "benchmark/commands.h"
+#include "benchmark/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -140,7 +140,7 @@ ExitCode run_program(int argc, const char* const* argv) {
 }
 
 ExitCode tell(const std::string& message, ExitCode code) {
-  std::fprintf(stderr, "%s %s\n", coloured("raymoval:", Colour::kBad, stderr).c_str(),
+  std::fprintf(stderr, "%s %s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
                message.c_str());
   return code;
 }

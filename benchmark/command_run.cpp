@@ -2,11 +2,11 @@
 #include <memory>
 #include <optional>
 
-#include "benchmark/colour.h"
 #include "benchmark/commands.h"
 #include "benchmark/method_process.h"
 #include "benchmark/runner.h"
 #include "benchmark/suite_flags.h"
+#include "benchmark/terminal_colour.h"
 #include "core/files.h"
 #include "core/text.h"
 
@@ -25,7 +25,7 @@ struct RunFlags {
 };
 
 std::string red(const std::string& text) {
-  return coloured(text, Colour::kBad, stderr);
+  return coloured(text, TerminalColour::kBad, stderr);
 }
 
 void tell_problems(const RunSummary& summary, bool collect) {

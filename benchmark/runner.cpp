@@ -8,13 +8,13 @@
 #include "benchmark/cell.h"
 #include "benchmark/cell_store.h"
 #include "benchmark/checked_sink.h"
-#include "benchmark/colour.h"
 #include "benchmark/controls_check.h"
 #include "benchmark/folder_lock.h"
 #include "benchmark/results.h"
 #include "benchmark/run_folder.h"
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_bench.h"
+#include "benchmark/terminal_colour.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -79,7 +79,7 @@ ChildLimits limits_for(const Suite& suite, std::size_t scans) {
 std::string outcome(const ordered_json& cell) {
   if (cell["status"] != "ok") {
     return coloured(cell["status"].get<std::string>() + ", " + cell["reason"].get<std::string>(),
-                    Colour::kBad, stderr);
+                    TerminalColour::kBad, stderr);
   }
   std::string text;
   for (const ordered_json& protocol : cell["protocols"]) {

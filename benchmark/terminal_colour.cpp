@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/colour.h"
+#include "benchmark/terminal_colour.h"
 
 #include <unistd.h>
 
@@ -16,11 +16,11 @@ std::string_view variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-const char* sequence_of(Colour colour) {
+const char* sequence_of(TerminalColour colour) {
   switch (colour) {
-    case Colour::kGood:
+    case TerminalColour::kGood:
       return "\x1b[32m";
-    case Colour::kBad:
+    case TerminalColour::kBad:
       return "\x1b[1;31m";
     default:
       return "\x1b[33m";
@@ -35,12 +35,12 @@ bool shows_colours(std::FILE* stream) {
          ::isatty(::fileno(stream)) != 0;
 }
 
-std::string coloured(const std::string& text, Colour colour, std::FILE* stream) {
+std::string coloured(const std::string& text, TerminalColour colour, std::FILE* stream) {
   return shows_colours(stream) ? sequence_of(colour) + text + "\x1b[0m" : text;
 }
 
 std::string coloured_phrases(const std::string& text,
-                             const std::vector<std::pair<std::string, Colour>>& phrases,
+                             const std::vector<std::pair<std::string, TerminalColour>>& phrases,
                              std::FILE* stream) {
   if (!shows_colours(stream)) return text;
   std::string out;

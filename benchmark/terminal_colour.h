@@ -9,7 +9,7 @@
 namespace raymoval {
 
 /// What a colour says. The words say it too: nothing is told by colour alone.
-enum class Colour {
+enum class TerminalColour {
   kGood,    ///< Green: done, better.
   kBad,     ///< Red: an error, failed, worse.
   kNotice,  ///< Yellow: not comparable, worth a look.
@@ -21,11 +21,11 @@ enum class Colour {
 bool shows_colours(std::FILE* stream);
 
 /// `text` in a colour if `stream` shows colours, else `text`.
-std::string coloured(const std::string& text, Colour colour, std::FILE* stream);
+std::string coloured(const std::string& text, TerminalColour colour, std::FILE* stream);
 
 /// `text` with each phrase coloured where a line begins with "phrase:" or ends with "phrase.".
 std::string coloured_phrases(const std::string& text,
-                             const std::vector<std::pair<std::string, Colour>>& phrases,
+                             const std::vector<std::pair<std::string, TerminalColour>>& phrases,
                              std::FILE* stream);
 
 }  // namespace raymoval
