@@ -27,6 +27,9 @@ void tell_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
     std::fprintf(stderr, "raymoval: cell failed: %s\n", failure.c_str());
   }
+  for (const std::string& line : summary.flat_sweeps) {
+    std::fprintf(stderr, "raymoval: warning: %s\n", line.c_str());
+  }
   for (const std::string& problem : summary.controls) {
     std::fprintf(stderr, "raymoval: controls are off: %s\n", problem.c_str());
   }
@@ -98,6 +101,7 @@ ExitCode run(const RunFlags& flags) {
   }
   const Suite suite = flags.what.resolved();
   check_flags(flags);
+  warn_of_settings_without_effect(suite);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   RunOptions options;
   options.out = flags.out;
