@@ -5,6 +5,7 @@
 #include "benchmark/clean_outputs.h"
 #include "benchmark/commands.h"
 #include "benchmark/mask_spool.h"
+#include "benchmark/suite_flags.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -26,6 +27,7 @@ ConfiguredMethod configured(const CleanFlags& flags) {
   std::vector<Setting> settings;
   for (const std::string& text : flags.settings) settings.push_back(parse_setting(text));
   apply_settings(suite, settings);
+  warn_of_settings_without_effect(suite);
   return suite.methods.front().method;
 }
 

@@ -34,6 +34,7 @@ std::string json_line(const PlannedCell& cell, bool looked) {
 
 ExitCode plan(const PlanFlags& flags) {
   const Suite suite = flags.what.resolved();
+  warn_of_settings_without_effect(suite);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   RunOptions options;
   options.out = flags.out;

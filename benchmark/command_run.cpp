@@ -32,6 +32,9 @@ void tell_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
     std::fprintf(stderr, "%s %s\n", red("raymoval: cell failed:").c_str(), failure.c_str());
   }
+  for (const std::string& line : summary.flat_sweeps) {
+    std::fprintf(stderr, "raymoval: warning: %s\n", line.c_str());
+  }
   for (const std::string& problem : summary.controls) {
     std::fprintf(stderr, "%s %s\n", red("raymoval: controls are off:").c_str(), problem.c_str());
   }
@@ -103,6 +106,7 @@ ExitCode run(const RunFlags& flags) {
   }
   const Suite suite = flags.what.resolved();
   check_flags(flags);
+  warn_of_settings_without_effect(suite);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   RunOptions options;
   options.out = flags.out;

@@ -2,11 +2,13 @@
 #include "benchmark/description.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "benchmark/text_table.h"
+#include "core/parameter_condition.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -26,17 +28,29 @@ std::string range_text(const ParameterSpec& spec) {
   return high ? "to " + number_text(spec.notes.maximum) : "";
 }
 
+/// What a parameter does, and when.
+std::string sentence_of(const Description& description, std::size_t i) {
+  const ParameterSpec& spec = description.parameters[i];
+  if (spec.notes.acts_when.empty()) return spec.notes.sentence;
+  std::string when = effect_text(spec);
+  if (!description.acts.empty() && !description.acts[i])
+    when = "NO EFFECT in this variant: " + when;
+  when.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(when.front())));
+  return spec.notes.sentence + (spec.notes.sentence.empty() ? "" : " ") + when + ".";
+}
+
 TextTable parameter_table(const Description& description) {
   TextTable table{
       "", "name", {{"", {"default", "unit", "range", "source", "what it does"}}}, {}, {}};
-  for (const ParameterSpec& spec : description.parameters) {
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    const ParameterSpec& spec = description.parameters[i];
     const ParameterNotes& notes = spec.notes;
     table.rows.push_back({"`" + spec.name + "`",
                           {{parameter_text(spec.default_value)},
                            {notes.unit},
                            {range_text(spec)},
                            {notes.source.empty() ? "ours" : notes.source},
-                           {notes.sentence}},
+                           {sentence_of(description, i)}},
                           false});
   }
   return table;
@@ -52,14 +66,16 @@ std::string overrides_text(const MethodVariant& variant) {
 
 std::string parameter_lines(const Description& description) {
   std::string text = description.parameters.empty() ? "" : "Parameters:\n";
-  for (const ParameterSpec& spec : description.parameters) {
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    const ParameterSpec& spec = description.parameters[i];
     const std::string& unit = spec.notes.unit;
     text += "  " + spec.name + " = " + parameter_text(spec.default_value) +
             (unit.empty() ? "" : " " + unit);
     const std::string range = range_text(spec);
     text += (range.empty() ? "" : "   [" + range + "]") + "   " +
             (spec.notes.source.empty() ? "ours" : spec.notes.source) + "\n";
-    if (!spec.notes.sentence.empty()) text += "      " + spec.notes.sentence + "\n";
+    const std::string sentence = sentence_of(description, i);
+    if (!sentence.empty()) text += "      " + sentence + "\n";
   }
   return text;
 }
@@ -85,6 +101,7 @@ Description describe_method(const MethodRegistry& registry, const std::string& n
   description.variants = {method.variant};
   for (std::size_t i = 0; i < description.parameters.size(); ++i) {
     description.parameters[i].default_value = method.configuration[i].second;
+    description.acts.push_back(has_effect(description.parameters[i], method.configuration));
   }
   return description;
 }
@@ -146,7 +163,8 @@ ordered_json to_json(const Description& description) {
                                 {"overrides", to_json(variant.overrides)}});
   }
   json["parameters"] = ordered_json::array();
-  for (const ParameterSpec& spec : description.parameters) {
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    const ParameterSpec& spec = description.parameters[i];
     ordered_json parameter;
     parameter["name"] = spec.name;
     parameter["default"] = value_json(spec.default_value);
@@ -156,6 +174,8 @@ ordered_json to_json(const Description& description) {
     parameter["choices"] = spec.choices;
     parameter["source"] = spec.notes.source;
     parameter["sentence"] = spec.notes.sentence;
+    parameter["acts_when"] = spec.notes.acts_when;
+    if (!description.acts.empty()) parameter["acts"] = static_cast<bool>(description.acts[i]);
     json["parameters"].push_back(std::move(parameter));
   }
   return json;

@@ -19,6 +19,9 @@ struct Description {
   std::vector<std::string> notes;
   std::vector<MethodVariant> variants;
   std::vector<ParameterSpec> parameters;  ///< Defaults are those of the variant described.
+  /// Whether each of them can change anything while the others have their defaults; all of them may
+  /// where no single variant is described.
+  std::vector<bool> acts = {};
 };
 
 /// A method; with a variant ("raymoval:online") its values stand as defaults.

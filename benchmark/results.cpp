@@ -26,6 +26,9 @@ ResultRow row_head(const ordered_json& cell) {
   row.variant = cell.at("method").at("variant").get<std::string>();
   row.control = cell.at("method").at("control").get<bool>();
   row.status = cell.at("status").get<std::string>();
+  if (cell.contains("masks") && cell.at("masks").contains("digest")) {
+    row.mask_digest = cell.at("masks").at("digest").get<std::string>();
+  }
   const ordered_json& measured = cell.at("measured");
   if (!measured.is_null()) {
     row.seconds_per_scan = number_or_nothing(measured.at("seconds_per_scan").at("mean"));

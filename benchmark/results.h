@@ -29,6 +29,7 @@ struct ResultRow {
   std::map<std::string, std::pair<double, double>> intervals;
   std::optional<double> seconds_per_scan;
   std::optional<double> peak_memory_mib;
+  std::string mask_digest = {};  ///< Of what was removed; equal masks have equal digests.
 };
 
 /// Time of a method over all sequences that it finished.

@@ -92,7 +92,7 @@ ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequenc
   return record;
 }
 
-void write_results(const path& out, const RunContent& content) {
+RunResults write_results(const path& out, const RunContent& content) {
   ordered_json results;
   results["schema_version"] = kSchemaVersion;
   results["run"] = *content.record;
@@ -101,12 +101,13 @@ void write_results(const path& out, const RunContent& content) {
   results["controls"]["problems"] = content.control_problems;
   if (!content.missing.empty()) results["missing"] = content.missing;
   results["cells"] = *content.cells;
-  const RunResults parsed = parse_results(results, "results");
+  RunResults parsed = parse_results(results, "results");
   const std::vector<TextTable> tables = make_tables(parsed);
   write_atomically(out / "results.csv", results_csv(parsed));
   write_atomically(out / "table.md", tables_markdown(parsed, tables));
   write_atomically(out / "table.tex", tables_latex(tables));
   write_sealed(out / "results.json", std::move(results));
+  return parsed;
 }
 
 }  // namespace raymoval

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/results.h"
 #include "benchmark/suite.h"
 
 namespace raymoval {
@@ -30,7 +31,9 @@ struct RunContent {
   std::vector<std::string> missing;  ///< "sequence / method".
 };
 
-/// Writes results.csv, table.md, table.tex and, last, results.json. @throws DataError
-void write_results(const std::filesystem::path& out, const RunContent& content);
+/// Writes results.csv, table.md, table.tex and, last, results.json. @return what the tables are
+/// made of
+/// @throws DataError
+RunResults write_results(const std::filesystem::path& out, const RunContent& content);
 
 }  // namespace raymoval

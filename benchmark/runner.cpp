@@ -9,6 +9,7 @@
 #include "benchmark/cell_store.h"
 #include "benchmark/checked_sink.h"
 #include "benchmark/controls_check.h"
+#include "benchmark/flat_sweeps.h"
 #include "benchmark/folder_lock.h"
 #include "benchmark/results.h"
 #include "benchmark/run_folder.h"
@@ -318,8 +319,9 @@ class Runner {
                                  suite_.methods[i % suite_.methods.size()].name);
     }
     if (suite_.controls) summary_.controls = check_controls(there);
-    write_results(options_.out,
-                  {&record, &there, suite_.controls, summary_.controls, summary_.missing});
+    const RunResults results = write_results(
+        options_.out, {&record, &there, suite_.controls, summary_.controls, summary_.missing});
+    summary_.flat_sweeps = flat_sweeps(results);
   }
 
   void plan_sequence(std::size_t sequence, std::vector<PlannedCell>& planned) const {

@@ -28,10 +28,11 @@ struct RunOptions {
 
 struct RunSummary {
   std::size_t cells = 0;
-  std::size_t reused = 0;             ///< Cells that were there already and are right.
-  std::vector<std::string> failures;  ///< "sequence / method: reason", one for each failed cell.
-  std::vector<std::string> controls;  ///< What is wrong with the controls; empty if all is well.
-  std::vector<std::string> missing;   ///< "sequence / method" of cells that were not run.
+  std::size_t reused = 0;                ///< Cells that were there already and are right.
+  std::vector<std::string> failures;     ///< "sequence / method: reason", one for each failed cell.
+  std::vector<std::string> controls;     ///< What is wrong with the controls; empty if all is well.
+  std::vector<std::string> flat_sweeps;  ///< Sentences on swept parameters without effect.
+  std::vector<std::string> missing;      ///< "sequence / method" of cells that were not run.
   [[nodiscard]] bool good() const { return failures.empty() && controls.empty(); }
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/parameter_condition.h"
 #include "core/text.h"
 #include "eval/protocol.h"
 
@@ -79,6 +80,10 @@ ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const s
 
 namespace {
 
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// Sets `setting` where it names `target` of a method. @return whether it did
 bool apply_setting(const Setting& setting, MethodRequest& request) {
   const MethodEntry& entry = *request.method.entry;
@@ -90,6 +95,7 @@ bool apply_setting(const Setting& setting, MethodRequest& request) {
   }
   set_parameter(request.method.configuration, setting.key,
                 checked_value_from_text(entry.name, spec, setting.value));
+  if (!contains(request.given, setting.key)) request.given.push_back(setting.key);
   return true;
 }
 
@@ -152,6 +158,30 @@ void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (!used[i]) throw_no_target(suite, settings[i].target);
   }
+}
+
+std::vector<std::string> settings_without_effect(const Suite& suite) {
+  const auto lines_of = [](const MethodRequest& request, const std::string& name) {
+    return without_effect(request.sweep_of.empty() ? request.name : request.sweep_of,
+                          request.method.entry->parameters, request.method.configuration, {name});
+  };
+  std::vector<std::string> lines;
+  for (const MethodRequest& request : suite.methods) {
+    for (const std::string& name : request.given) {
+      const auto acts_at = [&](const MethodRequest& point) {
+        return point.sweep_of == request.sweep_of && contains(point.given, name) &&
+               lines_of(point, name).empty();
+      };
+      if (!request.sweep_of.empty() &&
+          std::any_of(suite.methods.begin(), suite.methods.end(), acts_at)) {
+        continue;
+      }
+      for (const std::string& line : lines_of(request, name)) {
+        if (!contains(lines, line)) lines.push_back(line);
+      }
+    }
+  }
+  return lines;
 }
 
 void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting) {

@@ -24,6 +24,7 @@ struct MethodRequest {
   ConfiguredMethod method;
   std::string sweep_of = {};  ///< Name without the swept values, if this is one point of a sweep.
   Configuration sweep = {};   ///< The swept values of this point.
+  std::vector<std::string> given = {};  ///< Parameters that somebody set, swept ones included.
 };
 
 /// A protocol of a suite with its effective options.
@@ -79,6 +80,10 @@ ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const s
 /// name a cell.
 /// @throws UsageError if one names nothing of the suite, or the same value is set twice.
 void apply_settings(Suite& suite, const std::vector<Setting>& settings);
+
+/// A sentence for each parameter that was set for a method but has no effect there, see
+/// `without_effect`. A swept one counts if it has none at any point of the sweep.
+std::vector<std::string> settings_without_effect(const Suite& suite);
 
 /// Sets an option of the protocol that `setting` names, with or without "protocol:" before it.
 /// @throws UsageError if it is not among `protocols`, ConfigurationError for a key or value

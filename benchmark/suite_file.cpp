@@ -184,6 +184,7 @@ void add_points(const std::string& name, const std::string& as, const json& set,
     MethodRequest& added =
         add_method(suite, name, values.empty() ? as : point_name(base, values), registry);
     apply_object(together, entry.name, where, entry.parameters, added.method.configuration);
+    for (const auto& [key, value] : together.items()) added.given.push_back(key);
     if (values.empty()) continue;
     added.sweep_of = base;
     added.sweep = values;

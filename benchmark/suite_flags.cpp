@@ -2,6 +2,7 @@
 #include "benchmark/suite_flags.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "benchmark/shipped_suites.h"
 #include "core/error.h"
@@ -90,6 +91,12 @@ Suite SuiteFlags::resolved() const {
     made.memory_limit_mib = parse_positive("--memory-limit", memory_limit);
   }
   return made;
+}
+
+void warn_of_settings_without_effect(const Suite& suite) {
+  for (const std::string& line : settings_without_effect(suite)) {
+    std::fprintf(stderr, "raymoval: warning: %s\n", line.c_str());
+  }
 }
 
 void SuiteFlags::add_to(CLI::App& app) {

@@ -20,4 +20,7 @@ struct SuiteFlags {
   [[nodiscard]] Suite resolved() const;
 };
 
+/// Tells on standard error which settings change nothing, a line each.
+void warn_of_settings_without_effect(const Suite& suite);
+
 }  // namespace raymoval

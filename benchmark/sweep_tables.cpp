@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "benchmark/flat_sweeps.h"
 #include "core/text.h"
 #include "eval/averages.h"
 
@@ -115,6 +116,7 @@ TextTable sweep_table(const RunResults& results, const std::string& of,
   }
   table.notes.push_back(
       "Each row is a point of the curve of what is kept against what is removed.");
+  for (const std::string& line : flat_sweeps(results, of)) table.notes.push_back(line);
   return table;
 }
 

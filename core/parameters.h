@@ -26,6 +26,9 @@ struct ParameterNotes {
   double maximum = std::numeric_limits<double>::infinity();
   std::string source = "";    ///< Paper, section, equation or table; "" = our own choice.
   std::string sentence = "";  ///< One sentence on what it does.
+  /// When the parameter has an effect, such as "erase is true and erase_height > 0"; "" = always,
+  /// "never" = it changes time or memory only. See core/parameter_condition.h.
+  std::string acts_when = "";
 };
 
 struct ParameterSpec {

@@ -24,7 +24,8 @@ Table make_table() {
       .flag("compensate_inflation", &P::compensate_inflation,
             {.source = "'inflate_unknown_compensation'",
              .sentence = "Beams run on behind their end until they have advanced d_p voxels along "
-                         "one axis, so that the inflation does not eat the free side of surfaces."})
+                         "one axis, so that the inflation does not eat the free side of surfaces.",
+             .acts_when = "unknown_inflation > 0"})
       .flag("pass_through_hits", &P::pass_through_hits,
             {.source = "'ray_passthrough_hits'",
              .sentence = "Beams go on through voxels that other beams hit, to their own end."})

@@ -59,11 +59,13 @@ void add_ratio_test(Table& table) {
                 "A bin with fewer points of the thinned query is left alone."})
       .number("min_object_height", &P::minimum_object_height,
               {"m", 0, 50, "0.5, a literal in the public code",
-               "Version 3: nothing is removed from a bin whose map extent is not above this."})
+               "Version 3: nothing is removed from a bin whose map extent is not above this.",
+               "version is 3"})
       .number("th_bin_max_h", &P::minimum_top,
               {"m", -50, 50, "code 0.39; sets 0.2 0.2 0.2 0.05 0.2",
                "Version 2: nothing is removed from a bin whose highest map point is not above this "
-               "height above the road."})
+               "height above the road.",
+               "version is 2"})
       .flag("reinsert", &P::reinsert,
             {.source = "true in the public code",
              .sentence = "What a query sees in a bin that it changes is put back into the map."});
@@ -92,7 +94,8 @@ void add_ground(Table& table) {
               {{"lowest", SparseGround::kLowestPoint}, {"zero", SparseGround::kZero}},
               {.source = "zero in the public code",
                .sentence = "Lowest point representative of a bin that has no point left after "
-                           "num_lowest_pts: the lowest point, or height zero."});
+                           "num_lowest_pts: the lowest point, or height zero.",
+               .acts_when = "num_lowest_pts > 0"});
 }
 
 /// The values of a set that differ from the general one are all that a variant names.

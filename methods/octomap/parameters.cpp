@@ -11,6 +11,9 @@ using P = OctomapParameters;
 constexpr const char* kLibrary = "liboctomap's default";
 constexpr const char* kKth = "KTH port of OctoMap";
 constexpr const char* kKthPcl = "PCL's default, not set by the KTH port";
+// When parameters act.
+constexpr const char* kGround = "ground is true";
+constexpr const char* kNoise = "noise is true";
 
 void add_map(Table& table) {
   table
@@ -32,7 +35,8 @@ void add_map(Table& table) {
       .flag("lazy_eval", &P::lazy_eval,
             {.source = kLibrary,
              .sentence = "Neither merges equal leaves nor fills inner nodes; changes memory and "
-                         "time, never an answer."});
+                         "time, never an answer.",
+             .acts_when = "never"});
 }
 
 void add_beams(Table& table) {
@@ -52,9 +56,12 @@ void add_beams(Table& table) {
                          "where liboctomap lets the hit win."})
       .flag("cut_end_free", &P::cut_end_free,
             {.source = kKth,
-             .sentence = "The cell in which maximum_range cuts a beam counts as crossed, too."})
+             .sentence = "The cell in which maximum_range cuts a beam counts as crossed, too.",
+             .acts_when = "maximum_range > 0"})
       .flag("remove_unknown", &P::remove_unknown,
-            {.source = kKth, .sentence = "A point whose cell no scan has touched goes."});
+            {.source = kKth,
+             .sentence = "A point whose cell no scan has touched goes.",
+             .acts_when = "minimum_range > 0 or maximum_range > 0"});
 }
 
 void add_ground(Table& table) {
@@ -64,16 +71,17 @@ void add_ground(Table& table) {
              .sentence = "Finds a ground plane in each scan; its points only free their beams, and "
                          "always stay."})
       .number("ground_distance", &P::ground_distance,
-              {"m", 0.001, 1, kKth, "Points this near to the plane are ground."})
+              {"m", 0.001, 1, kKth, "Points this near to the plane are ground.", kGround})
       .number("ground_angle", &P::ground_angle,
-              {"rad", 0, 1.57, kKth, "The plane's normal is this near to the z axis of the world."})
+              {"rad", 0, 1.57, kKth, "The plane's normal is this near to the z axis of the world.",
+               kGround})
       .integer("ground_iterations", &P::ground_iterations,
-               {"", 1, 100000, kKthPcl, "At most so many planes are tried."})
+               {"", 1, 100000, kKthPcl, "At most so many planes are tried.", kGround})
       .number("ground_probability", &P::ground_probability,
               {"", 0.01, 0.999999, kKthPcl,
-               "Tries end once a plane of inliers only was drawn this surely."})
+               "Tries end once a plane of inliers only was drawn this surely.", kGround})
       .integer("ground_points", &P::ground_points,
-               {"points", 3, 1000000, kKth, "Scans with fewer points have no ground."});
+               {"points", 3, 1000000, kKth, "Scans with fewer points have no ground.", kGround});
 }
 
 void add_noise(Table& table) {
@@ -81,16 +89,18 @@ void add_noise(Table& table) {
       .flag("noise", &P::noise,
             {.source = "KTH port, 'Octomap w GF'",
              .sentence = "Finds statistical outliers in each scan before anything else."})
-      .integer("noise_neighbours", &P::noise_neighbours,
-               {"points", 1, 1000, "KTH port (2023): K", "Neighbours of the mean distance."})
+      .integer(
+          "noise_neighbours", &P::noise_neighbours,
+          {"points", 1, 1000, "KTH port (2023): K", "Neighbours of the mean distance.", kNoise})
       .number("noise_sigma", &P::noise_sigma,
               {"", 0.01, 1000, "KTH port (2023): S",
-               "Outliers are above the mean by so many standard deviations."})
+               "Outliers are above the mean by so many standard deviations.", kNoise})
       .choice("noise_points", &P::noise_points,
               {{"occupied", NoisePoints::kOccupied}, {"removed", NoisePoints::kRemoved}},
               {.source = "KTH port: 2023 and 2024",
                .sentence = "Outliers hit their cells without a beam and are judged like other "
-                           "points, or are taken out of scan and map."});
+                           "points, or are taken out of scan and map.",
+               .acts_when = kNoise});
 }
 
 std::vector<std::string> notes() {

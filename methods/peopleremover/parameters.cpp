@@ -24,7 +24,8 @@ Table make_table() {
                .sentence = "Beams go to their point, or end one voxel diagonal in front of the "
                            "plane of the surface around it (point shadows)."})
       .number("fuzz", &P::fuzz,
-              {"m", 0, 10, "--fuzz", "Beams end so much farther in front of the surface."})
+              {"m", 0, 10, "--fuzz", "Beams end so much farther in front of the surface.",
+               "maxrange_method is normals"})
       .integer("diff", &P::diff,
                {"scans", 0, 100000, "--diff",
                 "A voxel with points of a scan within so many of the beam's is not freed and stops "
@@ -38,7 +39,8 @@ Table make_table() {
              .sentence = "Remove, near a freed voxel, also the points of the scans that have "
                          "points in it."})
       .integer("half_voxel_radius", &P::half_voxel_radius,
-               {"voxels", 1, 8, kConstant, "How near is near for subvoxel_accuracy."})
+               {"voxels", 1, 8, kConstant, "How near is near for subvoxel_accuracy.",
+                "subvoxel_accuracy is true"})
       .number("minimum_range", &P::minimum_range,
               {"m", 0, 100, kConstant,
                "Points this near are left out and stay static; 0 takes the voxel diagonal, as "
@@ -49,9 +51,10 @@ Table make_table() {
                 "all."})
       .number("reduce_angle", &P::reduce_angle,
               {"rad", 1e-4, 3.1415, "--reduce X:Y, Y",
-               "Such a cell has the solid angle of a cap of this half-angle."})
+               "Such a cell has the solid angle of a cap of this half-angle.", "reduce_points > 0"})
       .integer("reduce_seed", &P::reduce_seed,
-               {"", 0, 1e9, "a constant in 3DTK", "Another seed chooses other beams."});
+               {"", 0, 1e9, "a constant in 3DTK", "Another seed chooses other beams.",
+                "reduce_points > 0"});
   return table;
 }
 

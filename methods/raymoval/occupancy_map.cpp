@@ -64,6 +64,7 @@ bool OccupancyMap::contains_near(const VoxelIndex& voxel, int dilation) const {
 }
 
 void OccupancyMap::update_boxes(int threads) {
+  if (changed_.empty()) return;  // Nothing is written: several threads may read the map.
   constexpr std::size_t kGrain = 32;
   // Covers are found in parallel and stored in the order of change: the same for any threads.
   struct Part {

@@ -105,7 +105,8 @@ class OccupancyMap {
   Slot make_brick(const Eigen::Vector3i& brick);
   [[nodiscard]] const Brick& brick(Slot slot) const { return bricks_[slot]; }
 
-  /// Brings boxes and heads of the bricks changed since the last call up to date.
+  /// Brings boxes and heads of the bricks changed since the last call up to date; writes nothing if
+  /// there are none.
   void update_boxes(int threads);
   [[nodiscard]] bool boxes_are_current() const { return changed_.empty(); }
   /// Boxes that cover the brick's voxels, as of the last `update_boxes`.

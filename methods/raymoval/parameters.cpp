@@ -9,6 +9,11 @@ namespace {
 using Table = ParameterTable<RaymovalParameters>;
 using P = RaymovalParameters;
 constexpr const char* kOurs = "not in the paper";
+// When parameters act.
+constexpr const char* kForward = "forward_test is true and map_source is not naive";
+constexpr const char* kErase = "erase is true";
+constexpr const char* kNoReturn = "no_return is true";
+constexpr const char* kValidate = "validate is true";
 
 void add_grid(Table& table) {
   table
@@ -30,51 +35,71 @@ void add_grid(Table& table) {
               {"m", 0, 20, kOurs,
                "Ego radius: nearer points go to no bin and nearer map voxels stop no ray."})
       .choice("map_source", &P::map_source,
-              {{"growing", MapSource::kGrowing}, {"naive", MapSource::kNaive}},
-              {.source = "section 3, 'prior map'",
-               .sentence = "The map that scans are compared with: growing from earlier scans, or "
-                           "all points of all scans (offline only)."});
+              {{"prior", MapSource::kPrior},
+               {"growing", MapSource::kGrowing},
+               {"naive", MapSource::kNaive}},
+              {.source = "section 3, 'prior map' and 'static map'",
+               .sentence = "The map that each scan is tested against: what all scans leave of the "
+                           "map of all their points (prior), the static points of earlier scans "
+                           "(growing), or all points of all scans, where eq. 11 says nothing "
+                           "(naive). Only growing works online."});
 }
 
 void add_tests(Table& table) {
   table
       .integer("neighbourhood", &P::neighbourhood,
                {"bins", 0, 10, "eq. 8, Table 1", "Radius r_n of the window of first hits."})
-      .number("percentile", &P::percentile,
-              {"", 0, 1, "eq. 9, Table 1", "Quantile q of the window in the forward test."})
+      .number(
+          "percentile", &P::percentile,
+          {"", 0, 1, "eq. 9, Table 1", "Quantile q of the window in the forward test.", kForward})
       .flag("forward_test", &P::forward_test,
-            {.source = "eq. 11", .sentence = "Flag points that stand in front of the map."})
-      .number("tau0", &P::tau0,
-              {"m", 0, 10, "eq. 11, Table 1", "Constant part of the forward test's margin."})
+            {.source = "eq. 11",
+             .sentence = "Flag points that stand in front of the map.",
+             .acts_when = "map_source is not naive"})
+      .number(
+          "tau0", &P::tau0,
+          {"m", 0, 10, "eq. 11, Table 1", "Constant part of the forward test's margin.", kForward})
       .number("tau1", &P::tau1,
               {"", 0, 2, "eq. 11, Table 1 (printed in m, but a ratio)",
-               "Part of the forward test's margin that grows with the point's range."})
+               "Part of the forward test's margin that grows with the point's range.", kForward})
       .flag("erase", &P::erase,
             {.source = "Fig. 1 ('erase cases')",
              .sentence = "Erase map voxels that a scan sees through."})
       .number("erase_tau0", &P::erase_tau0,
-              {"m", 0, 10, kOurs, "Constant part of the erase test's margin."})
+              {"m", 0, 10, kOurs, "Constant part of the erase test's margin.", kErase})
       .number("erase_tau1", &P::erase_tau1,
-              {"", 0, 2, kOurs, "Part of the erase test's margin that grows with the map's range."})
+              {"", 0, 2, kOurs, "Part of the erase test's margin that grows with the map's range.",
+               kErase})
       .number("erase_height", &P::erase_height,
               {"voxels", 0, 10, kOurs,
                "The ray must have changed its height by this much between the first hit and the "
-               "return behind it; less may be one surface seen at a grazing angle."})
+               "return behind it; less may be one surface seen at a grazing angle.",
+               kErase})
       .number("erase_height_limit", &P::erase_height_limit,
               {"m", 0, 100, kOurs,
-               "Beyond this distance behind the first hit no change of height is asked for."})
+               "Beyond this distance behind the first hit no change of height is asked for.",
+               "erase is true and erase_height > 0"})
       .number("erase_percentile", &P::erase_percentile,
               {"", 0, 1, "eq. 9 ('lower quantile' in the text)",
-               "Quantile of the window of first hits in the erase test."})
+               "Quantile of the window of first hits in the erase test.", kErase})
       .integer("erase_azimuth_window", &P::erase_azimuth_window,
                {"bins", 0, 30, kOurs,
-                "A voxel is erased only if no return within so many columns supports it."})
+                "A voxel is erased only if no return within so many columns supports it.", kErase})
       .integer("erase_elevation_window", &P::erase_elevation_window,
                {"bins", -1, 100, kOurs,
                 "A voxel is erased only if no return within so many rows supports it; -1 reaches "
-                "the neighbouring beam."})
+                "the neighbouring beam.",
+                kErase})
       .flag("permanent_erase", &P::permanent_erase,
-            {.source = kOurs, .sentence = "A voxel once seen through is never filled again."});
+            {.source = kOurs,
+             .sentence = "A voxel once seen through is never filled again.",
+             .acts_when = "map_source is growing"})
+      .flag("erased_points", &P::erased_points,
+            {.source = "Fig. 1 ('erase cases')",
+             .sentence = "Points in voxels that were seen through are candidates for removal, as "
+                         "those are that eq. 11 flags.",
+             .acts_when =
+                 "map_source is prior or map_source is growing and permanent_erase is true"});
 }
 
 void add_no_return(Table& table) {
@@ -83,15 +108,18 @@ void add_no_return(Table& table) {
             {.source = "runtime table ('no-return evidence')",
              .sentence = "Directions without return count as seeing through the first hit; needs a "
                          "sensor whose missing returns mean something."})
-      .integer("no_return_azimuth_window", &P::no_return_azimuth_window,
-               {"bins", 0, 30, kOurs, "Half width of the neighbourhood that must be empty."})
+      .integer(
+          "no_return_azimuth_window", &P::no_return_azimuth_window,
+          {"bins", 0, 30, kOurs, "Half width of the neighbourhood that must be empty.", kNoReturn})
       .integer("no_return_elevation_window", &P::no_return_elevation_window,
-               {"bins", 0, 100, kOurs, "Half height of the neighbourhood that must be empty."})
-      .number(
-          "no_return_range", &P::no_return_range,
-          {"m", 0, 200, kOurs, "Only map voxels nearer than this are erased for want of return."})
-      .integer("no_return_scans", &P::no_return_scans,
-               {"scans", 1, 1000, kOurs, "Scans without return it takes to erase a voxel."});
+               {"bins", 0, 100, kOurs, "Half height of the neighbourhood that must be empty.",
+                kNoReturn})
+      .number("no_return_range", &P::no_return_range,
+              {"m", 0, 200, kOurs,
+               "Only map voxels nearer than this are erased for want of return.", kNoReturn})
+      .integer(
+          "no_return_scans", &P::no_return_scans,
+          {"scans", 1, 1000, kOurs, "Scans without return it takes to erase a voxel.", kNoReturn});
 }
 
 void add_validation(Table& table) {
@@ -101,41 +129,48 @@ void add_validation(Table& table) {
              .sentence = "Validate each scan's candidates in range-adaptive clusters: online when "
                          "the scan arrives, offline against the final map."})
       .number("cluster_gap", &P::cluster_gap,
-              {"m", 0.01, 5, "section 3 (no value)", "Distance that joins points at range 0."})
-      .number("cluster_gap_growth", &P::cluster_gap_growth,
-              {"", 0, 0.2, "section 3 (no value)", "Growth of that distance with range."})
+              {"m", 0.01, 5, "section 3 (no value)", "Distance that joins points at range 0.",
+               kValidate})
       .number(
-          "cluster_points", &P::cluster_points,
-          {"points", 0, 1000, "eq. 13, m(r) (no value)",
-           "Points a cluster needs at 10 m; falls with the square of the range, to 3 at least."})
+          "cluster_gap_growth", &P::cluster_gap_growth,
+          {"", 0, 0.2, "section 3 (no value)", "Growth of that distance with range.", kValidate})
+      .number("cluster_points", &P::cluster_points,
+              {"points", 0, 1000, "eq. 13, m(r) (no value)",
+               "Points a cluster needs at 10 m; falls with the square of the range, to 3 at least.",
+               kValidate})
       .number("cluster_width", &P::cluster_width,
-              {"m", 0, 5, "eq. 13, d(r) (no value)", "Width a cluster needs."})
+              {"m", 0, 5, "eq. 13, d(r) (no value)", "Width a cluster needs.", kValidate})
       .integer("group_gap", &P::group_gap,
-               {"voxels", 1, 5, "section 3 (no value)", "Clusters nearer than this are one group."})
+               {"voxels", 1, 5, "section 3 (no value)", "Clusters nearer than this are one group.",
+                kValidate})
       .integer("coverage_dilation", &P::coverage_dilation,
                {"voxels", 0, 5, "eq. 14, delta_v (no value)",
-                "A point is covered if the static map is within so many voxels."})
+                "A point is covered if the static map is within so many voxels.", kValidate})
       .number("coverage_static", &P::coverage_static,
               {"", 0, 1.01, "eq. 15, theta_cov (no value)",
-               "A group covered at least this much is static; above 1: never."})
+               "A group covered at least this much is static; above 1: never.", kValidate})
       .number("coverage_edge", &P::coverage_edge,
               {"", 0, 1.01, "eq. 15, theta_edge (no value)",
-               "A thin group covered at least this much is static; above 1: never."})
+               "A thin group covered at least this much is static; above 1: never.",
+               "validate is true and coverage_static > 0"})
       .number("thin_side", &P::thin_side,
-              {"m", 0, 5, "eq. 15, theta_thin (no value)", "A group this thin is thin."})
+              {"m", 0, 5, "eq. 15, theta_thin (no value)", "A group this thin is thin.",
+               "validate is true and coverage_edge <= 1"})
       .integer("support_dilation", &P::support_dilation,
                {"voxels", 0, 5, "section 3, 'unsupported points' (no value)",
-                "Reach of the neighbourhood in which a removed point may find static support."})
+                "Reach of the neighbourhood in which a removed point may find static support.",
+                "validate is true and support_share < 1"})
       .number("support_share", &P::support_share,
               {"", 0, 1, "section 3, 'unsupported points' (no value)",
                "In a dynamic cluster a point is supported, and kept, where at least this share of "
-               "the voxels around it is static; 1: never."})
+               "the voxels around it is static; 1: never.",
+               kValidate})
       .integer("minimum_points", &P::minimum_points,
                {"points", 0, 1000, "m_min (no value)",
-                "A cluster's remainder with fewer points is static."})
-      .number(
-          "minimum_width", &P::minimum_width,
-          {"m", 0, 5, "d_min (no value)", "A cluster's remainder narrower than this is static."});
+                "A cluster's remainder with fewer points is static.", kValidate})
+      .number("minimum_width", &P::minimum_width,
+              {"m", 0, 5, "d_min (no value)", "A cluster's remainder narrower than this is static.",
+               kValidate});
 }
 
 void add_answer(Table& table) {
@@ -145,7 +180,38 @@ void add_answer(Table& table) {
              .sentence = "Answer for all points from the final map instead of scan by scan."})
       .flag("backward_pass", &P::backward_pass,
             {.source = kOurs,
-             .sentence = "Offline: go through the scans a second time, last to first."});
+             .sentence = "Offline: go through the scans a second time, last to first.",
+             .acts_when = "offline is true"});
+}
+
+/// The readings of the paper, each with our values where the paper prints none and with every
+/// printed value in both tests.
+std::vector<MethodVariant> variants() {
+  const auto reading = [](const char* map_source) {
+    return Configuration{{"map_source", std::string(map_source)}};
+  };
+  const auto printed = [](Configuration values) {
+    values.emplace_back("erase_tau1", 0.35);
+    values.emplace_back("erase_percentile", 0.9);
+    return values;
+  };
+  Configuration online = {{"offline", false}};
+  online.emplace_back("map_source", std::string("growing"));
+  return {
+      {"offline", "Every scan tested against the prior map that all scans leave.", false, {}},
+      {"online", "Each scan answered when it arrives, from a growing map.", true, online},
+      {"offline-growing", "Every point answered from the final state of a growing map.", false,
+       reading("growing")},
+      {"offline-naive", "Every point answered by what the scans see through; eq. 11 has no effect.",
+       false, reading("naive")},
+      {"table1", "As offline, with every value as printed in Table 1.", false, printed({})},
+      {"table1-online", "As online, with every value as printed in Table 1.", true,
+       printed(online)},
+      {"table1-growing", "As offline-growing, with every value as printed in Table 1.", false,
+       printed(reading("growing"))},
+      {"table1-naive", "As offline-naive, with every value as printed in Table 1.", false,
+       printed(reading("naive"))},
+  };
 }
 
 }  // namespace
@@ -164,17 +230,13 @@ const ParameterTable<RaymovalParameters>& raymoval_parameter_table() {
 }
 
 MethodEntry raymoval_entry() {
-  const Configuration as_online = {{"offline", false}, {"map_source", std::string("growing")}};
-  const Configuration as_printed = {{"erase_tau1", 0.35}, {"erase_percentile", 0.9}};
-  Configuration both = as_online;
-  both.insert(both.end(), as_printed.begin(), as_printed.end());
   MethodEntry entry;
   entry.name = "raymoval";
   entry.sentence =
       "Raycasting against the map: flags what stands in front of it, erases what is "
       "seen through, validates clusters against what remains.";
   entry.source = "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping";
-  entry.version = "2";
+  entry.version = "3";
   entry.notes = {
       "The paper leaves the erase test's margin, the origin of its map, and all cluster and "
       "coverage values open; the variants called table1 use every printed value in both tests.",
@@ -182,12 +244,7 @@ MethodEntry raymoval_entry() {
       "m(r) falls with the square of the range and d(r) is constant: the paper gives no form.",
   };
   entry.parameters = raymoval_parameter_table().specs();
-  entry.variants = {
-      {"offline", "Every point answered from the final map.", false, {}},
-      {"online", "Each scan answered when it arrives, from a growing map.", true, as_online},
-      {"table1", "Offline with every value as printed in Table 1.", false, as_printed},
-      {"table1-online", "Online with every value as printed in Table 1.", true, both},
-  };
+  entry.variants = variants();
   entry.make = [](const Configuration& configuration) {
     return make_raymoval(raymoval_parameter_table().read(configuration));
   };

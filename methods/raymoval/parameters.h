@@ -5,10 +5,12 @@
 
 namespace raymoval {
 
-/// Where the map that the scans are compared with comes from (the paper says "prior map").
+/// Which map a scan is tested against by eq. 11 (the paper says "prior map" and "static map").
 enum class MapSource {
-  kGrowing,  ///< From the points of earlier scans that were judged static.
-  kNaive,    ///< From all points of all scans; offline only.
+  kPrior,    ///< All points of all scans, less what any scan sees through; offline only.
+  kGrowing,  ///< The points of earlier scans that were judged static.
+  kNaive,  ///< All points of all scans: each is its own first hit, so eq. 11 says nothing, and the
+           ///< answer is what the scans see through; offline only.
 };
 
 /// Parameters of the paper's method. What the paper prints is named in the table of
@@ -22,7 +24,7 @@ struct RaymovalParameters {
   double voxel_size = 0.2;
   double maximum_range = 60.0;
   double minimum_range = 2.7;
-  MapSource map_source = MapSource::kNaive;
+  MapSource map_source = MapSource::kPrior;
   // Map reference (eqs 8-9).
   int neighbourhood = 1;
   double percentile = 0.9;
@@ -40,6 +42,7 @@ struct RaymovalParameters {
   int erase_azimuth_window = 1;
   int erase_elevation_window = -1;
   bool permanent_erase = true;
+  bool erased_points = true;
   // No-return evidence.
   bool no_return = false;
   int no_return_azimuth_window = 2;

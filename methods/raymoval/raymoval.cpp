@@ -4,125 +4,65 @@
 #include "methods/raymoval/raymoval.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/parallel.h"
-#include "methods/raymoval/angular_grid.h"
-#include "methods/raymoval/consistency.h"
-#include "methods/raymoval/first_hit.h"
-#include "methods/raymoval/map_reference.h"
+#include "methods/raymoval/erase_evidence.h"
+#include "methods/raymoval/scan_against_map.h"
 #include "methods/raymoval/static_map.h"
-#include "methods/raymoval/validation.h"
 #include "methods/scan_passes.h"
+#include "methods/workspaces.h"
 
 namespace raymoval {
 namespace {
 
-AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parameters) {
-  const double margin = parameters.elevation_margin * std::numbers::pi / 180.0;
-  AngularGrid grid;
-  grid.elevation_min = std::max(sensor.elevation_min - margin, -std::numbers::pi / 2.0);
-  grid.elevation_max = std::min(sensor.elevation_max + margin, std::numbers::pi / 2.0);
-  const auto bins_for = [](int wanted, double width, double step, int otherwise) {
-    if (wanted > 0) return wanted;
-    return step > 0.0 ? std::max(36, static_cast<int>(std::ceil(width / step))) : otherwise;
-  };
-  grid.azimuth_bins =
-      bins_for(parameters.azimuth_bins, 2.0 * std::numbers::pi, sensor.azimuth_step, 720);
-  grid.elevation_bins = bins_for(parameters.elevation_bins, grid.elevation_max - grid.elevation_min,
-                                 sensor.elevation_step, 450);
-  return grid;
-}
-
-/// Rows of the grid from one beam to the next, so that a window of that radius holds a return
-/// wherever the surface goes on.
-int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
-                   const RaymovalParameters& parameters) {
-  if (parameters.erase_elevation_window >= 0) return parameters.erase_elevation_window;
-  constexpr double kUnknownStep = 0.5 * std::numbers::pi / 180.0;
-  const double step = sensor.elevation_step > 0.0 ? sensor.elevation_step : kUnknownStep;
-  return std::clamp(static_cast<int>(std::ceil(step / grid.elevation_step())), 1, 100);
-}
-
-CastImage sweep_caster(const AngularGrid& grid, const RayLimits& limits) {
-  return [caster = std::make_shared<FirstHitCaster>(grid, limits)](
-             OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
-    caster->cast(map, T_world_sensor, threads, image);
-  };
-}
-
-/// A scan with what every step needs of it.
-struct PreparedScan {
-  Scan scan;
-  std::vector<VoxelIndex> voxels;  ///< Of each point, in the world lattice.
-  ProjectedScan projected;
-};
-
-/// Eqs 12-15 for the candidates of a scan.
-Mask validate_scan(const Scan& scan, const std::vector<VoxelIndex>& voxels, const Mask& candidates,
-                   const OccupancyMap& static_map, const RaymovalParameters& parameters) {
-  std::vector<std::size_t> chosen;
-  ScanPoints points;
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    if (candidates[k] == 0) continue;
-    chosen.push_back(k);
-    points.position.push_back(scan.T_world_sensor * scan.points[k].cast<double>());
-    points.voxel.push_back(voxels[k]);
-    points.range.push_back(scan.points[k].norm());
-  }
-  const Mask valid = validate_candidates(points, static_map, parameters);
-  Mask dynamic(candidates.size(), 0);
-  for (std::size_t i = 0; i < chosen.size(); ++i) dynamic[chosen[i]] = valid[i];
-  return dynamic;
-}
-
-/// One pass of the paper's section 3 over scans; owns the map that grows or shrinks with them.
-class RaymovalPass {
+/// A map and the scans that make it: one that grows from scan to scan, or one of all scans that
+/// loses what they see through.
+class MapBuilder {
  public:
-  RaymovalPass(const RaymovalParameters& parameters, const SensorModel& sensor,
-               const RunContext& context, const MakeCaster& make_caster)
-      : parameters_(parameters),
-        sensor_(sensor),
-        context_(context),
-        grid_(grid_for(sensor, parameters)),
+  MapBuilder(const RaymovalParameters& parameters, const SensorModel& sensor,
+             const RunContext& context, const MakeCaster& make_caster)
+      : context_(context),
+        parameters_(parameters),
         map_(parameters.voxel_size, parameters.permanent_erase),
-        erase_rows_(rows_of_a_beam(sensor, grid_, parameters)),
-        cast_image_(make_caster(grid_, {parameters.minimum_range, parameters.maximum_range})) {
-    known_.remembers = true;
-  }
+        test_(parameters, sensor, make_caster),
+        evidence_finder_(parameters, sensor, test_.grid()) {}
 
   [[nodiscard]] StaticMap& map() { return map_; }
 
-  /// Section 3 for one scan. @return 1 for each point found dynamic now (the online answer).
-  Mask process(const PreparedScan& prepared) {
-    cast(prepared);                                     // eqs 4-7
-    find_references(prepared);                          // eqs 8-9
-    const Mask candidates = find_candidates(prepared);  // eq. 11
-    Mask dynamic;                                       // eqs 12-15
-    Evidence evidence;                                  // Of what is seen through.
-    side_by_side([&](StageTimes* times) { dynamic = validate(prepared, candidates, times); },
-                 [&](StageTimes* times) { evidence = find_evidence(prepared, times); });
+  /// Section 3 for one scan and a map that grows.
+  /// @return 1 for each point found dynamic now (the online answer)
+  Mask process(Scan scan) {
+    test_.project_scan(std::move(scan), context_);            // eqs 1-3, 10
+    test_.cast_first_hits(map_.occupied(), context_);         // eqs 4-7
+    test_.find_references(map_, context_);                    // eqs 8-9
+    const Mask candidates = test_.find_candidates(context_);  // eq. 11
+    Mask dynamic;                                             // eqs 12-15
+    Evidence evidence;                                        // Of what is seen through.
+    side_by_side([&](StageTimes* times) { dynamic = validate(candidates, times); },
+                 [&](StageTimes* times) { evidence = find_evidence(times); });
     erase(evidence);
-    integrate(prepared, dynamic);
+    integrate(dynamic);
     return dynamic;
   }
 
-  /// Finds the voxel of each point and projects it (eqs 1-3, 10).
-  void prepare(Scan scan, PreparedScan& prepared) const {
-    const StageScope timed(context_.times, "binning");
-    prepared.scan = std::move(scan);
-    find_voxels(prepared.scan, map_.occupied().inverse_voxel_size(), context_.threads,
-                prepared.voxels);
-    project(prepared.scan, grid_, parameters_.minimum_range, context_.threads, prepared.projected);
+  /// Adds all points of a scan to the naive map.
+  void collect(const Scan& scan) {
+    const StageScope timed(context_.times, "integration");
+    find_voxels(scan, map_.occupied().inverse_voxel_size(), context_.threads, voxels_);
+    VoxelLookup known;
+    map_.look_up(voxels_, context_.threads, known);
+    map_.integrate(voxels_, known, Mask(voxels_.size(), 0));
+  }
+
+  /// Erases what one scan sees through.
+  void erase_seen_through(Scan scan) {
+    test_.project_scan(std::move(scan), context_);     // eqs 1-3, 10
+    test_.cast_first_hits(map_.occupied(), context_);  // eqs 4-7
+    test_.find_references(map_, context_);             // eqs 8-9
+    erase(find_evidence(context_.times));
   }
 
  private:
-  /// Voxels to erase.
-  struct Evidence {
-    std::vector<VoxelIndex> seen_through, without_return;
-  };
-
   /// Two steps that only read the map: with several threads one is done beside the other, and they
   /// are timed as one stage.
   template <class Validate, class FindEvidence>
@@ -139,57 +79,13 @@ class RaymovalPass {
     });
   }
 
-  void cast(const PreparedScan& prepared) {
-    const StageScope timed(context_.times, "raycasting");
-    cast_image_(map_.occupied(), prepared.scan.T_world_sensor, context_.threads, first_hit_);
+  Mask validate(const Mask& candidates, StageTimes* times) const {
+    const StageScope timed(parameters_.validate ? times : nullptr, "validation");
+    return test_.validate(candidates, map_.occupied());
   }
 
-  /// The map reference of both tests, where the scan has a return.
-  void find_references(const PreparedScan& prepared) {
-    const StageScope timed(context_.times, "classification");
-    windowed_percentiles(
-        first_hit_.range, prepared.projected.minimum_range, grid_, parameters_.neighbourhood,
-        {parameters_.percentile, parameters_.erase_percentile}, context_.threads, references_);
-    map_.look_up(prepared.voxels, context_.threads, known_);
-  }
-
-  /// Eq. 11; also points where the map was seen through before.
-  Mask find_candidates(const PreparedScan& prepared) {
-    const StageScope timed(context_.times, "classification");
-    // In a map of all scans every point is its own first hit, and the answer comes at the end.
-    if (parameters_.map_source == MapSource::kNaive) return Mask(prepared.scan.size(), 0);
-    Mask candidates;
-    if (parameters_.forward_test) {
-      candidates = check_consistency(prepared.projected, references_.first,
-                                     {parameters_.tau0, parameters_.tau1}, context_.threads);
-    } else {
-      candidates.assign(prepared.scan.size(), 0);
-    }
-    if (!parameters_.permanent_erase) return candidates;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      candidates[k] |= known_.states[k] == VoxelState::kErased ? 1 : 0;
-    }
-    return candidates;
-  }
-
-  Mask validate(const PreparedScan& prepared, const Mask& candidates, StageTimes* times) {
-    if (!parameters_.validate || parameters_.map_source == MapSource::kNaive) return candidates;
-    const StageScope timed(times, "validation");
-    return validate_scan(prepared.scan, prepared.voxels, candidates, map_.occupied(), parameters_);
-  }
-
-  /// Both kinds of evidence are read off the same map before any of it is erased.
-  Evidence find_evidence(const PreparedScan& prepared, StageTimes* times) {
-    Evidence evidence;
-    if (parameters_.erase) {
-      const StageScope timed(times, "erase");
-      evidence.seen_through = voxels_seen_through(prepared);
-    }
-    if (parameters_.no_return) {
-      const StageScope timed(times, "no-return evidence");
-      evidence.without_return = voxels_without_return(prepared);
-    }
-    return evidence;
+  Evidence find_evidence(StageTimes* times) {
+    return evidence_finder_.find(test_, map_.occupied(), context_.threads, times);
   }
 
   void erase(const Evidence& evidence) {
@@ -197,234 +93,156 @@ class RaymovalPass {
     for (const VoxelIndex& voxel : evidence.without_return) map_.erase(voxel);
   }
 
-  std::vector<VoxelIndex> voxels_seen_through(const PreparedScan& prepared) {
-    std::vector<VoxelIndex> voxels;
-    windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.erase_azimuth_window,
-                     erase_rows_, context_.threads, nearest_return_);
-    for (const SeenThrough& through :
-         find_seen_through(prepared.projected, nearest_return_, first_hit_, references_.second,
-                           {parameters_.erase_tau0, parameters_.erase_tau1}, context_.threads)) {
-      const float first_hit = first_hit_.range[static_cast<std::size_t>(through.bin)];
-      const bool along_surface = through.nearest_return - first_hit <
-                                 grazing_distance(first_hit_.ray(through.bin).direction.z(),
-                                                  parameters_.erase_height * parameters_.voxel_size,
-                                                  parameters_.erase_height_limit);
-      if (along_surface) continue;
-      const auto voxel = first_hit_.voxel(map_.occupied(), through.bin);
-      if (voxel) voxels.push_back(*voxel);
-    }
-    drop_own_voxels(prepared, voxels);
-    return voxels;
-  }
-
-  /// A ray may pass through the empty part of a voxel: one in which the scan itself has a point is
-  /// not seen through.
-  void drop_own_voxels(const PreparedScan& prepared, std::vector<VoxelIndex>& voxels) {
-    if (voxels.empty()) return;
-    const auto slot_of = [&](const VoxelIndex& voxel) {
-      return map_.occupied().find_slot(OccupancyMap::brick_of(voxel));
-    };
-    std::vector<OccupancyMap::Slot> bricks;
-    number_of_.resize(map_.occupied().brick_count(), 0);
-    for (const VoxelIndex& voxel : voxels) {
-      std::uint32_t& number = number_of_[slot_of(voxel)];
-      if (number != 0) continue;
-      bricks.push_back(slot_of(voxel));
-      number = static_cast<std::uint32_t>(bricks.size());
-    }
-    std::vector<Brick> own(bricks.size());             // The scan's voxels in these bricks.
-    OccupancyMap::Slot last = OccupancyMap::kNoBrick;  // Neighbours often share a brick.
-    Brick* open = nullptr;
-    for (std::size_t k = 0; k < known_.slots.size(); ++k) {
-      const OccupancyMap::Slot slot = known_.slots[k];
-      if (slot != last) {
-        last = slot;
-        const std::uint32_t number = slot == OccupancyMap::kNoBrick ? 0 : number_of_[slot];
-        open = number == 0 ? nullptr : &own[number - 1];
-      }
-      if (open == nullptr) continue;
-      const VoxelIndex& voxel = prepared.voxels[k];
-      open->add(voxel.x(), voxel.y(), voxel.z());
-    }
-    std::erase_if(voxels, [&](const VoxelIndex& voxel) {
-      return own[number_of_[slot_of(voxel)] - 1].contains(voxel.x(), voxel.y(), voxel.z());
-    });
-    for (const OccupancyMap::Slot slot : bricks) number_of_[slot] = 0;
-  }
-
-  std::vector<VoxelIndex> voxels_without_return(const PreparedScan& prepared) {
-    std::vector<VoxelIndex> erased;
-    windowed_minimum(prepared.projected.minimum_range, grid_, parameters_.no_return_azimuth_window,
-                     parameters_.no_return_elevation_window, context_.threads, nearest_return_);
-    std::vector<VoxelKey> voxels;
-    for (const int bin :
-         find_no_return(nearest_return_, first_hit_, grid_, sensor_, parameters_.no_return_range)) {
-      const auto voxel = first_hit_.voxel(map_.occupied(), bin);
-      if (voxel) voxels.push_back(voxel_key(*voxel));
-    }
-    // However many of its bins a scan misses, it is one witness.
-    std::sort(voxels.begin(), voxels.end());
-    voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
-    for (const VoxelKey voxel : voxels) {
-      if (++scans_without_return_[voxel] >= parameters_.no_return_scans) {
-        erased.push_back(voxel_index(voxel));
-      }
-    }
-    return erased;
-  }
-
-  void integrate(const PreparedScan& prepared, const Mask& dynamic) {
-    if (parameters_.map_source == MapSource::kNaive) return;
+  void integrate(const Mask& dynamic) {
     const StageScope timed(context_.times, "integration");
-    map_.integrate(prepared.voxels, known_, dynamic);
+    map_.integrate(test_.voxels(), test_.known(), dynamic);
   }
 
-  const RaymovalParameters& parameters_;
-  const SensorModel& sensor_;
   const RunContext& context_;
-  AngularGrid grid_;
+  const RaymovalParameters& parameters_;
   StaticMap map_;
-  int erase_rows_;
-  CastImage cast_image_;
-  VoxelMap<int> scans_without_return_;
-  // Of the present scan; kept for their memory.
-  FirstHitImage first_hit_;
-  WindowPercentiles references_;
-  VoxelLookup known_;  ///< Of each point's voxel, before the scan changes the map.
-  std::vector<std::uint32_t> number_of_;  ///< Of each brick that may be seen through; else 0.
-  std::vector<float> nearest_return_;
+  ScanAgainstMap test_;
+  EvidenceFinder evidence_finder_;
+  std::vector<VoxelIndex> voxels_;
 };
+
+// Codes of `answer_reasons`.
+constexpr std::uint8_t kNeverContradicted = 0;
+constexpr std::uint8_t kSeenThrough = 1;
+constexpr std::uint8_t kInFrontOfMap = 2;
+constexpr std::uint8_t kRestored = 3;
+
+std::vector<std::string> answer_reasons() {
+  return {"no scan contradicts its voxel, which stays in the map", "a scan saw through its voxel",
+          "it stands in front of the map (eq. 11)",
+          "it was a candidate, and validation found that it belongs to the static map"};
+}
+
+/// A scan's answer, and which points were candidates for it.
+struct Answer {
+  Mask candidates, dynamic;
+};
+
+/// Why each point of a scan is kept or removed, see `answer_reasons`.
+std::vector<std::uint8_t> reasons_for(const Answer& answer, const std::vector<VoxelState>& states) {
+  std::vector<std::uint8_t> codes(states.size(), kNeverContradicted);
+  for (std::size_t k = 0; k < codes.size(); ++k) {
+    if (answer.candidates[k] == 0) continue;
+    const bool erased = states[k] == VoxelState::kErased;
+    codes[k] = answer.dynamic[k] == 0 ? kRestored : erased ? kSeenThrough : kInFrontOfMap;
+  }
+  return codes;
+}
 
 class RaymovalRemover : public Remover {
  public:
   RaymovalRemover(const RaymovalParameters& parameters, const MakeCaster& make_caster)
-      : parameters_(parameters), make_caster_(make_caster ? make_caster : sweep_caster) {}
+      : parameters_(parameters), make_caster_(make_caster) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    RaymovalPass pass(parameters_, scans.sensor(), context, make_caster_);
-    if (parameters_.offline) {
-      run_offline(pass, scans, sink, context);
-    } else {
-      run_online(pass, scans, sink, context);
+    MapBuilder builder(parameters_, scans.sensor(), context, make_caster_);
+    if (!parameters_.offline) {
+      run_online(builder, scans, sink, context);
+      return;
     }
+    if (parameters_.map_source == MapSource::kGrowing) {
+      pass_over("raymoval", scans, context, [&](Scan scan) { builder.process(std::move(scan)); });
+    } else {
+      for_each_scan("raymoval, naive map", scans, context,
+                    [&](const Scan& scan) { builder.collect(scan); });
+      pass_over("raymoval, erasing", scans, context,
+                [&](Scan scan) { builder.erase_seen_through(std::move(scan)); });
+    }
+    answer_from(builder.map(), scans, sink, context);
   }
 
  private:
-  void run_online(RaymovalPass& pass, const ScanSource& scans, RemovalSink& sink,
+  void run_online(MapBuilder& builder, const ScanSource& scans, RemovalSink& sink,
                   const RunContext& context) {
-    PreparedScan prepared;
     for_each_scan("raymoval", scans, context, [&](Scan scan) {
       const std::size_t index = scan.index;
-      pass.prepare(std::move(scan), prepared);
-      sink.accept(index, pass.process(prepared));
+      sink.accept(index, builder.process(std::move(scan)));
     });
   }
 
-  void run_offline(RaymovalPass& pass, const ScanSource& scans, RemovalSink& sink,
+  /// First to last, and back if there is a backward pass.
+  template <class Visit>
+  void pass_over(const char* what, const ScanSource& scans, const RunContext& context,
+                 Visit&& visit) {
+    for_each_scan(what, scans, context, visit);
+    if (!parameters_.backward_pass) return;
+    for_each_scan("raymoval, backward", scans, context, visit, ScanOrder::kBackward);
+  }
+
+  /// Judges every scan by the finished map, as many at a time as there are threads.
+  void answer_from(StaticMap& map, const ScanSource& scans, RemovalSink& sink,
                    const RunContext& context) {
-    if (parameters_.map_source == MapSource::kNaive) collect_naive_map(pass, scans, context);
-    PreparedScan prepared;
-    const auto process = [&](Scan scan) {
-      pass.prepare(std::move(scan), prepared);
-      pass.process(prepared);
-    };
-    for_each_scan("raymoval", scans, context, process);
-    if (parameters_.backward_pass) {
-      for_each_scan("raymoval, backward", scans, context, process, ScanOrder::kBackward);
-    }
-    answer_from_map(pass.map(), scans, sink, context);
-  }
-
-  void collect_naive_map(RaymovalPass& pass, const ScanSource& scans, const RunContext& context) {
-    for_each_scan("raymoval, naive map", scans, context, [&](const Scan& scan) {
-      const StageScope timed(context.times, "integration");
-      const std::vector<VoxelIndex> voxels = voxels_of(pass.map(), scan, context.threads);
-      VoxelLookup known;
-      pass.map().look_up(voxels, context.threads, known);
-      pass.map().integrate(voxels, known, Mask(voxels.size(), 0));
-    });
-  }
-
-  /// A point is dynamic iff its voxel is not in the final map and validation finds it to be one.
-  void answer_from_map(const StaticMap& map, const ScanSource& scans, RemovalSink& sink,
-                       const RunContext& context) {
     if (context.reasons != nullptr) context.reasons->explain(answer_reasons());
-    RunContext own = context;  // Of one scan among others.
+    map.occupied().update_boxes(context.threads);  // From here on the map is only read.
+    RunContext own = context;                      // Of one scan among others.
     own.threads = 1;
     if (context.threads > 1) own.times = nullptr;
-    const auto answer = [&](const Scan& scan) {
-      const std::vector<VoxelIndex> voxels = voxels_of(map, scan, own.threads);
-      Mask removed = points_off_the_map(map, voxels, own);
-      const Mask off_map = context.reasons != nullptr ? removed : Mask{};
-      if (parameters_.validate) {
-        const StageScope timed(own.times, "validation");
-        removed = validate_scan(scan, voxels, removed, map.occupied(), parameters_);
-      }
-      sink.accept(scan.index, removed);
-      if (context.reasons != nullptr) {
-        context.reasons->accept(scan.index, reasons_for(map, voxels, off_map, removed));
-      }
-    };
-    for_scans_at_once("raymoval, answers", "answer and validation", scans, context, answer);
-  }
-
-  // Codes of `answer_reasons`.
-  static constexpr std::uint8_t kNeverContradicted = 0;
-  static constexpr std::uint8_t kSeenThrough = 1;
-  static constexpr std::uint8_t kInFrontOfMap = 2;
-  static constexpr std::uint8_t kRestored = 3;
-
-  static std::vector<std::string> answer_reasons() {
-    return {"no scan contradicts its voxel, which stays in the map", "a scan saw through its voxel",
-            "it stood in front of the map, so its voxel never entered it",
-            "its voxel was contradicted, and validation found that it belongs to the static map"};
-  }
-
-  /// Why each point of a scan is kept or removed, see `answer_reasons`.
-  std::vector<std::uint8_t> reasons_for(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
-                                        const Mask& off_map, const Mask& removed) const {
-    std::vector<std::uint8_t> codes(voxels.size(), kNeverContradicted);
-    for (std::size_t k = 0; k < codes.size(); ++k) {
-      if (off_map[k] == 0) continue;
-      // All voxels of a naive map were in it; what is not there now was erased.
-      const bool erased = parameters_.map_source == MapSource::kNaive || map.was_erased(voxels[k]);
-      codes[k] = removed[k] == 0 ? kRestored : erased ? kSeenThrough : kInFrontOfMap;
-    }
-    return codes;
-  }
-
-  static Mask points_off_the_map(const StaticMap& map, const std::vector<VoxelIndex>& voxels,
-                                 const RunContext& context) {
-    const StageScope timed(context.times, "answer");
-    VoxelLookup known;
-    map.look_up(voxels, context.threads, known);
-    Mask off(voxels.size());
-    std::transform(known.states.begin(), known.states.end(), off.begin(), [](VoxelState state) {
-      return static_cast<std::uint8_t>(state == VoxelState::kOccupied ? 0 : 1);
+    Workspaces<ScanAgainstMap> workspaces([&] {
+      return std::make_unique<ScanAgainstMap>(parameters_, scans.sensor(), make_caster_);
     });
-    return off;
+    const auto answer_scan = [&](Scan& scan) {
+      const std::size_t index = scan.index;
+      workspaces.with_one([&](ScanAgainstMap& test) {
+        const Answer answer = parameters_.map_source == MapSource::kPrior
+                                  ? judge(test, std::move(scan), map, own)
+                                  : look_up(test, std::move(scan), map, own);
+        sink.accept(index, answer.dynamic);
+        if (context.reasons == nullptr) return;
+        context.reasons->accept(index, reasons_for(answer, test.known().states));
+      });
+    };
+    for_scans_at_once("raymoval, answers", "answer and validation", scans, context, answer_scan);
   }
 
-  static std::vector<VoxelIndex> voxels_of(const StaticMap& map, const Scan& scan, int threads) {
-    std::vector<VoxelIndex> voxels;
-    find_voxels(scan, map.occupied().inverse_voxel_size(), threads, voxels);
-    return voxels;
+  /// Section 3 for one scan and the prior map, which is finished.
+  Answer judge(ScanAgainstMap& test, Scan scan, StaticMap& prior, const RunContext& context) const {
+    test.project_scan(std::move(scan), context);                    // eqs 1-3, 10
+    test.cast_first_hits(prior.occupied(), context);                // eqs 4-7
+    test.find_references(prior, context);                           // eqs 8-9
+    Mask candidates = test.find_candidates(context);                // eq. 11
+    return validated(test, std::move(candidates), prior, context);  // eqs 12-15
+  }
+
+  /// A point is a candidate iff its voxel is not in the final map.
+  Answer look_up(ScanAgainstMap& test, Scan scan, const StaticMap& map,
+                 const RunContext& context) const {
+    Mask candidates = test.find_off_map(std::move(scan), map, context);
+    return validated(test, std::move(candidates), map, context);
+  }
+
+  Answer validated(const ScanAgainstMap& test, Mask candidates, const StaticMap& map,
+                   const RunContext& context) const {
+    const StageScope timed(parameters_.validate ? context.times : nullptr, "validation");
+    Mask dynamic = test.validate(candidates, map.occupied());
+    return {std::move(candidates), std::move(dynamic)};
   }
 
   RaymovalParameters parameters_;
   MakeCaster make_caster_;
 };
 
+CastImage sweep_caster(const AngularGrid& grid, const RayLimits& limits) {
+  return [caster = std::make_shared<FirstHitCaster>(grid, limits)](
+             OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
+    caster->cast(map, T_world_sensor, threads, image);
+  };
+}
+
 }  // namespace
 
 std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters,
                                        const MakeCaster& make_caster) {
-  if (!parameters.offline && parameters.map_source == MapSource::kNaive) {
+  if (!parameters.offline && parameters.map_source != MapSource::kGrowing) {
     throw ConfigurationError(
-        "raymoval.map_source = naive needs all scans, which an online run (offline = false) does "
-        "not have; use map_source = growing.");
+        "raymoval.map_source = prior and naive need all scans, which an online run (offline = "
+        "false) does not have; use map_source = growing.");
   }
-  return std::make_unique<RaymovalRemover>(parameters, make_caster);
+  return std::make_unique<RaymovalRemover>(parameters, make_caster ? make_caster : sweep_caster);
 }
 
 }  // namespace raymoval

@@ -142,6 +142,7 @@ double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const Oc
 std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
                                      const OccupancyMap& static_map,
                                      const RaymovalParameters& parameters) {
+  if (parameters.support_share >= 1.0) return cluster;  // Nothing is supported, as documented.
   OccupancyMap removed(static_map.voxel_size());
   for (const int member : cluster) removed.insert(points.voxel[at(member)]);
   std::vector<int> unsupported;

@@ -9,23 +9,31 @@ namespace {
 using Table = ParameterTable<RaymovalPlusParameters>;
 using P = RaymovalPlusParameters;
 constexpr const char* kSource = "this project";
+// When parameters act.
+constexpr const char* kObjects = "objects is true";
+constexpr const char* kTracks = "objects is true and tracks is true";
 
 void add_terrain(Table& table) {
   table
       .flag("terrain", &P::terrain,
             {.source = kSource, .sentence = "Find the ground and keep its points."})
-      .number("terrain_cell", &P::terrain_cell, {"m", 0.1, 5, kSource, "Edge of a ground column."})
+      .number("terrain_cell", &P::terrain_cell,
+              {"m", 0.1, 5, kSource, "Edge of a ground column.", "terrain is true"})
       .number("terrain_quantile", &P::terrain_quantile,
-              {"", 0, 0.5, kSource, "Quantile of a column's heights taken for its ground."})
-      .number(
-          "terrain_drop", &P::terrain_drop,
-          {"m", 0, 10, kSource, "A column this much below its neighbours' quartile is dropped."})
+              {"", 0, 0.5, kSource, "Quantile of a column's heights taken for its ground.",
+               "terrain is true"})
+      .number("terrain_drop", &P::terrain_drop,
+              {"m", 0, 10, kSource, "A column this much below its neighbours' quartile is dropped.",
+               "terrain is true"})
       .number("terrain_slope", &P::terrain_slope,
-              {"", 0, 2, kSource, "Steepest ground from a column to its neighbours."})
+              {"", 0, 2, kSource, "Steepest ground from a column to its neighbours.",
+               "terrain is true"})
       .number("terrain_reach", &P::terrain_reach,
-              {"m", 0, 10, kSource, "How far a column's ground bounds that of its neighbours."})
+              {"m", 0, 10, kSource, "How far a column's ground bounds that of its neighbours.",
+               "terrain is true"})
       .number("ground_height", &P::ground_height,
-              {"m", 0, 1, kSource, "Points lower than this above the ground are ground."});
+              {"m", 0, 1, kSource, "Points lower than this above the ground are ground.",
+               "terrain is true"});
 }
 
 void add_when(Table& table) {
@@ -35,14 +43,18 @@ void add_when(Table& table) {
              .sentence = "Answer each scan when it comes, from it and the scans before."})
       .flag("one_pass", &P::one_pass,
             {.source = kSource,
-             .sentence = "Gather the evidence as scans come, in one pass; answer at the end."})
+             .sentence = "Gather the evidence as scans come, in one pass; answer at the end.",
+             .acts_when = "at_once is false"})
       .integer("history_scans", &P::history_scans,
                {"scans", 0, 1000, kSource,
-                "Earlier scans kept to ask about new voxels (at_once, one_pass)."})
+                "Earlier scans kept to ask about new voxels (at_once, one_pass).",
+                "at_once is true or one_pass is true"})
       .integer("history_step", &P::history_step,
-               {"scans", 1, 1000, kSource, "Of so many scans one is kept."})
+               {"scans", 1, 1000, kSource, "Of so many scans one is kept.",
+                "at_once is true and history_scans > 0 or one_pass is true and history_scans > 0"})
       .integer("terrain_period", &P::terrain_period,
-               {"scans", 1, 1000, kSource, "The ground is found anew every so many scans."});
+               {"scans", 1, 1000, kSource, "The ground is found anew every so many scans.",
+                "terrain is true and at_once is true or terrain is true and one_pass is true"});
 }
 
 void add_evidence(Table& table) {
@@ -91,43 +103,51 @@ void add_groups(Table& table) {
                {"scans", 0, 1000, kSource,
                 "Scans in a row that see through a voxel at one end of its story make it dynamic; "
                 "0 for off."})
-      .number("run_range", &P::run_range, {"m", 0, 500, kSource, "Range up to which those count."})
+      .number("run_range", &P::run_range,
+              {"m", 0, 500, kSource, "Range up to which those count.", "run_scans > 0"})
       .flag("objects", &P::objects,
             {.source = kSource, .sentence = "Judge clusters of a scan as one."})
       .number("object_height", &P::object_height,
-              {"m", 0, 5, kSource, "Clusters consist of points at least this high."})
+              {"m", 0, 5, kSource, "Clusters consist of points at least this high.",
+               "terrain is true and objects is true or terrain is true and low_points is true"})
       .number("cluster_gap", &P::cluster_gap,
-              {"m", 0.05, 5, kSource, "Points this near to each other are one cluster."})
+              {"m", 0.05, 5, kSource, "Points this near to each other are one cluster.", kObjects})
       .number("cluster_growth", &P::cluster_growth,
-              {"", 0, 1, kSource, "Part of it that grows with range."})
-      .number("object_dynamic_share", &P::object_dynamic_share,
-              {"", 0, 1, kSource, "Share of dynamic points that makes a cluster dynamic."})
-      .number("object_static_share", &P::object_static_share,
-              {"", 0, 1, kSource, "Share of dynamic points up to which a cluster is static."})
+              {"", 0, 1, kSource, "Part of it that grows with range.", kObjects})
+      .number(
+          "object_dynamic_share", &P::object_dynamic_share,
+          {"", 0, 1, kSource, "Share of dynamic points that makes a cluster dynamic.", kObjects})
+      .number(
+          "object_static_share", &P::object_static_share,
+          {"", 0, 1, kSource, "Share of dynamic points up to which a cluster is static.", kObjects})
       .integer("object_points", &P::object_points,
-               {"points", 1, 1000, kSource, "Smallest cluster judged dynamic as one."})
-      .integer("group_points", &P::group_points,
-               {"points", 1, 1000000, kSource,
-                "A group of dynamic points this large stays dynamic in a static cluster."})
+               {"points", 1, 1000, kSource, "Smallest cluster judged dynamic as one.", kObjects})
+      .integer(
+          "group_points", &P::group_points,
+          {"points", 1, 1000000, kSource,
+           "A group of dynamic points this large stays dynamic in a static cluster.", kObjects})
       .integer("settled_scans", &P::settled_scans,
                {"scans", 0, 10000, kSource,
                 "With so many scans that agree and none that saw through, a voxel is not outvoted; "
                 "points of voxels with so many are left out when a mixed cluster is divided; 0 for "
                 "neither."})
       .flag("tracks", &P::tracks,
-            {.source = kSource, .sentence = "Follow dynamic clusters over scans."})
+            {.source = kSource,
+             .sentence = "Follow dynamic clusters over scans.",
+             .acts_when = "objects is true"})
       .number("track_dynamic_share", &P::track_dynamic_share,
-              {"", 0, 1, kSource, "Share of a track's clusters that must be dynamic."})
+              {"", 0, 1, kSource, "Share of a track's clusters that must be dynamic.", kTracks})
       .number("track_slack", &P::track_slack,
               {"", 0, 10, kSource,
-               "How much longer than its length explains scans may agree on an object."})
+               "How much longer than its length explains scans may agree on an object.", kTracks})
       .number("track_width", &P::track_width,
-              {"m", 0, 100, kSource, "Wider clusters are not followed."})
+              {"m", 0, 100, kSource, "Wider clusters are not followed.", kTracks})
       .integer("track_points", &P::track_points,
-               {"points", 1, 1000, kSource, "Smaller clusters are not followed."})
-      .flag(
-          "low_points", &P::low_points,
-          {.source = kSource, .sentence = "Points near the ground follow what stands above them."});
+               {"points", 1, 1000, kSource, "Smaller clusters are not followed.", kTracks})
+      .flag("low_points", &P::low_points,
+            {.source = kSource,
+             .sentence = "Points near the ground follow what stands above them.",
+             .acts_when = "terrain is true"});
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ constexpr const char* kCode = "public code";
 constexpr const char* kList = "KITTI settings of the ROS-free port";
 constexpr const char* kRevertList = "paper, RM3+RV1 (0.55 deg, unverified)";
 constexpr const char* kUnit = "px/deg";
+// When parameters act.
+constexpr const char* kScore = "decision is score";
+constexpr const char* kScanSide = "scan_side is true";
 
 void add_passes(Table& table) {
   table
@@ -66,7 +69,8 @@ void add_image(Table& table) {
       .flag("wrap_azimuth", &P::wrap_azimuth,
             {.source = kOurs,
              .sentence = "In a full circle, join the half column right of -180 deg and the one "
-                         "left of +180 deg."})
+                         "left of +180 deg.",
+             .acts_when = "horizontal_fov is 360"})
       .flag("world_axes", &P::world_axes,
             {.source = "ROS-free port",
              .sentence = "Images along the world's axes instead of the sensor's."});
@@ -78,20 +82,25 @@ void add_decision(Table& table) {
               {{"any", DecisionRule::kAny}, {"score", DecisionRule::kScore}},
               {.source = "public code (any), its design note (score)",
                .sentence = "Whether one scan removes a map point, or weighed counts of scans do."})
-      .number("static_weight", &P::static_weight,
-              {"", 0, 100, "design note, alpha_SM", "Weight of a scan that sees the point."})
-      .number("dynamic_weight", &P::dynamic_weight,
-              {"", 0, 100, "design note, alpha_DM", "Weight of a scan that sees through it."})
+      .number(
+          "static_weight", &P::static_weight,
+          {"", 0, 100, "design note, alpha_SM", "Weight of a scan that sees the point.", kScore})
+      .number(
+          "dynamic_weight", &P::dynamic_weight,
+          {"", 0, 100, "design note, alpha_DM", "Weight of a scan that sees through it.", kScore})
       .number("static_score", &P::static_score,
               {"", -1e6, 1e6, "design note, tau_S",
-               "A point with a smaller score is dynamic (decision = score)."})
+               "A point with a smaller score is dynamic (decision = score).", kScore})
       .flag("update_between_passes", &P::update_between_passes,
             {.source = kCode,
              .sentence = "Take flagged points out of the map before the next pass, so that it sees "
                          "what they hid; the ROS-free port does not."})
       .flag("revert_needs_view", &P::revert_needs_view,
             {.source = kOurs,
-             .sentence = "Restore only points that a scan sees as the nearest in their pixel."});
+             .sentence = "Restore only points that a scan sees as the nearest in their pixel.",
+             .acts_when =
+                 "revert_resolution_1 > 0 or revert_resolution_2 > 0 or revert_resolution_3 > 0 or "
+                 "revert_resolution_4 > 0"});
 }
 
 void add_data(Table& table) {
@@ -113,10 +122,11 @@ void add_data(Table& table) {
              .sentence = "Answer by distances to neighbours in the static map and in the scan "
                          "instead of by membership in a removed cell."})
       .integer("scan_side_neighbours", &P::scan_side_neighbours,
-               {"points", 1, 100, kCode, "Neighbours k of the scan-side step, the point included."})
-      .number(
-          "scan_side_threshold", &P::scan_side_threshold,
-          {"m^2", 0, 100, kCode, "Static if the mean square distances differ by less than this."});
+               {"points", 1, 100, kCode, "Neighbours k of the scan-side step, the point included.",
+                kScanSide})
+      .number("scan_side_threshold", &P::scan_side_threshold,
+              {"m^2", 0, 100, kCode,
+               "Static if the mean square distances differ by less than this.", kScanSide});
 }
 
 /// Everything the public code and its port share.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
 
+#include "benchmark/flat_sweeps.h"
 #include "benchmark/suite.h"
 #include "benchmark/tables.h"
 #include "core/error.h"
@@ -13,13 +14,14 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// "toy" with the parameters size (1, from 0 to 10) and gap (2).
+/// "toy" with the parameters size (1, from 0 to 10) and gap (2), which acts on sizes above 1.
 const MethodRegistry& toys() {
   static const MethodRegistry registry = [] {
     MethodRegistry methods;
     MethodEntry toy = noop_entry();
     toy.name = "toy";
-    toy.parameters = {{"size", 1.0, {.minimum = 0.0, .maximum = 10.0}, {}}, {"gap", 2.0, {}, {}}};
+    toy.parameters = {{"size", 1.0, {.minimum = 0.0, .maximum = 10.0}, {}},
+                      {"gap", 2.0, {.acts_when = "size > 1"}, {}}};
     toy.variants = {{"a", "", false, {}}};
     methods.add(toy);
     return methods;
@@ -150,4 +152,58 @@ TEST_CASE("Cells without a result are listed with reason and last words") {
   CHECK(table.rows[0].cells[1].text == std::string(200, 'r') + " ...");
   CHECK(table.rows[0].cells[2].text == "scan 7 ...");
   CHECK(table.rows[1].cells[0].text == "not run");
+}
+
+TEST_CASE("Settings without effect are named, swept ones if they have none at any point") {
+  const std::string line = "toy:a.gap has no effect here: it acts when size > 1.";
+  CHECK(settings_without_effect(suite_of(R"("toy")")).empty());
+  CHECK(settings_without_effect(suite_of(R"({"method": "toy", "set": {"gap": 3}})")) ==
+        std::vector<std::string>{line});
+  CHECK(settings_without_effect(suite_of(R"({"method": "toy", "set": {"gap": 3, "size": 2}})"))
+            .empty());
+  CHECK(settings_without_effect(
+            suite_of(R"({"method": "toy", "set": {"gap": {"sweep": [3, 4]}}})")) ==
+        std::vector<std::string>{line});
+  // At size 2 it acts.
+  CHECK(settings_without_effect(suite_of(R"({"method": "toy", "set": {"gap": {"sweep": [3, 4]},
+                                                  "size": {"sweep": [1, 2]}}})"))
+            .empty());
+  Suite suite = suite_of(R"("toy", {"method": "toy", "as": "large", "set": {"size": 2}})");
+  apply_settings(suite, {{"toy", "gap", "3"}});
+  CHECK(settings_without_effect(suite) == std::vector<std::string>{line});
+}
+
+TEST_CASE("A sweep that made no difference is pointed out") {
+  RunResults results = swept_run();
+  CHECK(flat_sweeps(results).empty());  // Without digests nothing is known.
+  results.rows[0].mask_digest = results.rows[2].mask_digest = "same";
+  results.rows[1].mask_digest = "other";  // Of s2, where there is nothing to compare with.
+  const std::string line =
+      "size made no difference: with each of its 2 values exactly the same points were removed.";
+  CHECK(flat_sweeps(results) == std::vector<std::string>{"sweep of x: " + line});
+  CHECK(make_tables(results)[1].notes.back() == line);
+  results.rows[2].mask_digest = "different";
+  CHECK(flat_sweeps(results).empty());
+}
+
+TEST_CASE("Of a sweep over two parameters the one that made no difference is named") {
+  // a changes what is removed, b does not; on s2 neither does.
+  RunResults results;
+  results.sequences = {"s1", "s2"};
+  for (const char* a : {"1", "2"}) {
+    for (const char* b : {"3", "4", "5"}) {
+      const std::string cell = std::string("x:a=") + a + ",b=" + b;
+      results.sweeps.push_back({cell, "x", {{"a", a}, {"b", b}}});
+      for (const char* sequence : {"s1", "s2"}) {
+        results.rows.push_back(row(sequence, cell, 90, 60, 0.72));
+        results.rows.back().mask_digest = sequence == std::string("s1") ? a : "always";
+      }
+    }
+  }
+  CHECK(flat_sweeps(results, "x") ==
+        std::vector<std::string>{
+            "a made no difference on s2: with each of its 2 values exactly the same points were "
+            "removed.",
+            "b made no difference: with each of its 3 values exactly the same points were "
+            "removed."});
 }

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/erase_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "methods/raymoval/consistency.h"
+
+namespace raymoval {
+namespace {
+
+/// Rows of the grid from one beam to the next, so that a window of that radius holds a return
+/// wherever the surface goes on.
+int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
+                   const RaymovalParameters& parameters) {
+  if (parameters.erase_elevation_window >= 0) return parameters.erase_elevation_window;
+  constexpr double kUnknownStep = 0.5 * std::numbers::pi / 180.0;
+  const double step = sensor.elevation_step > 0.0 ? sensor.elevation_step : kUnknownStep;
+  return std::clamp(static_cast<int>(std::ceil(step / grid.elevation_step())), 1, 100);
+}
+
+}  // namespace
+
+EvidenceFinder::EvidenceFinder(const RaymovalParameters& parameters, const SensorModel& sensor,
+                               const AngularGrid& grid)
+    : parameters_(parameters),
+      sensor_(sensor),
+      erase_rows_(rows_of_a_beam(sensor, grid, parameters)) {}
+
+Evidence EvidenceFinder::find(const ScanAgainstMap& scan, const OccupancyMap& map, int threads,
+                              StageTimes* times) {
+  Evidence evidence;
+  if (parameters_.erase) {
+    const StageScope timed(times, "erase");
+    evidence.seen_through = voxels_seen_through(scan, map, threads);
+  }
+  if (parameters_.no_return) {
+    const StageScope timed(times, "no-return evidence");
+    evidence.without_return = voxels_without_return(scan, map, threads);
+  }
+  return evidence;
+}
+
+std::vector<VoxelIndex> EvidenceFinder::voxels_seen_through(const ScanAgainstMap& scan,
+                                                            const OccupancyMap& map, int threads) {
+  std::vector<VoxelIndex> voxels;
+  windowed_minimum(scan.projected().minimum_range, scan.grid(), parameters_.erase_azimuth_window,
+                   erase_rows_, threads, nearest_return_);
+  const FirstHitImage& image = scan.first_hit();
+  for (const SeenThrough& through :
+       find_seen_through(scan.projected(), nearest_return_, image, scan.erase_reference(),
+                         {parameters_.erase_tau0, parameters_.erase_tau1}, threads)) {
+    const float first_hit = image.range[static_cast<std::size_t>(through.bin)];
+    const bool along_surface = through.nearest_return - first_hit <
+                               grazing_distance(image.ray(through.bin).direction.z(),
+                                                parameters_.erase_height * parameters_.voxel_size,
+                                                parameters_.erase_height_limit);
+    if (along_surface) continue;
+    const auto voxel = image.voxel(map, through.bin);
+    if (voxel) voxels.push_back(*voxel);
+  }
+  drop_own_voxels(scan, map, voxels);
+  return voxels;
+}
+
+/// A ray may pass through the empty part of a voxel: one in which the scan itself has a point is
+/// not seen through.
+void EvidenceFinder::drop_own_voxels(const ScanAgainstMap& scan, const OccupancyMap& map,
+                                     std::vector<VoxelIndex>& voxels) {
+  if (voxels.empty()) return;
+  const auto slot_of = [&](const VoxelIndex& voxel) {
+    return map.find_slot(OccupancyMap::brick_of(voxel));
+  };
+  std::vector<OccupancyMap::Slot> bricks;
+  number_of_.resize(map.brick_count(), 0);
+  for (const VoxelIndex& voxel : voxels) {
+    std::uint32_t& number = number_of_[slot_of(voxel)];
+    if (number != 0) continue;
+    bricks.push_back(slot_of(voxel));
+    number = static_cast<std::uint32_t>(bricks.size());
+  }
+  std::vector<Brick> own(bricks.size());             // The scan's voxels in these bricks.
+  OccupancyMap::Slot last = OccupancyMap::kNoBrick;  // Neighbours often share a brick.
+  Brick* open = nullptr;
+  const std::vector<OccupancyMap::Slot>& slots = scan.known().slots;
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    const OccupancyMap::Slot slot = slots[k];
+    if (slot != last) {
+      last = slot;
+      const std::uint32_t number = slot == OccupancyMap::kNoBrick ? 0 : number_of_[slot];
+      open = number == 0 ? nullptr : &own[number - 1];
+    }
+    if (open == nullptr) continue;
+    const VoxelIndex& voxel = scan.voxels()[k];
+    open->add(voxel.x(), voxel.y(), voxel.z());
+  }
+  std::erase_if(voxels, [&](const VoxelIndex& voxel) {
+    return own[number_of_[slot_of(voxel)] - 1].contains(voxel.x(), voxel.y(), voxel.z());
+  });
+  for (const OccupancyMap::Slot slot : bricks) number_of_[slot] = 0;
+}
+
+std::vector<VoxelIndex> EvidenceFinder::voxels_without_return(const ScanAgainstMap& scan,
+                                                              const OccupancyMap& map,
+                                                              int threads) {
+  std::vector<VoxelIndex> erased;
+  windowed_minimum(scan.projected().minimum_range, scan.grid(),
+                   parameters_.no_return_azimuth_window, parameters_.no_return_elevation_window,
+                   threads, nearest_return_);
+  std::vector<VoxelKey> voxels;
+  for (const int bin : find_no_return(nearest_return_, scan.first_hit(), scan.grid(), sensor_,
+                                      parameters_.no_return_range)) {
+    const auto voxel = scan.first_hit().voxel(map, bin);
+    if (voxel) voxels.push_back(voxel_key(*voxel));
+  }
+  // However many of its bins a scan misses, it is one witness.
+  std::sort(voxels.begin(), voxels.end());
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+  for (const VoxelKey voxel : voxels) {
+    if (++scans_without_return_[voxel] >= parameters_.no_return_scans) {
+      erased.push_back(voxel_index(voxel));
+    }
+  }
+  return erased;
+}
+
+}  // namespace raymoval

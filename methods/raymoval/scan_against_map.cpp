@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/scan_against_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "methods/raymoval/consistency.h"
+#include "methods/raymoval/validation.h"
+
+namespace raymoval {
+
+AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parameters) {
+  const double margin = parameters.elevation_margin * std::numbers::pi / 180.0;
+  AngularGrid grid;
+  grid.elevation_min = std::max(sensor.elevation_min - margin, -std::numbers::pi / 2.0);
+  grid.elevation_max = std::min(sensor.elevation_max + margin, std::numbers::pi / 2.0);
+  const auto bins_for = [](int wanted, double width, double step, int otherwise) {
+    if (wanted > 0) return wanted;
+    return step > 0.0 ? std::max(36, static_cast<int>(std::ceil(width / step))) : otherwise;
+  };
+  grid.azimuth_bins =
+      bins_for(parameters.azimuth_bins, 2.0 * std::numbers::pi, sensor.azimuth_step, 720);
+  grid.elevation_bins = bins_for(parameters.elevation_bins, grid.elevation_max - grid.elevation_min,
+                                 sensor.elevation_step, 450);
+  return grid;
+}
+
+ScanAgainstMap::ScanAgainstMap(const RaymovalParameters& parameters, const SensorModel& sensor,
+                               const MakeCaster& make_caster)
+    : parameters_(parameters),
+      grid_(grid_for(sensor, parameters)),
+      cast_image_(make_caster(grid_, {parameters.minimum_range, parameters.maximum_range})) {
+  known_.remembers = true;
+}
+
+void ScanAgainstMap::project_scan(Scan scan, const RunContext& context) {
+  const StageScope timed(context.times, "binning");
+  scan_ = std::move(scan);
+  find_voxels(scan_, 1.0 / parameters_.voxel_size, context.threads, voxels_);
+  project(scan_, grid_, parameters_.minimum_range, context.threads, projected_);
+}
+
+void ScanAgainstMap::cast_first_hits(OccupancyMap& map, const RunContext& context) {
+  const StageScope timed(context.times, "raycasting");
+  cast_image_(map, scan_.T_world_sensor, context.threads, first_hit_);
+}
+
+void ScanAgainstMap::find_references(const StaticMap& map, const RunContext& context) {
+  const StageScope timed(context.times, "classification");
+  windowed_percentiles(first_hit_.range, projected_.minimum_range, grid_, parameters_.neighbourhood,
+                       {parameters_.percentile, parameters_.erase_percentile}, context.threads,
+                       references_);
+  map.look_up(voxels_, context.threads, known_);
+}
+
+bool ScanAgainstMap::erased_points_are_candidates() const {
+  // What may be filled again says nothing for good.
+  const bool for_good = parameters_.map_source == MapSource::kPrior || parameters_.permanent_erase;
+  return parameters_.erased_points && for_good;
+}
+
+Mask ScanAgainstMap::find_candidates(const RunContext& context) const {
+  const StageScope timed(context.times, "classification");
+  Mask candidates;
+  if (parameters_.forward_test) {
+    candidates = check_consistency(projected_, references_.first,
+                                   {parameters_.tau0, parameters_.tau1}, context.threads);
+  } else {
+    candidates.assign(scan_.size(), 0);
+  }
+  if (!erased_points_are_candidates()) return candidates;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    candidates[k] |= known_.states[k] == VoxelState::kErased ? 1 : 0;
+  }
+  return candidates;
+}
+
+Mask ScanAgainstMap::find_off_map(Scan scan, const StaticMap& map, const RunContext& context) {
+  const StageScope timed(context.times, "answer");
+  scan_ = std::move(scan);
+  find_voxels(scan_, 1.0 / parameters_.voxel_size, context.threads, voxels_);
+  map.look_up(voxels_, context.threads, known_);
+  Mask off(voxels_.size());
+  std::transform(known_.states.begin(), known_.states.end(), off.begin(), [](VoxelState state) {
+    return static_cast<std::uint8_t>(state == VoxelState::kOccupied ? 0 : 1);
+  });
+  return off;
+}
+
+Mask ScanAgainstMap::validate(const Mask& candidates, const OccupancyMap& static_map) const {
+  if (!parameters_.validate) return candidates;
+  return validate_scan(scan_, voxels_, candidates, static_map, parameters_);
+}
+
+Mask validate_scan(const Scan& scan, const std::vector<VoxelIndex>& voxels, const Mask& candidates,
+                   const OccupancyMap& static_map, const RaymovalParameters& parameters) {
+  std::vector<std::size_t> chosen;
+  ScanPoints points;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (candidates[k] == 0) continue;
+    chosen.push_back(k);
+    points.position.push_back(scan.T_world_sensor * scan.points[k].cast<double>());
+    points.voxel.push_back(voxels[k]);
+    points.range.push_back(scan.points[k].norm());
+  }
+  const Mask valid = validate_candidates(points, static_map, parameters);
+  Mask dynamic(candidates.size(), 0);
+  for (std::size_t i = 0; i < chosen.size(); ++i) dynamic[chosen[i]] = valid[i];
+  return dynamic;
+}
+
+}  // namespace raymoval

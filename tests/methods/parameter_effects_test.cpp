@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The table of parameters says when each has an effect. Here it is held against what methods do: a
+// parameter said to have none never changes a mask, one said to act does so for some value.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+#include "core/parameter_condition.h"
+#include "tests/methods/moved_world.h"
+
+using namespace raymoval;
+
+namespace {
+
+/// Parameters that act on data only that the scenes here do not have, and why.
+const std::map<std::string, std::string> kNeedOtherData = {};
+
+/// What is seen ahead of the sensor in a street with two movers.
+const toy::World& scene() {
+  static const toy::World world = toy::street(10);
+  return world;
+}
+
+double clamped(const ParameterSpec& spec, double value) {
+  return std::clamp(value, spec.notes.minimum, spec.notes.maximum);
+}
+
+/// Values other than `present` to try, those that change little first.
+std::vector<ParameterValue> other_values(const ParameterSpec& spec, const ParameterValue& present) {
+  std::vector<ParameterValue> values;
+  const auto add = [&](const ParameterValue& value) {
+    if (value != present && std::find(values.begin(), values.end(), value) == values.end()) {
+      values.push_back(value);
+    }
+  };
+  if (const bool* flag = std::get_if<bool>(&present)) add(!*flag);
+  for (const std::string& choice : spec.choices) add(choice);
+  if (const double* number = std::get_if<double>(&present)) {
+    for (const double factor : {2.0, 0.5, 0.1, 10.0, 0.0}) add(clamped(spec, factor * *number));
+    for (const double step : {0.1, 1.0, 10.0}) add(clamped(spec, *number + step));
+  }
+  if (const auto* whole = std::get_if<std::int64_t>(&present)) {
+    for (const double other : {2.0 * static_cast<double>(*whole), *whole + 1.0, *whole - 1.0, 0.0,
+                               1.0, 5.0, 20.0, 10.0 * static_cast<double>(*whole)}) {
+      add(static_cast<std::int64_t>(clamped(spec, other)));
+    }
+  }
+  return values;
+}
+
+/// Two values that are far from each other.
+std::vector<ParameterValue> far_values(const ParameterSpec& spec, const ParameterValue& present) {
+  std::vector<ParameterValue> values = other_values(spec, present);
+  if (values.size() > 2) values = {values.front(), values.back()};
+  return values;
+}
+
+/// Masks, or nothing if the method refuses this configuration.
+std::optional<MaskStore> masks_with(ConfiguredMethod method, const std::string& name,
+                                    const ParameterValue& value) {
+  set_parameter(method.configuration, name, value);
+  try {
+    return toy::masks_of(*method.make(), scene());
+  } catch (const ConfigurationError&) {
+    return std::nullopt;
+  }
+}
+
+/// A variant with directions as coarse as the scanner of the scene.
+ConfiguredMethod configured(const std::string& name) {
+  ConfiguredMethod method = MethodRegistry::built_in().configure(name);
+  if (method.entry->name == "raymoval") {
+    set_parameter(method.configuration, "azimuth_bins", std::int64_t{360});
+    set_parameter(method.configuration, "elevation_bins", std::int64_t{44});
+  }
+  return method;
+}
+
+void check_inert(const ConfiguredMethod& method, const ParameterSpec& spec,
+                 const ParameterValue& present, const MaskStore& masks) {
+  for (const ParameterValue& value : far_values(spec, present)) {
+    INFO("said to be without effect, set to " << parameter_text(value));
+    const auto changed = masks_with(method, spec.name, value);
+    if (!changed) continue;  // Refused is more than without effect.
+    CHECK(toy::different_verdicts(masks, *changed, scene().size()) == 0);
+  }
+}
+
+/// Whether some value changes the masks, or is refused.
+bool acts(const ConfiguredMethod& method, const ParameterSpec& spec, const ParameterValue& present,
+          const MaskStore& masks) {
+  const auto values = other_values(spec, present);
+  return std::any_of(values.begin(), values.end(), [&](const ParameterValue& value) {
+    const auto changed = masks_with(method, spec.name, value);
+    return !changed || toy::different_verdicts(masks, *changed, scene().size()) > 0;
+  });
+}
+
+/// Variants of a method that have the same parameters acting need only one of them tested.
+void check_variant(const std::string& name, std::set<std::string>& tested) {
+  const ConfiguredMethod method = configured(name);
+  const auto& specs = method.entry->parameters;
+  const MaskStore masks = toy::masks_of(*method.make(), scene());
+  std::string acting;
+  for (const ParameterSpec& spec : specs) {
+    if (has_effect(spec, method.configuration)) acting += spec.name + " ";
+  }
+  const bool is_new = tested.insert(acting).second;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const ParameterValue& present = method.configuration[i].second;
+    INFO(name << "." << specs[i].name << " = " << parameter_text(present));
+    if (!has_effect(specs[i], method.configuration)) {
+      check_inert(method, specs[i], present, masks);
+    } else if (is_new && kNeedOtherData.count(method.entry->name + "." + specs[i].name) == 0) {
+      CHECK(acts(method, specs[i], present, masks));
+    }
+  }
+}
+
+void check_method(const std::string& name) {
+  std::set<std::string> tested;
+  for (const MethodVariant& variant : MethodRegistry::built_in().find(name).variants) {
+    check_variant(name + ":" + variant.name, tested);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("raymoval's parameters act when they are said to", "[effects]") {
+  check_method("raymoval");
+}
+TEST_CASE("raymoval_plus's parameters act when they are said to", "[effects]") {
+  check_method("raymoval_plus");
+}
+TEST_CASE("octomap's parameters act when they are said to", "[effects]") {
+  check_method("octomap");
+}
+TEST_CASE("peopleremover's parameters act when they are said to", "[effects]") {
+  check_method("peopleremover");
+}
+TEST_CASE("removert's parameters act when they are said to", "[effects]") {
+  check_method("removert");
+}
+TEST_CASE("erasor's parameters act when they are said to", "[effects]") {
+  check_method("erasor");
+}
+TEST_CASE("dufomap's parameters act when they are said to", "[effects]") {
+  check_method("dufomap");
+}
+
+TEST_CASE("every condition names parameters of its method", "[effects]") {
+  for (const auto& entry : MethodRegistry::built_in().entries()) {
+    for (const MethodVariant& variant : entry->variants) {
+      const ConfiguredMethod method =
+          MethodRegistry::built_in().configure(entry->name + ":" + variant.name);
+      for (const ParameterSpec& spec : entry->parameters) {
+        INFO(entry->name << "." << spec.name << ": " << spec.notes.acts_when);
+        CHECK_NOTHROW(has_effect(spec, method.configuration));
+        CHECK(spec.notes.acts_when.find(spec.name + " ") != 0);
+      }
+    }
+  }
+}
