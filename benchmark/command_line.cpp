@@ -10,6 +10,7 @@
 #include <new>
 
 #include "benchmark/commands.h"
+#include "core/file_kind.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -33,9 +34,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
 }
 
 bool may_be_sequence(const std::string& path) {
-  std::error_code error;
-  return is_scene(path) || std::filesystem::is_directory(path.substr(0, path.rfind(':')), error) ||
-         std::filesystem::is_directory(path, error);
+  return is_scene(path) || is_folder(path.substr(0, path.rfind(':'))) || is_folder(path);
 }
 
 /// Options and words that no command knows are kept by the parser; here they become an error that
