@@ -5,6 +5,7 @@
 
 #include "benchmark/results.h"
 #include "benchmark/sealed_json.h"
+#include "core/file_kind.h"
 
 namespace raymoval {
 namespace {

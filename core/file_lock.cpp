@@ -34,6 +34,10 @@ FileLock::State FileLock::take(Mode mode) {
     if (!file_.valid()) {
       file_ = Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
     }
+    // Another user's lock file; locks work on it all the same, but on some network file systems.
+    if (!file_.valid() && errno == EACCES) {
+      file_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+    }
     if (!file_.valid()) {
       throw DataError(path_.string() + ": cannot be written (" +
                       std::generic_category().message(errno) + ").");

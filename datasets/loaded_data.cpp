@@ -85,8 +85,9 @@ void LoadRecord::note(std::vector<std::string>& known, const Scan& scan, const s
   if (before.empty()) before = hash;
   if (data_.names[scan.index].empty()) data_.names[scan.index] = scan.name;
   if (before == hash) return;
-  if (data_.change.empty()) data_.change = changed(scan.name, what);
-  throw DataError(data_.change);
+  const std::string change = changed(scan.name, what);
+  if (data_.change.empty()) data_.change = change;
+  throw DataError(change);
 }
 
 LoadedData LoadRecord::data() const {

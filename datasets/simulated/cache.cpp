@@ -100,7 +100,12 @@ void make_scene(const CachedScene& scene) {
                     "). Set RAYMOVAL_CACHE to a folder you may write to.");
   }
   FileLock lock(scene.folder.string() + ".lock");
-  wait_for_turn(scene, lock);
+  try {
+    wait_for_turn(scene, lock);
+  } catch (const DataError& unwritable) {
+    throw DataError(std::string(unwritable.what()) +
+                    " Set RAYMOVAL_CACHE to a folder you may write to.");
+  }
   if (scene.is_whole()) return;
   simulated::sweep_making_places(parent);
   simulated::MakingPlace place(scene.folder);

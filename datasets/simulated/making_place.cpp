@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -16,7 +17,6 @@
 #include "core/error.h"
 #include "core/file_kind.h"
 #include "core/file_writer.h"
-#include "core/files.h"
 #include "core/part_name.h"
 
 namespace raymoval::simulated {
@@ -47,7 +47,10 @@ bool is_dead(const fs::path& place, Descriptor& lock) {
   lock = Descriptor(::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   if (!lock.valid() || !locks(lock.get())) return false;
   const std::string domain = lock_domain(lock.get());
-  return !domain.empty() && read_text(file) == domain;
+  std::string written(domain.size() + 1, '\0');
+  const ssize_t got = ::pread(lock.get(), written.data(), written.size(), 0);
+  written.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  return !domain.empty() && written == domain;
 }
 
 /// The lock last, so that a place that could only be removed in part is found again.
@@ -131,7 +134,7 @@ bool MakingPlace::replace_target() {
 }
 
 void sweep_making_places(const fs::path& parent) {
-  for (const fs::path& entry : folders_in(parent)) {
+  for (const fs::path& entry : entries_of(parent)) {
     if (!is_part_name(entry)) continue;
     Descriptor lock;
     if (is_dead(entry, lock)) remove_place(entry, lock);

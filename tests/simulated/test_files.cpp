@@ -134,6 +134,7 @@ TEST_CASE("written files hold what the source gives, in SemanticKITTI's layout")
 
 TEST_CASE("the cache makes a sequence once, whoever asks at once") {
   const ScratchFolder scratch;
+  const fs::path cache = scratch.path() / "simulated";
   // A half-written folder under a temporary name, of whatever age, is nobody's business here: see
   // test_cache.cpp for what is cleared away.
   fs::create_directories(cache / "town-0123456789abcdef.1.0.part");
