@@ -13,6 +13,7 @@
 #include "benchmark/score_json.h"
 #include "benchmark/sealed_json.h"
 #include "core/files.h"
+#include "methods/external/external.h"
 
 namespace raymoval {
 namespace {
@@ -201,11 +202,43 @@ std::string identity_difference(const ordered_json& stored, const ordered_json& 
 
 namespace {
 
-MethodAnswer method_answer(const CellTask& task) {
+MethodAnswer answer_of_method(const CellTask& task) {
   const MethodTask method{&task.bench->sequence(), task.request, task.bench->threads(),
                           task.bench->progress(),  task.cancel,  !task.removals.empty()};
   return task.place == nullptr ? run_method(method)
                                : run_method_apart(method, *task.place, task.limits);
+}
+
+/// What is not as the key says of an external method, whose files anybody may change; else empty.
+std::string changed_program(const MethodEntry& entry) {
+  if (entry.manifest.empty()) return "";
+  try {
+    const std::string now = external_entry(entry.manifest).version;
+    if (now == entry.version) return "";
+    return entry.manifest + ": the manifest or files of the program changed during the run " +
+           "(version " + entry.version + ", now " + now + "). Run again; 'files' of the manifest " +
+           "must not name what the program itself writes.";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// The method's answer, which is only "ok" if the method and what it read are those of the key.
+MethodAnswer method_answer(const CellTask& task) {
+  MethodAnswer answer;
+  answer.status = "failed";
+  answer.reason = changed_program(*task.request->method.entry);
+  if (!answer.reason.empty()) return answer;
+  answer = answer_of_method(task);
+  if (answer.status != "ok") return answer;
+  answer.reason = changed_program(*task.request->method.entry);
+  if (!answer.reason.empty()) answer.status = "failed";
+  const std::string change = task.bench->data_change(answer.loaded ? &*answer.loaded : nullptr);
+  if (!change.empty()) {
+    answer.status = "bad_data";
+    answer.reason = change;
+  }
+  return answer;
 }
 
 }  // namespace
@@ -222,6 +255,9 @@ ordered_json execute_cell(const CellTask& task) {
   }
   try {
     fill_cell(task, answer, cell);
+    // Scoring reads the data once more.
+    const std::string change = task.bench->data_change(nullptr);
+    if (!change.empty()) fail(cell, "bad_data", change);
   } catch (const Cancelled&) {
     throw;
   } catch (const DataError& error) {

@@ -9,13 +9,17 @@
 #include "benchmark/removal_files.h"
 #include "benchmark/sealed_json.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/files.h"
+#include "core/part_name.h"
 
 namespace raymoval {
 namespace {
 
 using nlohmann::ordered_json;
 using std::filesystem::path;
+
+constexpr const char* kRemovals = "removals";
 
 path repeat_file(const path& folder, int number) {
   return folder / ("timing-" + std::to_string(number) + ".json");
@@ -24,7 +28,7 @@ path repeat_file(const path& folder, int number) {
 /// Whether the kept removals are those that the cell was scored by.
 bool has_removals(const path& folder, const ordered_json& cell, const ScanSource& scans) {
   try {
-    const MaskStore masks = read_removals(folder / "removals", scans, [] {});
+    const MaskStore masks = read_removals(folder / kRemovals, scans, [] {});
     return mask_digest(masks) == cell.at("masks").at("digest");
   } catch (const DataError&) {
     return false;
@@ -36,28 +40,21 @@ std::string damage(const path& file) {
   return file.filename().string() + " is damaged or was changed by hand";
 }
 
-void remove_quietly(const path& what) {
-  std::error_code ignored;
-  std::filesystem::remove_all(what, ignored);
+/// Whether a run writes files of this name into a cell's folder.
+bool is_cell_file(const path& name) {
+  return name == "cell.json" ||
+         (name.string().starts_with("timing-") && name.extension() == ".json");
 }
 
-/// Files and folders called *.part in `folder`, not below.
-void sweep_folder(const path& folder) {
-  std::error_code error;
-  std::vector<path> parts;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".part") parts.push_back(entry.path());
+/// What a killed run left in a cell's folder. Names that only runs give, nothing else.
+void sweep_cell(const path& folder) {
+  for (const path& entry : entries_of(folder)) {
+    const path name = name_of_part(entry);
+    // The second is what earlier versions left.
+    if (name == kRemovals || entry.filename() == "removals.part") remove_removals(entry);
+    std::error_code ignored;
+    if (is_cell_file(name)) std::filesystem::remove(entry, ignored);
   }
-  for (const path& part : parts) remove_quietly(part);
-}
-
-std::vector<path> folders_in(const path& folder) {
-  std::vector<path> found;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.is_directory(error)) found.push_back(entry.path());
-  }
-  return found;
 }
 
 }  // namespace
@@ -76,7 +73,7 @@ path CellStore::folder(const std::string& sequence, const MethodRequest& request
 }
 
 path CellStore::new_removals(const path& folder) const {
-  return folder / "removals.part";
+  return new_part_name(folder / kRemovals);
 }
 
 StoredCell CellStore::find(SequenceBench& bench, const MethodRequest& request,
@@ -84,8 +81,7 @@ StoredCell CellStore::find(SequenceBench& bench, const MethodRequest& request,
   using State = StoredCell::State;
   const path place = folder(bench.sequence().name, request);
   const path file = place / "cell.json";
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return {State::kMissing, "is not there yet", {}};
+  if (!has_file(file)) return {State::kMissing, "is not there yet", {}};
   try {
     auto cell = std::make_shared<ordered_json>(read_sealed(file));
     const auto status = cell->at("status").get<std::string>();
@@ -125,25 +121,24 @@ std::optional<StoredRepeat> CellStore::find_repeat(const std::string& sequence,
 
 void CellStore::prepare(const path& folder) const {
   make_folder(folder);
-  sweep_folder(folder);
+  sweep_cell(folder);
 }
 
-void CellStore::keep(const path& folder, const ordered_json& cell) const {
-  const path part = new_removals(folder);
+void CellStore::keep(const path& folder, const ordered_json& cell, const path& removals) const {
+  const path place = folder / kRemovals;
   std::error_code error;
-  const bool had = std::filesystem::exists(folder / "removals", error);
-  const bool has = std::filesystem::exists(part, error);
-  if (had || has) {
+  const bool has = !removals.empty() && has_folder(removals);
+  if (has || is_there(place)) {
     // A cell never stands beside removals of another one.
     std::filesystem::remove(folder / "cell.json", error);
-    remove_quietly(folder / "removals");
+    if (!remove_removals(place)) {
+      throw DataError(place.string() +
+                      ": holds files that no run writes, so it is not replaced. Move them away.");
+    }
   }
   if (has) {
-    std::filesystem::rename(part, folder / "removals", error);
-    if (error) {
-      throw DataError((folder / "removals").string() + ": cannot be made (" + error.message() +
-                      ").");
-    }
+    std::filesystem::rename(removals, place, error);
+    if (error) throw DataError(place.string() + ": cannot be made (" + error.message() + ").");
   }
   write_sealed(folder / "cell.json", cell);
 }
@@ -160,9 +155,9 @@ void CellStore::keep_repeat(const path& folder, int number, const std::string& k
 }
 
 void CellStore::sweep() const {
-  sweep_folder(out_);
+  if (!has_folder(out_ / "cells")) return;
   for (const path& sequence : folders_in(out_ / "cells")) {
-    for (const path& cell : folders_in(sequence)) sweep_folder(cell);
+    for (const path& cell : folders_in(sequence)) sweep_cell(cell);
   }
 }
 

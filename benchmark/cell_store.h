@@ -41,7 +41,7 @@ class CellStore {
 
   [[nodiscard]] std::filesystem::path folder(const std::string& sequence,
                                              const MethodRequest& request) const;
-  /// Where removals are written before `keep`.
+  /// A new name in a cell's folder, where removals are written before `keep`.
   [[nodiscard]] std::filesystem::path new_removals(const std::filesystem::path& folder) const;
 
   /// @param with_removals kept removals have to be there and to be those of the cell
@@ -55,11 +55,15 @@ class CellStore {
   /// Makes the cell's folder and removes what a killed run left there. @throws DataError
   void prepare(const std::filesystem::path& folder) const;
   /// Puts a cell, and new removals if there are any, in the place of what was there.
-  void keep(const std::filesystem::path& folder, const nlohmann::ordered_json& cell) const;
+  /// @param removals of `new_removals`; empty, or not there: none were kept
+  /// @throws DataError if something cannot be written, or would be lost that no run made
+  void keep(const std::filesystem::path& folder, const nlohmann::ordered_json& cell,
+            const std::filesystem::path& removals = {}) const;
   void keep_repeat(const std::filesystem::path& folder, int number, const std::string& key,
                    const StoredRepeat& repeat) const;
 
-  /// Removes half-written files of killed runs. Only for who holds the folder's lock.
+  /// Removes half-written files of killed runs from the cells' folders, by names that only runs
+  /// give (see `is_part_name`). Only for who holds the folder's lock.
   void sweep() const;
 
  private:

@@ -18,7 +18,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "benchmark/descriptor.h"
+#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/text.h"
 

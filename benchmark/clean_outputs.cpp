@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean_outputs.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <system_error>
 
 #include "benchmark/removal_files.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/files.h"
+#include "core/part_name.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
 #include "datasets/file_source.h"
@@ -32,39 +32,33 @@ void check_cloud_path(const fs::path& path, bool overwrite) {
     throw UsageError(path.string() + ": expected a file name that ends in " + join(known) + ".");
   }
   check_folder_of(path);
-  std::error_code error;
-  const fs::file_status there = fs::status(path, error);
-  if (fs::is_directory(there)) {
+  const FileKind there = file_kind(path);
+  if (there == FileKind::kFolder) {
     throw UsageError(path.string() + ": is a folder, expected a file name.");
   }
-  if (fs::exists(there) && !fs::is_regular_file(there)) {
-    throw UsageError(path.string() + ": is no plain file; choose another name.");
-  }
-  if (fs::exists(there) && !overwrite) {
+  if (there == FileKind::kFile && !overwrite) {
     throw UsageError(path.string() +
                      ": is there already; choose another name, or replace it with --overwrite.");
   }
 }
 
 void check_label_folder(const fs::path& path, bool overwrite) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return;
-  if (!fs::is_directory(path, error)) {
+  if (!is_there(path)) return;
+  if (!is_folder(path)) {
     throw UsageError(path.string() + ": is no folder; --labels writes a file per scan into one.");
   }
-  for (const auto& entry : fs::directory_iterator(path, error)) {
+  for (const fs::path& entry : entries_of(path)) {
     if (!overwrite) {
-      throw UsageError(path.string() + ": holds " + entry.path().filename().string() +
+      throw UsageError(path.string() + ": holds " + entry.filename().string() +
                        " already; choose a new folder, or replace its label files with "
                        "--overwrite.");
     }
-    if (!entry.is_regular_file(error) || entry.path().extension() != ".label") {
-      throw UsageError(entry.path().string() +
+    if (entry.extension() != ".label" || !is_file(entry)) {
+      throw UsageError(entry.string() +
                        ": is no label file, and --overwrite replaces the whole folder; choose a "
                        "new one.");
     }
   }
-  if (error) throw UsageError(path.string() + ": cannot be listed (" + error.message() + ").");
 }
 
 }  // namespace
@@ -101,9 +95,8 @@ void check_apart_from(const Sequence& sequence, const CleanPaths& paths) {
 }
 
 LabelFolder::LabelFolder(const fs::path& path) : path_(plain(path)) {
-  const std::string process = "." + std::to_string(::getpid());
-  temporary_ = path_.string() + process + ".part";
-  old_ = path_.string() + process + ".old.part";
+  temporary_ = new_part_name(path_);
+  old_ = new_part_name(path_);
   std::error_code error;
   fs::create_directories(temporary_, error);
   if (error) fail(error.message());
@@ -125,7 +118,7 @@ void LabelFolder::add(const Scan& scan, const Mask& mask) {
 
 void LabelFolder::commit() {
   std::error_code error;
-  const bool replaces = fs::exists(path_, error);
+  const bool replaces = has_folder(path_);
   if (replaces) fs::rename(path_, old_, error);
   if (error) fail(error.message());
   fs::rename(temporary_, path_, error);

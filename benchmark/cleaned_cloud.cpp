@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/text.h"
 #include "core/voxel_key.h"
 #include "datasets/cloud_file.h"
@@ -37,8 +38,7 @@ CleanedCloud cleaned_cloud(std::vector<Eigen::Vector3f> points) {
 }
 
 CleanedCloud read_cleaned_cloud(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
+  if (is_folder(path)) {
     throw UsageError(path.string() + ": is a folder; expected the file of one map (.pcd, .ply, " +
                      ".bin). Label files are scored with --predictions.");
   }

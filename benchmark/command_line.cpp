@@ -11,6 +11,7 @@
 
 #include "benchmark/commands.h"
 #include "benchmark/terminal_colour.h"
+#include "core/file_kind.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -34,9 +35,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
 }
 
 bool may_be_sequence(const std::string& path) {
-  std::error_code error;
-  return is_scene(path) || std::filesystem::is_directory(path.substr(0, path.rfind(':')), error) ||
-         std::filesystem::is_directory(path, error);
+  return is_scene(path) || is_folder(path.substr(0, path.rfind(':'))) || is_folder(path);
 }
 
 /// Options and words that no command knows are kept by the parser; here they become an error that

@@ -157,7 +157,9 @@ Command add_run_command(CLI::App& program) {
   app->footer(
       "The controls noop, remove-all and oracle are added and checked. A cell that is there "
       "already\nis not run again. Each method runs in a process of its own: one that crashes or "
-      "exceeds a limit\nis a failed cell, and the rest goes on.\nExamples:\n"
+      "exceeds a limit\nis a failed cell, and the rest goes on. So is one whose data or program "
+      "changes during the run.\nThe folder of --out is marked with .raymoval-run; nothing in it is "
+      "deleted but a run's own files.\nExamples:\n"
       "  raymoval run --sequence street --method raymoval:online --keep-removals --out out/street\n"
       "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
       "--keep-removals --out out/05\n"

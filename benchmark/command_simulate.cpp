@@ -104,7 +104,8 @@ Command add_simulate_command(CLI::App& program) {
   app->footer(
       "The same options give the same bytes. Commands that take a sequence also take a scene by\n"
       "name, such as town:scans=60,seed=3, and simulate it once into the cache folder\n"
-      "($RAYMOVAL_CACHE, else ~/.cache/raymoval).\nExamples:\n"
+      "($RAYMOVAL_CACHE, else ~/.cache/raymoval). Machines and containers may share the cache.\n"
+      "A scene in it that does not fit its manifest.json is made again.\nExamples:\n"
       "  raymoval simulate town -o data/town\n"
       "  raymoval simulate crossing -o data/crossing --scans 60 --sensor vlp16 --seed 3\n"
       "  raymoval simulate highway -o data/skewed --rolling skewed --perfect-poses");

@@ -1,77 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/folder_lock.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <string>
-#include <system_error>
-
 #include "core/error.h"
-#include "core/files.h"
 
 namespace raymoval {
 namespace {
 
-std::string host_name() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof name - 1) == 0 ? name : "an unknown host";
-}
-
-/// "process 123 on somewhere", as the holder wrote it.
-std::string holder(const std::filesystem::path& path) {
+FileLock::State taken(FileLock& lock, FileLock::Mode mode) {
   try {
-    std::string text = read_text(path);
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    if (!text.empty()) return text;
-  } catch (const DataError&) {
-    // It went away meanwhile.
+    return lock.take(mode);
+  } catch (const DataError& error) {
+    throw DataError(std::string(error.what()) + " Nothing was changed; choose another --out.");
   }
-  return "a process that did not say its name yet";
 }
 
 }  // namespace
 
-FolderLock::FolderLock(std::filesystem::path file, Mode mode) : path_(std::move(file)) {
-  const int kind = mode == Mode::kExclusive ? LOCK_EX : LOCK_SH;
-  do {
-    file_ = Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
-    if (!file_.valid()) {
-      throw DataError(path_.string() + ": cannot be written (" +
-                      std::generic_category().message(errno) +
-                      "). Nothing was changed; choose another --out.");
-    }
-    while (::flock(file_.get(), kind | LOCK_NB) != 0) {
-      if (errno == EINTR) continue;
-      if (errno != EWOULDBLOCK) return;  // A file system without locks: nobody can be asked.
-      throw UsageError(path_.parent_path().string() + ": another run is writing there (" +
-                       holder(path_) + "). Wait for its end, or choose another --out.");
-    }
-    // Between open and flock the holder before may have removed the file.
-  } while (!is_still_there());
-  write_holder();
-}
-
-FolderLock::~FolderLock() {
-  // The last one who shares it takes the file away; whoever waits looks at its name again.
-  if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0 && is_still_there()) ::unlink(path_.c_str());
-}
-
-bool FolderLock::is_still_there() const {
-  struct stat held {};
-  struct stat named {};
-  return ::fstat(file_.get(), &held) == 0 && ::stat(path_.c_str(), &named) == 0 &&
-         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
-}
-
-void FolderLock::write_holder() const {
-  const std::string text = "process " + std::to_string(::getpid()) + " on " + host_name() + "\n";
-  // Only for a message: a full disk is told where something is lost by it.
-  if (::ftruncate(file_.get(), 0) != 0) return;
-  [[maybe_unused]] const ssize_t put = ::pwrite(file_.get(), text.data(), text.size(), 0);
+FolderLock::FolderLock(const std::filesystem::path& file, Mode mode) : lock_(file) {
+  // A file system without locks is used all the same.
+  if (taken(lock_, mode) != FileLock::State::kBusy) return;
+  throw UsageError(file.parent_path().string() + ": another run is writing there (" +
+                   lock_.holder() + "). Wait for its end, or choose another --out.");
 }
 
 }  // namespace raymoval

@@ -10,6 +10,7 @@
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_place.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -68,12 +69,11 @@ std::vector<std::string> places_below(const path& data, const std::string& given
                                       const std::string& name) {
   std::vector<std::string> places;
   const std::size_t colon = given.rfind(':');
-  if (colon != std::string::npos && std::filesystem::is_directory(data / "sequences")) {
+  if (colon != std::string::npos && is_folder(data / "sequences")) {
     places.push_back(data.string() + given.substr(colon));
   }
-  std::error_code error;
   for (const path& part : {path(name), path(given).filename()}) {
-    if (!part.empty() && std::filesystem::is_directory(data / part, error)) {
+    if (!part.empty() && is_folder(data / part)) {
       places.push_back((data / part).string());
     }
   }
@@ -83,9 +83,8 @@ std::vector<std::string> places_below(const path& data, const std::string& given
 
 /// `data` as a path that is never taken for a scene. @throws UsageError if it leads nowhere
 std::string data_folder(const std::string& data) {
-  std::error_code error;
   const std::string root = data.substr(0, data.rfind(':'));  // ROOT:05
-  if (!std::filesystem::is_directory(data, error) && !std::filesystem::is_directory(root, error)) {
+  if (!is_folder(data) && !is_folder(root)) {
     throw UsageError("--data " + data +
                      ": no such folder; expected a sequence's folder, or one that holds them by "
                      "name.");
@@ -97,8 +96,7 @@ std::string data_folder(const std::string& data) {
 }  // namespace
 
 bool KeptCell::has_removals() const {
-  std::error_code error;
-  return has_result() && std::filesystem::is_directory(removals, error);
+  return has_result() && has_folder(removals);
 }
 
 std::string keep_removals_remedy(const KeptCell& cell) {
@@ -118,8 +116,7 @@ KeptRun::KeptRun(const std::string& run, const std::string& data) {
     for (const ordered_json& sequence : json.at("run").at("suite").at("sequences")) {
       frames_[sequence.at("name").get<std::string>()] = text_at(sequence, "frames");
     }
-    std::error_code error;
-    if (!std::filesystem::exists(folder_ / "run.json", error)) return;  // Only --data helps then.
+    if (!has_file(folder_ / "run.json")) return;  // Only --data helps then.
     const ordered_json record = read_sealed(folder_ / "run.json");
     if (!record.contains("places")) return;  // Of an earlier version.
     for (std::size_t i = 0; i < results_.sequences.size(); ++i) {

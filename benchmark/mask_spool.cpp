@@ -11,6 +11,7 @@
 
 #include "benchmark/checked_sink.h"
 #include "core/error.h"
+#include "core/part_name.h"
 
 namespace raymoval {
 
@@ -18,8 +19,8 @@ MaskSpool::MaskSpool(std::string method, const TimedSource& scans,
                      const std::filesystem::path& beside)
     : method_(std::move(method)),
       scans_(scans),
-      path_(beside.string() + "." + std::to_string(::getpid()) + ".masks.part"),
-      file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)),
+      path_(new_part_name(beside.string() + ".masks")),
+      file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)),
       entries_(scans.size()) {
   if (file_ < 0) fail("cannot be made");
   ::unlink(path_.c_str());  // It lives as long as it is open, however the program ends.

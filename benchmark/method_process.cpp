@@ -13,9 +13,9 @@
 #include <system_error>
 
 #include "benchmark/checked_sink.h"
-#include "benchmark/descriptor.h"
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_place.h"
+#include "core/descriptor.h"
 #include "core/text.h"
 #include "methods/external/working_folder.h"
 
@@ -118,6 +118,24 @@ Mask unpacked(const std::string& bits, std::size_t points) {
   return mask;
 }
 
+ordered_json loaded_record(const LoadedData& loaded) {
+  ordered_json record;
+  record["settings"] = loaded.settings;
+  record["scans"] = loaded.scans;
+  record["labels"] = loaded.labels;
+  record["change"] = loaded.change;
+  return record;
+}
+
+LoadedData loaded_from(const ordered_json& record) {
+  LoadedData loaded;
+  loaded.settings = record.at("settings").get<std::string>();
+  loaded.scans = record.at("scans").get<std::vector<std::string>>();
+  loaded.labels = record.at("labels").get<std::vector<std::string>>();
+  loaded.change = record.at("change").get<std::string>();
+  return loaded;
+}
+
 void write_answer(int file, const MethodAnswer& answer) {
   ordered_json head;
   head["status"] = answer.status;
@@ -129,6 +147,7 @@ void write_answer(int file, const MethodAnswer& answer) {
   }
   head["digest"] = mask_digest(answer.masks);
   head["reasons"] = answer.reasons.sentences;
+  if (answer.loaded) head["loaded"] = loaded_record(*answer.loaded);
   write_all(file, head.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
   for (std::size_t i = 0; i < answer.masks.size(); ++i) {
     write_all(file, packed(answer.masks.get(i)));
@@ -156,6 +175,7 @@ MethodAnswer read_answer(int file) {
   answer.status = json.at("status").get<std::string>();
   answer.reason = json.at("reason").get<std::string>();
   answer.measured = measurement_from(json.at("measured"));
+  if (json.contains("loaded")) answer.loaded = loaded_from(json.at("loaded"));
   const auto points = json.at("points").get<std::vector<std::size_t>>();
   answer.masks = MaskStore(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -275,9 +295,12 @@ void serve_method(const MethodRegistry& registry) {
   const int threads = record.at("threads").get<int>();
   MethodAnswer answer;
   try {
-    const Sequence sequence = open_sequence(place.path, place.options, {threads, &progress});
-    answer = run_method(
-        {&sequence, &request, threads, &progress, nullptr, record.at("with_reasons").get<bool>()});
+    // The parent compares what is loaded here with what it has checked itself.
+    const WatchedSequence data =
+        watched(open_sequence(place.path, place.options, {threads, &progress, nullptr, false}));
+    answer = run_method({&data.sequence, &request, threads, &progress, nullptr,
+                         record.at("with_reasons").get<bool>()});
+    answer.loaded = data.loaded();
   } catch (const Error& error) {
     answer.status = "bad_data";
     answer.reason = error.what();

@@ -13,6 +13,7 @@
 #include "benchmark/suite.h"
 #include "core/mask_store.h"
 #include "core/progress.h"
+#include "datasets/loaded_data.h"
 
 namespace raymoval {
 
@@ -52,6 +53,8 @@ struct MethodAnswer {
   MaskStore masks;
   Measurement measured;
   Reasons reasons = {};  ///< Empty if it was not asked, or cannot say.
+  /// What was read of the sequence, if the method ran in a process of its own.
+  std::optional<LoadedData> loaded = std::nullopt;
 };
 
 /// Runs a method in this process and checks its answer. Never throws for a fault of the method or

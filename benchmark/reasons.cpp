@@ -6,6 +6,7 @@
 
 #include "benchmark/sealed_json.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/files.h"
 #include "core/text.h"
 
@@ -74,9 +75,13 @@ void write_reasons(const std::filesystem::path& folder, const ScanSource& scans,
   }
 }
 
+bool is_reason_file(const std::filesystem::path& name) {
+  return name == sentences_file("") || name.extension() == ".reason";
+}
+
 std::vector<std::string> read_reason_sentences(const std::filesystem::path& folder) {
   const std::filesystem::path file = sentences_file(folder);
-  if (!std::filesystem::exists(file)) return {};
+  if (!has_file(file)) return {};
   try {
     return read_sealed(file).at("sentences").get<std::vector<std::string>>();
   } catch (const nlohmann::json::exception& error) {
@@ -88,7 +93,7 @@ std::vector<std::string> read_reason_sentences(const std::filesystem::path& fold
 std::vector<std::uint8_t> read_reasons(const std::filesystem::path& folder, const Scan& scan,
                                        std::size_t sentences) {
   const std::filesystem::path file = reason_file(folder, scan);
-  if (sentences == 0 || !std::filesystem::exists(file)) return {};
+  if (sentences == 0 || !has_file(file)) return {};
   const std::vector<std::byte> bytes = read_bytes(file);
   std::vector<std::uint8_t> codes(bytes.size());
   std::transform(bytes.begin(), bytes.end(), codes.begin(),

@@ -46,6 +46,9 @@ class ReasonStore : public ReasonSink {
 void write_reasons(const std::filesystem::path& folder, const ScanSource& scans,
                    const Reasons& reasons);
 
+/// Whether `write_reasons` writes a file of this name.
+bool is_reason_file(const std::filesystem::path& name);
+
 /// The sentences beside kept label files; none if the method gave none.
 /// @throws DataError if they are damaged
 std::vector<std::string> read_reason_sentences(const std::filesystem::path& folder);

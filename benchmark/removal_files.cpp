@@ -5,8 +5,11 @@
 #include <cstring>
 #include <vector>
 
+#include "benchmark/reasons.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/files.h"
+#include "core/part_name.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -19,7 +22,7 @@ std::filesystem::path label_file(const std::filesystem::path& folder, const Scan
 }
 
 Mask read_mask(const std::filesystem::path& path, const Scan& scan) {
-  if (!std::filesystem::exists(path)) {
+  if (!has_file(path)) {
     throw DataError(path.string() +
                     ": missing; expected a label file for each of the sequence's "
                     "scans. Choose the frames that were predicted with --frames.");
@@ -66,14 +69,27 @@ void write_removals(const std::filesystem::path& folder, const ScanSource& scans
   }
 }
 
+bool remove_removals(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(folder, error) && has_folder(folder)) {
+    for (const std::filesystem::path& entry : entries_of(folder)) {
+      const std::filesystem::path name =
+          is_part_name(entry) ? name_of_part(entry) : entry.filename();
+      const bool ours = name.extension() == ".label" || is_reason_file(name);
+      if (ours) std::filesystem::remove(entry, error);
+    }
+  }
+  std::filesystem::remove(folder, error);
+  return !error;
+}
+
 namespace {
 
 /// Who gives the folder above that of the label files is told.
 void check_level(const std::filesystem::path& folder, const Scan& scan) {
-  std::error_code error;
-  if (std::filesystem::exists(label_file(folder, scan), error)) return;
+  if (has_file(label_file(folder, scan))) return;
   for (const char* below : {"labels", "predictions", "removals"}) {
-    if (!std::filesystem::exists(label_file(folder / below, scan), error)) continue;
+    if (!has_file(label_file(folder / below, scan))) continue;
     throw DataError(folder.string() + ": holds no " + scan.name + ".label, but its folder " +
                     below + "/ does. Name that one.");
   }
@@ -83,12 +99,9 @@ void check_level(const std::filesystem::path& folder, const Scan& scan) {
 
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
                         const std::function<void()>& after_scan) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error)) {
-    throw DataError(
-        folder.string() +
-        (std::filesystem::exists(folder, error) ? ": is no folder" : ": no such folder") +
-        "; expected one with a NNNNNN.label file for each scan.");
+  if (!is_folder(folder)) {
+    throw DataError(folder.string() + (is_there(folder) ? ": is no folder" : ": no such folder") +
+                    "; expected one with a NNNNNN.label file for each scan.");
   }
   MaskStore masks(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {

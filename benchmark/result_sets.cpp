@@ -5,6 +5,7 @@
 
 #include "benchmark/results.h"
 #include "benchmark/sealed_json.h"
+#include "core/file_kind.h"
 
 namespace raymoval {
 namespace {
@@ -70,11 +71,11 @@ ComparedCell cell_of(const ordered_json& cell) {
 
 std::filesystem::path find_results(const std::string& given) {
   const std::filesystem::path path(given);
-  if (std::filesystem::is_regular_file(path)) return path;
-  if (!std::filesystem::is_directory(path)) {
+  if (is_file(path)) return path;
+  if (!is_folder(path)) {
     throw UsageError(given + ": no such run folder; expected what `raymoval run --out` made.");
   }
-  const auto holds = [&](const char* name) { return std::filesystem::exists(path / name); };
+  const auto holds = [&](const char* name) { return is_there(path / name); };
   if (holds("results.json")) return path / "results.json";
   // A run that was stopped early may have cells only.
   if (holds("run.json") || holds("cells")) {

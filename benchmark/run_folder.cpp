@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/run_folder.h"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cell.h"
@@ -10,7 +12,10 @@
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_place.h"
 #include "benchmark/tables.h"
+#include "core/file_kind.h"
 #include "core/files.h"
+#include "core/part_name.h"
+#include "core/text.h"
 
 namespace raymoval {
 namespace {
@@ -18,20 +23,69 @@ namespace {
 using nlohmann::ordered_json;
 using std::filesystem::path;
 
-/// What a run may leave before it wrote its run.json, or somebody who copies cells together.
-bool may_be_ours(const path& name) {
-  return name == "cells" || name == kLockFile || name.extension() == ".part";
+constexpr const char* kMarkerText =
+    "This folder is one of `raymoval run --out`, which replaces its own files here and leaves\n"
+    "all others alone.\n";
+
+/// Whether a run writes a file of this name into its folder.
+bool is_run_file(const path& name) {
+  const std::string text = name.string();
+  constexpr std::array kNames = {"run.json", "results.json", "results.csv",
+                                 "table.md", "table.tex",    kRunMarker};
+  return std::find(kNames.begin(), kNames.end(), text) != kNames.end();
 }
 
-bool holds_something_else(const path& out) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(out, error) || std::filesystem::exists(out / "run.json")) {
+/// "run.json.123.part", as earlier versions called what they had not finished.
+bool is_part_of_earlier_version(const path& name) {
+  const path number = name.stem().extension();
+  return name.extension() == ".part" && number.string().size() > 1 &&
+         parse_number<long>(number.string().substr(1)) && is_run_file(name.stem().stem());
+}
+
+bool is_lock(const path& entry) {
+  return entry.filename() == kLockFile && is_file(entry) &&
+         (plain_file_size(entry) == 0 || read_piece(entry, 0, 8) == "process ");
+}
+
+/// A folder that holds folders only.
+bool holds_cells(const path& entry) {
+  return entry.filename() == "cells" && is_folder(entry) &&
+         folders_in(entry).size() == entries_of(entry).size();
+}
+
+/// What a run may leave before it marks its folder, or somebody who copies cells together.
+bool may_be_ours(const path& entry) {
+  return is_run_file(name_of_part(entry)) || is_part_of_earlier_version(entry.filename()) ||
+         is_lock(entry) || holds_cells(entry);
+}
+
+/// Whether a run.json was written by a run and not changed since.
+bool is_run_record(const path& file) {
+  try {
+    const ordered_json record = read_sealed(file);
+    return record.contains("suite") && record.contains("build");
+  } catch (const DataError&) {
     return false;
   }
-  for (const auto& entry : std::filesystem::directory_iterator(out, error)) {
-    if (!may_be_ours(entry.path().filename())) return true;
+}
+
+/// @throws UsageError for a folder that may belong to somebody else
+void check_is_run_folder(const path& out) {
+  if (has_file(out / kRunMarker)) return;
+  const std::string where = "--out " + out.string() + ": ";
+  const std::string remedy =
+      " Nothing was changed. Name a new or empty folder, or that of an earlier run to go on with "
+      "it.";
+  if (has_file(out / "run.json")) {
+    if (is_run_record(out / "run.json")) return;  // Of an earlier version, which set no marker.
+    throw UsageError(where + "its run.json is not as raymoval wrote it, so the folder may belong " +
+                     "to another program." + remedy);
   }
-  return false;
+  for (const path& entry : entries_of(out)) {
+    if (may_be_ours(entry)) continue;
+    throw UsageError(where + "the folder holds other files (" + entry.filename().string() +
+                     ") and no run." + remedy);
+  }
 }
 
 ordered_json method_record(const MethodRequest& request) {
@@ -71,12 +125,16 @@ ordered_json suite_record(const Suite& suite, const std::vector<Sequence>& seque
 }  // namespace
 
 void prepare_run_folder(const path& out) {
-  if (holds_something_else(out)) {
-    throw UsageError("--out " + out.string() +
-                     ": the folder holds other files and no run.json. Name a new or empty folder, "
-                     "or that of an earlier run to go on with it.");
-  }
+  if (has_folder(out)) check_is_run_folder(out);
   make_folder(out);
+  if (!has_file(out / kRunMarker)) write_atomically(out / kRunMarker, kMarkerText);
+}
+
+void sweep_run_folder(const path& out) {
+  for (const path& entry : entries_of(out)) {
+    std::error_code ignored;
+    if (is_run_file(name_of_part(entry))) std::filesystem::remove(entry, ignored);
+  }
 }
 
 ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads) {

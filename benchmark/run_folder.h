@@ -14,8 +14,17 @@ namespace raymoval {
 /// Name of the lock of a run folder, and of a cell's folder.
 inline constexpr const char* kLockFile = "run.lock";
 
-/// Makes the folder of a run. @throws UsageError if it holds something else; DataError
+/// Name of the file by which a run's folder is recognised.
+inline constexpr const char* kRunMarker = ".raymoval-run";
+
+/// Makes the folder of a run and marks it. Without a marker it may be new or empty, hold nothing
+/// but the cells of a run, or have the run.json of an earlier version.
+/// @throws UsageError for any other folder, in which nothing is changed; DataError
 void prepare_run_folder(const std::filesystem::path& out);
+
+/// Removes half-written results of killed runs, by names that only runs give. Only for who holds
+/// the folder's lock.
+void sweep_run_folder(const std::filesystem::path& out);
 
 /// Content of run.json: the suite as resolved, build and machine, and the places where its
 /// sequences are.

@@ -16,6 +16,7 @@
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_bench.h"
 #include "benchmark/terminal_colour.h"
+#include "core/file_kind.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -114,6 +115,7 @@ class Runner {
   RunSummary run_all() {
     prepare_run_folder(options_.out);
     const FolderLock lock(options_.out / kLockFile, FolderLock::Mode::kExclusive);
+    sweep_run_folder(options_.out);
     store_.sweep();
     const ordered_json record = run_record(suite_, sequences_, threads_);
     write_sealed(options_.out / "run.json", record);
@@ -159,10 +161,8 @@ class Runner {
 
   /// Whether anything of a sequence is to be run or may be there: else its data is not read.
   [[nodiscard]] bool is_needed(std::size_t sequence) const {
-    std::error_code ignored;
     for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
-      if (is_selected(sequence, method) ||
-          std::filesystem::exists(folder_of(sequence, method) / "cell.json", ignored)) {
+      if (is_selected(sequence, method) || has_file(folder_of(sequence, method) / "cell.json")) {
         return true;
       }
     }
@@ -218,7 +218,8 @@ class Runner {
     } else if (selected && !options_.collect) {
       store_.prepare(folder_of(sequence, method));
       tell_cell(sequence, method, "");
-      keep(sequence, method, execute_cell(task_for(bench, sequence, method)));
+      const CellTask task = task_for(bench, sequence, method);
+      keep(sequence, method, execute_cell(task), task.removals);
     }
   }
 
@@ -266,10 +267,11 @@ class Runner {
     summary_.failures.push_back(failure_text(cell));
   }
 
-  void keep(std::size_t sequence, std::size_t method, ordered_json cell) {
+  void keep(std::size_t sequence, std::size_t method, ordered_json cell,
+            const path& removals = {}) {
     const path folder = folder_of(sequence, method);
     make_folder(folder);
-    store_.keep(folder, cell);
+    store_.keep(folder, cell, removals);
     keep_in_memory(sequence, method, std::move(cell));
   }
 

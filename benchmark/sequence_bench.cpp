@@ -28,26 +28,28 @@ void check_has_labels(const Sequence& sequence) {
 
 SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolRequest>& requests,
                              int threads, Progress* progress)
-    : sequence_(std::move(sequence)), threads_(threads), progress_(progress) {
-  check_has_labels(sequence_);
-  if (sequence_.scans->size() == 0) {
-    throw DataError("sequence '" + sequence_.name + "' has no scan in the chosen frames (" +
-                    sequence_.frames + "). Choose others with --frames.");
+    : watched_(watched(std::move(sequence))), threads_(threads), progress_(progress) {
+  const Sequence& opened = watched_.sequence;
+  check_has_labels(opened);
+  if (opened.scans->size() == 0) {
+    throw DataError("sequence '" + opened.name + "' has no scan in the chosen frames (" +
+                    opened.frames + "). Choose others with --frames.");
   }
   for (const ProtocolRequest& request : requests) {
     scorers_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
-    check_has_calibration(*scorers_.back().protocol, sequence_);
+    check_has_calibration(*scorers_.back().protocol, opened);
   }
 }
 
 const std::string& SequenceBench::data_fingerprint() {
   if (!fingerprint_.empty()) return fingerprint_;
-  fingerprint_ = fingerprint(sequence_, threads_);
+  fingerprint_ = fingerprint(sequence(), threads_);
+  loaded_ = watched_.loaded();
   const bool calibrated = std::any_of(scorers_.begin(), scorers_.end(), [](const Scorer& scorer) {
     return scorer.protocol->reads_calibration();
   });
-  if (calibrated && sequence_.T_camera_lidar) {
-    const Eigen::Matrix4d calibration = sequence_.T_camera_lidar->matrix();
+  if (calibrated && sequence().T_camera_lidar) {
+    const Eigen::Matrix4d calibration = sequence().T_camera_lidar->matrix();
     ContentHasher hasher;
     hasher.add(fingerprint_);
     hasher.add(calibration.data(), sizeof(double) * 16);
@@ -56,13 +58,20 @@ const std::string& SequenceBench::data_fingerprint() {
   return fingerprint_;
 }
 
+std::string SequenceBench::data_change(const LoadedData* loaded) {
+  (void)data_fingerprint();
+  LoadedData expected = loaded_;
+  expected.change = watched_.record->data().change;
+  return changed_data(expected, loaded != nullptr ? *loaded : loaded_);
+}
+
 EvaluationInput SequenceBench::input() const {
   EvaluationInput input;
-  input.scans = sequence_.scans.get();
-  input.labels = sequence_.labels.get();
-  input.label_rule = sequence_.label_rule;
-  input.range_m = sequence_.range_m;
-  input.T_camera_lidar = sequence_.T_camera_lidar;
+  input.scans = sequence().scans.get();
+  input.labels = sequence().labels.get();
+  input.label_rule = sequence().label_rule;
+  input.range_m = sequence().range_m;
+  input.T_camera_lidar = sequence().T_camera_lidar;
   input.threads = threads_;
   input.progress = progress_;
   return input;

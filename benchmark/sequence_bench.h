@@ -7,7 +7,7 @@
 
 #include "benchmark/suite.h"
 #include "core/progress.h"
-#include "datasets/sequence.h"
+#include "datasets/loaded_data.h"
 #include "eval/cloud_masks.h"
 #include "eval/columns.h"
 #include "eval/protocol.h"
@@ -22,7 +22,8 @@ class SequenceBench {
   SequenceBench(Sequence sequence, const std::vector<ProtocolRequest>& requests, int threads,
                 Progress* progress);
 
-  [[nodiscard]] const Sequence& sequence() const { return sequence_; }
+  /// Its sources throw DataError for a scan that has changed since it was first read.
+  [[nodiscard]] const Sequence& sequence() const { return watched_.sequence; }
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] Progress* progress() const { return progress_; }
   [[nodiscard]] std::size_t protocol_count() const { return scorers_.size(); }
@@ -31,6 +32,11 @@ class SequenceBench {
 
   /// Hash of all that methods and protocols read; computed once. @throws DataError
   const std::string& data_fingerprint();
+
+  /// What of the data was not the same whenever it was read, by this object or by a method in a
+  /// process of its own; empty: nothing.
+  /// @param loaded by the method; null: it ran in this process
+  [[nodiscard]] std::string data_change(const LoadedData* loaded);
 
   /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
   ProtocolResult score(std::size_t i, const MaskStore& masks);
@@ -53,10 +59,11 @@ class SequenceBench {
   [[nodiscard]] EvaluationInput input() const;
   const Scorer& prepared(std::size_t i);
 
-  Sequence sequence_;
+  WatchedSequence watched_;
   int threads_;
   Progress* progress_;
   std::string fingerprint_;
+  LoadedData loaded_;  ///< What the fingerprint is of.
   std::vector<Scorer> scorers_;
 };
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/file_kind.h"
 #include "core/text.h"
 #include "datasets/simulated/simulated.h"
 
@@ -59,15 +60,15 @@ SequenceRequest place_from(const ordered_json& record) {
 
 SequenceRequest absolute_place(const SequenceRequest& place) {
   SequenceRequest absolute = place;
-  std::error_code error;
   const auto make_absolute = [&](const std::filesystem::path& path) {
+    std::error_code error;
     const auto made = std::filesystem::absolute(path, error);
     return error ? path : made.lexically_normal();
   };
   if (!is_built_in(place.path)) absolute.path = make_absolute(place.path).string();
   SequenceOptions& options = absolute.options;
   // A pose file may also be a name in the sequence folder.
-  if (options.poses && std::filesystem::exists(*options.poses, error)) {
+  if (options.poses && has_file(*options.poses)) {
     options.poses = make_absolute(*options.poses).string();
   }
   if (options.label_rule) options.label_rule = make_absolute(*options.label_rule);

@@ -4,6 +4,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/file_kind.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -28,8 +29,7 @@ std::vector<fs::path> places_of(const std::string& name) {
 
 fs::path shipped_data(const std::string& name) {
   for (const fs::path& place : places_of(name)) {
-    std::error_code ignored;
-    if (fs::is_directory(place, ignored)) return place;
+    if (is_folder(place)) return place;
   }
   return {};
 }

@@ -4,6 +4,7 @@
 
 #include "benchmark/suite.h"
 #include "benchmark/suite_manifests.h"
+#include "core/file_kind.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "datasets/simulated/scene_text.h"
@@ -71,10 +72,8 @@ std::string located(const std::string& path, Places& places) {
   const std::filesystem::path beside = places.folder / given;
   const std::string text = beside.string();
   const std::size_t colon = text.rfind(':');
-  std::error_code ignored;
   const bool there =
-      std::filesystem::exists(beside, ignored) ||
-      (colon != std::string::npos && std::filesystem::exists(text.substr(0, colon), ignored));
+      is_there(beside) || (colon != std::string::npos && is_there(text.substr(0, colon)));
   return there ? text : path;
 }
 

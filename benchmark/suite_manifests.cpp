@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/file_kind.h"
 #include "methods/external/external.h"
 
 namespace raymoval {
@@ -17,8 +18,7 @@ nlohmann::json with_located_manifests(nlohmann::json suite, const std::filesyste
     if (item.is_object() && item.contains("method")) name = &item["method"];
     if (!name->is_string()) continue;
     const auto manifest = external_manifest(name->get<std::string>());
-    std::error_code ignored;
-    if (!manifest || !std::filesystem::exists(folder / *manifest, ignored)) continue;
+    if (!manifest || !has_file(folder / *manifest)) continue;
     *name = "external:" + (folder / *manifest).string();
   }
   return suite;

@@ -10,13 +10,14 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/part_name.h"
 
 namespace raymoval {
 
 FileWriter::FileWriter(std::filesystem::path path)
     : path_(std::move(path)),
-      temporary_(path_.string() + "." + std::to_string(::getpid()) + ".part"),
-      file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {
+      temporary_(new_part_name(path_)),
+      file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644)) {
   if (file_ < 0) fail();
 }
 
@@ -66,11 +67,14 @@ void FileWriter::commit() {
   if (::close(file) != 0) fail();
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
   committed_ = true;
-  const auto folder = path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
-  const int parent = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (parent < 0) return;
-  ::fsync(parent);  // A file system that cannot do this has its own ways.
-  ::close(parent);
+  sync_folder(path_.has_parent_path() ? path_.parent_path() : std::filesystem::path("."));
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);  // A file system that cannot do this has its own ways.
+  ::close(file);
 }
 
 }  // namespace raymoval

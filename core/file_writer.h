@@ -8,7 +8,7 @@
 namespace raymoval {
 
 /// Writes a file piece by piece so that its path either keeps what it held or, from `commit` on,
-/// holds all of it. Until then the pieces stand in a temporary file beside it (PATH.<process>.part)
+/// holds all of it. Until then the pieces stand in a temporary file beside it (see `new_part_name`)
 /// that goes with the writer. Every member throws DataError naming the path and the system's reason
 /// (disk full, no rights).
 class FileWriter {
@@ -36,5 +36,8 @@ class FileWriter {
   std::uint64_t size_ = 0;
   bool synced_ = false, committed_ = false;
 };
+
+/// Puts the names in `folder` on the disk, where its file system can do that.
+void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace raymoval

@@ -12,7 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "core/descriptor.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/file_writer.h"
 #include "core/strict_json.h"
 #include "core/text.h"
@@ -24,41 +26,50 @@ std::string system_reason() {
   return std::generic_category().message(errno);
 }
 
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const std::filesystem::path& path, int flags)
-      : value_(::open(path.c_str(), flags | O_CLOEXEC)) {}
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] bool valid() const { return value_ >= 0; }
-  [[nodiscard]] int get() const { return value_; }
-
- private:
-  int value_;
+/// A plain file that is open for reading, and its size.
+struct OpenFile {
+  Descriptor file;
+  std::uintmax_t size = 0;
 };
+
+OpenFile open_plain(const std::filesystem::path& path) {
+  // A pipe would be waited for and a device may act, so they are not even opened; nothing is waited
+  // for either if the name becomes one of these between the two calls.
+  if (is_folder(path)) throw DataError(path.string() + ": is a folder, expected a file.");
+  OpenFile opened{Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY))};
+  struct stat status {};
+  if (!opened.file.valid() || ::fstat(opened.file.get(), &status) != 0) {
+    throw DataError(path.string() + ": cannot be read (" + system_reason() + ").");
+  }
+  if (!S_ISREG(status.st_mode)) throw DataError(path.string() + ": is no plain file.");
+  opened.size = static_cast<std::uintmax_t>(status.st_size);
+  return opened;
+}
+
+/// Fills `content` from `offset` on. @throws DataError if the file ends before
+template <class Container>
+void read_into(const OpenFile& opened, std::uintmax_t offset, Container& content,
+               const std::filesystem::path& path) {
+  std::size_t done = 0;
+  while (done < content.size()) {
+    const ssize_t got = ::pread(opened.file.get(), content.data() + done, content.size() - done,
+                                static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw DataError(path.string() + ": reading failed (" + system_reason() + ").");
+    if (got == 0) {
+      throw DataError(path.string() +
+                      ": has become shorter while it was read. Wait until whatever writes it has "
+                      "ended.");
+    }
+    done += static_cast<std::size_t>(got);
+  }
+}
 
 template <class Container>
 Container read_all(const std::filesystem::path& path) {
-  Descriptor file(path, O_RDONLY);
-  struct stat status {};
-  if (!file.valid() || ::fstat(file.get(), &status) != 0) {
-    throw DataError(path.string() + ": cannot be read (" + system_reason() + ").");
-  }
-  if (S_ISDIR(status.st_mode)) throw DataError(path.string() + ": is a folder, expected a file.");
-  Container content(static_cast<std::size_t>(status.st_size), typename Container::value_type{});
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t got = ::read(file.get(), content.data() + done, content.size() - done);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw DataError(path.string() + ": reading failed (" + system_reason() + ").");
-    if (got == 0) break;
-    done += static_cast<std::size_t>(got);
-  }
-  content.resize(done);
+  const OpenFile opened = open_plain(path);
+  Container content(static_cast<std::size_t>(opened.size), typename Container::value_type{});
+  read_into(opened, 0, content, path);
   return content;
 }
 
@@ -74,6 +85,14 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
+std::string read_piece(const std::filesystem::path& path, std::uintmax_t offset, std::size_t size) {
+  const OpenFile opened = open_plain(path);
+  const std::uintmax_t left = opened.size - std::min(offset, opened.size);
+  std::string piece(static_cast<std::size_t>(std::min<std::uintmax_t>(size, left)), '\0');
+  read_into(opened, offset, piece, path);
+  return piece;
+}
+
 void write_atomically(const std::filesystem::path& path, std::string_view content) {
   FileWriter file(path);
   file.append(content);
@@ -82,8 +101,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 
 void check_folder_of(const std::filesystem::path& path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  std::error_code error;
-  if (std::filesystem::is_directory(folder, error)) return;
+  if (is_folder(folder)) return;
   throw UsageError(path.string() + ": there is no folder " + folder.string() + ". Make it first.");
 }
 

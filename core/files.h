@@ -10,11 +10,15 @@
 
 namespace raymoval {
 
-/// Whole file as bytes. @throws DataError naming the path and the system's reason.
+/// Whole file as bytes. A pipe or a device is refused without being opened.
+/// @throws DataError naming the path and the system's reason; also if it gets shorter meanwhile
 std::vector<std::byte> read_bytes(const std::filesystem::path& path);
 
 /// Whole file as text, a leading UTF-8 byte order mark removed.
 std::string read_text(const std::filesystem::path& path);
+
+/// Up to `size` bytes of a file from `offset` on; fewer where it ends before. @throws as read_bytes
+std::string read_piece(const std::filesystem::path& path, std::uintmax_t offset, std::size_t size);
 
 /// Writes `content` so that `path` either keeps what it held or holds all of it: temporary file in
 /// the same folder, fsync, rename, fsync of the folder. @throws DataError (disk full, no rights).

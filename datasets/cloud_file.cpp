@@ -8,7 +8,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -279,12 +278,7 @@ Cloud read_cloud(const std::filesystem::path& path) {
 }
 
 Pose read_viewpoint(const std::filesystem::path& path) {
-  std::string head(65536, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw DataError(path.string() + ": cannot be read.");
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  const auto viewpoint = parse_pcd_header(head, path).viewpoint;
+  const auto viewpoint = parse_pcd_header(read_piece(path, 0, 65536), path).viewpoint;
   if (!viewpoint) {
     throw DataError(path.string() + ": the header has no VIEWPOINT; expected the sensor pose as " +
                     "tx ty tz qw qx qy qz.");

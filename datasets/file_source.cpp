@@ -155,10 +155,10 @@ std::vector<std::uint32_t> IntensityLabelSource::labels(const Scan& scan) const 
 }
 
 bool find_label_files(const std::filesystem::path& folder, std::vector<FrameEntry>& frames) {
-  if (!is_folder(folder)) return false;
+  if (!has_folder(folder)) return false;
   for (FrameEntry& frame : frames) {
     frame.label_path = folder / (frame.name + ".label");
-    if (!is_file(frame.label_path)) {
+    if (!has_file(frame.label_path)) {
       throw DataError(frame.label_path.string() + ": is missing, but " + folder.string() +
                       " exists and " + frame.path.string() +
                       " is to be used. Copy the label file, leave the frame out with --frames, or "

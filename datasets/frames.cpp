@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <system_error>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -89,29 +88,15 @@ bool natural_less(std::string_view a, std::string_view b) {
   return whole_a < whole_b;  // 01 and 1: any fixed order will do.
 }
 
-bool is_folder(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::is_directory(path, error);
-}
-
-bool is_file(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
-}
-
 std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder,
                                               const std::vector<std::string>& extensions) {
-  std::error_code error;
   std::vector<std::filesystem::path> files;
-  std::filesystem::directory_iterator at(folder, error);
-  for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
-    const std::filesystem::path& path = at->path();
+  for (const std::filesystem::path& path : entries_of(folder)) {
     if (path.filename().string().starts_with(".")) continue;
     const bool wanted = std::find(extensions.begin(), extensions.end(),
                                   path.extension().string()) != extensions.end();
     if (wanted) files.push_back(path);
   }
-  if (error) throw DataError(folder.string() + ": cannot be listed (" + error.message() + ").");
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/file_kind.h"
 #include "datasets/sequence.h"
 
 namespace raymoval {
@@ -16,10 +17,6 @@ struct NumberedFile {
   long number = 0;
   std::filesystem::path path;
 };
-
-/// Whether `path` is a folder or a plain file; what cannot be looked at is neither.
-bool is_folder(const std::filesystem::path& path);
-bool is_file(const std::filesystem::path& path);
 
 /// Files of `folder` whose extension is one of `extensions` (".bin"), hidden ones left out, in
 /// natural order (digit runs compare as numbers, so scan_2 comes before scan_10).

@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
 #include "datasets/dynamicmap/dynamicmap.h"
@@ -34,12 +33,12 @@ constexpr const char* kKnownLayouts =
 std::string content_text(const fs::path& folder) {
   constexpr std::size_t kMost = 8;
   std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    names.push_back(entry.path().filename().string() + (entry.is_directory(error) ? "/" : ""));
+  const std::vector<fs::path> folders = folders_in(folder);
+  for (const fs::path& path : entries_of(folder)) {
+    const bool is_one = std::find(folders.begin(), folders.end(), path) != folders.end();
+    names.push_back(path.filename().string() + (is_one ? "/" : ""));
   }
   if (names.empty()) return "nothing";
-  std::sort(names.begin(), names.end());
   const std::size_t more = names.size() - std::min(names.size(), kMost);
   names.resize(std::min(names.size(), kMost));
   return join(names) + (more > 0 ? " and " + grouped_text(more) + " more" : "");
@@ -59,8 +58,8 @@ std::string sequence_above(const fs::path& path) {
 }
 
 Sequence open_folder(const fs::path& folder, const SequenceOptions& options) {
-  if (is_folder(folder / "velodyne")) return open_semantickitti(folder, options);
-  if (is_folder(folder / "pcd")) return open_dynamicmap(folder, options);
+  if (has_folder(folder / "velodyne")) return open_semantickitti(folder, options);
+  if (has_folder(folder / "pcd")) return open_dynamicmap(folder, options);
   if (!list_files(folder, cloud_extensions()).empty()) {
     // With poses of its own it is a sequence whatever its name.
     const std::string above = sequence_above(folder);
@@ -89,46 +88,10 @@ std::string scene_suggestion(const std::string& name) {
 /// Generated unless it is in the cache, then read like a recorded drive.
 Sequence open_scene(const std::string& text, const SequenceOptions& options,
                     const OpenContext& context) {
-  return open_semantickitti(cached_simulation(parse_scene(text), default_cache_root(),
-                                              context.threads, context.progress, context.cancel),
-                            options);
-}
-
-/// Adds plain numbers as bytes.
-template <class Number>
-void add_number(ContentHasher& hasher, Number value) {
-  hasher.add(&value, sizeof value);
-}
-
-template <class Value>
-void add_vector(ContentHasher& hasher, const std::vector<Value>& values) {
-  add_number(hasher, std::uint64_t{values.size()});
-  hasher.add(values.data(), values.size() * sizeof(Value));
-}
-
-std::string scan_hash(const Sequence& sequence, std::size_t index) {
-  const Scan scan = sequence.scans->load(index);
-  ContentHasher hasher;
-  add_number(hasher, scan.time_s);
-  const Eigen::Matrix4d pose = scan.T_world_sensor.matrix();
-  hasher.add(pose.data(), sizeof(double) * 16);
-  add_vector(hasher, scan.points);
-  add_vector(hasher, scan.reflectance);
-  if (sequence.labels) add_vector(hasher, sequence.labels->labels(scan));
-  return hasher.digest();
-}
-
-void add_settings(ContentHasher& hasher, const Sequence& sequence) {
-  const SensorModel& sensor = sequence.scans->sensor();
-  for (const double value :
-       {sensor.azimuth_min, sensor.azimuth_max, sensor.elevation_min, sensor.elevation_max,
-        sensor.azimuth_step, sensor.elevation_step, sensor.range_min, sensor.range_max,
-        sensor.missing_return_is_meaningful ? 1.0 : 0.0, sequence.range_m.min, sequence.range_m.max,
-        sequence.labels ? 1.0 : 0.0}) {
-    add_number(hasher, value);
-  }
-  add_vector(hasher, sequence.label_rule.moving);
-  add_vector(hasher, sequence.label_rule.ignored);
+  return open_semantickitti(
+      cached_simulation(parse_scene(text), default_cache_root(), context.threads, context.progress,
+                        context.cancel, context.check_content),
+      options);
 }
 
 }  // namespace
@@ -156,8 +119,7 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   if (path == "street") return open_street(options);
   if (names_scene(path)) return open_scene(path, options, context);
   if (is_folder(path)) return open_folder(path, options);
-  std::error_code error;
-  if (fs::exists(path, error)) {
+  if (is_there(path)) {
     const std::string above = sequence_above(path);
     if (!above.empty()) {
       throw DataError(path + ": is a scan, expected the folder of its sequence: " + above + ".");
@@ -199,16 +161,6 @@ std::string scene_or_folder(const std::string& path, const fs::path& base) {
 void check_not_both(const std::string& path) {
   const std::string both = scene_or_folder(path);
   if (!both.empty()) throw UsageError(both);
-}
-
-std::string fingerprint(const Sequence& sequence, int threads) {
-  const std::size_t count = sequence.scans->size();
-  std::vector<std::string> digests(count);
-  parallel_for(threads, count, 1, [&](std::size_t i) { digests[i] = scan_hash(sequence, i); });
-  ContentHasher hasher;
-  add_settings(hasher, sequence);
-  for (const std::string& digest : digests) hasher.add(digest);
-  return hasher.digest();
 }
 
 }  // namespace raymoval

@@ -63,6 +63,9 @@ struct OpenContext {
   int threads = 1;
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
+  /// Whether a scene's files in the cache are compared with their hashes, besides names and sizes.
+  /// Not needed where what is loaded is compared with a fingerprint.
+  bool check_content = true;
 };
 
 /// Opens a sequence. `path` is one of:

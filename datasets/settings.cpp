@@ -129,7 +129,7 @@ SequenceSettings read_settings(const std::filesystem::path& folder, const Sequen
                                const SequenceSettings& defaults) {
   SequenceSettings settings = defaults;
   const auto file = folder / "sequence.json";
-  if (is_file(file)) apply_file(file, settings);
+  if (has_file(file)) apply_file(file, settings);
   if (!defaults.name.empty()) settings.name = defaults.name;
   if (settings.name.empty()) settings.name = folder_name(folder);
   return apply_options(options, settings);
@@ -149,8 +149,8 @@ Sequence make_sequence(const SequenceSettings& settings, const std::string& layo
 }
 
 std::filesystem::path find_pose_file(const std::filesystem::path& folder, const std::string& name) {
-  if (is_file(folder / name)) return folder / name;
-  if (is_file(name)) return name;
+  if (has_file(folder / name)) return folder / name;
+  if (has_file(name)) return name;
   std::vector<std::string> there;
   for (const auto& path : list_files(folder, {".txt"})) there.push_back(path.filename().string());
   throw DataError(folder.string() + ": there is no pose file '" + name + "'; found " +

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace raymoval {
 namespace {
@@ -22,9 +23,8 @@ std::string font_file() {
   if (const char* given = std::getenv("RAYMOVAL_FONT"); given != nullptr && *given != '\0') {
     return given;
   }
-  std::error_code error;
   for (const char* place : kPlaces) {
-    if (std::filesystem::exists(place, error)) return place;
+    if (is_file(place)) return place;
   }
   throw ConfigurationError(
       "pictures need the font DejaVu Sans, which was not found. Install it (Debian: "

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <system_error>
 
+#include "core/file_kind.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "datasets/inspect/checks.h"
@@ -51,11 +50,8 @@ std::vector<Finding> look_for_origin(Samples& samples) {
 /// 16 KiB out of the middle of a file: enough to tell scans apart.
 std::string middle_of(const std::filesystem::path& path, std::uintmax_t size) {
   constexpr std::uintmax_t kPiece = 16384;
-  std::string piece(static_cast<std::size_t>(std::min(size, kPiece)), '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>((size - piece.size()) / 2));
-  file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-  return piece;
+  const std::uintmax_t piece = std::min(size, kPiece);
+  return read_piece(path, (size - piece) / 2, static_cast<std::size_t>(piece));
 }
 
 /// Files that are compared byte by byte; where there are more copies, their middles will do.
@@ -65,9 +61,7 @@ constexpr std::size_t kCompared = 20;
 std::vector<ScanPair> equal_files(const std::vector<FrameEntry>& files) {
   std::map<std::uintmax_t, std::vector<std::size_t>> by_size;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    std::error_code error;
-    const auto size = std::filesystem::file_size(files[i].path, error);
-    if (!error) by_size[size].push_back(i);
+    by_size[plain_file_size(files[i].path)].push_back(i);
   }
   std::vector<ScanPair> pairs;
   for (const auto& [size, group] : by_size) {

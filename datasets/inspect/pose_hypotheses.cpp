@@ -91,7 +91,7 @@ Matrix3d reordered_quaternion(const Matrix3d& rotation, bool written_w_first) {
 Pose camera_of(const Samples& samples) {
   if (samples.sequence().layout != "semantickitti" || samples.files().empty()) return camera_axes();
   const auto calibration = samples.files().front().path.parent_path().parent_path() / "calib.txt";
-  if (!is_file(calibration)) return camera_axes();
+  if (!has_file(calibration)) return camera_axes();
   try {
     const Pose Tr = read_calibration(calibration, "Tr");
     return Eigen::AngleAxisd(Tr.linear()).angle() > 0.5 ? Tr : camera_axes();

@@ -2,9 +2,9 @@
 #include "datasets/inspect/unopenable.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
 #include "datasets/cloud_header.h"
@@ -56,7 +56,7 @@ Finding count_finding(const fs::path& poses, std::size_t rows, const fs::path& f
 
 /// The pose file's count against that of the scans.
 std::vector<Finding> check_count(const fs::path& folder, const SequenceOptions& options) {
-  const bool kitti = is_folder(folder / "velodyne");
+  const bool kitti = has_folder(folder / "velodyne");
   const auto settings = read_settings(folder, options, {});
   const auto path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
   const std::size_t rows = read_pose_file(path).rows.size();
@@ -75,11 +75,7 @@ std::vector<Finding> check_count(const fs::path& folder, const SequenceOptions& 
 std::vector<Finding> check_viewpoints(const fs::path& folder) {
   constexpr std::size_t kHead = 65536;
   for (const auto& path : list_files(folder / "pcd", {".pcd"})) {
-    std::string head(kHead, '\0');
-    std::ifstream file(path, std::ios::binary);
-    file.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(file.gcount()));
-    if (parse_pcd_header(head, path).viewpoint) continue;
+    if (parse_pcd_header(read_piece(path, 0, kHead), path).viewpoint) continue;
     Finding finding;
     finding.check = "viewpoint-missing";
     finding.where = "pcd/" + path.filename().string();

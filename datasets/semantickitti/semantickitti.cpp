@@ -32,7 +32,7 @@ std::optional<Pose> camera_calibration(const std::filesystem::path& folder,
                                        const SequenceSettings& settings) {
   if (settings.poses_are_lidar) return std::nullopt;
   const auto calibration = folder / "calib.txt";
-  if (!is_file(calibration)) {
+  if (!has_file(calibration)) {
     throw DataError(calibration.string() +
                     ": is missing; its row 'Tr:' takes camera poses to the LiDAR (T = Tr^-1 P Tr). "
                     "Add it, or say \"poses_are_lidar\": true in sequence.json if the poses are "
@@ -46,7 +46,7 @@ std::vector<double> frame_times(const std::filesystem::path& folder, double peri
                                 const std::vector<NumberedFile>& files) {
   const auto path = folder / "times.txt";
   std::vector<double> times;
-  if (is_file(path)) {
+  if (has_file(path)) {
     times = read_number_column(path);
     check_row_count(times.size(), "times", path, files);
     const double start = times.front();
@@ -66,9 +66,7 @@ std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
   const Pose Tr_inverse = Tr.inverse();
   std::vector<FrameEntry> frames;
   for (const NumberedFile& file : chosen) {
-    std::error_code error;  // A file that cannot be read is reported when it is.
-    const auto bytes = std::filesystem::file_size(file.path, error);
-    if (!error) check_bin_size(file.path, bytes);
+    check_bin_size(file.path, plain_file_size(file.path));
     const auto number = static_cast<std::size_t>(file.number);
     FrameEntry frame;
     frame.path = file.path;
@@ -82,11 +80,7 @@ std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
 
 std::vector<std::string> sequences_of(const std::filesystem::path& root) {
   std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(root / "sequences", error)) {
-    if (entry.is_directory()) names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
+  for (const auto& path : folders_in(root / "sequences")) names.push_back(path.filename().string());
   return names;
 }
 
@@ -126,7 +120,7 @@ ChosenFrames chosen_frames(const std::vector<NumberedFile>& files, const FrameRa
 
 /// @throws UsageError if `root` holds no sequences at all
 void check_is_root(const std::filesystem::path& root) {
-  if (is_folder(root / "sequences")) return;
+  if (has_folder(root / "sequences")) return;
   throw UsageError(root.string() +
                    ": holds no folder sequences/; expected the root of SemanticKITTI, with "
                    "sequences/00 and so on in it.");

@@ -81,8 +81,8 @@ std::string simulated_scene_text(const std::string& name);
 std::string simulated_sensor_text(const std::string& name);
 
 /// Writes the SemanticKITTI layout: velodyne/, labels/, poses.txt (camera convention), calib.txt,
-/// times.txt, sequence.json, and movers.json (who moved when). `folder` appears whole or not at
-/// all.
+/// times.txt, sequence.json, movers.json (who moved when), and manifest.json (name, size and hash
+/// of each file). `folder` appears whole or not at all, also after a power failure.
 /// @param cancel checked before each scan
 /// @throws DataError if `folder` exists and is not an empty folder, or cannot be written; Cancelled
 void write_simulated(const SimulationOptions& options, const std::filesystem::path& folder,
@@ -93,12 +93,19 @@ void write_simulated(const SimulationOptions& options, const std::filesystem::pa
 std::filesystem::path default_cache_root();
 
 /// Folder of the sequence below `cache_root`, written first if it is not there. Its name holds a
-/// hash of scene file, sensor file, options and simulator version. Two programs may ask for the
-/// same one at once; one that was killed leaves nothing that is taken for whole.
+/// hash of scene file, sensor file, options and simulator version.
+///
+/// The cache may be shared by machines and containers. Who asks for a scene that another process
+/// makes waits for it (a lock in the cache; where the file system has none both make it and one
+/// takes its place). A folder of the cache counts only if it fits its manifest.json: every file is
+/// there with its size and, if `check_content`, its hash, and there is no scan too many. Otherwise
+/// it is made again, which is said.
+/// @throws as write_simulated; DataError if the cache cannot be written
 std::filesystem::path cached_simulation(const SimulationOptions& options,
                                         const std::filesystem::path& cache_root, int threads,
                                         Progress* progress,
-                                        const std::atomic<bool>* cancel = nullptr);
+                                        const std::atomic<bool>* cancel = nullptr,
+                                        bool check_content = true);
 
 /// Sequences that are run together.
 struct SimulationSuite {

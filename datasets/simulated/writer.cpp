@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/file_kind.h"
 #include "core/parallel.h"
 #include "core/sensor_model.h"
 #include "core/text.h"
+#include "datasets/simulated/making_place.h"
+#include "datasets/simulated/scene_folder.h"
+#include "datasets/simulated/scene_writer.h"
 #include "datasets/simulated/simulated.h"
 
 static_assert(std::endian::native == std::endian::little, "files hold little-endian numbers");
@@ -44,22 +44,8 @@ std::string row_text(const Pose& pose) {
   return text;
 }
 
-/// Plain write: the folder as a whole is what appears atomically.
-void write_file(const fs::path& path, const void* data, std::size_t size) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
-  file.close();
-  if (!file) {
-    throw DataError(path.string() +
-                    ": cannot be written; the disk may be full or the folder read-only.");
-  }
-}
-
-void write_file(const fs::path& path, const std::string& text) {
-  write_file(path, text.data(), text.size());
-}
-
-void write_scan(const SimulatedSequence& sequence, std::size_t index, const fs::path& folder) {
+void write_scan(const SimulatedSequence& sequence, std::size_t index,
+                simulated::SceneFolder& folder) {
   const Scan scan = sequence.load(index);
   const std::vector<std::uint32_t> labels = sequence.labels(scan);
   std::vector<float> values(4 * scan.size());
@@ -67,13 +53,12 @@ void write_scan(const SimulatedSequence& sequence, std::size_t index, const fs::
     std::memcpy(values.data() + 4 * i, scan.points[i].data(), 3 * sizeof(float));
     values[4 * i + 3] = scan.reflectance[i];
   }
-  write_file(folder / "velodyne" / (scan.name + ".bin"), values.data(),
-             values.size() * sizeof(float));
-  write_file(folder / "labels" / (scan.name + ".label"), labels.data(),
-             labels.size() * sizeof(std::uint32_t));
+  folder.write("velodyne/" + scan.name + ".bin", values.data(), values.size() * sizeof(float));
+  folder.write("labels/" + scan.name + ".label", labels.data(),
+               labels.size() * sizeof(std::uint32_t));
 }
 
-void write_tables(const SimulatedSequence& sequence, const fs::path& folder) {
+void write_tables(const SimulatedSequence& sequence, simulated::SceneFolder& folder) {
   const Pose Tr = camera_from_lidar();
   std::string poses;
   std::string times;
@@ -86,9 +71,9 @@ void write_tables(const SimulatedSequence& sequence, const fs::path& folder) {
   for (const char* camera : {"P0", "P1", "P2", "P3"}) {
     calib += std::string(camera) + ": " + projection + "\n";
   }
-  write_file(folder / "poses.txt", poses);
-  write_file(folder / "times.txt", times);
-  write_file(folder / "calib.txt", calib + "Tr: " + row_text(Tr) + "\n");
+  folder.write("poses.txt", poses);
+  folder.write("times.txt", times);
+  folder.write("calib.txt", calib + "Tr: " + row_text(Tr) + "\n");
 }
 
 const char* rolling_name(Rolling rolling) {
@@ -104,7 +89,7 @@ const char* rolling_name(Rolling rolling) {
 }
 
 void write_description(const SimulationOptions& options, const SimulatedSequence& sequence,
-                       const fs::path& folder) {
+                       simulated::SceneFolder& folder) {
   const auto known = sensor_model_names();
   const bool named = std::find(known.begin(), known.end(), sequence.sensor_name()) != known.end();
   nlohmann::ordered_json json;
@@ -118,7 +103,7 @@ void write_description(const SimulationOptions& options, const SimulatedSequence
   json["poses"] = "poses.txt";
   json["range_m"] = {{"min", sequence.range_m().min}, {"max", sequence.range_m().max}};
   json["labels"] = {{"ignored", {0, 1}}, {"moving", {252, 253, 254, 255, 256, 257, 258, 259}}};
-  write_file(folder / "sequence.json", json.dump(2) + "\n");
+  folder.write("sequence.json", json.dump(2) + "\n");
 }
 
 /// Times (seconds) from which a mover moves or stands, for the whole sequence.
@@ -141,7 +126,7 @@ nlohmann::ordered_json moves_of(const SimulatedSequence& sequence, std::size_t m
   return changes;
 }
 
-void write_movers(const SimulatedSequence& sequence, const fs::path& folder) {
+void write_movers(const SimulatedSequence& sequence, simulated::SceneFolder& folder) {
   std::vector<std::vector<MoverTruth>> states;
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     states.push_back(sequence.movers(static_cast<double>(i) * sequence.scan_period_s()));
@@ -155,77 +140,48 @@ void write_movers(const SimulatedSequence& sequence, const fs::path& folder) {
                     {"moves", truth.moves},
                     {"when", moves_of(sequence, m, states)}});
   }
-  write_file(folder / "movers.json", json.dump(1) + "\n");
-}
-
-/// A new empty folder beside `folder`, removed again unless it is kept.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const fs::path& folder) {
-    static std::atomic<unsigned> counter{0};
-    path_ = folder.string() + "." + std::to_string(::getpid()) + "." +
-            std::to_string(counter.fetch_add(1)) + ".part";
-    std::error_code error;
-    fs::remove_all(path_, error);  // left by a killed process that had our number
-    fs::create_directories(path_ / "velodyne", error);
-    if (!error) fs::create_directories(path_ / "labels", error);
-    if (error) {
-      throw DataError(path_.string() + ": cannot be made (" + error.message() +
-                      "). Choose a folder you may write to.");
-    }
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-  void keep() { path_.clear(); }
-
- private:
-  fs::path path_;
-};
-
-void write_all(const SimulationOptions& options, const SimulatedSequence& sequence,
-               const fs::path& folder, int threads, Progress* progress,
-               const std::atomic<bool>* cancel) {
-  if (progress != nullptr) progress->begin("simulating " + sequence.name(), sequence.size());
-  parallel_for(threads, sequence.size(), 1, [&](std::size_t i) {
-    if (cancel != nullptr && cancel->load()) throw Cancelled();
-    write_scan(sequence, i, folder);
-    if (progress != nullptr) progress->advance();
-  });
-  if (progress != nullptr) progress->end();
-  write_tables(sequence, folder);
-  write_description(options, sequence, folder);
-  write_movers(sequence, folder);
+  folder.write("movers.json", json.dump(1) + "\n");
 }
 
 }  // namespace
 
+namespace simulated {
+
+void write_scene(const SceneWriting& writing, const fs::path& folder) {
+  const auto sequence = make_simulated(writing.options, writing.threads);
+  SceneFolder files(folder);
+  Progress* progress = writing.progress;
+  if (progress != nullptr) progress->begin("simulating " + sequence->name(), sequence->size());
+  parallel_for(writing.threads, sequence->size(), 1, [&](std::size_t i) {
+    if (writing.cancel != nullptr && writing.cancel->load()) throw Cancelled();
+    write_scan(*sequence, i, files);
+    if (progress != nullptr) progress->advance();
+  });
+  if (progress != nullptr) progress->end();
+  write_tables(*sequence, files);
+  write_description(writing.options, *sequence, files);
+  write_movers(*sequence, files);
+  files.finish(writing.identity);
+}
+
+}  // namespace simulated
+
 void write_simulated(const SimulationOptions& options, const fs::path& folder, int threads,
                      Progress* progress, const std::atomic<bool>* cancel) {
-  std::error_code unreadable;
-  if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder, unreadable))) {
+  if (is_there(folder) && (!is_folder(folder) || !entries_of(folder).empty())) {
     throw DataError(
         folder.string() +
         ": exists already and is not an empty folder; remove it or choose another one.");
   }
-  const auto sequence = make_simulated(options, threads);
   if (folder.has_parent_path()) {
-    std::error_code error;
+    std::error_code error;  // Shows when the place is made.
     fs::create_directories(folder.parent_path(), error);
   }
-  TemporaryFolder temporary(folder);
-  write_all(options, *sequence, temporary.path(), threads, progress, cancel);
-  std::error_code error;
-  fs::rename(temporary.path(), folder, error);
-  if (error) {
-    throw DataError(folder.string() + ": cannot take its place (" + error.message() +
-                    "); something else may have made it meanwhile.");
+  simulated::MakingPlace place(folder);
+  simulated::write_scene({options, "", threads, progress, cancel}, place.folder());
+  if (!place.take_place()) {
+    throw DataError(folder.string() + ": something else took this name meanwhile.");
   }
-  temporary.keep();
 }
 
 }  // namespace raymoval

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/file_kind.h"
 #include "core/files.h"
 #include "core/text.h"
 
@@ -178,23 +179,30 @@ bool is_hidden(const std::filesystem::path& path) {
   return name.starts_with('.') || name == "__pycache__";
 }
 
+/// Links to folders are not followed: they may lead in a circle.
+void add_files_below(const std::filesystem::path& folder, const std::filesystem::path& here,
+                     std::vector<std::string>& found) {
+  for (const std::filesystem::path& path : entries_of(folder)) {
+    if (is_hidden(path)) continue;
+    if (is_file(path)) {
+      found.push_back(path.lexically_relative(here).generic_string());
+    } else if (!std::filesystem::is_symlink(path)) {
+      add_files_below(path, here, found);
+    }
+  }
+}
+
 /// `name` itself, or every file below it, as paths relative to the manifest's folder, sorted.
 std::vector<std::string> files_below(const std::string& name, const Manifest& manifest) {
   namespace fs = std::filesystem;
   const fs::path here = manifest.path.parent_path();
-  if (fs::is_regular_file(here / name)) return {name};
-  if (!fs::is_directory(here / name)) {
+  if (is_file(here / name)) return {name};
+  if (!is_folder(here / name)) {
     throw DataError((here / name).string() + ": there is no such file, but " +
                     manifest.path.string() + " says that it belongs to the program.");
   }
   std::vector<std::string> found;
-  for (auto item = fs::recursive_directory_iterator(here / name); item != fs::end(item); ++item) {
-    if (is_hidden(item->path())) {
-      if (item->is_directory()) item.disable_recursion_pending();
-    } else if (item->is_regular_file()) {
-      found.push_back(item->path().lexically_relative(here).generic_string());
-    }
-  }
+  add_files_below(here / name, here, found);
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -211,10 +219,7 @@ std::vector<std::string> program_files(const Manifest& manifest) {
     const bool below = written.starts_with(kHere);
     const std::string path = below ? written.substr(kHere.size()) : written;
     if (path.find('{') != std::string::npos || (!below && !path.starts_with('/'))) continue;
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(manifest.path.parent_path() / path, ignored)) {
-      files.push_back(path);
-    }
+    if (is_file(manifest.path.parent_path() / path)) files.push_back(path);
   }
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());

@@ -59,6 +59,12 @@ void leak_in_child() {
   ::pause();
 }
 
+/// Lets a test change data or programs in the middle of a run.
+void meddle() {
+  const char* command = std::getenv("FAULTY_COMMAND");
+  if (command != nullptr && std::system(command) != 0) std::abort();
+}
+
 void hang() {
   ::fork();  // What it starts hangs too.
   for (;;) ::pause();
@@ -163,6 +169,7 @@ int main(int argc, char** argv) {
   methods.add(entry_of("abort", chatter));
   methods.add(entry_of("quit", [] { std::exit(0); }));
   methods.add(entry_of("quit7", [] { std::_Exit(7); }));
+  methods.add(entry_of("meddle", meddle));
   methods.add(entry_of("hang", hang));
   methods.add(entry_of("stray", stray));
   methods.add(entry_of("leak", leak));

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace raymoval {
+
+/// What stands at a path, links followed.
+enum class FileKind { kAbsent, kFile, kFolder };
+
+/// Looks at `path` without opening it. It is absent only if the system says that nothing of this
+/// name exists.
+/// @throws DataError for everything else that is no file and no folder: a link that leads nowhere
+/// (also one in the middle of the path), a path that cannot be looked at (no rights, a disk that
+/// does not answer, links in a circle), a pipe, a socket, a device
+FileKind file_kind(const std::filesystem::path& path);
+
+/// @throws DataError as file_kind
+bool is_file(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
+bool is_there(const std::filesystem::path& path);
+
+/// Whether the file or folder `path` exists, for what may be left out but must be what its name
+/// says. @throws DataError as file_kind, and if it is a folder in place of a file or the reverse
+bool has_file(const std::filesystem::path& path);
+bool has_folder(const std::filesystem::path& path);
+
+/// Bytes of the file `path`. @throws DataError as file_kind, and if it is absent or a folder
+std::uintmax_t plain_file_size(const std::filesystem::path& path);
+
+/// Paths of all that stands in `folder`, not below it, in order of name; what an entry is has not
+/// been looked at. @throws DataError if the folder cannot be listed to its end
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
+
+/// The folders among them; links to nothing are left out. @throws DataError
+std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder);
+
+}  // namespace raymoval

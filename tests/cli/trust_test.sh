@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Data that is unreadable, half there or changing is told and never scored; what is not of a run is
+# never deleted. Usage: trust_test.sh PATH/TO/raymoval_faulty
+set -uo pipefail
+program=$(readlink -f "$1")
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+export RAYMOVAL_CACHE=$work/cache
+# A program that waits for a pipe has failed.
+cat >"$work/limited" <<SCRIPT
+#!/bin/sh
+exec timeout 120 "$program" "\$@"
+SCRIPT
+chmod +x "$work/limited"
+raymoval=$work/limited
+
+scene=town:scans=6,sensor=vlp16
+expect 0 "" simulate $scene -o whole --quiet
+fresh() { rm -rf data && cp -r whole data; }
+scores=(run --sequence data --quiet --method comb --protocol erasor --threads 1)
+
+# What cannot be read is never taken for absent, and nothing is waited for.
+harmless=0
+for file in sequence.json times.txt poses.txt calib.txt labels labels/000002.label \
+  velodyne/000003.bin; do
+  for harm in "ln -s nowhere" "ln -s $(basename $file)" mkfifo; do
+    fresh
+    rm -r data/$file
+    (cd "data/$(dirname $file)" && $harm "$(basename $file)")
+    rm -rf run
+    expect 2 "data/$file: " "${scores[@]}" --out run
+    [[ -e run/results.json ]] && harmless=$((harmless + 1))
+  done
+done
+holds "none of them is scored" test $harmless -eq 0
+for file in sequence.json times.txt; do
+  fresh
+  rm data/$file && mkdir data/$file
+  expect 2 "data/$file: is a folder, expected a file" "${scores[@]}" --out run
+done
+fresh
+rm data/sequence.json data/times.txt
+expect 0 "" "${scores[@]}" --out without
+
+# Scans that are replaced by others of equal size while a method runs.
+fresh
+mkdir other
+cp whole/velodyne/*.bin other/
+for scan in other/*.bin; do printf 'xyz' | dd of=$scan conv=notrunc status=none; done
+export FAULTY_COMMAND="cp other/*.bin data/velodyne/"
+rm -rf run
+expect 1 "the data changed while it was used" "${scores[@]}" --method meddle --out run
+holds "the method that ran meanwhile is bad_data" \
+  grep -q '"status": "bad_data"' run/cells/town/meddle-default/cell.json
+holds "cells from before stand" grep -q '"status": "ok"' run/cells/town/comb-default/cell.json
+unset FAULTY_COMMAND
+expect 0 "run   town / comb:default: data fingerprint" "${scores[@]}" --method meddle --out run \
+  --explain
+expect 0 "" "${scores[@]}" --method meddle --out run
+# Labels count for who reads them.
+fresh
+export FAULTY_COMMAND="printf 'xyz' | dd of=data/labels/000004.label conv=notrunc status=none"
+expect 1 "the labels of scan 000004" "${scores[@]}" --method meddle --out labels
+unset FAULTY_COMMAND
+
+# A cache that is shared: two at once, each of them process 1 of its container.
+container=(unshare -p -f --mount-proc)
+"${container[@]}" true 2>/dev/null || container=(unshare -r -p -f --mount-proc)
+if "${container[@]}" true 2>/dev/null; then
+  for try in 1 2 3 4 5 6; do
+    rm -rf cache
+    for who in a b; do
+      "${container[@]}" "$raymoval" inspect $scene >$who.txt 2>&1 &
+      sleep 0.0$((RANDOM % 10))
+    done
+    wait
+    made=$(echo cache/simulated/town-*)
+    holds "try $try: one scene and nothing else is in the cache" test -d "$made"
+    holds "try $try: it is whole" diff -r --exclude=manifest.json whole "$made"
+  done
+else
+  echo "trust: no process namespaces here; two containers at once were not tried."
+fi
+# A cleaner of caches takes some scans.
+expect 0 "" run --sequence $scene --quiet --method comb --out before
+rm cache/simulated/town-*/velodyne/00000[24].bin
+expect 0 "is missing); it is made again" run --sequence $scene --method comb --out after
+holds "the scores are the same" diff <(cut -d, -f1-10 before/results.csv) \
+  <(cut -d, -f1-10 after/results.csv)
+
+# Nothing but a run's own is deleted.
+mkdir -p mine/thesis.part
+echo film >mine/film.mkv.part
+expect 2 "Nothing was changed" run --sequence street --frames 0:1 --quiet --method comb --out mine
+holds "both are there" test -e mine/film.mkv.part -a -d mine/thesis.part
+mv mine/* without/
+expect 0 "" "${scores[@]}" --out without
+holds "beside a run too" test -e without/film.mkv.part -a -d without/thesis.part
+finish trust

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "core/file_kind.h"
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/part_name.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+using test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+TEST_CASE("A path is a file, a folder, or absent because nothing of its name exists") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "file";
+  write_atomically(file, "x");
+  fs::create_symlink("file", folder.path() / "link");
+  fs::create_directory_symlink(folder.path(), folder.path() / "loop");
+  CHECK(file_kind(file) == FileKind::kFile);
+  CHECK(file_kind(folder.path()) == FileKind::kFolder);
+  CHECK(file_kind(folder.path() / "link") == FileKind::kFile);
+  CHECK(file_kind(folder.path() / "loop/loop") == FileKind::kFolder);
+  CHECK(file_kind(folder.path() / "none") == FileKind::kAbsent);
+  CHECK(file_kind(folder.path() / "none/deeper/") == FileKind::kAbsent);
+  CHECK(file_kind(file / "below") == FileKind::kAbsent);
+  CHECK(file_kind("") == FileKind::kAbsent);
+  CHECK(has_file(file));
+  CHECK_FALSE(has_file(folder.path() / "none"));
+  CHECK(has_folder(folder.path()));
+  CHECK(plain_file_size(file) == 1);
+  CHECK_THROWS_WITH(has_file(folder.path()), Contains("is a folder, expected a file"));
+  CHECK_THROWS_WITH(has_folder(file), Contains("is a file, expected a folder"));
+  CHECK_THROWS_WITH(plain_file_size(folder.path() / "none"), Contains("no such file"));
+}
+
+TEST_CASE("A link that leads nowhere is no absent file") {
+  const TemporaryFolder folder;
+  const fs::path link = folder.path() / "sequence.json";
+  fs::create_symlink("store/5f/0c.json", link);
+  CHECK_THROWS_WITH(file_kind(link), Contains("sequence.json: is a link to store/5f/0c.json, which "
+                                              "is not there") &&
+                                         Contains("git annex get") && Contains("dvc pull"));
+  CHECK_THROWS_AS(has_file(link), DataError);
+  CHECK_THROWS_AS(read_text(link), DataError);
+  // Also one in the middle of a path, or with a slash behind it.
+  CHECK_THROWS_WITH(file_kind(link / "labels/000000.label"), Contains("is a link to"));
+  CHECK_THROWS_WITH(file_kind(link.string() + "/"), Contains("is a link to"));
+  fs::create_symlink("circle", folder.path() / "circle");
+  CHECK_THROWS_WITH(file_kind(folder.path() / "circle"), Contains("cannot be looked at"));
+}
+
+TEST_CASE("A folder without rights hides nothing as absent") {
+  if (::geteuid() == 0) return;  // Nothing is closed to root.
+  const TemporaryFolder folder;
+  const fs::path closed = folder.path() / "closed";
+  fs::create_directory(closed);
+  fs::permissions(closed, fs::perms::none);
+  CHECK_THROWS_WITH(file_kind(closed / "sequence.json"), Contains("cannot be looked at"));
+  fs::permissions(closed, fs::perms::owner_all);
+}
+
+TEST_CASE("Pipes, sockets and devices are refused at once, and nobody waits for them") {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "000001.bin";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(file_kind(pipe), Contains("000001.bin: is a pipe, expected a plain file"));
+  CHECK_THROWS_AS(read_bytes(pipe), DataError);
+  CHECK_THROWS_AS(read_piece(pipe, 0, 16), DataError);
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const fs::path place = folder.path() / "socket";
+  std::strncpy(address.sun_path, place.c_str(), sizeof address.sun_path - 1);
+  REQUIRE(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+  CHECK_THROWS_WITH(file_kind(place), Contains("is a socket"));
+  ::close(socket);
+  CHECK_THROWS_WITH(file_kind("/dev/zero"), Contains("is a device"));
+  CHECK_THROWS_AS(read_bytes("/dev/zero"), DataError);
+}
+
+TEST_CASE(
+    "What stands in a folder is listed in order, and a folder that is not there is an error") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "b");
+  write_atomically(folder.path() / "a", "x");
+  fs::create_symlink("nothing", folder.path() / "c");
+  const std::vector<fs::path> all = entries_of(folder.path());
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].filename() == "a");
+  CHECK(all[2].filename() == "c");
+  CHECK(folders_in(folder.path()) == std::vector<fs::path>{folder.path() / "b"});
+  CHECK_THROWS_WITH(entries_of(folder.path() / "none"), Contains("cannot be listed"));
+}
+
+TEST_CASE("A piece of a file ends where the file ends") {
+  const TemporaryFolder folder;
+  write_atomically(folder.path() / "a", "0123456789");
+  CHECK(read_piece(folder.path() / "a", 2, 3) == "234");
+  CHECK(read_piece(folder.path() / "a", 8, 100) == "89");
+  CHECK(read_piece(folder.path() / "a", 10, 1).empty());
+  CHECK(read_piece(folder.path() / "a", 99, 1).empty());
+}
+
+TEST_CASE("Temporary names are new each time and have a form of their own") {
+  const fs::path part = new_part_name("out/table.md");
+  CHECK(part.parent_path() == "out");
+  CHECK(part != new_part_name("out/table.md"));
+  CHECK(is_part_name(part));
+  CHECK(name_of_part(part) == "table.md");
+  CHECK(name_of_part(new_part_name("out/run/")) == "run");
+  for (const char* other :
+       {"film.mkv.part", "thesis.part", "table.md.123.part", "removals.part", ".part",
+        ".raymoval-0123456789abcdef.part", "a.raymoval-0123456789abcdeX.part",
+        "a.raymoval-0123456789abcde.part", "a.raymoval-0123456789abcdef.part.gz"}) {
+    CHECK_FALSE(is_part_name(other));
+  }
+}

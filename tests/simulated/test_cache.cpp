@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// The cache of simulated scenes: what is in it is whole, or is made again.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/error.h"
+#include "core/file_kind.h"
+#include "core/file_lock.h"
+#include "core/files.h"
+#include "core/part_name.h"
+#include "datasets/simulated/making_place.h"
+#include "datasets/simulated/scene_folder.h"
+#include "datasets/simulated/simulated.h"
+#include "tests/simulated/scenes.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+using raymoval::simulated::MakingPlace;
+using raymoval::simulated::ScratchFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+SimulationOptions three_scans(std::uint64_t seed = 1) {
+  SimulationOptions options;
+  options.scene = "town";
+  options.sensor = "vlp16";
+  options.scans = 3;
+  options.seed = seed;
+  return options;
+}
+
+/// What is told in a log, as text.
+class Log {
+ public:
+  Log() : file_(std::tmpfile()), progress_(ProgressStyle::kLog, file_) {}
+  ~Log() { std::fclose(file_); }
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+  Progress* progress() { return &progress_; }
+  std::string text() {
+    std::rewind(file_);
+    std::string all;
+    for (int c = std::fgetc(file_); c != EOF; c = std::fgetc(file_)) all += static_cast<char>(c);
+    return all;
+  }
+
+ private:
+  std::FILE* file_;
+  Progress progress_;
+};
+
+/// All names and contents below a folder.
+std::string content_of(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  ContentHasher hasher;
+  for (const fs::path& file : files) {
+    hasher.add(file.lexically_relative(folder).string());
+    hasher.add(read_text(file));
+  }
+  return hasher.digest();
+}
+
+/// Runs `deed` in a process that then ends as if killed: nothing is cleaned up.
+void in_killed_process(const std::function<void()>& deed) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    deed();
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  REQUIRE(status == 0);
+}
+
+}  // namespace
+
+TEST_CASE("A scene of the cache that is not what was written there is made again, and said") {
+  const ScratchFolder scratch;
+  const fs::path folder = cached_simulation(three_scans(), scratch.path(), 2, nullptr);
+  const std::string whole = content_of(folder);
+  const fs::path scan = folder / "velodyne/000001.bin";
+  const std::vector<std::pair<std::string, std::function<void()>>> harms = {
+      {"velodyne/000001.bin is missing", [&] { fs::remove(scan); }},
+      {"velodyne/000001.bin has ", [&] { fs::resize_file(scan, fs::file_size(scan) - 16); }},
+      {"velodyne/000001.bin has another content",
+       [&] { std::fstream(scan, std::ios::in | std::ios::out | std::ios::binary) << "xyz"; }},
+      {"labels/000002.label is missing", [&] { fs::remove(folder / "labels/000002.label"); }},
+      {"velodyne/ has 4 scans, written were 3",
+       [&] { fs::copy_file(scan, folder / "velodyne/000003.bin"); }},
+      {"sequence.json is missing", [&] { fs::remove(folder / "sequence.json"); }},
+      // As earlier versions left it.
+      {"manifest.json is missing", [&] { fs::remove(folder / simulated::kManifestName); }},
+      {"manifest.json is damaged",
+       [&] {
+         fs::resize_file(folder / "manifest.json", 0);
+         std::ofstream(folder / "manifest.json") << "{}";
+       }},
+      {"cannot be listed",
+       [&] {
+         fs::remove_all(folder / "velodyne");
+         std::ofstream(folder / "manifest.json") << "{\"identity\": \"\"}";
+       }},
+      {"is a pipe",
+       [&] {
+         fs::remove(scan);
+         ::mkfifo(scan.c_str(), 0600);
+       }},
+      {"manifest.json is missing",
+       [&] {
+         fs::remove_all(folder);
+         fs::create_directory(folder);
+       }},
+  };
+  for (const auto& [problem, harm] : harms) {
+    harm();
+    Log log;
+    CHECK(cached_simulation(three_scans(), scratch.path(), 2, log.progress()) == folder);
+    if (problem != "cannot be listed") CHECK_THAT(log.text(), Contains(problem));
+    CHECK_THAT(log.text(), Contains("it is made again"));
+    CHECK(content_of(folder) == whole);
+    CHECK(entries_of(folder.parent_path()).size() == 1);  // Neither the old nor a lock is left.
+  }
+  Log log;
+  CHECK(cached_simulation(three_scans(), scratch.path(), 2, log.progress()) == folder);
+  CHECK(log.text().empty());
+}
+
+TEST_CASE("The folder of another scene under a scene's name does not count") {
+  const ScratchFolder scratch;
+  const fs::path one = cached_simulation(three_scans(1), scratch.path(), 2, nullptr);
+  const fs::path two = cached_simulation(three_scans(2), scratch.path(), 2, nullptr);
+  const std::string content = content_of(two);
+  fs::remove_all(two);
+  fs::copy(one, two, fs::copy_options::recursive);
+  cached_simulation(three_scans(2), scratch.path(), 2, nullptr);
+  CHECK(content_of(two) == content);
+}
+
+TEST_CASE("Files beside a scene that nobody reads do no harm and are not lost") {
+  const ScratchFolder scratch;
+  const fs::path folder = cached_simulation(three_scans(), scratch.path(), 2, nullptr);
+  std::ofstream(folder / "notes.txt") << "mine";
+  std::ofstream(folder / "velodyne/.DS_Store") << "x";
+  CHECK(cached_simulation(three_scans(), scratch.path(), 2, nullptr) == folder);
+  CHECK(read_text(folder / "notes.txt") == "mine");
+}
+
+TEST_CASE("Only names and sizes are looked at where the content is checked otherwise") {
+  const ScratchFolder scratch;
+  const fs::path folder = cached_simulation(three_scans(), scratch.path(), 2, nullptr);
+  const fs::path scan = folder / "velodyne/000001.bin";
+  std::fstream(scan, std::ios::in | std::ios::out | std::ios::binary) << "xyz";
+  const std::string harmed = content_of(folder);
+  cached_simulation(three_scans(), scratch.path(), 2, nullptr, nullptr, false);
+  CHECK(content_of(folder) == harmed);
+  fs::remove(scan);
+  cached_simulation(three_scans(), scratch.path(), 2, nullptr, nullptr, false);
+  CHECK(content_of(folder) != harmed);
+}
+
+TEST_CASE("What a killed process left goes; what may be alive or another's stays") {
+  const ScratchFolder scratch;
+  const fs::path cache = scratch.path() / "simulated";
+  fs::create_directories(cache);
+  const fs::path target = cache / "town-0123456789abcdef";
+  in_killed_process([&] {
+    auto* place = new MakingPlace(target);
+    std::ofstream(place->folder() / "half") << "written";
+  });
+  REQUIRE(entries_of(cache).size() == 1);
+  const MakingPlace alive(target);
+  // Names and age alone prove nothing: of earlier versions, of other machines, of anybody.
+  const std::vector<fs::path> others = {cache / "town-0123456789abcdef.1.0.part",
+                                        cache / "thesis.part", new_part_name(target)};
+  for (const fs::path& other : others) {
+    fs::create_directory(other);
+    fs::last_write_time(other, fs::file_time_type::clock::now() - std::chrono::hours(480));
+  }
+  std::ofstream(cache / "film.mkv.part") << "film";
+  // Made by a process of another machine: its lock cannot be asked here.
+  const fs::path elsewhere = new_part_name(target);
+  fs::create_directory(elsewhere);
+  std::ofstream(elsewhere / "lock") << "00000000-0000-0000-0000-000000000000 7 7\n";
+
+  const fs::path made = cached_simulation(three_scans(), scratch.path(), 1, nullptr);
+  CHECK(fs::is_directory(alive.folder()));
+  for (const fs::path& other : others) CHECK(fs::is_directory(other));
+  CHECK(fs::is_directory(elsewhere));
+  CHECK(fs::exists(cache / "film.mkv.part"));
+  CHECK(entries_of(cache).size() == 1 + others.size() + 3);  // alive, elsewhere, the film
+}
+
+TEST_CASE("A place that is made never takes the name of something that is there") {
+  const ScratchFolder scratch;
+  const fs::path target = scratch.path() / "town";
+  {
+    MakingPlace place(target);
+    std::ofstream(place.folder() / "new") << "1";
+    fs::create_directory(target);
+    std::ofstream(target / "other") << "2";
+    CHECK_FALSE(place.take_place());
+    CHECK(fs::exists(target / "other"));
+    CHECK(place.replace_target());
+    CHECK(fs::exists(target / "new"));
+    CHECK_FALSE(fs::exists(target / "other"));
+  }
+  CHECK(entries_of(scratch.path()).size() == 1);
+  MakingPlace second(scratch.path() / "second");
+  CHECK(second.take_place());
+  CHECK(fs::is_directory(scratch.path() / "second"));
+}
+
+TEST_CASE("Who asks for a scene that another one makes waits for it, and may be stopped") {
+  const ScratchFolder scratch;
+  const fs::path folder = cached_simulation(three_scans(), scratch.path(), 1, nullptr);
+  fs::remove(folder / "poses.txt");
+  const fs::path lock_file = folder.string() + ".lock";
+  auto other = std::make_unique<FileLock>(lock_file);
+  REQUIRE(other->take(FileLock::Mode::kExclusive) == FileLock::State::kHeld);
+  std::atomic<bool> cancel = true;
+  CHECK_THROWS_AS(cached_simulation(three_scans(), scratch.path(), 1, nullptr, &cancel), Cancelled);
+  cancel = false;
+  Log log;
+  std::atomic<bool> done = false;
+  std::thread asker([&] {
+    cached_simulation(three_scans(), scratch.path(), 1, log.progress(), &cancel);
+    done = true;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  CHECK_FALSE(done);
+  other.reset();
+  asker.join();
+  CHECK_THAT(log.text(), Contains("waiting for process " + std::to_string(::getpid())));
+  CHECK(fs::exists(folder / "poses.txt"));
+  CHECK_FALSE(fs::exists(lock_file));
+}
+
+TEST_CASE("A scene that is written by hand lists its files with sizes and hashes") {
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "own";
+  write_simulated(three_scans(), folder, 2, nullptr);
+  const auto manifest = read_json(folder / "manifest.json");
+  CHECK(manifest.at("files").size() == 3 + 3 + 5);
+  const auto& scan = manifest.at("files").at("velodyne/000002.bin");
+  const std::string bytes = read_text(folder / "velodyne/000002.bin");
+  CHECK(scan.at("bytes") == bytes.size());
+  CHECK(scan.at("xxh3_128") == content_hash(bytes));
+  CHECK(simulated::scene_folder_problem(folder, "", true, 2).empty());
+  CHECK_THAT(simulated::scene_folder_problem(folder, "x", true, 2), Contains("another scene"));
+}
