@@ -56,29 +56,98 @@ std::vector<std::string> column_names(const std::vector<const MethodColumns*>& m
   return names;
 }
 
-/// @param wanted says which columns the table holds
-template <class Wanted>
-TextTable share_table(const std::string& title, const std::vector<const MethodColumns*>& methods,
-                      Wanted&& wanted) {
-  TextTable table{title, "column", {}, {}, {}};
-  for (const MethodColumns* method : methods) table.groups.push_back({method->cell, {"%", "of"}});
+/// A column's name in parts: "rejection [moving-car, range 0-10 m]".
+struct ColumnName {
+  std::string kind;   ///< "rejection".
+  std::string group;  ///< "moving-car"; empty: all points.
+  std::string axis;   ///< "range" or "height"; empty: neither.
+  std::string band;   ///< "0-10 m".
+};
+
+ColumnName parts_of(const std::string& name) {
+  const std::size_t open = name.find(" [");
+  ColumnName parts{name.substr(0, open), "", "", ""};
+  if (open == std::string::npos) return parts;
+  parts.group = name.substr(open + 2, name.size() - open - 3);
+  for (const std::string axis : {"range", "height"}) {
+    // Alone, or behind the class; a class may have any name.
+    const std::size_t comma = parts.group.rfind(", " + axis + " ");
+    const bool alone = parts.group.starts_with(axis + " ");
+    if (!alone && comma == std::string::npos) continue;
+    const std::size_t at = comma == std::string::npos ? 0 : comma + 2;
+    parts.axis = axis;
+    parts.band = parts.group.substr(at + axis.size() + 1);
+    parts.group = comma == std::string::npos ? "" : parts.group.substr(0, comma);
+    break;
+  }
+  return parts;
+}
+
+/// Adds `name` unless it is there.
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+std::string column_text(const std::string& kind, const std::string& group, const std::string& axis,
+                        const std::string& band) {
+  const std::string where =
+      group + (group.empty() || axis.empty() ? "" : ", ") + (axis.empty() ? "" : axis + " " + band);
+  return where.empty() ? kind : kind + " [" + where + "]";
+}
+
+/// Rejection or preservation by range or height: in all, then by band.
+TextTable band_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
+                     const std::string& axis) {
+  std::vector<std::string> bands, groups = {""};
   for (const std::string& name : column_names(methods)) {
-    if (!wanted(name)) continue;
-    TableRow row{name, {}, false};
+    const ColumnName parts = parts_of(name);
+    if (parts.kind != kind) continue;
+    if (parts.axis == axis) add_once(bands, parts.band);
+    add_once(groups, parts.group);
+  }
+  TextTable table{"Columns: " + kind + " by " + axis, "method", {{"", {"all"}}}, {}, {}};
+  for (const std::string& band : bands) table.groups[0].columns.push_back(band);
+  const auto add_row = [&](const std::string& label, const std::string& group, auto&& text) {
+    TableRow row{label, {{text(column_text(kind, group, "", ""))}}, label == "points", {}};
+    for (const std::string& band : bands) {
+      row.cells.push_back({text(column_text(kind, group, axis, band))});
+    }
+    row.block = group.empty() ? "all classes" : group;
+    table.rows.push_back(std::move(row));
+  };
+  for (const std::string& group : groups) {
     for (const MethodColumns* method : methods) {
-      const Share share = method->find(name);
-      row.cells.push_back({percent_text(share)});
-      row.cells.push_back({std::to_string(share.whole)});
+      add_row(method->cell, group,
+              [&](const std::string& name) { return percent_text(method->find(name)); });
+    }
+    add_row("points", group, [&](const std::string& name) {
+      std::int64_t points = 0;
+      for (const MethodColumns* method : methods) {
+        points = std::max(points, method->find(name).whole);
+      }
+      return std::to_string(points);
+    });
+  }
+  table.notes.push_back("In percent of the points in the last row of each block" +
+                        std::string(kind == "rejection" ? ": moving ones that are removed."
+                                                        : ": static ones that are kept."));
+  return table;
+}
+
+/// Figures that are neither of a class nor of a band.
+TextTable whole_table(const std::vector<const MethodColumns*>& methods) {
+  TextTable table{"Columns", "method", {{"", {}}}, {}, {}};
+  for (const std::string& name : column_names(methods)) {
+    if (name.find(" [") == std::string::npos) table.groups[0].columns.push_back(name);
+  }
+  for (const MethodColumns* method : methods) {
+    TableRow row{method->cell, {}, false};
+    for (const std::string& name : table.groups[0].columns) {
+      row.cells.push_back({percent_text(method->find(name))});
     }
     table.rows.push_back(std::move(row));
   }
   return table;
-}
-
-bool is_general(const std::string& name) {
-  const auto& columns = general_columns();
-  return std::any_of(columns.begin(), columns.end(),
-                     [&](const Column& column) { return column.name == name; });
 }
 
 std::string general_notes() {
@@ -94,9 +163,9 @@ std::string general_notes() {
 }
 
 TextTable interval_table(const RunResults& results, const std::string& protocol) {
-  TextTable table{"Intervals by protocol " + protocol, "sequence, method", {{"", {}}}, {}, {}};
+  TextTable table{"Intervals by protocol " + protocol, "method", {{"", {}}}, {}, {}};
   std::vector<std::string>& rates = table.groups[0].columns;
-  for (const char* rate : {"PR", "RR", "F1", "SA", "DA", "AA", "HA"}) {
+  for (const std::string& rate : results.rates_of(protocol)) {
     const bool there = std::any_of(results.rows.begin(), results.rows.end(), [&](const auto& row) {
       return row.protocol == protocol && row.intervals.contains(rate);
     });
@@ -104,7 +173,7 @@ TextTable interval_table(const RunResults& results, const std::string& protocol)
   }
   for (const ResultRow& row : results.rows) {
     if (row.protocol != protocol || row.intervals.empty()) continue;
-    table.rows.push_back({row.sequence + ", " + row.cell, {}, false});
+    table.rows.push_back({row.cell, {}, false, row.sequence});
     for (const std::string& rate : rates) {
       const auto found = row.intervals.find(rate);
       const bool there = found != row.intervals.end();
@@ -156,13 +225,12 @@ std::vector<TextTable> full_column_tables(const RunResults& results) {
   std::vector<TextTable> tables;
   const std::vector<const MethodColumns*> methods = shown_methods(results, true);
   if (!methods.empty()) {
-    tables.push_back(share_table("Columns", methods, is_general));
+    tables.push_back(whole_table(methods));
     tables.back().notes.push_back(general_notes());
     for (const char* kind : {"rejection", "preservation"}) {
-      const std::string start = std::string(kind) + " [";
-      tables.push_back(share_table(
-          "Columns by class: " + std::string(kind), methods,
-          [&](const std::string& name) { return name.starts_with(start) && !is_general(name); }));
+      for (const char* axis : {"range", "height"}) {
+        tables.push_back(band_table(methods, kind, axis));
+      }
     }
   }
   for (const std::string& protocol : results.protocols) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "benchmark/results.h"
+#include "benchmark/table_options.h"
 #include "benchmark/text_table.h"
 
 namespace raymoval {
@@ -15,13 +16,16 @@ std::vector<TextTable> compact_column_tables(const RunResults& results);
 
 inline constexpr std::int64_t kNamedClassPoints = 100;
 
-/// Every column of every method, then the intervals of every rate.
+/// What methods are worth by points: precision, recall, residue, rejection and preservation; then
+/// rejection and preservation by range and by height, a row for each method, a block for all points
+/// and for each class; then the intervals of every rate.
 std::vector<TextTable> full_column_tables(const RunResults& results);
 
-/// Where the order of the methods depends on the protocol: for each sequence, and for the mean over
-/// all, the rank of each method by the F1 or HA of each protocol, and how far it moves from the
-/// first protocol to the one where it moves most. What is displayed alike has the same rank. None
+/// Where the order of the methods depends on the protocol: the rank of each method by the F1 or HA
+/// of each protocol, and how far it moves from the first protocol to the one where it moves most.
+/// What is displayed alike has the same rank. Ranks are by the mean over the sequences; with
+/// `options.disagreements` also by each sequence, and each pair that changes places is named. None
 /// for fewer than two protocols or methods.
-std::vector<TextTable> ranking_tables(const RunResults& results);
+std::vector<TextTable> ranking_tables(const RunResults& results, const TableOptions& options = {});
 
 }  // namespace raymoval

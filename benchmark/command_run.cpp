@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "benchmark/commands.h"
 #include "benchmark/method_process.h"
+#include "benchmark/results.h"
+#include "benchmark/run_summary.h"
 #include "benchmark/runner.h"
+#include "benchmark/sealed_json.h"
 #include "benchmark/suite_flags.h"
 #include "benchmark/terminal_colour.h"
 #include "core/files.h"
@@ -98,6 +102,12 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
   }
 }
 
+/// What stands in the run folder, in one screen.
+std::string end_of_run(const std::string& out) {
+  const std::filesystem::path file = std::filesystem::path(out) / "results.json";
+  return run_summary(parse_results(read_sealed(file), file.string()), out);
+}
+
 ExitCode run(const RunFlags& flags) {
   if (flags.what.suite.empty() && flags.what.sequences.empty()) {
     throw UsageError(
@@ -120,7 +130,7 @@ ExitCode run(const RunFlags& flags) {
   const auto summary = run_asked(flags, suite, options);
   if (!summary) return ExitCode::kWorse;
   progress.end();
-  if (flags.cell.empty()) print(read_text(options.out / "table.md"));
+  if (flags.cell.empty()) print(end_of_run(flags.out));
   tell_problems(*summary, flags.collect);
   const bool whole = !flags.collect || summary->missing.empty();
   return summary->good() && whole ? ExitCode::kDone : ExitCode::kWorse;

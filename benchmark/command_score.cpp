@@ -14,6 +14,7 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "eval/rate.h"
 
 namespace raymoval {
 namespace {
@@ -69,12 +70,29 @@ std::string columns_text(const std::vector<ColumnValue>& columns) {
   return text;
 }
 
-std::string ceiling_text(const ProtocolResult& result) {
-  std::string text = "  ceiling (the oracle's cloud scored in the same way):";
+std::string oracle_text(const ProtocolResult& result) {
+  std::string text = "  the oracle\'s cloud, scored in the same way:";
   for (const Rate& rate : result.rates) {
     text += " " + rate.name + " " + (rate.value ? rate_text(rate.name, *rate.value) : "n/a");
   }
   return text + "\n";
+}
+
+/// Why a cloud may be better by some rates than one without a single mistake; empty if it is not.
+std::string above_oracle_text(const ProtocolResult& result, const ProtocolResult& oracle) {
+  std::vector<std::string> above;
+  for (const Rate& rate : result.rates) {
+    const auto perfect = oracle.rate(rate.name);
+    if (!rate.value || !perfect) continue;
+    const double gain = *rate.value - *perfect;
+    if (rate_spec(rate.name).higher_is_better ? gain > 0.0 : gain < 0.0) above.push_back(rate.name);
+  }
+  if (above.empty()) return "";
+  return "  " + join(above) +
+         " above the oracle\'s: that is no upper limit. The oracle keeps every static point; where "
+         "one stands\n  beside a moving one, that one counts as kept, and thinning puts means "
+         "where "
+         "no point was.\n";
 }
 
 /// What is scored, and what it is scored by.
@@ -119,17 +137,17 @@ class Scoring {
     const CleanedCloud cloud = read_cleaned_cloud(flags_.cloud);
     record_["cloud"]["points"] = cloud.stored;
     record_["cloud"]["non_finite"] = cloud.non_finite;
-    record_["cloud"]["ceiling_voxel_m"] = voxel;
+    record_["cloud"]["oracle_voxel_m"] = voxel;
     record_["cloud"]["warnings"] = cloud.warnings();
     text_ += "cloud of " + grouped_text(cloud.stored) +
              " points: labels by nearest neighbour, points present within 0.05 m; not to be "
              "compared with scores by index\n";
     for (const std::string& warning : cloud.warnings()) text_ += "  warning: " + warning + "\n";
-    const std::vector<ProtocolResult> ceilings = oracle_results(voxel);
+    const std::vector<ProtocolResult> oracles = oracle_results(voxel);
     const CloudEstimate estimate(cloud.points);
     for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
       if (interrupt_flag()) throw Cancelled();
-      add_result(i, bench_.score_cloud(i, estimate), &ceilings[i]);
+      add_result(i, bench_.score_cloud(i, estimate), &oracles[i]);
     }
     return bench_.cloud_masks(estimate);
   }
@@ -146,8 +164,8 @@ class Scoring {
     return results;
   }
 
-  /// @param ceiling what the oracle's cloud scored; null where labels go by index
-  void add_result(std::size_t i, const ProtocolResult& result, const ProtocolResult* ceiling) {
+  /// @param oracle what the oracle's cloud scored; null where labels go by index
+  void add_result(std::size_t i, const ProtocolResult& result, const ProtocolResult* oracle) {
     ordered_json scored;
     scored["name"] = bench_.protocol_name(i);
     scored["protocol"] = bench_.protocol(i).name();
@@ -155,9 +173,9 @@ class Scoring {
     scored["options"] = to_json(bench_.protocol(i).options());
     scored.update(to_json(result));
     text_ += result_text(bench_.protocol_name(i), result);
-    if (ceiling != nullptr) {
-      scored["ceiling"] = to_json(*ceiling)["rates"];
-      text_ += ceiling_text(*ceiling);
+    if (oracle != nullptr) {
+      scored["oracle"] = to_json(*oracle)["rates"];
+      text_ += oracle_text(*oracle) + above_oracle_text(result, *oracle);
     }
     record_["protocols"].push_back(std::move(scored));
   }
@@ -247,8 +265,10 @@ Command add_score_command(CLI::App& program) {
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
       "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "
-      "perfect\ncleaner below 100. What the oracle's cloud scores in the same way is shown as the "
-      "ceiling.\nExamples:\n"
+      "perfect\ncleaner below 100. What the oracle's cloud scores in the same way is shown beside "
+      "it. That is a\nyardstick and no upper limit: whoever also removes static points beside "
+      "moving "
+      "ones can have a\nhigher RR or DA.\nExamples:\n"
       "  raymoval score --sequence data/05 --predictions out/labels\n"
       "  raymoval score --sequence data/05 --cloud static.pcd --voxel 0.1 --protocol erasor "
       "--protocol dynamicmap\n"

@@ -24,16 +24,15 @@ std::string digest_of(const RunResults& results, const std::string& sequence,
 /// What cells of a sequence removed that differ in one parameter only, by the values of the others.
 using Groups = std::map<Values, std::vector<std::string>>;
 
-Groups groups_of(const RunResults& results, const std::string& of, const std::string& key,
+Groups groups_of(const RunResults& results, const std::string& sweep, const std::string& key,
                  const std::string& sequence) {
   Groups groups;
   for (const SweptCell& swept : results.sweeps) {
-    if (swept.of != of) continue;
+    if (swept.sweep() != sweep) continue;
     Values others;
     for (const auto& pair : swept.values) {
       if (pair.first != key) others.push_back(pair);
     }
-    if (others.size() == swept.values.size()) continue;  // Of another sweep of the same variant.
     const std::string digest = digest_of(results, sequence, swept.cell);
     if (!digest.empty()) groups[others].push_back(digest);
   }
@@ -51,10 +50,10 @@ std::optional<bool> is_flat(const Groups& groups) {
   return compared ? std::optional<bool>(true) : std::nullopt;
 }
 
-std::vector<std::string> swept_keys(const RunResults& results, const std::string& of) {
+std::vector<std::string> swept_keys(const RunResults& results, const std::string& sweep) {
   std::vector<std::string> keys;
   for (const SweptCell& swept : results.sweeps) {
-    if (swept.of != of) continue;
+    if (swept.sweep() != sweep) continue;
     for (const auto& [key, value] : swept.values) {
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
     }
@@ -62,10 +61,11 @@ std::vector<std::string> swept_keys(const RunResults& results, const std::string
   return keys;
 }
 
-std::size_t value_count(const RunResults& results, const std::string& of, const std::string& key) {
+std::size_t value_count(const RunResults& results, const std::string& sweep,
+                        const std::string& key) {
   std::set<std::string> values;
   for (const SweptCell& swept : results.sweeps) {
-    if (swept.of != of) continue;
+    if (swept.sweep() != sweep) continue;
     for (const auto& [name, value] : swept.values) {
       if (name == key) values.insert(value);
     }
@@ -75,20 +75,20 @@ std::size_t value_count(const RunResults& results, const std::string& of, const 
 
 }  // namespace
 
-std::vector<std::string> flat_sweeps(const RunResults& results, const std::string& of) {
+std::vector<std::string> flat_sweeps(const RunResults& results, const std::string& sweep) {
   std::vector<std::string> lines;
-  for (const std::string& key : swept_keys(results, of)) {
+  for (const std::string& key : swept_keys(results, sweep)) {
     std::vector<std::string> flat;
     std::size_t compared = 0;
     for (const std::string& sequence : results.sequences) {
-      const auto found = is_flat(groups_of(results, of, key, sequence));
+      const auto found = is_flat(groups_of(results, sweep, key, sequence));
       compared += found ? 1 : 0;
       if (found.value_or(false)) flat.push_back(sequence);
     }
     if (flat.empty()) continue;
     lines.push_back(key + " made no difference" +
                     (flat.size() == compared ? "" : " on " + join(flat)) + ": with each of its " +
-                    std::to_string(value_count(results, of, key)) +
+                    std::to_string(value_count(results, sweep, key)) +
                     " values exactly the same points were removed.");
   }
   return lines;
@@ -98,9 +98,9 @@ std::vector<std::string> flat_sweeps(const RunResults& results) {
   std::vector<std::string> lines;
   std::set<std::string> seen;
   for (const SweptCell& swept : results.sweeps) {
-    if (!seen.insert(swept.of).second) continue;
-    for (const std::string& line : flat_sweeps(results, swept.of)) {
-      lines.push_back("sweep of " + swept.of + ": " + line);
+    if (!seen.insert(swept.sweep()).second) continue;
+    for (const std::string& line : flat_sweeps(results, swept.sweep())) {
+      lines.push_back("sweep of " + swept.sweep() + ": " + line);
     }
   }
   return lines;

@@ -9,6 +9,7 @@ namespace raymoval {
 namespace {
 
 constexpr double kTextWidth = 345.0;    ///< Of an article at 10 pt, in points.
+constexpr double kColumnWidth = 200.0;  ///< Of one with two columns; other classes have wider ones.
 constexpr std::size_t kMostLines = 46;  ///< Of a float, so that it is not higher than a page.
 constexpr std::size_t kLongText = 26;   ///< Characters; columns with more are broken into lines.
 
@@ -93,7 +94,7 @@ std::string breakable(const std::string& text) {
 }
 
 /// A column with the heading that it stands below.
-struct Column {
+struct LatexColumn {
   std::size_t group = 0;
   std::string name;
   std::size_t place = 0;  ///< Among the cells of a row.
@@ -101,11 +102,11 @@ struct Column {
   bool is_long = false;
 };
 
-std::vector<Column> columns_of(const TextTable& table) {
-  std::vector<Column> columns;
+std::vector<LatexColumn> columns_of(const TextTable& table) {
+  std::vector<LatexColumn> columns;
   for (std::size_t group = 0; group < table.groups.size(); ++group) {
     for (const std::string& name : table.groups[group].columns) {
-      Column column{group, name, columns.size(), name.size(), false};
+      LatexColumn column{group, name, columns.size(), name.size(), false};
       for (const TableRow& row : table.rows) {
         column.characters = std::max(column.characters, row.cells[column.place].text.size());
       }
@@ -116,9 +117,9 @@ std::vector<Column> columns_of(const TextTable& table) {
   return columns;
 }
 
-/// A part of a table that fits beside its row labels.
-struct Block {
-  std::vector<Column> columns;
+/// Columns of a table that fit beside its row labels.
+struct ColumnBlock {
+  std::vector<LatexColumn> columns;
 };
 
 class LatexTable {
@@ -130,18 +131,16 @@ class LatexTable {
     }
     has_headings_ = std::any_of(table.groups.begin(), table.groups.end(),
                                 [](const TableGroup& group) { return !group.heading.empty(); });
-    is_small_ = label_width(kNormal) + width(columns_, kNormal) > kTextWidth;
+    is_wide_ = whole_width(kSmall) > kColumnWidth;
+    is_small_ = whole_width(kNormal) > (is_wide_ ? kTextWidth : kColumnWidth);
     cut();
+    pack();
   }
 
   [[nodiscard]] std::string text() const {
-    const std::size_t lines = table_.rows.size() + 5 + (has_headings_ ? 1 : 0);
-    const std::size_t blocks_a_float = std::max<std::size_t>(1, kMostLines / lines);
     std::string text;
-    for (std::size_t i = 0; i < blocks_.size(); i += blocks_a_float) {
-      const std::size_t end = std::min(blocks_.size(), i + blocks_a_float);
-      text += i == 0 ? "" : "\n";
-      text += float_text(i, end);
+    for (std::size_t i = 0; i < floats_.size(); ++i) {
+      text += (i == 0 ? "" : "\n") + float_text(floats_[i], i);
     }
     return text;
   }
@@ -151,9 +150,12 @@ class LatexTable {
   [[nodiscard]] double label_width(const Measures& by) const {
     return by.character * static_cast<double>(label_characters_) + by.gap;
   }
+  [[nodiscard]] double whole_width(const Measures& by) const {
+    return label_width(by) + width(columns_, by);
+  }
   /// Of neighbouring columns, each group at least as wide as its heading. Long columns share what
   /// the others leave, and need 80 pt.
-  [[nodiscard]] double width(const std::vector<Column>& columns, const Measures& by) const {
+  [[nodiscard]] double width(const std::vector<LatexColumn>& columns, const Measures& by) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < columns.size();) {
       const std::string& heading = table_.groups[columns[i].group].heading;
@@ -170,26 +172,30 @@ class LatexTable {
     return sum;
   }
 
+  [[nodiscard]] double room_for_columns() const {
+    return (is_wide_ ? kTextWidth : kColumnWidth) - label_width(measures());
+  }
+
   /// Puts groups that fit into blocks whole, larger ones column by column.
   void cut() {
-    const double room = kTextWidth - label_width(measures());
-    std::vector<std::vector<Column>> units;
-    for (const Column& column : columns_) {
+    const double room = room_for_columns();
+    std::vector<std::vector<LatexColumn>> units;
+    for (const LatexColumn& column : columns_) {
       const bool fresh = units.empty() || units.back().front().group != column.group;
       if (fresh) units.emplace_back();
       units.back().push_back(column);
     }
     blocks_.emplace_back();
-    for (const std::vector<Column>& unit : units) {
+    for (const std::vector<LatexColumn>& unit : units) {
       if (width(unit, measures()) <= room) {
         append(unit, room);
       } else {
-        for (const Column& column : unit) append({column}, room);
+        for (const LatexColumn& column : unit) append({column}, room);
       }
     }
   }
-  void append(const std::vector<Column>& unit, double room) {
-    std::vector<Column>& last = blocks_.back().columns;
+  void append(const std::vector<LatexColumn>& unit, double room) {
+    std::vector<LatexColumn>& last = blocks_.back().columns;
     if (!last.empty() && width(last, measures()) + width(unit, measures()) > room) {
       blocks_.push_back({unit});
     } else {
@@ -197,60 +203,128 @@ class LatexTable {
     }
   }
 
-  [[nodiscard]] std::string float_text(std::size_t begin, std::size_t end) const {
-    std::string text = "% needs \\usepackage{booktabs}\n\\begin{table}[htbp]\n\\centering\n";
-    if (is_small_) text += "\\footnotesize\n\\setlength{\\tabcolsep}{3pt}\n";
-    text += "\\caption{" + latex_escaped(table_.title) + (begin > 0 ? " (continued)" : "") +
-            "}\n\\smallskip\n";
-    for (std::size_t i = begin; i < end; ++i) {
-      text += (i == begin ? "" : "\\par\\medskip\n") + block_text(blocks_[i]);
+  /// Fills floats with as many tabulars as a page holds: for each cut of the columns all rows, at
+  /// best whole blocks of them.
+  void pack() {
+    for (const ColumnBlock& block : blocks_) {
+      const std::size_t around = 5 + (has_headings_ ? 1 : 0);
+      for (const RowRange& rows : row_ranges(kMostLines - around)) {
+        const std::size_t lines = around + lines_of(rows);
+        if (floats_.empty() || floats_.back().lines + lines > kMostLines) floats_.push_back({});
+        floats_.back().tabulars.push_back({&block, rows});
+        floats_.back().lines += lines;
+      }
     }
-    if (end < blocks_.size()) return text + "\\end{table}\n";
-    for (const std::string& note : table_.notes)
-      text += "\n\\smallskip\n" + latex_escaped(note) + "\n";
-    return text + "\\end{table}\n";
   }
 
-  [[nodiscard]] std::string block_text(const Block& block) const {
+  /// Each heading of a block and the space above it take two lines.
+  [[nodiscard]] std::size_t lines_of(const RowRange& rows) const {
+    std::size_t lines = rows.end - rows.first;
+    for (std::size_t i = rows.first; i < rows.end; ++i) lines += starts_block(i, rows) ? 2 : 0;
+    return lines;
+  }
+  [[nodiscard]] bool starts_block(std::size_t row, const RowRange& rows) const {
+    const std::string& block = table_.rows[row].block;
+    return !block.empty() && (row == rows.first || table_.rows[row - 1].block != block);
+  }
+
+  /// All rows in ranges of at most `most` lines, which end with a block where that is possible.
+  [[nodiscard]] std::vector<RowRange> row_ranges(std::size_t most) const {
+    std::vector<RowRange> ranges;
+    for (RowRange block : blocks_of(table_)) {
+      if (!ranges.empty()) {
+        const RowRange joined{ranges.back().first, block.end};
+        if (lines_of(joined) <= most) {
+          ranges.back() = joined;
+          continue;
+        }
+      }
+      for (; lines_of(block) > most; block.first += most - 2) {
+        ranges.push_back({block.first, block.first + most - 2});
+      }
+      ranges.push_back(block);
+    }
+    if (ranges.empty()) ranges.push_back({0, 0});
+    return ranges;
+  }
+
+  /// A part of the columns with a part of the rows.
+  struct Tabular {
+    const ColumnBlock* block = nullptr;
+    RowRange rows;
+  };
+  struct Float {
+    std::vector<Tabular> tabulars;
+    std::size_t lines = 0;
+  };
+
+  [[nodiscard]] std::string float_text(const Float& part, std::size_t number) const {
+    const std::string name = is_wide_ ? "table*" : "table";
+    std::string text = "% needs \\usepackage{booktabs}\n\\begin{" + name + "}[htbp]\n\\centering\n";
+    if (is_small_) text += "\\footnotesize\n\\setlength{\\tabcolsep}{3pt}\n";
+    text += "\\caption{" + latex_escaped(table_.title) + (number > 0 ? " (continued)" : "") +
+            "}\n\\smallskip\n";
+    for (std::size_t i = 0; i < part.tabulars.size(); ++i) {
+      text += (i == 0 ? "" : "\\par\\medskip\n") + tabular_text(part.tabulars[i]);
+    }
+    const bool last = number + 1 == floats_.size();
+    for (const std::string& note : last ? table_.notes : std::vector<std::string>{}) {
+      text += "\n\\smallskip\n" + latex_escaped(note) + "\n";
+    }
+    return text + "\\end{" + name + "}\n";
+  }
+
+  [[nodiscard]] std::string tabular_text(const Tabular& part) const {
+    const ColumnBlock& block = *part.block;
     // Behind \raggedright the usual end of a row means the end of a line.
     const bool has_long = std::any_of(block.columns.begin(), block.columns.end(),
-                                      [](const Column& column) { return column.is_long; });
+                                      [](const LatexColumn& column) { return column.is_long; });
     const std::string end_of_row = has_long ? " \\tabularnewline\n" : " \\\\\n";
     std::string text = "\\begin{tabular}{l" + formats(block) + "}\n\\toprule\n";
     if (has_headings_) text += headings(block, end_of_row);
     text += latex_escaped(table_.corner);
-    for (const Column& column : block.columns) text += " & " + latex_escaped(column.name);
+    for (const LatexColumn& column : block.columns) text += " & " + latex_escaped(column.name);
     text += end_of_row + "\\midrule\n";
-    bool in_summary = false;
-    for (const TableRow& row : table_.rows) {
-      if (row.summary && !in_summary) text += "\\midrule\n";
-      in_summary = row.summary;
-      text += latex_escaped(row.label);
-      for (const Column& column : block.columns) {
-        text += " & " + cell_text(row.cells[column.place], column.is_long);
+    for (std::size_t i = part.rows.first; i < part.rows.end; ++i) {
+      const TableRow& row = table_.rows[i];
+      if (starts_block(i, part.rows)) {
+        text += std::string(i == part.rows.first ? "" : "\\midrule\n") + "\\multicolumn{" +
+                std::to_string(block.columns.size() + 1) + "}{l}{\\textit{" +
+                latex_escaped(row.block) + "}}" + end_of_row;
+      } else if (row.summary && (i == 0 || !table_.rows[i - 1].summary)) {
+        text += i == part.rows.first ? "" : "\\midrule\n";
       }
-      text += end_of_row;
+      text += row_text(row, block) + end_of_row;
     }
     return text + "\\bottomrule\n\\end{tabular}\n";
   }
 
-  [[nodiscard]] std::string formats(const Block& block) const {
-    double left = kTextWidth - label_width(measures());
+  [[nodiscard]] static std::string row_text(const TableRow& row, const ColumnBlock& block) {
+    std::string text = latex_escaped(row.label);
+    for (const LatexColumn& column : block.columns) {
+      text += " & " + cell_text(row.cells[column.place], column.is_long);
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string formats(const ColumnBlock& block) const {
+    double left = room_for_columns();
     std::size_t long_columns = 0;
-    for (const Column& column : block.columns) {
+    for (const LatexColumn& column : block.columns) {
       long_columns += column.is_long ? 1 : 0;
       left -= measures().gap;
       if (!column.is_long) left -= measures().character * static_cast<double>(column.characters);
     }
     std::string text;
-    for (const Column& column : block.columns) {
+    for (const LatexColumn& column : block.columns) {
       const double share = std::max(60.0, left / static_cast<double>(long_columns));
       text += column.is_long ? "p{" + fixed_text(std::floor(share), 0) + "pt}" : "r";
     }
     return text;
   }
 
-  [[nodiscard]] std::string headings(const Block& block, const std::string& end_of_row) const {
+  [[nodiscard]] std::string headings(const ColumnBlock& block,
+                                     const std::string& end_of_row) const {
     std::string text, rules;
     std::size_t at = 2;
     for (std::size_t i = 0; i < block.columns.size();) {
@@ -278,11 +352,13 @@ class LatexTable {
   }
 
   const TextTable& table_;
-  std::vector<Column> columns_;
+  std::vector<LatexColumn> columns_;
   std::size_t label_characters_ = 0;
   bool has_headings_ = false;
   bool is_small_ = false;
-  std::vector<Block> blocks_;
+  bool is_wide_ = false;  ///< Spans both columns of a two-column text.
+  std::vector<ColumnBlock> blocks_;
+  std::vector<Float> floats_;
 };
 
 }  // namespace

@@ -17,17 +17,6 @@ struct Ranking {
   std::vector<std::optional<std::size_t>> ranks;  ///< From 1; methods that tie share one.
 };
 
-/// F1 or HA, whichever the protocol has.
-std::string headline_rate(const RunResults& results, const std::string& protocol) {
-  for (const ResultRow& row : results.rows) {
-    if (row.protocol != protocol) continue;
-    for (const char* rate : {"F1", "HA"}) {
-      if (row.rates.contains(rate)) return rate;
-    }
-  }
-  return "";
-}
-
 std::optional<double> score_of(const RunResults& results, const std::string& sequence,
                                const std::string& cell, const Ranking& ranking) {
   const ResultRow* row = results.find(sequence, cell, ranking.protocol);
@@ -39,7 +28,7 @@ std::optional<double> score_of(const RunResults& results, const std::string& seq
 /// @param sequences one, or all for the mean; a method that misses one of them has no rank
 Ranking ranking_of(const RunResults& results, const std::vector<std::string>& sequences,
                    const std::vector<std::string>& methods, const std::string& protocol) {
-  Ranking ranking{protocol, headline_rate(results, protocol), {}, {}};
+  Ranking ranking{protocol, results.headline_of(protocol), {}, {}};
   for (const std::string& method : methods) {
     std::vector<std::optional<double>> values;
     for (const std::string& sequence : sequences) {
@@ -111,26 +100,29 @@ std::vector<std::string> ranked_methods(const RunResults& results) {
   return methods;
 }
 
-void add_group(const RunResults& results, const std::vector<std::string>& sequences,
-               const std::string& heading, const std::vector<std::string>& methods,
-               TextTable& table) {
+/// Adds a block of ranks, and what changes places in it to the notes if that is asked for.
+void add_ranks(const RunResults& results, const std::vector<std::string>& sequences,
+               const std::string& heading, bool name_pairs, TextTable& table) {
+  const std::vector<std::string> methods = ranked_methods(results);
   std::vector<Ranking> rankings;
   for (const std::string& protocol : results.protocols) {
     rankings.push_back(ranking_of(results, sequences, methods, protocol));
   }
-  TableGroup group{heading, {}};
+  table.groups = {{"", {}}};
   for (const Ranking& ranking : rankings) {
-    group.columns.push_back(ranking.protocol + " " + ranking.rate);
+    table.groups[0].columns.push_back(ranking.protocol + " " + ranking.rate);
   }
-  group.columns.push_back("change");
-  table.groups.push_back(group);
+  table.groups[0].columns.push_back("change");
   for (std::size_t method = 0; method < methods.size(); ++method) {
+    TableRow row{methods[method], {}, false, heading};
     for (const Ranking& ranking : rankings) {
       const auto& rank = ranking.ranks[method];
-      table.rows[method].cells.push_back({rank ? std::to_string(*rank) : "-"});
+      row.cells.push_back({rank ? std::to_string(*rank) : "-"});
     }
-    table.rows[method].cells.push_back({change_text(rankings, method)});
+    row.cells.push_back({change_text(rankings, method)});
+    table.rows.push_back(std::move(row));
   }
+  if (!name_pairs) return;
   for (const std::string& swap : swaps(rankings, methods)) {
     table.notes.push_back(heading + ": " + swap + ".");
   }
@@ -138,22 +130,25 @@ void add_group(const RunResults& results, const std::vector<std::string>& sequen
 
 }  // namespace
 
-std::vector<TextTable> ranking_tables(const RunResults& results) {
-  const std::vector<std::string> methods = ranked_methods(results);
-  if (results.protocols.size() < 2 || methods.size() < 2) return {};
+std::vector<TextTable> ranking_tables(const RunResults& results, const TableOptions& options) {
+  if (results.protocols.size() < 2 || ranked_methods(results).size() < 2) return {};
   TextTable table{"Ranking by protocol", "method", {}, {}, {}};
-  for (const std::string& method : methods) table.rows.push_back({method, {}, false});
   table.notes.push_back(
       "Ranks; what is displayed alike ties. change: places gained (+) or lost from the first "
       "protocol to the one where most are; -: not in all sequences. Differences within the "
       "intervals (`raymoval table RUN --columns`) are no ranking.");
-  for (const std::string& sequence : results.sequences) {
-    add_group(results, {sequence}, sequence, methods, table);
+  const bool several = results.sequences.size() > 1;
+  if (!several || options.disagreements) {
+    for (const std::string& sequence : results.sequences) {
+      add_ranks(results, {sequence}, sequence, options.disagreements, table);
+    }
   }
-  if (results.sequences.size() > 1) {
-    add_group(results, results.sequences, "mean", methods, table);
+  if (several) {
+    add_ranks(results, results.sequences, "mean over the sequences", options.disagreements, table);
   }
-  if (table.notes.size() == 1) table.notes.push_back("No pair of methods changes places.");
+  if (options.disagreements && table.notes.size() == 1) {
+    table.notes.push_back("No pair of methods changes places.");
+  }
   return {table};
 }
 

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cell.h"
+#include "benchmark/cell_selection.h"
 #include "benchmark/score_json.h"
 #include "core/text.h"
+#include "eval/rate.h"
 
 namespace raymoval {
 namespace {
@@ -72,12 +74,13 @@ void add_times(const ordered_json& cell, RunResults& results) {
     if (known.cell == name) times = &known;
   }
   if (times == nullptr) {
-    results.times.push_back({name, 0, 0.0, 0.0, {}, 1});
+    results.times.push_back({name, 0, 0.0, 0.0, {}, 1, 1});
     times = &results.times.back();
   }
   times->scans += cell.at("data").at("scans").get<std::size_t>();
   times->seconds += measured.at("seconds_total").get<double>();
   times->load_seconds += measured.at("seconds_load").get<double>();
+  times->threads = std::max(times->threads, measured.value("threads", 1));
   if (measured.contains("repeats")) {
     times->repeats = static_cast<int>(measured.at("repeats").size());
   }
@@ -157,9 +160,63 @@ const ResultRow* RunResults::find(const std::string& sequence, const std::string
   return nullptr;
 }
 
-bool RunResults::is_swept(const std::string& cell) const {
-  return std::any_of(sweeps.begin(), sweeps.end(),
-                     [&](const SweptCell& swept) { return swept.cell == cell; });
+const SweptCell* RunResults::swept(const std::string& cell) const {
+  for (const SweptCell& point : sweeps) {
+    if (point.cell == cell) return &point;
+  }
+  return nullptr;
+}
+
+bool RunResults::is_control(const std::string& cell) const {
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const ResultRow& row) { return row.cell == cell && row.control; });
+}
+
+std::optional<double> RunResults::ms_per_scan(const std::string& cell) const {
+  for (const MethodTimes& known : times) {
+    if (known.cell != cell || known.scans == 0) continue;
+    return 1000.0 * known.seconds / static_cast<double>(known.scans);
+  }
+  return std::nullopt;
+}
+
+std::optional<double> RunResults::peak_mib(const std::string& cell) const {
+  std::optional<double> most;
+  for (const ResultRow& row : rows) {
+    if (row.cell != cell || !row.peak_memory_mib) continue;
+    most = std::max(most.value_or(0.0), *row.peak_memory_mib);
+  }
+  return most;
+}
+
+std::vector<std::string> RunResults::rates_of(const std::string& protocol) const {
+  std::vector<std::string> rates;
+  for (const RateSpec& spec : rate_specs()) {
+    const bool there = std::any_of(rows.begin(), rows.end(), [&](const ResultRow& row) {
+      return row.protocol == protocol && row.rates.contains(spec.name);
+    });
+    if (there) rates.push_back(spec.name);
+  }
+  return rates;
+}
+
+std::string RunResults::headline_of(const std::string& protocol) const {
+  for (const std::string& rate : rates_of(protocol)) {
+    if (rate_spec(rate).role == RateRole::kHeadline) return rate;
+  }
+  return "";
+}
+
+std::string SweptCell::sweep() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : values) keys.push_back(key);
+  return of + " over " + join(keys);
+}
+
+std::string SweptCell::point() const {
+  std::vector<std::string> pairs;
+  for (const auto& [key, value] : values) pairs.push_back(key + "=" + value);
+  return join(pairs);
 }
 
 RunResults parse_results(const ordered_json& results, const std::string& where) {
@@ -177,11 +234,12 @@ RunResults parse_results(const ordered_json& results, const std::string& where) 
 }
 
 std::string rate_text(const std::string& rate, double value) {
-  return fixed_text(value, rate == "F1" ? 4 : 3);
+  return fixed_text(value, rate_spec(rate).decimals);
 }
 
 std::string results_csv(const RunResults& results) {
-  const std::vector<std::string> rates = {"PR", "RR", "F1", "SA", "DA", "AA", "HA"};
+  std::vector<std::string> rates;
+  for (const RateSpec& spec : rate_specs()) rates.push_back(spec.name);
   std::string csv = "sequence,method,variant,protocol,status," + join(rates, ",") +
                     ",seconds_per_scan,peak_memory_mib,name\n";
   for (const ResultRow& row : results.rows) {
@@ -197,6 +255,35 @@ std::string results_csv(const RunResults& results) {
     csv += "," + csv_text(row.cell) + "\n";
   }
   return csv;
+}
+
+void choose_cells(ordered_json& results, const std::vector<std::string>& only) {
+  if (only.empty()) return;
+  std::vector<std::string> names;
+  ordered_json& cells = results.at("cells");
+  for (const ordered_json& cell : cells) {
+    names.push_back(cell.at("sequence").get<std::string>() + "/" +
+                    cell.at("name").get<std::string>());
+  }
+  const std::vector<bool> chosen = select_cells({only}, names, "run");
+  ordered_json left = ordered_json::array();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (chosen[i]) left.push_back(cells[i]);
+  }
+  ordered_json& suite = results.at("run").at("suite");
+  for (const auto& [list, key] :
+       {std::pair("sequences", "sequence"), std::pair("methods", "name")}) {
+    ordered_json kept = ordered_json::array();
+    for (const ordered_json& item : suite.at(list)) {
+      const bool there = std::any_of(left.begin(), left.end(), [&, key = key](const auto& cell) {
+        return cell.at(key) == item.at("name");
+      });
+      if (there) kept.push_back(item);
+    }
+    suite.at(list) = std::move(kept);
+  }
+  cells = std::move(left);
+  results.erase("missing");  // Those are of the whole run.
 }
 
 void choose_protocols(RunResults& results, const std::vector<std::string>& protocols) {

@@ -38,8 +38,9 @@ struct MethodTimes {
   std::size_t scans = 0;
   double seconds = 0.0;                                ///< Without waiting for scans.
   double load_seconds = 0.0;                           ///< Waiting for scans.
-  std::vector<std::pair<std::string, double>> stages;  ///< Seconds of each stage.
+  std::vector<std::pair<std::string, double>> stages;  ///< Seconds, summed over threads.
   int repeats = 1;  ///< So many runs were made; the times are those of the median one.
+  int threads = 1;  ///< Of the run that had most; what they do at once adds up in `stages`.
 };
 
 /// A cell without a result.
@@ -56,6 +57,12 @@ struct SweptCell {
   std::string cell;
   std::string of;  ///< What is swept, "raymoval:offline".
   std::vector<std::pair<std::string, std::string>> values;
+
+  /// What is swept over what: "raymoval:offline over tau0, tau1". Points with the same text belong
+  /// to one sweep; a variant can have several.
+  [[nodiscard]] std::string sweep() const;
+  /// "tau0=0.2, tau1=0.1".
+  [[nodiscard]] std::string point() const;
 };
 
 /// Columns of a method, added up over all sequences that it finished.
@@ -86,7 +93,18 @@ struct RunResults {
   /// The row of a sequence, cell and protocol; null if there is none.
   [[nodiscard]] const ResultRow* find(const std::string& sequence, const std::string& cell,
                                       const std::string& protocol) const;
-  [[nodiscard]] bool is_swept(const std::string& cell) const;
+  /// The point of a sweep that a cell is; null if it is none.
+  [[nodiscard]] const SweptCell* swept(const std::string& cell) const;
+  [[nodiscard]] bool is_swept(const std::string& cell) const { return swept(cell) != nullptr; }
+  [[nodiscard]] bool is_control(const std::string& cell) const;
+  /// Milliseconds per scan over all sequences that the cell's method finished; none for controls.
+  [[nodiscard]] std::optional<double> ms_per_scan(const std::string& cell) const;
+  /// The most memory that the cell's method took on any sequence, in MiB.
+  [[nodiscard]] std::optional<double> peak_mib(const std::string& cell) const;
+  /// Names of the rates that `protocol` gives and that are shown without being asked for, in order.
+  [[nodiscard]] std::vector<std::string> rates_of(const std::string& protocol) const;
+  /// The rate by which methods are ranked, F1 or HA; empty if `protocol` gives none.
+  [[nodiscard]] std::string headline_of(const std::string& protocol) const;
 };
 
 /// @param results content of results.json
@@ -98,6 +116,11 @@ std::string results_csv(const RunResults& results);
 
 /// A rate as it stands in tables: "98.123", F1 "0.9812".
 std::string rate_text(const std::string& rate, double value);
+
+/// Leaves only the cells "SEQUENCE/NAME" of a results.json that fit one of the patterns, and only
+/// the sequences and methods that still have one; all if there are none.
+/// @throws UsageError if a pattern fits no cell
+void choose_cells(nlohmann::ordered_json& results, const std::vector<std::string>& only);
 
 /// Leaves only what was scored by `protocols`; all of it if there are none.
 /// @throws UsageError if the run was not scored by one of them

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cell.h"
+#include "benchmark/cell_line.h"
 #include "benchmark/cell_store.h"
 #include "benchmark/checked_sink.h"
 #include "benchmark/controls_check.h"
 #include "benchmark/flat_sweeps.h"
 #include "benchmark/folder_lock.h"
-#include "benchmark/results.h"
 #include "benchmark/run_folder.h"
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_bench.h"
@@ -77,22 +77,12 @@ ChildLimits limits_for(const Suite& suite, std::size_t scans) {
   return limits;
 }
 
-/// "PR 98.123, RR 91.000, F1 0.9443 (12.3 ms per scan)", or what went wrong.
-std::string outcome(const ordered_json& cell) {
-  if (cell["status"] != "ok") {
-    return coloured(cell["status"].get<std::string>() + ", " + cell["reason"].get<std::string>(),
-                    TerminalColour::kBad, stderr);
-  }
-  std::string text;
-  for (const ordered_json& protocol : cell["protocols"]) {
-    for (const auto& [rate, value] : protocol["rates"].items()) {
-      text += text.empty() ? "" : ", ";
-      text += rate + " " + (value.is_null() ? "n/a" : rate_text(rate, value.get<double>()));
-    }
-  }
-  return text + " (" +
-         fixed_text(cell["measured"]["seconds_per_scan"]["mean"].get<double>() * 1000.0, 1) +
-         " ms per scan)";
+/// How the cells of a run are logged.
+CellLines cell_lines(const Suite& suite, const std::vector<Sequence>& sequences) {
+  std::vector<std::string> names, methods;
+  for (const Sequence& sequence : sequences) names.push_back(sequence.name);
+  for (const MethodRequest& request : suite.methods) methods.push_back(request.name);
+  return {names, methods, names.size() * methods.size()};
 }
 
 /// The cells of a suite, one after another.
@@ -282,11 +272,11 @@ class Runner {
 
   void keep_in_memory(std::size_t sequence, std::size_t method, ordered_json cell) {
     ++summary_.cells;
-    const std::string line = "[" + std::to_string(summary_.cells) + "/" +
-                             std::to_string(cells_.size()) + "] " +
-                             cell["name"].get<std::string>() + " on " +
-                             cell["sequence"].get<std::string>() + ": " + outcome(cell);
-    if (cell["status"] != "ok") summary_.failures.push_back(failure_text(cell));
+    std::string line = cell_lines(suite_, sequences_).line(summary_.cells, cell);
+    if (cell["status"] != "ok") {
+      line = coloured(line, TerminalColour::kBad, stderr);
+      summary_.failures.push_back(failure_text(cell));
+    }
     cell_at(sequence, method) = std::move(cell);
     if (options_.progress == nullptr) return;
     options_.progress->end();

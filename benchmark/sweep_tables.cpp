@@ -3,47 +3,32 @@
 
 #include <algorithm>
 
+#include "benchmark/accuracy_tables.h"
 #include "benchmark/flat_sweeps.h"
 #include "core/text.h"
 #include "eval/averages.h"
+#include "eval/rate.h"
 
 namespace raymoval {
 namespace {
 
-/// Rates that a protocol gives, in the order of a curve: what is kept, what is removed, both in
-/// one.
-std::vector<std::string> curve_rates(const RunResults& results, const std::string& protocol) {
-  std::vector<std::string> rates;
-  for (const char* rate : {"PR", "RR", "F1", "SA", "DA", "HA"}) {
-    const bool there = std::any_of(results.rows.begin(), results.rows.end(), [&](const auto& row) {
-      return row.protocol == protocol && row.rates.count(rate) > 0;
-    });
-    if (there) rates.emplace_back(rate);
-  }
-  return rates;
-}
-
-TableCell rate_cell(const std::string& rate, const ResultRow* row) {
+/// What a cell of a table shows, or the word for its lack.
+TableCell rate_cell(const TableOptions& options, const std::string& rate, const ResultRow* row) {
   if (row == nullptr) return {"not run"};
   if (row->status != "ok") return {row->status};
   const auto found = row->rates.find(rate);
   if (found == row->rates.end() || !found->second) return {"n/a"};
-  return {rate_text(rate, *found->second)};
+  return {option_text(options, rate, *found->second)};
 }
 
-TableCell mean_cell(const std::string& rate, const std::vector<const ResultRow*>& rows) {
+TableCell mean_cell(const TableOptions& options, const std::string& rate,
+                    const std::vector<const ResultRow*>& rows) {
   std::vector<std::optional<double>> values;
   for (const ResultRow* row : rows) {
     const bool there = row != nullptr && row->rates.count(rate) > 0;
     values.push_back(there ? row->rates.at(rate) : std::nullopt);
   }
-  const Mean mean = mean_of(values);
-  if (!mean.value) return {"n/a"};
-  std::string text = rate_text(rate, *mean.value);
-  if (mean.segments < rows.size()) {
-    text += " (" + std::to_string(mean.segments) + "/" + std::to_string(rows.size()) + ")";
-  }
-  return {text};
+  return {mean_text(options, rate, values)};
 }
 
 TableCell time_cell(const std::vector<const ResultRow*>& rows) {
@@ -55,81 +40,105 @@ TableCell time_cell(const std::vector<const ResultRow*>& rows) {
   return {mean.value ? fixed_text(1000.0 * *mean.value, 1) : "n/a"};
 }
 
-/// Marks the largest value of a column, as displayed.
-void mark_best(TextTable& table, std::size_t column) {
-  const auto value_of = [&](const TableRow& row) {
-    const std::string& text = row.cells[column].text;
-    return parse_number<double>(std::string_view(text).substr(0, text.find(' ')));
-  };
-  std::optional<double> best;
-  for (const TableRow& row : table.rows) {
-    const auto value = value_of(row);
-    if (value && (!best || *value > *best)) best = value;
-  }
-  for (TableRow& row : table.rows) {
-    if (best && value_of(row) == best) row.cells[column].mark = Mark::kBest;
-  }
-}
-
-std::string point_text(const SweptCell& swept) {
-  std::vector<std::string> values;
-  for (const auto& [key, value] : swept.values) values.push_back(value);
-  return join(values);
-}
-
-std::string point_heading(const SweptCell& swept) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : swept.values) keys.push_back(key);
-  return join(keys);
-}
-
-TableRow point_row(const RunResults& results, const SweptCell& swept, const std::string& protocol,
-                   const std::vector<std::string>& rates) {
-  TableRow row{point_text(swept), {}, false};
+/// The rows of a point on every sequence, or on one.
+std::vector<const ResultRow*> rows_of_point(const RunResults& results, const std::string& cell,
+                                            const std::string& protocol) {
   std::vector<const ResultRow*> rows;
   for (const std::string& sequence : results.sequences) {
-    rows.push_back(results.find(sequence, swept.cell, protocol));
-    for (const std::string& rate : rates) row.cells.push_back(rate_cell(rate, rows.back()));
+    rows.push_back(results.find(sequence, cell, protocol));
   }
-  if (rows.size() > 1) {
-    for (const std::string& rate : rates) row.cells.push_back(mean_cell(rate, rows));
-  }
-  row.cells.push_back(time_cell(rows));
-  return row;
+  return rows;
 }
 
-TextTable sweep_table(const RunResults& results, const std::string& of,
-                      const std::string& protocol) {
-  const std::vector<std::string> rates = curve_rates(results, protocol);
-  TextTable table{"Sweep of " + of + " by protocol " + protocol, "", {}, {}, {}};
-  for (const std::string& sequence : results.sequences) table.groups.push_back({sequence, rates});
-  if (results.sequences.size() > 1) table.groups.push_back({"mean", rates});
-  table.groups.push_back({"", {"ms per scan"}});
-  for (const SweptCell& swept : results.sweeps) {
-    if (swept.of != of) continue;
-    table.corner = point_heading(swept);
-    table.rows.push_back(point_row(results, swept, protocol, rates));
+/// A sweep by one protocol.
+struct Curve {
+  std::string sweep;  ///< SweptCell::sweep().
+  std::vector<const SweptCell*> points;
+  std::string protocol;
+  std::vector<std::string> rates;
+  bool timed = true;
+};
+
+void add_block(const RunResults& results, const Curve& curve, const TableOptions& options,
+               std::optional<std::size_t> sequence, TextTable& table) {
+  for (const SweptCell* point : curve.points) {
+    std::vector<const ResultRow*> rows = rows_of_point(results, point->cell, curve.protocol);
+    TableRow row{point->point(),
+                 {},
+                 false,
+                 sequence ? results.sequences[*sequence] : "mean over the sequences"};
+    if (sequence) rows = {rows[*sequence]};
+    for (const std::string& rate : curve.rates) {
+      row.cells.push_back(sequence ? rate_cell(options, rate, rows.front())
+                                   : mean_cell(options, rate, rows));
+    }
+    if (curve.timed) row.cells.push_back(time_cell(rows));
+    table.rows.push_back(std::move(row));
   }
-  for (std::size_t i = 0; i + 1 < table.rows.front().cells.size(); ++i) {
-    const std::string& rate = rates[i % rates.size()];
-    if (rate == "F1" || rate == "HA") mark_best(table, i);
+}
+
+/// Marks the best points of each block by the rates that are both in one: alone, what is kept or
+/// what is removed decides nothing.
+void mark_curve(const Curve& curve, TextTable& table) {
+  for (const RowRange& block : blocks_of(table)) {
+    for (std::size_t place = 0; place < curve.rates.size(); ++place) {
+      const RateSpec spec = rate_spec(curve.rates[place]);
+      if (spec.role != RateRole::kHeadline) continue;
+      std::vector<TableCell*> cells;
+      for (std::size_t i = block.first; i < block.end; ++i) {
+        cells.push_back(&table.rows[i].cells[place]);
+      }
+      mark_best(cells, spec.higher_is_better);
+    }
   }
+}
+
+TextTable sweep_table(const RunResults& results, const Curve& curve, const TableOptions& options) {
+  TextTable table{"Sweep of " + curve.sweep + " by protocol " + curve.protocol,
+                  "parameters",
+                  {{"", curve.rates}},
+                  {},
+                  {}};
+  if (curve.timed) table.groups[0].columns.emplace_back("ms per scan");
+  for (std::size_t i = 0; i < results.sequences.size(); ++i) {
+    add_block(results, curve, options, i, table);
+  }
+  if (results.sequences.size() > 1) add_block(results, curve, options, std::nullopt, table);
+  mark_curve(curve, table);
   table.notes.push_back(
       "Each row is a point of the curve of what is kept against what is removed.");
-  for (const std::string& line : flat_sweeps(results, of)) table.notes.push_back(line);
+  for (const std::string& line : flat_sweeps(results, curve.sweep)) table.notes.push_back(line);
   return table;
 }
 
 }  // namespace
 
-std::vector<TextTable> sweep_tables(const RunResults& results) {
-  std::vector<std::string> swept;
-  for (const SweptCell& cell : results.sweeps) {
-    if (std::find(swept.begin(), swept.end(), cell.of) == swept.end()) swept.push_back(cell.of);
+std::vector<TextTable> sweep_tables(const RunResults& results, const TableOptions& options) {
+  std::vector<Curve> curves;
+  for (const SweptCell& point : results.sweeps) {
+    const auto known = std::find_if(curves.begin(), curves.end(), [&](const Curve& curve) {
+      return curve.sweep == point.sweep();
+    });
+    if (known == curves.end()) {
+      curves.push_back(
+          {point.sweep(), {&point}, "", {}, options.rates.empty() || shows_time(options)});
+    } else {
+      known->points.push_back(&point);
+    }
   }
   std::vector<TextTable> tables;
   for (const std::string& protocol : results.protocols) {
-    for (const std::string& of : swept) tables.push_back(sweep_table(results, of, protocol));
+    for (Curve& curve : curves) {
+      curve.protocol = protocol;
+      curve.rates = chosen_rates(options, results, protocol);
+      // The other mean of the two rates says nothing more of a curve.
+      if (options.rates.empty()) {
+        std::erase_if(curve.rates, [](const std::string& rate) {
+          return rate_spec(rate).role == RateRole::kMean;
+        });
+      }
+      if (!curve.rates.empty()) tables.push_back(sweep_table(results, curve, options));
+    }
   }
   return tables;
 }

@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "benchmark/results.h"
+#include "benchmark/table_options.h"
 #include "benchmark/text_table.h"
 
 namespace raymoval {
 
-/// The PR-RR curve (or SA-DA) of each swept method by each protocol: a row for each point of the
-/// sweep, the sequences and their mean side by side, the best F1 (or HA) of each marked.
-std::vector<TextTable> sweep_tables(const RunResults& results);
+/// The PR-RR curve (or SA-DA) of each sweep by each protocol: a row for each point, named by its
+/// parameters, a block for each sequence and one of their means, the best F1 (or HA) of each
+/// marked.
+std::vector<TextTable> sweep_tables(const RunResults& results, const TableOptions& options = {});
 
 }  // namespace raymoval

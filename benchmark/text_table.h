@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,8 @@ struct TableCell {
 struct TableRow {
   std::string label;
   std::vector<TableCell> cells;
-  bool summary = false;  ///< Set apart from the rows above it.
+  bool summary = false;    ///< Set apart from the rows above it.
+  std::string block = {};  ///< Heading of the rows that it stands among, such as a sequence.
 };
 
 /// Columns that share a heading, such as PR, RR and F1 of a method.
@@ -34,12 +37,50 @@ struct TextTable {
   std::vector<std::string> notes;
 };
 
-/// Markdown with aligned columns: best bold, second underlined.
+/// The number that the text of a cell starts with: 98.123 of "98.123 (4/5)", 1234 of "1,234".
+std::optional<double> leading_number(const std::string& text);
+
+/// Marks the best and the second best of the cells, as displayed: what looks equal is marked alike.
+/// Fewer than two numbers are not marked.
+void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better);
+
+/// Rows of one block: [first, end) for each block, in their order.
+struct RowRange {
+  std::size_t first = 0, end = 0;
+};
+std::vector<RowRange> blocks_of(const TextTable& table);
+
+/// Characters of a UTF-8 text.
+std::size_t shown_length(const std::string& text);
+
+/// `text` with blanks behind it up to `width` characters, or in front of it.
+std::string padded(const std::string& text, std::size_t width);
+std::string padded_left(const std::string& text, std::size_t width);
+
+/// At most `most` characters: "..." stands for the middle of a longer text.
+std::string shortened_middle(const std::string& text, std::size_t most);
+
+/// At most `most` characters: "..." stands for the end of a longer text.
+std::string shortened_end(const std::string& text, std::size_t most);
+
+/// Lines of at most `most` characters, broken between words, each with its end of line.
+std::string wrapped(const std::string& text, std::size_t most);
+
+/// How wide text for a terminal is at most.
+inline constexpr std::size_t kTerminalWidth = 100;
+
+/// Columns aligned by blanks, for a terminal: no title, no blocks, the best value with a '*'.
+std::string to_plain(const TextTable& table);
+
+/// Markdown with aligned columns: best bold, second underlined; each block has a heading and a
+/// table of its own, all of the same widths.
 std::string to_markdown(const TextTable& table);
 
 /// LaTeX that needs the package booktabs and nothing else: everything escaped, best bold, second
-/// underlined. What is too wide for the text of an article (345 pt) is set smaller, then cut into
-/// several tables, one below the other, then into several floats; long texts are broken into lines.
+/// underlined, each block below a heading. What is too wide for a column of a two-column article
+/// (200 pt) is set smaller; what is then still too wide becomes a `table*`, which spans both
+/// columns. What does not fit the text of an article (345 pt) is cut into several tables, one below
+/// the other, and what is higher than a page into several floats; long texts are broken into lines.
 /// Characters beyond Latin-1, which LaTeX does not know by itself, become question marks.
 std::string to_latex(const TextTable& table);
 

@@ -7,17 +7,10 @@
 namespace raymoval {
 namespace {
 
-bool is_control_cell(const RunResults& results, const std::string& cell) {
-  return std::any_of(results.rows.begin(), results.rows.end(),
-                     [&](const ResultRow& row) { return row.cell == cell && row.control; });
-}
-
-/// What a sweep is of; the cell itself if it is none of a sweep.
-const std::string& series_name(const RunResults& results, const std::string& cell) {
-  for (const SweptCell& swept : results.sweeps) {
-    if (swept.cell == cell) return swept.of;
-  }
-  return cell;
+/// What a sweep is of, and over what; the cell itself if it is none of a sweep.
+std::string series_name(const RunResults& results, const std::string& cell) {
+  const SweptCell* point = results.swept(cell);
+  return point == nullptr ? cell : point->sweep();
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `value`.
@@ -32,8 +25,8 @@ double round_step(double value) {
 std::vector<ChartSeries> chart_series(const RunResults& results) {
   std::vector<ChartSeries> series;
   for (const std::string& cell : results.cells) {
-    if (is_control_cell(results, cell)) continue;
-    const std::string& name = series_name(results, cell);
+    if (results.is_control(cell)) continue;
+    const std::string name = series_name(results, cell);
     const auto known = std::find_if(series.begin(), series.end(),
                                     [&](const ChartSeries& item) { return item.name == name; });
     if (known != series.end()) {

@@ -7,6 +7,7 @@
 #include "benchmark/cell_selection.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "eval/rate.h"
 
 namespace raymoval {
 namespace {
@@ -71,11 +72,11 @@ std::string caption_of(const RunResults& results, const KeptCell& cell) {
   const ResultRow* row = results.find(cell.sequence, cell.name, results.protocols.front());
   std::string text;
   if (row == nullptr) return text;
-  for (const auto& rate : {"PR", "RR", "F1", "SA", "DA", "HA"}) {
-    const auto found = row->rates.find(rate);
-    if (found == row->rates.end() || !found->second) continue;
-    text += (text.empty() ? "" : "   ") + std::string(rate) + " " +
-            fixed_text(*found->second, found->first == "F1" ? 3 : 1);
+  for (const RateSpec& spec : rate_specs()) {
+    const auto found = row->rates.find(spec.name);
+    if (spec.role == RateRole::kMean || found == row->rates.end() || !found->second) continue;
+    text += (text.empty() ? "" : "   ") + spec.name + " " +
+            fixed_text(*found->second, spec.unit == RateUnit::kFraction ? 3 : 1);
   }
   return text;
 }

@@ -12,13 +12,6 @@
 namespace raymoval {
 namespace {
 
-/// The number a cell starts with: "98.123 (4/5)", "1,234".
-std::optional<double> leading_number(const std::string& text) {
-  std::string number = text.substr(0, text.find(' '));
-  std::erase(number, ',');
-  return parse_number<double>(number);
-}
-
 /// Whether column `place` holds numbers and, maybe, words for their lack.
 bool holds_numbers(const TextTable& table, std::size_t place) {
   bool any = false;
@@ -100,11 +93,12 @@ std::string heat_of(const TableCell& cell) {
   return " style=\"--share:" + fixed_text(share, 2) + "\"";
 }
 
-std::string rows_html(const TextTable& table, bool summary, bool heat) {
+std::string rows_html(const TextTable& table, const RowRange& range, bool summary, bool heat) {
   const std::vector<bool> numbers = number_columns(table), starts = group_starts(table);
   const bool lines = table.groups.size() > 1;
   std::string html;
-  for (const TableRow& row : table.rows) {
+  for (std::size_t r = range.first; r < range.end; ++r) {
+    const TableRow& row = table.rows[r];
     if (row.summary != summary) continue;
     html += "<tr><th scope=\"row\">" + html_text(row.label) + "</th>";
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
@@ -120,14 +114,30 @@ std::string rows_html(const TextTable& table, bool summary, bool heat) {
   return html;
 }
 
+/// A <tbody> for each block; a block with a name has a row with it above its own.
+std::string bodies_html(const TextTable& table, bool heat) {
+  const std::string span = std::to_string(number_columns(table).size() + 1);
+  std::string html;
+  for (const RowRange& block : blocks_of(table)) {
+    const std::string& heading = table.rows[block.first].block;
+    html += "<tbody>";
+    if (!heading.empty()) {
+      html += "<tr class=\"block\"><th scope=\"rowgroup\" colspan=\"" + span + "\">" +
+              html_text(heading) + "</th></tr>\n";
+    }
+    html += rows_html(table, block, false, heat) + "</tbody>";
+  }
+  return html.empty() ? "<tbody></tbody>" : html;
+}
+
 std::string whole_table(const TextTable& table, TableHeight height, bool heat) {
   const std::string title = html_text(table.title);
   std::string html = std::string("<div class=\"scroll") +
                      (height == TableHeight::kScrolled ? " tall" : "") +
                      "\" tabindex=\"0\" role=\"region\" aria-label=\"" + title +
                      "\">\n<table class=\"sortable\"><caption>" + title + "</caption>\n" +
-                     head_html(table) + "<tbody>" + rows_html(table, false, heat) + "</tbody>";
-  const std::string foot = rows_html(table, true, heat);
+                     head_html(table) + bodies_html(table, heat);
+  const std::string foot = rows_html(table, {0, table.rows.size()}, true, heat);
   if (!foot.empty()) html += "\n<tfoot>" + foot + "</tfoot>";
   html += "</table></div>\n";
   for (const std::string& note : table.notes)

@@ -4,102 +4,46 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "benchmark/accuracy_tables.h"
 #include "benchmark/column_tables.h"
 #include "benchmark/picture/charts.h"
 #include "benchmark/report/sections.h"
 #include "core/text.h"
-#include "eval/averages.h"
+#include "eval/rate.h"
 
 namespace raymoval {
 namespace {
 
-const std::vector<std::string>& shown_rates() {
-  static const std::vector<std::string> rates = {"PR", "RR", "F1", "SA", "DA", "AA", "HA"};
-  return rates;
-}
-
-std::vector<std::string> rates_of(const RunResults& results, const std::string& protocol) {
-  std::vector<std::string> rates;
-  for (const std::string& rate : shown_rates()) {
-    const bool there = std::any_of(results.rows.begin(), results.rows.end(), [&](const auto& row) {
-      return row.protocol == protocol && row.rates.contains(rate);
-    });
-    if (there) rates.push_back(rate);
-  }
-  return rates;
-}
-
-std::vector<const ResultRow*> rows_of(const RunResults& results, const std::string& cell,
-                                      const std::string& protocol) {
-  std::vector<const ResultRow*> rows;
-  for (const ResultRow& row : results.rows) {
-    if (row.cell == cell && row.protocol == protocol) rows.push_back(&row);
-  }
-  return rows;
-}
-
-bool is_control_cell(const RunResults& results, const std::string& cell) {
-  return std::any_of(results.rows.begin(), results.rows.end(),
-                     [&](const ResultRow& row) { return row.cell == cell && row.control; });
-}
-
 /// "98.123", or "98.123 (4/5)" where sequences have no value.
-std::string mean_text(const RunResults& results, const std::string& cell,
-                      const std::string& protocol, const std::string& rate) {
+std::string mean_over_sequences(const RunResults& results, const std::string& cell,
+                                const std::string& protocol, const std::string& rate) {
   std::vector<std::optional<double>> values;
-  for (const ResultRow* row : rows_of(results, cell, protocol)) {
-    const auto found = row->rates.find(rate);
-    values.push_back(found == row->rates.end() ? std::nullopt : found->second);
+  for (const std::string& sequence : results.sequences) {
+    const ResultRow* row = results.find(sequence, cell, protocol);
+    const bool there = row != nullptr && row->rates.contains(rate);
+    values.push_back(there ? row->rates.at(rate) : std::nullopt);
   }
-  const Mean mean = mean_of(values);
-  if (!mean.value) return "n/a";
-  const std::string text = rate_text(rate, *mean.value);
-  const std::size_t of = results.sequences.size();
-  if (mean.segments == of) return text;
-  return text + " (" + std::to_string(mean.segments) + "/" + std::to_string(of) + ")";
+  return mean_text({}, rate, values);
 }
 
 std::string time_text(const RunResults& results, const std::string& cell) {
-  for (const MethodTimes& times : results.times) {
-    if (times.cell == cell && times.scans > 0) {
-      return fixed_text(1000.0 * times.seconds / static_cast<double>(times.scans), 1);
-    }
-  }
-  return "n/a";
+  const auto ms = results.ms_per_scan(cell);
+  return ms ? fixed_text(*ms, 1) : "n/a";
 }
 
 std::string memory_text(const RunResults& results, const std::string& cell) {
-  std::optional<double> most;
-  for (const ResultRow& row : results.rows) {
-    if (row.cell == cell && row.peak_memory_mib) {
-      most = std::max(most.value_or(0.0), *row.peak_memory_mib);
-    }
-  }
+  const auto most = results.peak_mib(cell);
   return most ? fixed_text(*most, 0) : "n/a";
 }
 
 /// Marks best and second of a column over the rows that are no controls.
-void mark_column(TextTable& table, std::size_t place, bool higher_is_better,
-                 const std::set<std::string>& left_out) {
-  const auto value_of = [&](const TableRow& row) {
-    const std::string& text = row.cells[place].text;
-    return parse_number<double>(std::string_view(text).substr(0, text.find(' ')));
-  };
-  std::set<double> values;
-  for (const TableRow& row : table.rows) {
-    if (left_out.contains(row.label)) continue;
-    if (const auto value = value_of(row)) values.insert(higher_is_better ? -*value : *value);
-  }
-  if (values.size() < 2) return;
+void mark_column(TextTable& table, std::size_t place, bool higher_is_better) {
+  std::vector<TableCell*> cells;
   for (TableRow& row : table.rows) {
-    const auto value = value_of(row);
-    if (!value || left_out.contains(row.label)) continue;
-    const double rank = higher_is_better ? -*value : *value;
-    if (rank == *values.begin()) row.cells[place].mark = Mark::kBest;
-    if (rank == *std::next(values.begin())) row.cells[place].mark = Mark::kSecond;
+    if (!row.summary) cells.push_back(&row.cells[place]);
   }
+  mark_best(cells, higher_is_better);
 }
 
 std::string fact(const std::string& name, const std::string& value, const std::string& more,
@@ -112,21 +56,21 @@ std::string chart_html(const std::string& svg) {
   return svg.empty() ? "" : "<div class=\"chart\">" + svg + "</div>\n";
 }
 
-/// The method with the highest mean of the first protocol's main rate.
+/// The method with the best mean of the first protocol's main rate.
 std::pair<std::string, std::string> best_method(const RunResults& results) {
   std::pair<std::string, std::string> best;
-  double highest = -1.0;
+  if (results.protocols.empty()) return best;
+  const std::string& protocol = results.protocols.front();
+  const std::string rate = results.headline_of(protocol);
+  const double sign = rate_spec(rate).higher_is_better ? 1.0 : -1.0;
+  std::optional<double> highest;
   for (const std::string& cell : results.cells) {
-    if (is_control_cell(results, cell) || results.protocols.empty()) continue;
-    const std::vector<std::string> rates = rates_of(results, results.protocols.front());
-    if (rates.empty()) break;
-    const bool f1 = std::find(rates.begin(), rates.end(), "F1") != rates.end();
-    const std::string rate = f1 ? "F1" : rates.back();
-    const std::string text = mean_text(results, cell, results.protocols.front(), rate);
-    const auto value = parse_number<double>(std::string_view(text).substr(0, text.find(' ')));
-    if (!value || *value <= highest) continue;
-    highest = *value;
-    best = {cell, "mean " + rate + " " + text + " by " + results.protocols.front()};
+    if (rate.empty() || results.is_control(cell)) continue;
+    const std::string text = mean_over_sequences(results, cell, protocol, rate);
+    const auto value = leading_number(text);
+    if (!value || (highest && sign * *value <= *highest)) continue;
+    highest = sign * *value;
+    best = {cell, "mean " + rate + " " + text + " by " + protocol};
   }
   return best;
 }
@@ -170,28 +114,26 @@ std::string methods_html(const ReportContent& content) {
   std::vector<std::function<std::string(const std::string&)>> texts;
   std::vector<int> better;  // 1: higher, -1: lower.
   for (const std::string& protocol : results.protocols) {
-    const std::vector<std::string> rates = rates_of(results, protocol);
+    const std::vector<std::string> rates = results.rates_of(protocol);
     if (rates.empty()) continue;
     table.groups.push_back({protocol + ", mean", rates});
     for (const std::string& rate : rates) {
       texts.emplace_back([&results, protocol, rate](const std::string& cell) {
-        return mean_text(results, cell, protocol, rate);
+        return mean_over_sequences(results, cell, protocol, rate);
       });
-      better.push_back(1);
+      better.push_back(rate_spec(rate).higher_is_better ? 1 : -1);
     }
   }
   table.groups.push_back({"cost", {"ms per scan", "peak MiB"}});
   texts.emplace_back([&](const std::string& cell) { return time_text(results, cell); });
   texts.emplace_back([&](const std::string& cell) { return memory_text(results, cell); });
   better.insert(better.end(), {-1, -1});
-  std::set<std::string> controls;
   for (const std::string& cell : results.cells) {
-    TableRow row{cell, {}, is_control_cell(results, cell)};
-    if (row.summary) controls.insert(cell);
+    TableRow row{cell, {}, results.is_control(cell)};
     for (const auto& text : texts) row.cells.push_back({text(cell)});
     table.rows.push_back(std::move(row));
   }
-  for (std::size_t i = 0; i < better.size(); ++i) mark_column(table, i, better[i] > 0, controls);
+  for (std::size_t i = 0; i < better.size(); ++i) mark_column(table, i, better[i] > 0);
   table.notes.push_back(
       "Rates in percent, F1 as a fraction. Bold: best, underlined: second; controls stand below "
       "and "
@@ -202,11 +144,13 @@ std::string methods_html(const ReportContent& content) {
 
 std::string accuracy_html(const ReportContent& content) {
   std::string html;
-  for (const TextTable& table : make_tables(*content.results, content.published)) {
+  TableOptions options;
+  options.outside = content.published;
+  for (const TextTable& table : make_tables(*content.results, options)) {
     const bool elsewhere =
         table.title.starts_with("Time of ") || table.title == "Cells without a result";
     if (elsewhere) continue;
-    if (table.title == "Published") {
+    if (table.title.starts_with("Published")) {
       html +=
           "<details><summary>What papers print</summary>\n" + html_table(table) + "</details>\n";
     } else {
@@ -229,7 +173,7 @@ std::string cells_html(const ReportContent& content) {
   const RunResults& results = *content.results;
   TextTable table{"Every cell", "sequence", {{"", {"method", "status"}}}, {}, {}};
   for (const std::string& protocol : results.protocols) {
-    const std::vector<std::string> rates = rates_of(results, protocol);
+    const std::vector<std::string> rates = results.rates_of(protocol);
     if (!rates.empty()) table.groups.push_back({protocol, rates});
   }
   table.groups.push_back({"cost", {"ms per scan", "peak MiB"}});
@@ -240,7 +184,7 @@ std::string cells_html(const ReportContent& content) {
       for (const std::string& protocol : results.protocols) {
         const ResultRow* scored = results.find(sequence, cell, protocol);
         if (scored != nullptr) any = scored;
-        for (const std::string& rate : rates_of(results, protocol)) {
+        for (const std::string& rate : results.rates_of(protocol)) {
           const bool there = scored != nullptr && scored->rates.contains(rate) &&
                              scored->rates.at(rate).has_value();
           row.cells.push_back({there ? rate_text(rate, *scored->rates.at(rate)) : "n/a"});

@@ -48,8 +48,13 @@ TEST_CASE("A label cannot be taken for an option of the row before it") {
   CHECK_THAT(latex_of_label("*"), Contains("\n{}* & 1"));
 }
 
-TEST_CASE("A table that is too wide is set smaller, then cut between methods") {
+TEST_CASE("A table that is too wide is set smaller, then spans two columns, then is cut") {
+  // A label of 8 letters and three columns of 6: 55 + 3 * 44 = 188 of 200 pt.
+  const std::string one = to_latex(wide_table(1));
+  CHECK(one.find("footnotesize") == std::string::npos);
+  CHECK_THAT(one, Contains("\\begin{table}[htbp]") && Contains("\\end{table}\n"));
   const std::string two = to_latex(wide_table(2));
+  CHECK_THAT(two, Contains("\\begin{table*}[htbp]") && Contains("\\end{table*}\n"));
   CHECK(two.find("footnotesize") == std::string::npos);
   CHECK(count(two, "\\begin{tabular}") == 1);
   const std::string three = to_latex(wide_table(3));
@@ -57,7 +62,7 @@ TEST_CASE("A table that is too wide is set smaller, then cut between methods") {
   const std::string twelve = to_latex(wide_table(12));
   // 345 pt hold a label of 8 letters (42 pt) and two or three methods of 99 pt.
   CHECK(count(twelve, "\\begin{tabular}{lrrrrrrrrr}") == 4);
-  CHECK(count(twelve, "\\begin{table}") == 1);
+  CHECK(count(twelve, "\\begin{table*}") == 1);
   CHECK(count(twelve, "\ntown & ") == 4);
   CHECK(count(twelve, "A note.") == 1);
   for (std::size_t i = 0; i < 12; ++i) {
@@ -65,11 +70,37 @@ TEST_CASE("A table that is too wide is set smaller, then cut between methods") {
   }
 }
 
+TEST_CASE("Blocks have a heading in italics and a rule between them") {
+  TextTable table{"t", "method", {{"", {"PR"}}}, {}, {}};
+  for (const char* block : {"a_1", "b"}) {
+    for (const char* label : {"x", "y"}) table.rows.push_back({label, {{"1"}}, false, block});
+  }
+  const std::string latex = to_latex(table);
+  CHECK_THAT(latex, Contains("\\midrule\n\\multicolumn{2}{l}{\\textit{a\\_1}} \\\\\nx & 1"));
+  CHECK_THAT(latex, Contains("y & 1 \\\\\n\\midrule\n\\multicolumn{2}{l}{\\textit{b}}"));
+}
+
+TEST_CASE("Blocks that are higher than a page together go into floats of their own") {
+  TextTable table{"t", "method", {{"", {"PR"}}}, {}, {"A note."}};
+  for (const char* block : {"a", "b", "c"}) {
+    for (int i = 0; i < 20; ++i) table.rows.push_back({"x", {{"1"}}, false, block});
+  }
+  const std::string latex = to_latex(table);
+  CHECK(count(latex, "\\begin{table}") == 3);
+  CHECK(count(latex, "(continued)") == 2);
+  CHECK(count(latex, "\nx & 1") == 60);
+  CHECK(count(latex, "A note.") == 1);
+  for (int i = 0; i < 60; ++i) table.rows.push_back({"x", {{"1"}}, false, "d"});
+  const std::string high = to_latex(table);  // A block that is higher than a page.
+  CHECK(count(high, "\nx & 1") == 120);
+  CHECK(count(high, "\\begin{table}") == 5);
+}
+
 TEST_CASE("A table that is higher than a page goes on in another one") {
   const std::string many = to_latex(wide_table(60));
-  CHECK(count(many, "\\begin{table}") > 1);
-  CHECK(count(many, "\\begin{table}") == count(many, "\\end{table}"));
-  CHECK(count(many, "(continued)") == count(many, "\\begin{table}") - 1);
+  CHECK(count(many, "\\begin{table*}") > 1);
+  CHECK(count(many, "\\begin{table*}") == count(many, "\\end{table*}"));
+  CHECK(count(many, "(continued)") == count(many, "\\begin{table*}") - 1);
   CHECK(count(many, "A note.") == 1);
 }
 

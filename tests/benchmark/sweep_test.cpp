@@ -121,23 +121,39 @@ TEST_CASE("{data} stands for the data's root") {
 
 TEST_CASE("A sweep has a table of its own, the curve") {
   const std::vector<TextTable> tables = make_tables(swept_run());
-  REQUIRE(tables.size() == 3);
-  REQUIRE(tables[0].groups.size() == 1);  // Only y stands in the table of methods.
-  CHECK(tables[0].groups[0].heading == "y");
-  const TextTable& curve = tables[1];
-  CHECK(curve.title == "Sweep of x by protocol erasor");
-  CHECK(curve.corner == "size");
-  REQUIRE(curve.rows.size() == 2);
-  REQUIRE(curve.rows[0].cells.size() == 10);  // PR RR F1 of s1, s2 and the mean; the time.
-  CHECK(curve.rows[0].label == "1");
-  CHECK(curve.rows[0].cells[6].text == "85.000");  // (90 + 80) / 2
-  CHECK(curve.rows[0].cells[8].text == "0.7600");  // (0.72 + 0.8) / 2
-  CHECK(curve.rows[1].cells[4].text == "timeout");
-  CHECK(curve.rows[1].cells[8].text == "0.8000 (1/2)");
-  CHECK(curve.rows[1].cells[8].mark == Mark::kBest);
+  REQUIRE(tables.size() == 4);
+  REQUIRE(tables[0].rows.size() == 2);  // Only y stands in the table of methods.
+  CHECK(tables[0].rows[0].label == "y");
+  const TextTable& curve = tables[2];
+  CHECK(curve.title == "Sweep of x over size by protocol erasor");
+  CHECK(curve.groups[0].columns == std::vector<std::string>{"PR", "RR", "F1", "ms per scan"});
+  REQUIRE(curve.rows.size() == 6);  // Two points on s1, on s2, and their means.
+  CHECK(curve.rows[0].label == "size=1");
+  CHECK(curve.rows[0].block == "s1");
+  CHECK(curve.rows[4].cells[0].text == "85.000");  // (90 + 80) / 2
+  CHECK(curve.rows[4].cells[2].text == "0.7600");  // (0.72 + 0.8) / 2
+  CHECK(curve.rows[3].cells[1].text == "timeout");
+  CHECK(curve.rows[5].cells[2].text == "0.8000 (1/2)");
+  CHECK(curve.rows[5].cells[2].mark == Mark::kBest);
   CHECK(curve.rows[1].cells[2].mark == Mark::kBest);  // 0.8 beats 0.72 on s1.
   CHECK(curve.rows[0].cells[0].mark == Mark::kNone);  // PR alone decides nothing.
-  CHECK(curve.rows[0].cells[9].text == "4.0");
+  CHECK(curve.rows[4].cells[3].text == "4.0");
+}
+
+TEST_CASE("Two sweeps of one variant have a table each, and rows that say what was set") {
+  RunResults results = swept_run();
+  results.cells.push_back("x:test=true");
+  results.sweeps.push_back({"x:test=true", "x", {{"test", "true"}}});
+  results.rows.push_back(row("s1", "x:test=true", 80, 80, 0.8));
+  std::vector<std::string> titles, labels;
+  for (const TextTable& table : make_tables(results)) {
+    if (!table.title.starts_with("Sweep")) continue;
+    titles.push_back(table.title);
+    labels.push_back(table.rows[0].label);
+  }
+  CHECK(titles == std::vector<std::string>{"Sweep of x over size by protocol erasor",
+                                           "Sweep of x over test by protocol erasor"});
+  CHECK(labels == std::vector<std::string>{"size=1", "test=true"});
 }
 
 TEST_CASE("Cells without a result are listed with reason and last words") {
@@ -180,7 +196,7 @@ TEST_CASE("A sweep that made no difference is pointed out") {
   results.rows[1].mask_digest = "other";  // Of s2, where there is nothing to compare with.
   const std::string line =
       "size made no difference: with each of its 2 values exactly the same points were removed.";
-  CHECK(flat_sweeps(results) == std::vector<std::string>{"sweep of x: " + line});
+  CHECK(flat_sweeps(results) == std::vector<std::string>{"sweep of x over size: " + line});
   CHECK(make_tables(results)[1].notes.back() == line);
   results.rows[2].mask_digest = "different";
   CHECK(flat_sweeps(results).empty());
@@ -200,7 +216,7 @@ TEST_CASE("Of a sweep over two parameters the one that made no difference is nam
       }
     }
   }
-  CHECK(flat_sweeps(results, "x") ==
+  CHECK(flat_sweeps(results, "x over a, b") ==
         std::vector<std::string>{
             "a made no difference on s2: with each of its 2 values exactly the same points were "
             "removed.",

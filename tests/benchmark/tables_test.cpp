@@ -38,10 +38,22 @@ RunResults two_by_two() {
   return results;
 }
 
+TableOptions paper_layout() {
+  TableOptions options;
+  options.layout = TableLayout::kPaper;
+  return options;
+}
+
+TableOptions with_papers(const std::vector<OutsideColumn>& outside) {
+  TableOptions options = paper_layout();
+  options.outside = outside;
+  return options;
+}
+
 }  // namespace
 
-TEST_CASE("The table marks best and second and names both averages of F1") {
-  const std::vector<TextTable> tables = make_tables(two_by_two());
+TEST_CASE("The paper's layout marks best and second and names both averages of F1") {
+  const std::vector<TextTable> tables = make_tables(two_by_two(), paper_layout());
   REQUIRE(tables.size() == 1);
   const std::vector<TableRow>& rows = tables[0].rows;
   REQUIRE(rows.size() == 4);
@@ -69,14 +81,14 @@ TEST_CASE("The table marks best and second and names both averages of F1") {
 TEST_CASE("What is displayed alike is marked alike") {
   RunResults results = two_by_two();
   results.rows[2].rates["PR"] = 90.0001;
-  const std::vector<TextTable> tables = make_tables(results);
+  const std::vector<TextTable> tables = make_tables(results, paper_layout());
   CHECK(tables[0].rows[0].cells[0].mark == Mark::kBest);
   CHECK(tables[0].rows[0].cells[3].mark == Mark::kBest);
 }
 
 TEST_CASE("Markdown columns are aligned, LaTeX is escaped") {
   const RunResults results = two_by_two();
-  const std::string markdown = tables_markdown(results, make_tables(results));
+  const std::string markdown = tables_markdown(results, {make_tables(results)[0]});
   CHECK_THAT(markdown, Contains("**90.000**") && Contains("<u>80.000</u>"));
   std::size_t width = 0;
   for (std::size_t at = markdown.find("\n|"); at != std::string::npos;
@@ -85,7 +97,7 @@ TEST_CASE("Markdown columns are aligned, LaTeX is escaped") {
     if (width == 0) width = length;
     CHECK(length == width);
   }
-  const std::string latex = tables_latex(make_tables(results));
+  const std::string latex = tables_latex(make_tables(results, paper_layout()));
   CHECK_THAT(latex, Contains("\\multicolumn{3}{c}{y\\_1}") && Contains("\\toprule") &&
                         Contains("\\textbf{90.000}") && Contains("\\underline{80.000}"));
 }
@@ -104,14 +116,16 @@ TEST_CASE("Outside columns stand beside the run where a sequence is in both") {
   results.sequences[0] = results.rows[0].sequence = results.rows[2].sequence = "kitti-05";
   const OutsideColumn paper{
       "paper", "erasor", {{"05", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
-  const std::vector<TextTable> tables = make_tables(results, {paper});
+  const std::vector<TextTable> tables = make_tables(results, with_papers({paper}));
   REQUIRE(tables.size() == 2);
   REQUIRE(tables[0].groups.size() == 3);
   CHECK(tables[0].rows[0].cells[6].text == "88.000");
   CHECK(tables[0].rows[0].cells[8].text == "0.890");
   CHECK(tables[0].rows[1].cells[6].text == "-");
   CHECK(tables[1].title == "Published");
-  CHECK(make_tables(two_by_two(), {paper})[0].groups.size() == 2);
+  // Nothing of papers stands in the tables of a run that has none of their sequences.
+  REQUIRE(make_tables(two_by_two(), with_papers({paper})).size() == 1);
+  CHECK(make_tables(two_by_two(), with_papers({paper}))[0].groups.size() == 2);
 }
 
 TEST_CASE("Stage times are means per scan with the rest named") {
@@ -125,6 +139,23 @@ TEST_CASE("Stage times are means per scan with the rest named") {
   CHECK(tables[0].rows[1].label == "other");
   CHECK(tables[0].rows[1].cells[0].text == "125.000");
   CHECK(tables[0].rows[2].cells[0].text == "500.000");
+}
+
+TEST_CASE("Stages that are summed over threads have shares of their sum") {
+  RunResults results;
+  // Two threads did 3 s of casting and 1 s of clustering in 2.5 s.
+  results.times = {{"x", 4, 2.5, 0.4, {{"cast", 3.0}, {"cluster", 1.0}}, 1, 2}};
+  const TextTable table = make_tables(results).at(0);
+  REQUIRE(table.rows.size() == 4);
+  CHECK(table.rows[0].cells[1].text == "75.0");
+  CHECK(table.rows[1].cells[1].text == "25.0");
+  CHECK(table.rows[2].label == "sum over threads");
+  CHECK(table.rows[2].cells[0].text == "1000.000");
+  CHECK(table.rows[2].cells[1].text == "100.0");
+  CHECK(table.rows[3].label == "time that passed");
+  CHECK(table.rows[3].cells[0].text == "625.000");
+  CHECK(table.rows[3].cells[1].text == "-");
+  CHECK_THAT(table.notes.at(1), Contains("2 threads") && Contains("shares are of the sum"));
 }
 
 namespace {
@@ -148,7 +179,7 @@ void add_points_protocol(RunResults& results) {
 TEST_CASE("A protocol with SA and DA has a table with its columns, and can be asked for alone") {
   RunResults results = two_by_two();
   add_points_protocol(results);
-  const std::vector<TextTable> tables = make_tables(results);
+  const std::vector<TextTable> tables = make_tables(results, paper_layout());
   REQUIRE(tables.size() >= 2);
   CHECK(tables[1].title == "Accuracy by protocol dynamicmap");
   REQUIRE(tables[1].groups.size() == 2);
@@ -160,8 +191,8 @@ TEST_CASE("A protocol with SA and DA has a table with its columns, and can be as
              Contains("\ns2,x,v,dynamicmap,ok,,,,40.000,60.000,1.000,48.000"));
   choose_protocols(results, {"dynamicmap"});
   CHECK(results.rows.size() == 3);
-  REQUIRE(make_tables(results).size() == 1);
-  CHECK(make_tables(results)[0].title == "Accuracy by protocol dynamicmap");
+  REQUIRE(make_tables(results, paper_layout()).size() == 1);
+  CHECK(make_tables(results, paper_layout())[0].title == "Accuracy by protocol dynamicmap");
   CHECK_THROWS_WITH(choose_protocols(results, {"dynamicmpa"}), Contains("'dynamicmap'"));
 }
 
@@ -174,7 +205,7 @@ TEST_CASE("Published numbers of a protocol stand beside those of that protocol o
   results.sequences[0] = "kth-00";
   const OutsideColumn paper{"A", "erasor", {{"00", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
   const OutsideColumn kth{"B", "dynamicmap", {{"00", {{"SA", 96.76}, {"DA", 90.68}}}}};
-  std::vector<TextTable> tables = make_tables(results, {paper, kth});
+  std::vector<TextTable> tables = make_tables(results, with_papers({paper, kth}));
   // "kth-00" is every frame, and no segment of the first protocol's papers.
   CHECK(tables[0].groups.size() == 2);
   REQUIRE(tables[1].groups.size() == 3);
@@ -182,18 +213,16 @@ TEST_CASE("Published numbers of a protocol stand beside those of that protocol o
   CHECK(tables[1].rows[0].cells[8].text == "96.76");
   CHECK(tables[1].rows[0].cells[10].text == "-");  // AA is not printed.
   CHECK(tables[1].rows[1].cells[8].text == "-");
-  CHECK(tables[2].title == "Published");
-  REQUIRE(tables[3].title == "Published, DynamicMap benchmark");
-  CHECK(tables[3].rows.size() == 1);  // No mean.
+  REQUIRE(tables[2].title == "Published, DynamicMap benchmark");
+  CHECK(tables[2].rows.size() == 1);  // No mean.
   // The strict variant has the same rates by other rules.
   for (ResultRow& row : results.rows) {
     if (row.protocol == "dynamicmap") row.protocol = "dynamicmap-strict";
   }
   results.protocols[1] = "dynamicmap-strict";
-  tables = make_tables(results, {paper, kth});
+  tables = make_tables(results, with_papers({paper, kth}));
   CHECK(tables[1].groups.size() == 2);
-  CHECK(tables[2].title == "Published");
-  CHECK(tables[3].title != "Published, DynamicMap benchmark");
+  CHECK(!tables[2].title.starts_with("Published"));
 }
 
 TEST_CASE("Every published file that tables use is read") {
@@ -211,10 +240,12 @@ TEST_CASE("The ranking says where protocols put the methods in another order") {
   RunResults results = two_by_two();
   CHECK(ranking_tables(results).empty());  // One protocol.
   add_points_protocol(results);
-  const std::vector<TextTable> tables = ranking_tables(results);
+  TableOptions options;
+  options.disagreements = true;
+  const std::vector<TextTable> tables = ranking_tables(results, options);
   REQUIRE(tables.size() == 1);
   const std::vector<TableRow>& rows = tables[0].rows;
-  REQUIRE(tables[0].groups.size() == 3);  // s1, s2, mean.
+  REQUIRE(rows.size() == 6);  // x and y_1 on s1, on s2, and by the mean.
   CHECK(tables[0].groups[0].columns ==
         std::vector<std::string>{"erasor F1", "dynamicmap HA", "change"});
   // s1: F1 0.72 against 0.80, but HA 50 against 37.5.
@@ -225,18 +256,24 @@ TEST_CASE("The ranking says where protocols put the methods in another order") {
   CHECK_THAT(tables[0].notes[1],
              Contains("s1: y_1 before x by F1 (erasor), after it by HA (dynamicmap)"));
   // s2 and the mean: y_1 has no F1 on s2, and no cell there by points.
-  CHECK(rows[0].cells[5].text == "=");
-  CHECK(rows[1].cells[3].text == "-");
-  CHECK(rows[1].cells[5].text == "-");
-  CHECK(rows[1].cells[6].text == "-");
+  CHECK(rows[2].cells[2].text == "=");
+  CHECK(rows[3].cells[0].text == "-");
+  CHECK(rows[3].cells[2].text == "-");
+  CHECK(rows[5].cells[0].text == "-");
   CHECK(tables[0].notes.size() == 2);
+  // Without being asked: the ranks by the mean, and no pairs.
+  const std::vector<TextTable> plain = ranking_tables(results);
+  CHECK(plain[0].rows.size() == 2);
+  CHECK(plain[0].notes.size() == 1);
 }
 
 TEST_CASE("Methods that are displayed alike share a rank") {
   RunResults results = two_by_two();
   add_points_protocol(results);
   results.rows[2].rates["F1"] = 0.72001;
-  const std::vector<TextTable> tables = ranking_tables(results);
+  TableOptions options;
+  options.disagreements = true;
+  const std::vector<TextTable> tables = ranking_tables(results, options);
   CHECK(tables[0].rows[0].cells[0].text == "1");
   CHECK(tables[0].rows[1].cells[0].text == "1");
   CHECK(tables[0].rows[1].cells[2].text == "-1");
@@ -266,11 +303,23 @@ TEST_CASE("Column tables name the worst classes and add sequences up") {
   CHECK(cells[4].text == "moving-bus 30.000");
   CHECK(cells[5].text == "road 99.000");
   const std::vector<TextTable> full = full_column_tables(results);
-  REQUIRE(full.size() == 4);
-  CHECK(full[0].rows.size() == 3);  // precision, recall, rejection by range.
-  CHECK(full[1].rows.size() == 4);
-  CHECK(full[2].rows.size() == 1);
-  CHECK(full[3].groups[0].columns == std::vector<std::string>{"PR", "F1"});
-  CHECK(full[3].rows[0].cells[0].text == "89.000 to 91.500");
-  CHECK(full[3].rows[0].cells[1].text == "0.7000 to 0.7400");
+  // Figures in all; rejection and preservation, each by range and by height; intervals.
+  REQUIRE(full.size() == 6);
+  CHECK(full[0].groups[0].columns == std::vector<std::string>{"precision", "recall"});
+  const TextTable& by_range = full[1];
+  CHECK(by_range.title == "Columns: rejection by range");
+  CHECK(by_range.groups[0].columns == std::vector<std::string>{"all", "0-10 m"});
+  // Blocks of all classes, car, bus and person; in each x and how many points there are.
+  REQUIRE(by_range.rows.size() == 8);
+  CHECK(by_range.rows[0].cells[1].text == "0.000");
+  CHECK(by_range.rows[1].label == "points");
+  CHECK(by_range.rows[1].cells[1].text == "1000");
+  CHECK(by_range.rows[2].block == "moving-car");
+  CHECK(by_range.rows[2].cells[0].text == "50.000");
+  CHECK(by_range.rows[3].cells[1].text == "100");
+  CHECK(by_range.rows[4].cells[1].text == "n/a");
+  CHECK(full[5].groups[0].columns == std::vector<std::string>{"PR", "F1"});
+  CHECK(full[5].rows[0].block == "s1");
+  CHECK(full[5].rows[0].cells[0].text == "89.000 to 91.500");
+  CHECK(full[5].rows[0].cells[1].text == "0.7000 to 0.7400");
 }

@@ -25,7 +25,7 @@ for method in crash abort quit quit7 hang stray leak leak-child killed throw com
 done
 expect 1 "cell failed: street / crash:default: crashed: signal 11" run "${short[@]}" \
   "${methods[@]}" --time-limit 6 --memory-limit 600 --out run
-cp out.txt table.txt
+cp run/table.md table.txt
 cell crash failed "crashed: signal 11 \(Segmentation fault\)" "the last words"
 cell abort failed "crashed: signal 6 \(Aborted\)" "line 99999"
 cell quit failed "gave no readable answer|ended with exit code" '"output_tail": "'

@@ -18,9 +18,10 @@
 
   const makeSortable = (table) => {
     const headings = [...table.querySelectorAll('thead th[scope="col"]')];
-    const body = table.tBodies[0];
-    const original = [...body.rows];
-    if (original.length < 2) return;
+    // Each block of rows is sorted by itself; its heading stays above it.
+    const blocks = [...table.tBodies].map((body) => (
+      {body, rows: [...body.rows].filter((row) => !row.classList.contains('block'))}));
+    if (!blocks.some((block) => block.rows.length > 1)) return;
     headings.forEach((heading, column) => {
       const button = document.createElement('button');
       button.className = 'sort';
@@ -34,13 +35,12 @@
         const second = numeric ? 'ascending' : 'descending';
         const next = now === null ? first : now === first ? second : null;
         headings.forEach((other) => other.removeAttribute('aria-sort'));
-        let rows = original;
-        if (next !== null) {
-          heading.setAttribute('aria-sort', next);
-          const sign = next === 'ascending' ? 1 : -1;
-          rows = [...original].sort((a, b) => compare(a, b, column, sign));
-        }
-        body.append(...rows);
+        if (next !== null) heading.setAttribute('aria-sort', next);
+        const sign = next === 'ascending' ? 1 : -1;
+        blocks.forEach(({body, rows}) => {
+          body.append(...(next === null ? rows :
+            [...rows].sort((a, b) => compare(a, b, column, sign))));
+        });
       });
     });
   };

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace raymoval {
+
+/// The lines that a run logs, one for each cell: their parts stand below each other.
+class CellLines {
+ public:
+  /// @param sequences,methods names in the run
+  /// @param cells how many there are in all
+  CellLines(const std::vector<std::string>& sequences, const std::vector<std::string>& methods,
+            std::size_t cells);
+
+  /// "[ 3/52] town  raymoval:offline  F1 0.9221     4.2 ms  PR  99.926  RR  85.361", of at most 100
+  /// characters: the rate that methods are ranked by, the time per scan, then as many of the other
+  /// main rates as there is room for; or what went wrong.
+  /// @param number of the cell, from 1
+  /// @param cell content of cell.json
+  /// @param kept whether an earlier run made it
+  [[nodiscard]] std::string line(std::size_t number, const nlohmann::ordered_json& cell,
+                                 bool kept = false) const;
+
+ private:
+  std::size_t cells_, sequence_width_ = 0, method_width_ = 0;
+};
+
+}  // namespace raymoval
