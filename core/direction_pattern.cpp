@@ -18,7 +18,7 @@ constexpr std::size_t kFewest = 100;  ///< Directions that a pattern can be told
 constexpr double kLeastStep = 0.02 * kDegree, kWidestStep = 3.0 * kDegree;
 constexpr double kReach = 2.0 * kWidestStep;  ///< How far partners are looked for.
 /// Visits of neighbours in all; keeps the time within a second for any number of points.
-constexpr double kMostVisits = 3e7;
+constexpr double kMostVisits = 1e7;
 constexpr std::size_t kMostSamples = 4000;
 
 double median_of(std::vector<double>& values, double quantile = 0.5) {
@@ -56,11 +56,9 @@ class PartnerShares {
       scan.visit_ahead(i, kReach, [&](double azimuth, double rise) {
         if (azimuth < kLeastStep || !beside(azimuth, rise, elevation)) return;
         nearest = std::min(nearest, azimuth);
-        const auto bin = static_cast<std::size_t>(std::log(azimuth / kLeastStep) / kWidth);
-        if (bin < kBins) partners.set(bin);
+        set_about(azimuth, partners);
       });
       if (nearest < kReach) nearest_.push_back(nearest);
-      partners |= (partners << 1) | (partners >> 1);
       for (std::size_t bin = 0; bin < kBins; ++bin) counts_[bin] += partners[bin] ? 1 : 0;
       ++samples_;
     }
@@ -74,10 +72,10 @@ class PartnerShares {
   [[nodiscard]] double step() const {
     constexpr double kLeastShare = 0.3, kOfBest = 0.6;
     const double best = *std::max_element(counts_.begin(), counts_.end());
-    for (std::size_t bin = 2; bin + 2 < kBins && distance(bin) <= kWidestStep; ++bin) {
+    for (std::size_t bin = 0; bin + 2 < kBins && distance(bin) <= kWidestStep; ++bin) {
       if (counts_[bin] < std::max(kOfBest * best, kLeastShare * samples_)) continue;
       if (counts_[bin] < counts_[bin + 1] || counts_[bin] < counts_[bin + 2]) continue;
-      return stands_out(bin) ? distance(bin) : 0.0;
+      if (stands_out(bin)) return distance(bin);
     }
     return 0.0;
   }
@@ -95,22 +93,32 @@ class PartnerShares {
   }
 
  private:
-  /// Whether few directions have a partner at somewhat more and somewhat less than `bin`.
+  static int bin_of(double azimuth) {
+    return static_cast<int>(std::floor(std::log(azimuth / kLeastStep) / kWidth));
+  }
+
+  /// Steps of one sensor differ by a part of themselves and by the noise of its directions.
+  static void set_about(double azimuth, std::bitset<kBins>& partners) {
+    constexpr double kPart = 0.06, kNoise = 0.015 * kDegree;
+    const double part = std::max(kPart * azimuth, std::min(kNoise, 0.25 * azimuth));
+    const int last = std::min(bin_of(azimuth + part), static_cast<int>(kBins) - 1);
+    for (int bin = std::max(0, bin_of(azimuth - part)); bin <= last; ++bin) {
+      partners.set(static_cast<std::size_t>(bin));
+    }
+  }
+
+  /// Whether few directions have a partner at half as much again and at somewhat less than `bin`.
   [[nodiscard]] bool stands_out(std::size_t bin) const {
     constexpr double kBetween = 0.55;
     const auto mean = [&](double from, double to) {
-      const auto shift = [&](double factor) {
-        return static_cast<int>(std::lround(std::log(factor) / kWidth));
-      };
+      const int first = bin_of(from * distance(bin)), last = bin_of(to * distance(bin));
       double sum = 0.0;
-      int bins = 0;
-      for (int at = static_cast<int>(bin) + shift(from); at <= static_cast<int>(bin) + shift(to);
-           ++at, ++bins) {
-        if (at >= 0 && at < static_cast<int>(kBins)) sum += counts_[static_cast<std::size_t>(at)];
+      for (int at = std::max(first, 0); at <= std::min(last, static_cast<int>(kBins) - 1); ++at) {
+        sum += counts_[static_cast<std::size_t>(at)];
       }
-      return sum / bins;
+      return sum / (last - first + 1);
     };
-    return mean(1.25, 1.7) <= kBetween * counts_[bin] && mean(0.6, 0.8) <= kBetween * counts_[bin];
+    return mean(1.4, 1.6) <= kBetween * counts_[bin] && mean(0.5, 0.7) <= kBetween * counts_[bin];
   }
 
   std::array<double, kBins> counts_ = {};  ///< Whole numbers.
@@ -118,7 +126,7 @@ class PartnerShares {
   double samples_ = 0.0;
 };
 
-/// Azimuth step about `step` as the median of what is near, and how much the elevation of a beam
+/// Azimuth step as the median of what is near `step`, and how much the elevation of a beam
 /// changes from one column to the next.
 std::pair<double, double> refined(const std::vector<Directions>& scans, double step) {
   constexpr double kNear = 0.08;
@@ -272,7 +280,10 @@ DirectionPattern find_direction_pattern(const std::vector<Directions>& scans, do
   double half_column = 0.0, noise = 0.0;
   if (step > 0.0) {
     pattern.kind = Kind::kColumns;
-    std::tie(pattern.azimuth_step, noise) = refined(scans, step);
+    pattern.azimuth_step = step;
+    for (int round = 0; round < 3; ++round) {
+      std::tie(pattern.azimuth_step, noise) = refined(scans, pattern.azimuth_step);
+    }
     half_column = 0.6 * pattern.azimuth_step;
   } else if (neighbours_lie_beside(scans, spacing)) {
     pattern.kind = Kind::kBeams;

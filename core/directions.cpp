@@ -8,7 +8,7 @@ namespace raymoval {
 
 Directions::Directions(const Scan& scan) {
   // Two returns of one pulse have the same direction up to the rounding of their coordinates.
-  constexpr double kSame = 2e-5, kNearest = 1e-3;
+  constexpr double kSame = 1e-6, kNearest = 1e-3;
   sorted_.reserve(scan.points.size());
   for (const Eigen::Vector3f& point : scan.points) {
     const Eigen::Vector3d p = point.cast<double>();

@@ -70,14 +70,14 @@ struct Seen {
   }
 };
 
-void set_azimuths(std::vector<double>& azimuths, double margin, SensorModel& model) {
+void set_azimuths(std::vector<double>& azimuths, SensorModel& model) {
   const double cut = cut_of(azimuths);
   for (double& azimuth : azimuths) {
     azimuth -= cut;
     azimuth -= kTurn * std::floor(azimuth / kTurn);
   }
-  const double low = quantile_of(azimuths, kTail) - margin;
-  const double high = quantile_of(azimuths, 1.0 - kTail) + margin;
+  const double low = quantile_of(azimuths, kTail);
+  const double high = quantile_of(azimuths, 1.0 - kTail);
   if (high - low > 350.0 * kDegree) return;
   model.azimuth_min = cut + low;
   if (model.azimuth_min >= std::numbers::pi) model.azimuth_min -= kTurn;
@@ -127,13 +127,16 @@ SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
   const std::size_t directions = seen.azimuths.size();
   const double low = quantile_of(seen.elevations, kTail);
   const double high = quantile_of(seen.elevations, 1.0 - kTail);
-  const DirectionPattern pattern = find_direction_pattern(seen.scans, low, high);
+  // A few points near the sensor lie beyond its beams, which do not start in one place.
+  constexpr double kBeamTail = 1e-3;
+  const DirectionPattern pattern =
+      find_direction_pattern(seen.scans, quantile_of(seen.elevations, kBeamTail),
+                             quantile_of(seen.elevations, 1.0 - kBeamTail));
   model.azimuth_step = pattern.azimuth_step;
   model.elevation_step = pattern.elevation_step;
-  const double margin = std::clamp(model.azimuth_step, 0.2 * kDegree, 0.5 * kDegree);
-  model.elevation_min = low - margin;
-  model.elevation_max = high + margin;
-  set_azimuths(seen.azimuths, margin, model);
+  model.elevation_min = low;
+  model.elevation_max = high;
+  set_azimuths(seen.azimuths, model);
   model.range_min = seen.nearest;
   model.range_max = seen.farthest;
   model.basis = basis_text(model, pattern, scans.size(), directions);

@@ -45,10 +45,11 @@ std::vector<std::string> sensor_model_names();
 SensorModel sensor_model_named(const std::string& name);
 
 /// Field of view, steps and ranges as seen in `scans` (at least one with points). The model depends
-/// on the directions and ranges of the points and not on their order. The field of view is what
-/// holds 99.98 % of the points, widened by one azimuth step on either side (0.2 to 0.5 degrees); a
-/// part of the circle may go across +-pi. How steps are found is said at `find_direction_pattern`;
-/// they stay 0 (unknown) where there are too few directions.
+/// on the directions and ranges of the points and not on their order. As on a data sheet, the field
+/// of view goes from the outermost directions on one side to those on the other; 0.01 % of the
+/// points on either side are not counted. A part of the circle may go across +-pi. How steps are
+/// found is said at `find_direction_pattern`; they stay 0 (unknown) where there are too few
+/// directions.
 /// @throws DataError if there is no point to look at.
 SensorModel estimate_sensor_model(const std::vector<Scan>& scans);
 

@@ -69,8 +69,14 @@ RangeImage::RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& 
   const double margin = 4.0 * wanted_elevation;
   const double low = std::max(sensor.elevation_min - margin, -std::numbers::pi / 2.0);
   const double high = std::min(sensor.elevation_max + margin, std::numbers::pi / 2.0);
-  rows_ = std::clamp(static_cast<int>(std::ceil((high - low) / wanted_elevation)), 1, 3600);
-  elevation_step_ = static_cast<float>((high - low) / rows_);
+  // Rows are as high as they are to be, whatever the field of view: beams that fall on every second
+  // row do so in all rows.
+  constexpr int kMostRows = 3600;
+  constexpr double kRounding = 1e-6;
+  const double rows = std::ceil((high - low) / wanted_elevation - kRounding);
+  rows_ = static_cast<int>(std::clamp(rows, 1.0, static_cast<double>(kMostRows)));
+  elevation_step_ =
+      static_cast<float>(rows > kMostRows ? (high - low) / kMostRows : wanted_elevation);
   stride_ = columns_ + 2 * kMargin;
   grid_ = {1.0F / azimuth_step_, 1.0F / elevation_step_, static_cast<float>(low), columns_};
 }
