@@ -134,6 +134,7 @@ SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
                              quantile_of(seen.elevations, 1.0 - kBeamTail));
   model.azimuth_step = pattern.azimuth_step;
   model.elevation_step = pattern.elevation_step;
+  model.beams = pattern.beams;
   model.elevation_min = low;
   model.elevation_max = high;
   set_azimuths(seen.azimuths, model);

@@ -30,8 +30,10 @@ struct SensorModel {
   /// What an estimate rests on: "64 beams, 0.173 deg by 0.427 deg, view of 360 deg by 27 deg, from
   /// 5 scans with 601,234 directions". Empty for a sensor of known values.
   std::string basis = "";
+  int beams = 0;  ///< As an estimate found them; 0 where there are none or they are unknown.
 
   [[nodiscard]] bool full_circle() const { return azimuth_max - azimuth_min > 6.2; }
+  [[nodiscard]] bool has_beams() const { return beams > 0; }
   [[nodiscard]] bool is_estimated() const { return !basis.empty(); }
   /// Whether a direction lies in the field of view. @param azimuth radians, any turn
   [[nodiscard]] bool sees(double azimuth, double elevation) const;
