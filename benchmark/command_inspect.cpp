@@ -33,6 +33,7 @@ std::string report_text(const InspectionReport& report) {
       std::count_if(report.findings.begin(), report.findings.end(),
                     [](const Finding& f) { return f.severity == Severity::kNote; }));
   const std::size_t findings = report.findings.size() - notes;
+  if (!report.sensor.empty()) text += report.sequence + ": sensor " + report.sensor + ".\n";
   text += report.sequence + ": " + counted_text(findings, "finding");
   if (notes > 0) text += ", " + counted_text(notes, "note");
   if (report.scans == 0) return text + "; the sequence cannot be opened.\n";
@@ -46,6 +47,7 @@ std::string report_json(const InspectionReport& report) {
   json["layout"] = report.layout;
   json["scans"] = report.scans;
   json["scans_read"] = report.scans_read;
+  json["sensor"] = report.sensor;
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : report.findings) {
     json["findings"].push_back({{"check", finding.check},
@@ -102,8 +104,9 @@ Command add_inspect_command(CLI::App& program) {
       ->type_name("N");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
-      "One line per finding: what is wrong, where, what was expected, what to do. About thirty\n"
-      "scans are read, and the poses, times and file sizes of all.\n"
+      "One line per finding: what is wrong, where, what was expected, what to do; then the sensor\n"
+      "as it is named and as the scans show it. About thirty scans are read, and the poses, times\n"
+      "and file sizes of all.\n"
       "Exit codes: 0 nothing found, 1 findings, 2 cannot be read as asked.\n"
       "Examples:\n"
       "  raymoval inspect data/05\n"

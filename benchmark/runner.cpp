@@ -173,6 +173,7 @@ class Runner {
       }
       return;
     }
+    tell_sensor(bench.sequence());
     for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
       run_cell(bench, sequence, method);
     }
@@ -182,6 +183,13 @@ class Runner {
         repeat(bench, sequence, method, round);
       }
     }
+  }
+
+  /// Says what an estimated sensor rests on: methods take their bins from it.
+  void tell_sensor(const Sequence& sequence) const {
+    const SensorModel& sensor = sequence.scans->sensor();
+    if (options_.progress == nullptr || !sensor.is_estimated()) return;
+    options_.progress->say(sequence.name + ": sensor estimated: " + sensor.basis);
   }
 
   [[nodiscard]] CellTask task_for(SequenceBench& bench, std::size_t sequence,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/sensor_model.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -37,36 +36,6 @@ const std::vector<SensorModel>& known_sensors() {
   return sensors;
 }
 
-/// `angles` sorted on return; the angle below which the share `quantile` of them lies.
-double quantile_of(std::vector<double>& angles, double quantile) {
-  const auto at = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(angles.size() - 1));
-  std::nth_element(angles.begin(), angles.begin() + at, angles.end());
-  return angles[static_cast<std::size_t>(at)];
-}
-
-/// Directions, ranges and steps between consecutive points of a few scans.
-struct Sample {
-  std::vector<double> azimuths, elevations, azimuth_gaps;
-  double nearest = 1e300, farthest = 0.0;
-
-  void add(const Scan& scan) {
-    double last_azimuth = 1e300;
-    for (const Eigen::Vector3f& point : scan.points) {
-      const Eigen::Vector3d p = point.cast<double>();
-      const double range = p.norm();
-      if (!(range > 1e-3)) continue;
-      const double azimuth = std::atan2(p.y(), p.x());
-      azimuths.push_back(azimuth);
-      elevations.push_back(std::asin(std::clamp(p.z() / range, -1.0, 1.0)));
-      const double gap = std::abs(azimuth - last_azimuth);
-      if (gap > 1e-6 && gap < 0.05) azimuth_gaps.push_back(gap);
-      last_azimuth = azimuth;
-      nearest = std::min(nearest, range);
-      farthest = std::max(farthest, range);
-    }
-  }
-};
-
 }  // namespace
 
 std::vector<std::string> sensor_model_names() {
@@ -83,29 +52,11 @@ SensorModel sensor_model_named(const std::string& name) {
                            suggestion(name, sensor_model_names()));
 }
 
-SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
-  Sample sample;
-  for (const Scan& scan : scans) sample.add(scan);
-  if (sample.azimuths.empty()) {
-    throw DataError("the sensor cannot be estimated: none of " + std::to_string(scans.size()) +
-                    " sampled scans has a point. Name it with \"sensor\" in sequence.json.");
-  }
-  constexpr double kTail = 1e-4;
-  SensorModel model;
-  model.name = "estimated";
-  model.azimuth_step = sample.azimuth_gaps.empty() ? 0.0 : quantile_of(sample.azimuth_gaps, 0.5);
-  const double margin = std::max(model.azimuth_step, 0.2 * kDegree);
-  model.elevation_min = quantile_of(sample.elevations, kTail) - margin;
-  model.elevation_max = quantile_of(sample.elevations, 1.0 - kTail) + margin;
-  model.azimuth_min = quantile_of(sample.azimuths, kTail) - margin;
-  model.azimuth_max = quantile_of(sample.azimuths, 1.0 - kTail) + margin;
-  if (model.azimuth_max - model.azimuth_min > 350.0 * kDegree) {
-    model.azimuth_min = -std::numbers::pi;
-    model.azimuth_max = std::numbers::pi;
-  }
-  model.range_min = sample.nearest;
-  model.range_max = sample.farthest;
-  return model;
+bool SensorModel::sees(double azimuth, double elevation) const {
+  if (!(elevation >= elevation_min && elevation <= elevation_max)) return false;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double from_start = azimuth - azimuth_min;
+  return from_start - kTurn * std::floor(from_start / kTurn) <= azimuth_max - azimuth_min;
 }
 
 }  // namespace raymoval

@@ -105,6 +105,7 @@ nlohmann::ordered_json Sequence::record() const {
   record["scans"] = scans->size();
   record["poses"] = poses_file;
   record["sensor"] = scans->sensor().name;
+  if (scans->sensor().is_estimated()) record["sensor_basis"] = scans->sensor().basis;
   record["scan_period_s"] = nullptr;
   if (scan_period_s) record["scan_period_s"] = *scan_period_s;
   record["range_m"] = {{"min", range_m.min}, {"max", nullptr}};

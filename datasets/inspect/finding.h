@@ -28,6 +28,7 @@ struct InspectionReport {
   std::string layout;
   std::size_t scans = 0;
   std::size_t scans_read = 0;
+  std::string sensor;  ///< What it is called, and what the scans show of it; empty if unknown.
   std::vector<Finding> findings;
   /// Numbers behind the findings, in a fixed order.
   std::vector<std::pair<std::string, double>> measures;

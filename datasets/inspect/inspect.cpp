@@ -16,7 +16,7 @@ const std::vector<Check>& all_checks() {
   static const std::vector<Check> checks = [] {
     std::vector<Check> all;
     for (const auto& part : {point_checks(), pose_checks(), time_checks(), label_checks(),
-                             sensor_checks(), skew_checks()}) {
+                             sensor_checks(), sensor_model_checks(), skew_checks()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
@@ -51,6 +51,7 @@ InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* canc
       report.findings.push_back(inspection::completed(std::move(finding), check, samples));
     }
   }
+  report.sensor = inspection::sensor_text(samples);
   report.measures = std::move(samples.measures);
   return report;
 }

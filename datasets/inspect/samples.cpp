@@ -110,4 +110,18 @@ std::string Samples::pose_source() const {
   return sequence_.poses_file.empty() ? "poses" : sequence_.poses_file;
 }
 
+const SensorModel& Samples::seen_sensor() const {
+  if (seen_sensor_) return *seen_sensor_;
+  constexpr std::size_t kMost = 5;
+  std::vector<std::size_t> all;
+  for (const auto& [index, scan] : scans_) all.push_back(index);
+  const std::size_t count = std::min(kMost, all.size());
+  std::vector<Scan> chosen;
+  for (std::size_t i = 0; i < count; ++i) {
+    chosen.push_back(scans_.at(all[count == 1 ? 0 : i * (all.size() - 1) / (count - 1)]));
+  }
+  seen_sensor_ = estimate_sensor_model(chosen);
+  return *seen_sensor_;
+}
+
 }  // namespace raymoval::inspection

@@ -49,6 +49,9 @@ class Samples {
   [[nodiscard]] double point_scale() const { return point_scale_; }
   [[nodiscard]] double median_range() const { return median_range_; }
   [[nodiscard]] const std::vector<Surfel>& surfels(std::size_t scan) const;
+  /// The sensor as five of the scans show it, whatever it is called; estimated when first asked
+  /// for.
+  [[nodiscard]] const SensorModel& seen_sensor() const;
   /// Whether the stored points stand in the world frame.
   [[nodiscard]] bool stored_in_world() const { return sequence_.layout == "dynamicmap"; }
 
@@ -76,6 +79,7 @@ class Samples {
   double point_scale_ = 1.0;
   double median_range_ = 0.0;
   mutable std::map<std::size_t, std::vector<Surfel>> surfels_;
+  mutable std::optional<SensorModel> seen_sensor_;
 };
 
 }  // namespace raymoval::inspection

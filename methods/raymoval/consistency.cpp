@@ -88,9 +88,7 @@ std::vector<int> find_no_return(const std::vector<float>& nearest_return,
     if (nearest_return[bin] != kNoRange || !(first_hit.range[bin] <= maximum_range)) continue;
     const double azimuth = grid.azimuth_centre(grid.azimuth_of(number));
     const double elevation = grid.elevation_centre(grid.elevation_of(number));
-    const bool in_view = azimuth >= sensor.azimuth_min && azimuth <= sensor.azimuth_max &&
-                         elevation >= sensor.elevation_min && elevation <= sensor.elevation_max;
-    if (in_view) bins.push_back(number);
+    if (sensor.sees(azimuth, elevation)) bins.push_back(number);
   }
   return bins;
 }

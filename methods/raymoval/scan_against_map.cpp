@@ -9,20 +9,33 @@
 #include "methods/raymoval/validation.h"
 
 namespace raymoval {
+namespace {
+
+/// Bins of a step, or `otherwise` where the step is unknown. No sensor of today has finer steps
+/// than `most` bins allow; a wrong step then costs no more memory than the finest sensor would.
+int bins_of(double width, double step, int otherwise, double most) {
+  constexpr double kFewestBins = 36.0;
+  if (!(step > 0.0)) return otherwise;
+  return static_cast<int>(std::clamp(std::ceil(width / step), kFewestBins, most));
+}
+
+}  // namespace
 
 AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parameters) {
   const double margin = parameters.elevation_margin * std::numbers::pi / 180.0;
   AngularGrid grid;
   grid.elevation_min = std::max(sensor.elevation_min - margin, -std::numbers::pi / 2.0);
   grid.elevation_max = std::min(sensor.elevation_max + margin, std::numbers::pi / 2.0);
-  const auto bins_for = [](int wanted, double width, double step, int otherwise) {
-    if (wanted > 0) return wanted;
-    return step > 0.0 ? std::max(36, static_cast<int>(std::ceil(width / step))) : otherwise;
-  };
-  grid.azimuth_bins =
-      bins_for(parameters.azimuth_bins, 2.0 * std::numbers::pi, sensor.azimuth_step, 720);
-  grid.elevation_bins = bins_for(parameters.elevation_bins, grid.elevation_max - grid.elevation_min,
-                                 sensor.elevation_step, 450);
+  constexpr double kMostColumns = 7200.0, kMostRows = 720.0;
+  grid.azimuth_bins = parameters.azimuth_bins;
+  if (grid.azimuth_bins <= 0) {
+    grid.azimuth_bins = bins_of(2.0 * std::numbers::pi, sensor.azimuth_step, 720, kMostColumns);
+  }
+  grid.elevation_bins = parameters.elevation_bins;
+  if (grid.elevation_bins <= 0) {
+    grid.elevation_bins =
+        bins_of(grid.elevation_max - grid.elevation_min, sensor.elevation_step, 450, kMostRows);
+  }
   return grid;
 }
 

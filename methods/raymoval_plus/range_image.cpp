@@ -15,6 +15,10 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 /// A bin is a little wider than a beam, so that few bins stay empty where a surface goes on.
 constexpr double kBeamsPerColumn = 1.45;
+/// Bounds of an image: the finest sensors of today need half of these bins. A step that is none
+/// (of a model written by hand, or a hopeless estimate) costs no more memory.
+constexpr double kLeastBin = 0.01 * kDegree;
+constexpr int kMostBins = 4'000'000;
 
 /// Room for what the kernels say of places; one for each thread.
 struct Sights {
@@ -62,15 +66,22 @@ RangeImage::RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& 
   const double wanted_azimuth =
       parameters.azimuth_bin > 0.0 ? parameters.azimuth_bin * kDegree : azimuth_step;
   const double wanted_elevation =
-      parameters.elevation_bin > 0.0 ? parameters.elevation_bin * kDegree : elevation_step;
-  columns_ =
-      std::clamp(static_cast<int>(std::lround(2.0 * std::numbers::pi / wanted_azimuth)), 90, 7200);
+      std::max(parameters.elevation_bin > 0.0 ? parameters.elevation_bin * kDegree : elevation_step,
+               kLeastBin);
+  columns_ = static_cast<int>(
+      std::clamp(std::round(2.0 * std::numbers::pi / wanted_azimuth), 90.0, 7200.0));
   azimuth_step_ = 2.0F * kPi / static_cast<float>(columns_);
   const double margin = 4.0 * wanted_elevation;
   const double low = std::max(sensor.elevation_min - margin, -std::numbers::pi / 2.0);
   const double high = std::min(sensor.elevation_max + margin, std::numbers::pi / 2.0);
-  rows_ = std::clamp(static_cast<int>(std::ceil((high - low) / wanted_elevation)), 1, 3600);
-  elevation_step_ = static_cast<float>((high - low) / rows_);
+  // Rows are as high as they are to be, whatever the field of view: beams that fall on every second
+  // row do so in all rows.
+  constexpr double kRounding = 1e-6;
+  const int kMostRows = kMostBins / columns_;
+  const double rows = std::ceil((high - low) / wanted_elevation - kRounding);
+  rows_ = static_cast<int>(std::clamp(rows, 1.0, static_cast<double>(kMostRows)));
+  elevation_step_ =
+      static_cast<float>(rows > kMostRows ? (high - low) / kMostRows : wanted_elevation);
   stride_ = columns_ + 2 * kMargin;
   grid_ = {1.0F / azimuth_step_, 1.0F / elevation_step_, static_cast<float>(low), columns_};
 }

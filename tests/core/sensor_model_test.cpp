@@ -54,14 +54,15 @@ TEST_CASE("An unknown sensor suggests the near one, or all") {
   CHECK_THROWS_WITH(sensor_model_named("camera"), Contains("vlp16") && Contains("os1-128"));
 }
 
-TEST_CASE("The field of view is that of the points and one step more") {
-  // From -30 to 30 degrees: half a degree is added on either side.
+TEST_CASE("The field of view goes from the outermost directions to those opposite") {
+  // As on a data sheet, and so as that of a sensor of known values.
   const SensorModel model = estimate_sensor_model({half_degree_scan(-30.0, 30.0)});
   CHECK(model.azimuth_step == Approx(0.5 * kDegree).epsilon(1e-3));
-  CHECK(model.azimuth_min == Approx(-30.5 * kDegree).epsilon(1e-4));
-  CHECK(model.azimuth_max == Approx(30.5 * kDegree).epsilon(1e-4));
-  CHECK(model.elevation_min == Approx(-10.5 * kDegree).epsilon(1e-4));
-  CHECK(model.elevation_max == Approx(10.5 * kDegree).epsilon(1e-4));
+  CHECK(model.elevation_step == Approx(1.0 * kDegree).epsilon(1e-3));
+  CHECK(model.azimuth_min == Approx(-30.0 * kDegree).epsilon(1e-4));
+  CHECK(model.azimuth_max == Approx(30.0 * kDegree).epsilon(1e-4));
+  CHECK(model.elevation_min == Approx(-10.0 * kDegree).epsilon(1e-4));
+  CHECK(model.elevation_max == Approx(10.0 * kDegree).epsilon(1e-4));
   CHECK(model.range_min == Approx(10.0));
   CHECK(model.range_max == Approx(30.0));
   CHECK_FALSE(model.full_circle());
