@@ -34,6 +34,8 @@ SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolReques
     throw DataError("sequence '" + sequence_.name + "' has no scan in the chosen frames (" +
                     sequence_.frames + "). Choose others with --frames.");
   }
+  scored_scans_ =
+      std::make_unique<LocalFrameSource>(*sequence_.scans, lattice_frame(*sequence_.scans));
   for (const ProtocolRequest& request : requests) {
     scorers_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
     check_has_calibration(*scorers_.back().protocol, sequence_);
@@ -58,7 +60,7 @@ const std::string& SequenceBench::data_fingerprint() {
 
 EvaluationInput SequenceBench::input() const {
   EvaluationInput input;
-  input.scans = sequence_.scans.get();
+  input.scans = scored_scans_.get();
   input.labels = sequence_.labels.get();
   input.label_rule = sequence_.label_rule;
   input.range_m = sequence_.range_m;

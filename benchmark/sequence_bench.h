@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmark/suite.h"
+#include "core/local_frame.h"
 #include "core/progress.h"
 #include "datasets/sequence.h"
 #include "eval/cloud_masks.h"
@@ -54,6 +55,8 @@ class SequenceBench {
   const Scorer& prepared(std::size_t i);
 
   Sequence sequence_;
+  /// The scans as protocols get them: from `lattice_origin`.
+  std::unique_ptr<const LocalFrameSource> scored_scans_;
   int threads_;
   Progress* progress_;
   std::string fingerprint_;

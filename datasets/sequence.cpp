@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/local_frame.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
@@ -129,9 +130,25 @@ void add_settings(ContentHasher& hasher, const Sequence& sequence) {
   }
   add_vector(hasher, sequence.label_rule.moving);
   add_vector(hasher, sequence.label_rule.ignored);
+  const UpDirection up = sequence.up();
+  if (!up.is_world_z()) hasher.add(up.direction.data(), sizeof(double) * 3);
 }
 
 }  // namespace
+
+UpDirection Sequence::up() const {
+  return up_choice ? up_choice->get(*scans) : UpDirection{};
+}
+
+Pose Sequence::method_frame() const {
+  return raymoval::method_frame(*scans, up().direction);
+}
+
+Pose Sequence::upright_frame() const {
+  Pose T_upright_world = Pose::Identity();
+  T_upright_world.linear() = turn_to_z(up().direction);
+  return T_upright_world;
+}
 
 nlohmann::ordered_json Sequence::record() const {
   nlohmann::ordered_json record;
@@ -142,6 +159,8 @@ nlohmann::ordered_json Sequence::record() const {
   record["scans"] = scans->size();
   record["poses"] = poses_file;
   record["sensor"] = scans->sensor().name;
+  record["up"] = up_text(up().direction);
+  record["up_source"] = up_source_name(up().source);
   record["scan_period_s"] = nullptr;
   if (scan_period_s) record["scan_period_s"] = *scan_period_s;
   record["range_m"] = {{"min", range_m.min}, {"max", nullptr}};

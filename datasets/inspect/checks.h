@@ -30,5 +30,6 @@ std::vector<Check> label_checks();
 std::vector<Check> time_checks();
 std::vector<Check> sensor_checks();
 std::vector<Check> skew_checks();
+std::vector<Check> world_checks();
 
 }  // namespace raymoval::inspection
