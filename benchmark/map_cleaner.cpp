@@ -24,7 +24,7 @@ void MapWriter::start(bool with_reflectance) {
 }
 
 void MapWriter::write_buffer() {
-  file_.add(points_, reflectance_);
+  file_.add_exact(points_, reflectance_);
   written_ += points_.size();
   points_.clear();
   reflectance_.clear();

@@ -107,8 +107,8 @@ void CloudWriter::add_points(const std::vector<Point>& points,
   file_.append(bytes);
 }
 
-void CloudWriter::add(const std::vector<Eigen::Vector3d>& points,
-                      const std::vector<float>& intensity) {
+void CloudWriter::add_exact(const std::vector<Eigen::Vector3d>& points,
+                            const std::vector<float>& intensity) {
   add_points(points, intensity);
 }
 

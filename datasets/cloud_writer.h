@@ -36,8 +36,9 @@ class CloudWriter {
   /// @param points metres
   /// @param intensity as long as `points`, or empty: then it counts as 0
   /// @throws DataError when the disk is full, or beyond 4,294,967,295 points
-  void add(const std::vector<Eigen::Vector3d>& points, const std::vector<float>& intensity);
   void add(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& intensity);
+  /// The same for points in double precision.
+  void add_exact(const std::vector<Eigen::Vector3d>& points, const std::vector<float>& intensity);
   /// Ends the file and puts it on the disk, still without its name.
   void finish();
   /// Gives it its name, after `finish`.

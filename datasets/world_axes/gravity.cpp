@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/world_axes/gravity.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -29,6 +30,7 @@ constexpr double kLeastGround = 4.0;  ///< Square metres a scan.
 constexpr double kCone = 30.0;  ///< Degrees that up may be away from the ground's direction.
 constexpr double kGroundPull =
     0.15;  ///< What the ground's own direction is ahead of the cone's edge.
+constexpr double kFinePull = 0.002;  ///< The same of the last steps.
 constexpr double kOffGround = 30.0;  ///< Degrees from the ground's direction: no ground any more.
 constexpr double kUpright = 2.0;     ///< Degrees that upright surfaces may lean.
 
@@ -149,6 +151,19 @@ struct Sides {
     for (const Surface& side : all) sum += side.weight * bump(side.normal.dot(up), limit);
     return sum;
   }
+
+  /// The direction by which those that are about upright under `up` lean the least (squared sines).
+  [[nodiscard]] Vector3d least_leaning(const Vector3d& up, const Vector3d& ground) const {
+    const double limit = sine(kUpright);
+    // What sides leave open, the ground decides.
+    Matrix3d moments = kFinePull * area * (Matrix3d::Identity() - ground * ground.transpose());
+    for (const Surface& side : all) {
+      const double weight = side.weight * bump(side.normal.dot(up), limit);
+      moments += weight * side.normal * side.normal.transpose();
+    }
+    const Vector3d axis = Eigen::SelfAdjointEigenSolver<Matrix3d>(moments).eigenvectors().col(0);
+    return axis.dot(up) < 0.0 ? Vector3d(-axis) : axis;
+  }
 };
 
 Sides sides_of(const Surfaces& surfaces, const Vector3d& ground) {
@@ -179,8 +194,7 @@ Vector3d find_upright(const Sides& sides, const Vector3d& ground) {
   };
   search(kCone, 3.0, 2.5 * kUpright);
   search(3.0, 1.0, 1.5 * kUpright);
-  search(1.0, 0.25, kUpright);
-  search(0.25, 0.05, kUpright);
+  for (int k = 0; k < 10; ++k) best = sides.least_leaning(best, ground);
   return best;
 }
 
