@@ -131,9 +131,10 @@ void LabelFolder::commit() {
   if (replaces) fs::remove_all(old_, error);
 }
 
-CleanOutputs::CleanOutputs(const CleanPaths& paths, double voxel_size)
-    : map_(paths.map, voxel_size) {
-  if (!paths.removed.empty()) removed_.emplace(paths.removed, voxel_size);
+CleanOutputs::CleanOutputs(const CleanPaths& paths, double voxel_size,
+                           const MapPrecision& precision)
+    : map_(paths.map, voxel_size, precision) {
+  if (!paths.removed.empty()) removed_.emplace(paths.removed, voxel_size, precision);
   if (!paths.labels.empty()) labels_.emplace(paths.labels);
 }
 

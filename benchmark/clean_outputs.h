@@ -52,7 +52,8 @@ class LabelFolder {
 class CleanOutputs {
  public:
   /// @param voxel_size metres; 0 keeps every point
-  CleanOutputs(const CleanPaths& paths, double voxel_size);
+  /// @throws UsageError if a file's format cannot hold the map's coordinates
+  CleanOutputs(const CleanPaths& paths, double voxel_size, const MapPrecision& precision);
   void add(const Scan& scan, const Mask& mask);
   /// Ends and names all outputs: first what takes room, then the names.
   void commit();

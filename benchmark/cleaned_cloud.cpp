@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/file_kind.h"
+#include "core/local_frame.h"
 #include "core/text.h"
 #include "core/voxel_key.h"
 #include "datasets/cloud_file.h"
@@ -37,12 +38,12 @@ CleanedCloud cleaned_cloud(std::vector<Eigen::Vector3f> points) {
   return cloud;
 }
 
-CleanedCloud read_cleaned_cloud(const std::filesystem::path& path) {
+CleanedCloud read_cleaned_cloud(const std::filesystem::path& path, const Eigen::Vector3d& origin) {
   if (is_folder(path)) {
     throw UsageError(path.string() + ": is a folder; expected the file of one map (.pcd, .ply, " +
                      ".bin). Label files are scored with --predictions.");
   }
-  return cleaned_cloud(read_cloud(path).points);
+  return cleaned_cloud(read_cloud(path, origin).points);
 }
 
 namespace {
@@ -84,7 +85,7 @@ class StaticPoints {
 
 CleanedCloud oracle_cloud(const Sequence& sequence, double voxel_size, Progress* progress) {
   StaticPoints kept(voxel_size);
-  const ScanSource& scans = *sequence.scans;
+  const LocalFrameSource scans(*sequence.scans, lattice_frame(*sequence.scans));
   if (progress != nullptr) progress->begin("the oracle's cloud", scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);

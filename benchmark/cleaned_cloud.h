@@ -12,8 +12,8 @@
 
 namespace raymoval {
 
-/// A map that some program says is static: finite points in the world frame, sorted, so that their
-/// order in the file cannot matter.
+/// A map that some program says is static: finite points in the world frame, from the origin that
+/// scores have (see `lattice_origin`), sorted, so that their order in the file cannot matter.
 struct CleanedCloud {
   std::vector<Eigen::Vector3f> points;
   std::size_t stored = 0;      ///< Points in the file.
@@ -25,8 +25,10 @@ struct CleanedCloud {
 
 CleanedCloud cleaned_cloud(std::vector<Eigen::Vector3f> points);
 
+/// @param origin of the points in memory, in the world of the file
 /// @throws DataError, UsageError as `read_cloud`
-CleanedCloud read_cleaned_cloud(const std::filesystem::path& path);
+CleanedCloud read_cleaned_cloud(const std::filesystem::path& path,
+                                const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// The cloud of all points that do not move by the sequence's labels: the best that a method can
 /// hand in.

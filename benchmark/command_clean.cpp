@@ -6,6 +6,7 @@
 #include "benchmark/commands.h"
 #include "benchmark/mask_spool.h"
 #include "benchmark/suite_flags.h"
+#include "core/local_frame.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -88,12 +89,19 @@ ExitCode clean(const CleanFlags& flags, Progress& progress) {
   const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
   const ConfiguredMethod method = configured(flags);
   const Sequence sequence = opened(flags, paths, method, progress);
+  const std::string turned = up_line(sequence.up());
+  if (!turned.empty()) progress.say(sequence.name + ": " + turned);
   progress.set_context(method.full_name() + " on " + sequence.name);
-  CleanOutputs outputs(paths, voxel);
-  const TimedSource scans(*sequence.scans);
+  const MapPrecision precision = map_precision(*sequence.scans);
+  CleanOutputs outputs(paths, voxel, precision);
+  const LocalFrameSource local(*sequence.scans, sequence.method_frame());
+  const TimedSource scans(local);
   MaskSpool masks(method.full_name(), scans, paths.map);
   find_removals(flags, method, sequence, scans, masks, progress);
   write_outputs(*sequence.scans, masks, outputs, progress);
+  if (precision.coordinates == Coordinates::kDouble) {
+    print("The map lies more than 8 km from the world's origin: its coordinates are float64.\n");
+  }
   print(method.full_name() + " removed " + grouped_text(masks.removed_count()) + " of " +
         counted_text(masks.point_count(), "point") + " in " + counted_text(scans.size(), "scan") +
         "; " + flags.output + " has " + counted_text(outputs.map_points(), "point") + ".\n");

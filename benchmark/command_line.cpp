@@ -165,13 +165,18 @@ void SequenceFlags::add_to(CLI::App& app) {
   app.add_option("--range", range, "Metres; points beyond are not evaluated")->type_name("MIN:MAX");
   app.add_option("--sensor", sensor, "Name of a known sensor (see `raymoval list sensors`)")
       ->type_name("NAME");
+  app.add_option("--up", up,
+                 "Which way is up in the world of the poses: z, -y, or x,y,z (default: told by "
+                 "ground and walls)")
+      ->type_name("AXIS");
   app.add_option("--name", name, "Name of the sequence in results")->type_name("NAME");
 }
 
 std::string SequenceFlags::first_given() const {
   const std::pair<const char*, const std::string*> all[] = {
       {"--frames", &frames}, {"--poses", &poses},   {"--label-rule", &label_rule},
-      {"--range", &range},   {"--sensor", &sensor}, {"--name", &name}};
+      {"--range", &range},   {"--sensor", &sensor}, {"--up", &up},
+      {"--name", &name}};
   for (const auto& [option, text] : all) {
     if (!text->empty()) return option;
   }
@@ -184,6 +189,7 @@ SequenceOptions SequenceFlags::options() const {
   if (!poses.empty()) options.poses = poses;
   if (!label_rule.empty()) options.label_rule = label_rule;
   if (!sensor.empty()) options.sensor = sensor;
+  if (!up.empty()) options.up = up;
   if (!name.empty()) options.name = name;
   if (range.empty()) return options;
   const auto parts = split(range, ':');

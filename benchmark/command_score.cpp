@@ -12,6 +12,7 @@
 #include "benchmark/sealed_json.h"
 #include "benchmark/sequence_bench.h"
 #include "core/files.h"
+#include "core/local_frame.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "eval/rate.h"
@@ -134,7 +135,8 @@ class Scoring {
 
   MaskStore score_cloud() {
     const double voxel = flags_.voxel.empty() ? 0.0 : parse_positive("--voxel", flags_.voxel);
-    const CleanedCloud cloud = read_cleaned_cloud(flags_.cloud);
+    const CleanedCloud cloud =
+        read_cleaned_cloud(flags_.cloud, lattice_origin(*bench_.sequence().scans));
     record_["cloud"]["points"] = cloud.stored;
     record_["cloud"]["non_finite"] = cloud.non_finite;
     record_["cloud"]["oracle_voxel_m"] = voxel;

@@ -42,7 +42,7 @@ const MethodRegistry& program_methods();
 
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {
-  std::string frames, poses, label_rule, range, sensor, name;
+  std::string frames, poses, label_rule, range, sensor, up, name;
 
   void add_to(CLI::App& app);
   /// @throws UsageError for an ill-formed value

@@ -3,15 +3,28 @@
 
 #include <algorithm>
 
+#include "core/local_frame.h"
+
 namespace raymoval {
 
+MapPrecision map_precision(const ScanSource& scans) {
+  MapPrecision precision;
+  precision.origin = lattice_origin(scans);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (scans.pose(i).translation().cwiseAbs().maxCoeff() > kFarFromOrigin) {
+      precision.coordinates = Coordinates::kDouble;
+    }
+  }
+  return precision;
+}
+
 void MapWriter::start(bool with_reflectance) {
-  file_.start(with_reflectance);
+  file_.start(with_reflectance, precision_.coordinates);
   started_ = true;
 }
 
 void MapWriter::write_buffer() {
-  file_.add(points_, reflectance_);
+  file_.add_exact(points_, reflectance_);
   written_ += points_.size();
   points_.clear();
   reflectance_.clear();
@@ -27,12 +40,13 @@ void MapWriter::add(const Scan& scan, const Mask& mask, std::uint8_t wanted) {
     const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
     const float reflectance = with_reflectance ? scan.reflectance[i] : 0.0F;
     if (voxel_size_ <= 0.0) {
-      points_.push_back(world.cast<float>());
+      points_.push_back(world);
       reflectance_.push_back(reflectance);
       continue;
     }
-    Cell& cell = cells_[voxel_key(voxel_index(world, 1.0 / voxel_size_))];
-    cell.sum += world;
+    const Eigen::Vector3d offset = world - precision_.origin;
+    Cell& cell = cells_[voxel_key(voxel_index(offset, 1.0 / voxel_size_))];
+    cell.sum += offset;
     cell.reflectance += static_cast<double>(reflectance);
     ++cell.count;
   }
@@ -48,7 +62,7 @@ void MapWriter::write_cells() {
   for (const VoxelKey key : keys) {
     const Cell& cell = cells_.at(key);
     const auto count = static_cast<double>(cell.count);
-    points_.push_back((cell.sum / count).cast<float>());
+    points_.push_back(precision_.origin + cell.sum / count);
     reflectance_.push_back(static_cast<float>(cell.reflectance / count));
     if (points_.size() == kPiece) write_buffer();
   }

@@ -13,6 +13,7 @@
 #include "benchmark/checked_sink.h"
 #include "benchmark/machine.h"
 #include "benchmark/sequence_bench.h"
+#include "core/local_frame.h"
 #include "methods/controls/controls.h"
 
 namespace raymoval {
@@ -72,7 +73,9 @@ Measurement measure(const StageTimes& times, const TimedSource& scans, double se
 
 void answer_task(const MethodTask& task, MethodAnswer& answer) {
   const auto remover = make_remover(task.request->method, *task.sequence);
-  const TimedSource scans(*task.sequence->scans);
+  // The one frame that methods see; masks go by index, so nothing has to be turned back.
+  const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
+  const TimedSource scans(local);
   CheckedSink sink(task.request->name, scans);
   StageTimes times;
   RunContext context;

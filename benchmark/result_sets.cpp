@@ -29,6 +29,9 @@ Facts cell_identity(const ordered_json& cell) {
        {"fingerprint", "scans", "frames", "poses", "sensor", "range_m", "label_rule"}) {
     if (cell.at("data").contains(key)) facts[std::string("data ") + key] = cell["data"][key].dump();
   }
+  // Results of earlier versions do not say which way is up; they took z.
+  const std::string up = cell.at("data").value("up", "z");
+  if (up != "z") facts["data up"] = up;
   return facts;
 }
 

@@ -174,6 +174,10 @@ class Runner {
       return;
     }
     tell_sensor(bench.sequence());
+    const std::string turned = up_line(bench.sequence().up());
+    if (options_.progress != nullptr && !turned.empty()) {
+      options_.progress->say(bench.sequence().name + ": " + turned);
+    }
     for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
       run_cell(bench, sequence, method);
     }

@@ -35,6 +35,7 @@ SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolReques
     throw DataError("sequence '" + opened.name + "' has no scan in the chosen frames (" +
                     opened.frames + "). Choose others with --frames.");
   }
+  scored_scans_ = std::make_unique<LocalFrameSource>(*opened.scans, lattice_frame(*opened.scans));
   for (const ProtocolRequest& request : requests) {
     scorers_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
     check_has_calibration(*scorers_.back().protocol, opened);
@@ -67,7 +68,7 @@ std::string SequenceBench::data_change(const LoadedData* loaded) {
 
 EvaluationInput SequenceBench::input() const {
   EvaluationInput input;
-  input.scans = sequence().scans.get();
+  input.scans = scored_scans_.get();
   input.labels = sequence().labels.get();
   input.label_rule = sequence().label_rule;
   input.range_m = sequence().range_m;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmark/suite.h"
+#include "core/local_frame.h"
 #include "core/progress.h"
 #include "datasets/loaded_data.h"
 #include "eval/cloud_masks.h"
@@ -60,6 +61,8 @@ class SequenceBench {
   const Scorer& prepared(std::size_t i);
 
   WatchedSequence watched_;
+  /// The scans as protocols get them: from `lattice_origin`.
+  std::unique_ptr<const LocalFrameSource> scored_scans_;
   int threads_;
   Progress* progress_;
   std::string fingerprint_;

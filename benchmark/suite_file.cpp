@@ -90,7 +90,8 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
     request.path = sequence_path(item.get<std::string>(), places, where);
     return request;
   }
-  check_keys(item, {"path", "name", "frames", "poses", "label_rule", "range_m", "sensor"}, where);
+  check_keys(item, {"path", "name", "frames", "poses", "label_rule", "range_m", "sensor", "up"},
+             where);
   const auto path = text_of(item, "path", where);
   if (!path) throw ConfigurationError(where + ": 'path' is missing.");
   request.path = sequence_path(*path, places, where);
@@ -98,6 +99,7 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
   options.name = text_of(item, "name", where);
   options.poses = text_of(item, "poses", where);
   options.sensor = text_of(item, "sensor", where);
+  options.up = text_of(item, "up", where);
   if (const auto frames = text_of(item, "frames", where)) {
     options.frames = parse_frame_range(*frames);
   }

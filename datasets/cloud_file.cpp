@@ -32,7 +32,13 @@ struct Column {
   std::size_t step = 0;
   CloudField field;
   bool swap = false;
+  double origin = 0.0;  ///< Taken off each value.
 };
+
+/// What is taken off the values of column `column` of x, y, z, intensity.
+double origin_of(std::size_t column, const Eigen::Vector3d& origin) {
+  return column < 3 ? origin[static_cast<Eigen::Index>(column)] : 0.0;
+}
 
 /// x, y, z and perhaps intensity as positions in `CloudHeader::fields`.
 std::vector<std::size_t> wanted_fields(const CloudHeader& header) {
@@ -60,10 +66,11 @@ Cloud sized_cloud(std::size_t points, std::size_t columns) {
 }
 
 template <class Value>
-float value_as_float(const char* at) {
+float value_as_float(const char* at, double origin) {
   Value value;
   std::memcpy(&value, at, sizeof value);
-  return static_cast<float>(value);
+  if (origin == 0.0) return static_cast<float>(value);
+  return static_cast<float>(static_cast<double>(value) - origin);
 }
 
 float read_value(const char* at, const Column& column) {
@@ -73,17 +80,22 @@ float read_value(const char* at, const Column& column) {
   if (column.swap) std::reverse(bytes.begin(), bytes.begin() + column.field.size);
   const char* const p = bytes.data();
   if (column.field.type == 'F')
-    return size == 4 ? value_as_float<float>(p) : value_as_float<double>(p);
+    return size == 4 ? value_as_float<float>(p, column.origin)
+                     : value_as_float<double>(p, column.origin);
   const bool is_signed = column.field.type == 'I';
   switch (size) {
     case 1:
-      return is_signed ? value_as_float<std::int8_t>(p) : value_as_float<std::uint8_t>(p);
+      return is_signed ? value_as_float<std::int8_t>(p, column.origin)
+                       : value_as_float<std::uint8_t>(p, column.origin);
     case 2:
-      return is_signed ? value_as_float<std::int16_t>(p) : value_as_float<std::uint16_t>(p);
+      return is_signed ? value_as_float<std::int16_t>(p, column.origin)
+                       : value_as_float<std::uint16_t>(p, column.origin);
     case 4:
-      return is_signed ? value_as_float<std::int32_t>(p) : value_as_float<std::uint32_t>(p);
+      return is_signed ? value_as_float<std::int32_t>(p, column.origin)
+                       : value_as_float<std::uint32_t>(p, column.origin);
     default:
-      return is_signed ? value_as_float<std::int64_t>(p) : value_as_float<std::uint64_t>(p);
+      return is_signed ? value_as_float<std::int64_t>(p, column.origin)
+                       : value_as_float<std::uint64_t>(p, column.origin);
   }
 }
 
@@ -100,7 +112,7 @@ Cloud decode_columns(std::string_view data, const std::vector<Column>& columns,
 }
 
 Cloud decode_binary(const CloudHeader& header, std::string_view body,
-                    const std::filesystem::path& path) {
+                    const std::filesystem::path& path, const Eigen::Vector3d& origin) {
   const std::size_t row = header.row_bytes();
   if (header.points > body.size() / row) {
     throw DataError(path.string() + ": the header announces " + grouped_text(header.points) +
@@ -113,7 +125,8 @@ Cloud decode_binary(const CloudHeader& header, std::string_view body,
   for (const std::size_t wanted : wanted_fields(header)) {
     std::size_t offset = 0;
     for (std::size_t i = 0; i < wanted; ++i) offset += header.fields[i].bytes();
-    columns.push_back({offset, row, header.fields[wanted], header.big_endian});
+    columns.push_back(
+        {offset, row, header.fields[wanted], header.big_endian, origin_of(columns.size(), origin)});
   }
   return decode_columns(body, columns, header.points);
 }
@@ -149,7 +162,7 @@ std::string decompress(std::string_view body, std::uint64_t expected_bytes,
 }
 
 Cloud decode_compressed(const CloudHeader& header, std::string_view body,
-                        const std::filesystem::path& path) {
+                        const std::filesystem::path& path, const Eigen::Vector3d& origin) {
   std::vector<std::size_t> starts;
   std::uint64_t bytes = 0;
   for (const CloudField& field : header.fields) {
@@ -160,7 +173,8 @@ Cloud decode_compressed(const CloudHeader& header, std::string_view body,
   std::vector<Column> columns;
   for (const std::size_t wanted : wanted_fields(header)) {
     const CloudField& field = header.fields[wanted];
-    columns.push_back({starts[wanted], field.bytes(), field, false});
+    columns.push_back(
+        {starts[wanted], field.bytes(), field, false, origin_of(columns.size(), origin)});
   }
   return decode_columns(data, columns, header.points);
 }
@@ -177,8 +191,17 @@ std::vector<std::size_t> ascii_columns(const CloudHeader& header) {
   return columns;
 }
 
+/// The value of a text, less `origin`; nothing if it is no number.
+std::optional<float> parsed_value(std::string_view word, double origin) {
+  if (origin == 0.0) return parse_number<float>(word);
+  const auto value = parse_number<double>(word);
+  if (!value) return std::nullopt;
+  return static_cast<float>(*value - origin);
+}
+
 void decode_line(std::string_view line, const std::string& where,
-                 const std::vector<std::size_t>& columns, std::size_t point, Cloud& cloud) {
+                 const std::vector<std::size_t>& columns, const Eigen::Vector3d& origin,
+                 std::size_t point, Cloud& cloud) {
   const auto words = split_blanks(line);
   if (words.size() != columns.back()) {
     throw DataError(where + ": " + std::to_string(words.size()) + " values; the header announces " +
@@ -186,7 +209,7 @@ void decode_line(std::string_view line, const std::string& where,
   }
   for (std::size_t c = 0; c + 1 < columns.size(); ++c) {
     const std::string_view word = words[columns[c]];
-    const auto value = parse_number<float>(word);
+    const auto value = parsed_value(word, origin_of(c, origin));
     if (!value) {
       throw DataError(where + ", column " + std::to_string(word.data() - line.data() + 1) + ": '" +
                       std::string(word.substr(0, 40)) + "' is not a number.");
@@ -196,7 +219,7 @@ void decode_line(std::string_view line, const std::string& where,
 }
 
 Cloud decode_ascii(const CloudHeader& header, std::string_view body,
-                   const std::filesystem::path& path) {
+                   const std::filesystem::path& path, const Eigen::Vector3d& origin) {
   const auto columns = ascii_columns(header);
   // A line takes at least a character and its end, save the very last.
   const std::uint64_t possible = (body.size() + 1) / 2;
@@ -213,7 +236,7 @@ Cloud decode_ascii(const CloudHeader& header, std::string_view body,
       throw DataError(where + ": more points than the " + grouped_text(header.points) +
                       " the header announces.");
     }
-    decode_line(text, where, columns, done++, cloud);
+    decode_line(text, where, columns, origin, done++, cloud);
   }
   if (done != header.points) {
     throw DataError(path.string() + ": the header announces " + grouped_text(header.points) +
@@ -223,7 +246,7 @@ Cloud decode_ascii(const CloudHeader& header, std::string_view body,
   return cloud;
 }
 
-Cloud read_bin(const std::filesystem::path& path) {
+Cloud read_bin(const std::filesystem::path& path, const Eigen::Vector3d& origin) {
   const auto bytes = read_bytes(path);
   check_bin_size(path, bytes.size());
   Cloud cloud = sized_cloud(bytes.size() / kBinRow, 4);
@@ -231,6 +254,9 @@ Cloud read_bin(const std::filesystem::path& path) {
     std::array<float, 4> row;
     std::memcpy(row.data(), bytes.data() + i * kBinRow, kBinRow);
     cloud.points[i] = {row[0], row[1], row[2]};
+    if (!origin.isZero(0.0)) {
+      cloud.points[i] = (cloud.points[i].cast<double>() - origin).cast<float>();
+    }
     cloud.intensity[i] = row[3];
   }
   return cloud;
@@ -257,9 +283,9 @@ void check_bin_size(const std::filesystem::path& path, std::uintmax_t bytes) {
                   ". Copy it again, or leave it out with --frames.");
 }
 
-Cloud read_cloud(const std::filesystem::path& path) {
+Cloud read_cloud(const std::filesystem::path& path, const Eigen::Vector3d& origin) {
   const std::string extension = path.extension().string();
-  if (extension == ".bin") return read_bin(path);
+  if (extension == ".bin") return read_bin(path, origin);
   if (extension != ".pcd" && extension != ".ply") throw_unknown_extension(path);
   const auto bytes = read_bytes(path);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -268,11 +294,11 @@ Cloud read_cloud(const std::filesystem::path& path) {
   const std::string_view body = text.substr(header.body_offset);
   switch (header.encoding) {
     case CloudEncoding::kAscii:
-      return decode_ascii(header, body, path);
+      return decode_ascii(header, body, path, origin);
     case CloudEncoding::kBinary:
-      return decode_binary(header, body, path);
+      return decode_binary(header, body, path, origin);
     case CloudEncoding::kCompressed:
-      return decode_compressed(header, body, path);
+      return decode_compressed(header, body, path, origin);
   }
   throw InternalError("unknown cloud encoding");
 }

@@ -27,8 +27,11 @@ const std::vector<std::string>& cloud_extensions();
 /// or .ply (ascii, binary of either endianness; vertices first).
 /// @throws DataError naming the file, and the byte, point or line that is wrong; UsageError for
 ///   another extension
-/// @note VIEWPOINT is never applied to the points. float64 coordinates are rounded to float32.
-Cloud read_cloud(const std::filesystem::path& path);
+/// @param origin metres, taken off each point in double precision before it is rounded to float32:
+///   near it, points far from the file's own origin keep their digits
+/// @note VIEWPOINT is never applied to the points.
+Cloud read_cloud(const std::filesystem::path& path,
+                 const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// Sensor pose from the VIEWPOINT entry of a .pcd file, without reading its points.
 /// @throws DataError if there is none or it is no rigid pose

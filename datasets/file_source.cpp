@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/local_frame.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
 #include "datasets/frames.h"
@@ -93,10 +94,18 @@ Scan FileScanSource::load(std::size_t index) const {
   scan.name = frame.name;
   scan.time_s = frame.time_s;
   scan.T_world_sensor = frame.T_world_sensor;
-  Cloud cloud = read_cloud(frame.path);
+  const bool in_world = traits_.point_frame == PointFrame::kWorld;
+  // Points of a far world are read from the sensor's position on, before they become float32.
+  Pose T_world_sensor = frame.T_world_sensor;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  if (in_world && T_world_sensor.translation().cwiseAbs().maxCoeff() > kFarFromOrigin) {
+    origin = T_world_sensor.translation();
+    T_world_sensor.translation().setZero();
+  }
+  Cloud cloud = read_cloud(frame.path, origin);
   if (!traits_.has_reflectance) cloud.intensity.clear();
-  if (traits_.point_frame == PointFrame::kWorld) {
-    const Pose T_sensor_world = frame.T_world_sensor.inverse();
+  if (in_world) {
+    const Pose T_sensor_world = T_world_sensor.inverse();
     for (Eigen::Vector3f& point : cloud.points) {
       point = (T_sensor_world * point.cast<double>()).cast<float>();
     }

@@ -51,6 +51,8 @@ void add_settings(ContentHasher& hasher, const Sequence& sequence) {
   }
   add_vector(hasher, sequence.label_rule.moving);
   add_vector(hasher, sequence.label_rule.ignored);
+  const UpDirection up = sequence.up();
+  if (!up.is_world_z()) hasher.add(up.direction.data(), sizeof(double) * 3);
 }
 
 std::string fingerprint(const Sequence& sequence, int threads) {

@@ -8,6 +8,8 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/local_frame.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
 #include "datasets/dynamicmap/dynamicmap.h"
@@ -96,6 +98,20 @@ Sequence open_scene(const std::string& text, const SequenceOptions& options,
 
 }  // namespace
 
+UpDirection Sequence::up() const {
+  return up_choice ? up_choice->get(*scans) : UpDirection{};
+}
+
+Pose Sequence::method_frame() const {
+  return raymoval::method_frame(*scans, up().direction);
+}
+
+Pose Sequence::upright_frame() const {
+  Pose T_upright_world = Pose::Identity();
+  T_upright_world.linear() = turn_to_z(up().direction);
+  return T_upright_world;
+}
+
 nlohmann::ordered_json Sequence::record() const {
   nlohmann::ordered_json record;
   record["name"] = name;
@@ -106,6 +122,8 @@ nlohmann::ordered_json Sequence::record() const {
   record["poses"] = poses_file;
   record["sensor"] = scans->sensor().name;
   if (scans->sensor().is_estimated()) record["sensor_basis"] = scans->sensor().basis;
+  record["up"] = up_text(up().direction);
+  record["up_source"] = up_source_name(up().source);
   record["scan_period_s"] = nullptr;
   if (scan_period_s) record["scan_period_s"] = *scan_period_s;
   record["range_m"] = {{"min", range_m.min}, {"max", nullptr}};

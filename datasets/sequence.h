@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/range_limits.h"
 #include "core/scan_source.h"
+#include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
 
@@ -36,6 +37,7 @@ struct SequenceOptions {
   std::optional<std::filesystem::path> label_rule;  ///< JSON file.
   std::optional<RangeLimits> range_m;
   std::optional<std::string> sensor;  ///< Name of a known sensor, or "estimated".
+  std::optional<std::string> up;      ///< Which way is up in the world, see `parse_up`.
   std::optional<std::string> name;    ///< Name in results.
 };
 
@@ -53,8 +55,19 @@ struct Sequence {
   std::optional<double> scan_period_s;
   /// Calibration "Tr" where the pose file has poses of a camera; the scans' poses contain it.
   std::optional<Pose> T_camera_lidar = std::nullopt;
+  /// Which way is up in the world of the poses; null: its z axis.
+  std::shared_ptr<const UpChoice> up_choice = nullptr;
 
-  /// Path-free record for results: name, layout, frames, poses, sensor, label rule, range.
+  /// Which way is up; estimated from the scans when first asked for, unless a user said it.
+  /// @throws DataError if a scan cannot be read
+  [[nodiscard]] UpDirection up() const;
+  /// T_local_world of the frame that methods run in: the first scan's position is its origin, and
+  /// its z axis points up (see `method_frame`). @throws DataError as `up`
+  [[nodiscard]] Pose method_frame() const;
+  /// The turn of the world that brings up to z, about its origin. @throws DataError as `up`
+  [[nodiscard]] Pose upright_frame() const;
+  /// Path-free record for results: name, layout, frames, poses, sensor, up, label
+  /// rule, range.
   [[nodiscard]] nlohmann::ordered_json record() const;
 };
 
@@ -104,8 +117,8 @@ std::string scene_or_folder(const std::string& path, const std::filesystem::path
 void check_not_both(const std::string& path);
 
 /// Hash of everything a method or protocol reads: points, reflectance, times, poses and labels of
-/// the chosen frames, sensor model, label rule and range limits. File and sequence names are left
-/// out: a copy of the data elsewhere has the same fingerprint.
+/// the chosen frames, sensor model, label rule, range limits, and up where it is not the world's z.
+/// File and sequence names are left out: a copy of the data elsewhere has the same fingerprint.
 /// @param threads used for reading; the answer does not depend on it
 std::string fingerprint(const Sequence& sequence, int threads);
 

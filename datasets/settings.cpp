@@ -30,6 +30,18 @@ double positive_value(const json& value, const std::string& where, bool zero_all
   return number;
 }
 
+/// "-y", or a list of three numbers.
+Eigen::Vector3d up_value(const json& value, const std::string& where) {
+  std::string text = value.is_string() ? value.get<std::string>() : "";
+  if (value.is_array() && value.size() == 3) {
+    text = value[0].dump() + "," + value[1].dump() + "," + value[2].dump();
+  }
+  const auto up = parse_up(text);
+  if (!up)
+    throw ConfigurationError(where + ": " + value.dump() + " is no direction; " + kUpForm + ".");
+  return *up;
+}
+
 RangeLimits range_value(const json& value, const std::string& where) {
   check_keys(value, {"min", "max"}, where);
   RangeLimits range;
@@ -42,13 +54,14 @@ void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
   const std::string where = path.string();
   const json file = read_json(path);
   check_keys(file,
-             {"name", "source", "sensor", "scan_period_s", "poses", "poses_are_lidar", "range_m",
-              "labels"},
+             {"name", "source", "sensor", "up", "scan_period_s", "poses", "poses_are_lidar",
+              "range_m", "labels"},
              where);
   const auto at = [&where](const char* key) { return where + ": " + key; };
   if (file.contains("name")) settings.name = text_value(file["name"], at("name"));
   if (file.contains("source")) settings.source = text_value(file["source"], at("source"));
   if (file.contains("sensor")) settings.sensor = text_value(file["sensor"], at("sensor"));
+  if (file.contains("up")) settings.up = up_value(file["up"], at("up"));
   if (file.contains("poses")) settings.poses = text_value(file["poses"], at("poses"));
   if (file.contains("scan_period_s")) {
     settings.scan_period_s = positive_value(file["scan_period_s"], at("scan_period_s"), false);
@@ -114,6 +127,10 @@ SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings 
   if (options.range_m) settings.range_m = *options.range_m;
   if (options.sensor) settings.sensor = options.sensor;
   if (options.name) settings.name = *options.name;
+  if (options.up) {
+    settings.up = parse_up(*options.up);
+    if (!settings.up) throw UsageError("--up " + *options.up + ": " + kUpForm + ".");
+  }
   if (options.label_rule) {
     LabelRule base;
     base.name = options.label_rule->stem().string();
@@ -145,6 +162,7 @@ Sequence make_sequence(const SequenceSettings& settings, const std::string& layo
   sequence.frames = frame_range_text(range);
   sequence.source = settings.source;
   sequence.scan_period_s = settings.scan_period_s;
+  sequence.up_choice = std::make_shared<UpChoice>(settings.up);
   return sequence;
 }
 

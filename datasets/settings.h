@@ -17,6 +17,7 @@ struct SequenceSettings {
   std::optional<std::string> poses;  ///< As given: a name in the folder or a path.
   bool poses_are_lidar = false;      ///< Poses need no calibration.
   std::optional<std::string> sensor;
+  std::optional<Eigen::Vector3d> up;  ///< Unit vector of the world frame.
   std::optional<double> scan_period_s;
   RangeLimits range_m;
   LabelRule label_rule;
@@ -24,7 +25,7 @@ struct SequenceSettings {
 };
 
 /// Reads `folder`/sequence.json if there is one and lays `options` over it. Its keys, all optional:
-/// name, source, sensor (a known sensor or "estimated"), scan_period_s, poses, poses_are_lidar,
+/// name, source, sensor (a known sensor or "estimated"), up, scan_period_s, poses, poses_are_lidar,
 /// range_m {min, max}, labels {name, moving, ignored}.
 /// @param defaults what holds where neither says anything; a `name` in it stands above the file's
 /// @throws ConfigurationError for an unknown key (with the nearest known one) or an illegal value

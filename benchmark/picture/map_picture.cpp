@@ -6,6 +6,7 @@
 
 #include "benchmark/cell_selection.h"
 #include "core/error.h"
+#include "core/local_frame.h"
 #include "core/text.h"
 #include "eval/rate.h"
 
@@ -82,15 +83,17 @@ std::string caption_of(const RunResults& results, const KeptCell& cell) {
 }
 
 /// All panels of a sequence in one pass over its scans.
-void add_points(const Sequence& sequence, const std::vector<MaskStore>& masks,
-                const std::vector<TopDownRaster*>& rasters, const OpenContext& context) {
+/// @param scans of the sequence, up along z
+void add_points(const Sequence& sequence, const ScanSource& scans,
+                const std::vector<MaskStore>& masks, const std::vector<TopDownRaster*>& rasters,
+                const OpenContext& context) {
   const ShownPoints points(sequence);
   if (context.progress != nullptr) {
     context.progress->begin("drawing " + sequence.name, sequence.scans->size());
   }
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
     if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
-    const Scan scan = sequence.scans->load(i);
+    const Scan scan = scans.load(i);
     const std::vector<std::uint32_t> labels = sequence.labels->labels(scan);
     std::vector<Mask> removed;
     for (const MaskStore& store : masks) removed.push_back(store.get(i));
@@ -133,7 +136,8 @@ void fill_row(const KeptRun& run, const std::vector<const KeptCell*>& cells,
     return;
   }
   const Sequence sequence = run.open(row.sequence, context);
-  const WorldWindow window = options.crop ? *options.crop : window_around_way(*sequence.scans);
+  const LocalFrameSource upright(*sequence.scans, sequence.upright_frame());
+  const WorldWindow window = options.crop ? *options.crop : window_around_way(upright);
   set_scale(options, window, row);
   std::vector<MaskStore> masks;
   std::vector<TopDownRaster*> rasters;
@@ -143,7 +147,7 @@ void fill_row(const KeptRun& run, const std::vector<const KeptCell*>& cells,
     row.panels[i].raster.emplace(window, row.resolution);
     rasters.push_back(&*row.panels[i].raster);
   }
-  add_points(sequence, masks, rasters, context);
+  add_points(sequence, upright, masks, rasters, context);
 }
 
 void draw_row(Canvas& canvas, const MapRow& row, int column_width, int top) {

@@ -9,6 +9,7 @@
 #include "benchmark/picture/colour_maps.h"
 #include "benchmark/picture/oblique_view.h"
 #include "core/error.h"
+#include "core/local_frame.h"
 #include "core/text.h"
 #include "eval/removal_tally.h"
 
@@ -31,14 +32,15 @@ struct ShownPoint {
   Outcome outcome;
 };
 
-void for_each_point(const Sequence& sequence, const MaskStore& masks, const char* task,
-                    const OpenContext& context,
+/// @param scans of the sequence, up along z
+void for_each_point(const Sequence& sequence, const ScanSource& scans, const MaskStore& masks,
+                    const char* task, const OpenContext& context,
                     const std::function<void(const ShownPoint&)>& look) {
   const ShownPoints points(sequence);
   if (context.progress != nullptr) context.progress->begin(task, sequence.scans->size());
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
     if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
-    const Scan scan = sequence.scans->load(i);
+    const Scan scan = scans.load(i);
     const std::vector<std::uint32_t> labels = sequence.labels->labels(scan);
     const Mask mask = masks.get(i);
     const double sensor_z = scan.T_world_sensor.translation().z();
@@ -67,8 +69,7 @@ double yaw_of_way(const ScanSource& scans) {
   return way.head<2>().norm() > 1.0 ? std::atan2(way.y(), way.x()) : 0.0;
 }
 
-ObliqueCamera camera_of(const Sequence& sequence, const OverviewOptions& options) {
-  const ScanSource& scans = *sequence.scans;
+ObliqueCamera camera_of(const ScanSource& scans, const OverviewOptions& options) {
   ObliqueCamera camera;
   camera.ground = scans.pose(0).translation().z() - kHeightOffset;
   if (options.crop) {
@@ -97,11 +98,11 @@ ObliqueCamera camera_of(const Sequence& sequence, const OverviewOptions& options
 
 /// A square of the view's frame where most points were removed rightly; where nothing was, most
 /// moving points; else the middle.
-WorldWindow busiest_place(const Sequence& sequence, const MaskStore& masks,
+WorldWindow busiest_place(const Sequence& sequence, const ScanSource& scans, const MaskStore& masks,
                           const ObliqueCamera& camera, const OpenContext& context) {
   std::map<std::pair<int, int>, double> cells;
   const auto cell_of = [](double metres) { return static_cast<int>(std::floor(metres / kCell)); };
-  for_each_point(sequence, masks, "looking for what was removed", context,
+  for_each_point(sequence, scans, masks, "looking for what was removed", context,
                  [&](const ShownPoint& point) {
                    const Eigen::Vector3d at = camera.to_view(point.world);
                    const WorldWindow& window = camera.window;
@@ -229,13 +230,14 @@ RgbImage overview_picture(const KeptRun& run, const KeptCell& cell, const Overvi
   if (!cell.has_removals()) (void)run.masks(cell, {});  // Says why before anything is read.
   const Sequence sequence = run.open(cell.sequence, context);
   const MaskStore masks = run.masks(cell, sequence);
-  const ObliqueCamera camera = camera_of(sequence, options);
+  const LocalFrameSource scans(*sequence.scans, sequence.upright_frame());
+  const ObliqueCamera camera = camera_of(scans, options);
   ObliqueCamera close = camera;
-  close.window = busiest_place(sequence, masks, camera, context);
+  close.window = busiest_place(sequence, scans, masks, camera, context);
   // As high as the two maps together.
   close.resolution = camera.resolution * close.height() / (2.0 * camera.height() + kHeading + kGap);
   Views views{ObliqueRaster(camera), ObliqueRaster(camera), ObliqueRaster(close)};
-  for_each_point(sequence, masks, "drawing", context,
+  for_each_point(sequence, scans, masks, "drawing", context,
                  [&](const ShownPoint& point) { views.add(point); });
   return drawn(cell, sequence.scans->size(), views, close.window);
 }

@@ -9,6 +9,7 @@
 #include "benchmark/picture/point_outcome.h"
 #include "benchmark/picture/top_down.h"
 #include "core/error.h"
+#include "core/local_frame.h"
 #include "core/text.h"
 #include "methods/raymoval/first_hit.h"
 
@@ -60,15 +61,15 @@ AngularGrid grid_of(const Scan& scan, const SensorModel& sensor, int width) {
 }
 
 /// What the method left of all scans.
-OccupancyMap cleaned_map(const Sequence& sequence, const MaskStore& masks,
+OccupancyMap cleaned_map(const Sequence& sequence, const ScanSource& scans, const MaskStore& masks,
                          const OpenContext& context) {
   OccupancyMap map(kVoxel);
   if (context.progress != nullptr) {
-    context.progress->begin("the cleaned map of " + sequence.name, sequence.scans->size());
+    context.progress->begin("the cleaned map of " + sequence.name, scans.size());
   }
-  for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
+  for (std::size_t i = 0; i < scans.size(); ++i) {
     if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
-    const Scan scan = sequence.scans->load(i);
+    const Scan scan = scans.load(i);
     const Mask mask = masks.get(i);
     for (std::size_t k = 0; k < scan.size(); ++k) {
       if (mask[k] == 0 && scan.points[k].head<2>().norm() >= 1.0F) {
@@ -90,7 +91,8 @@ struct RangeImages {
 RangeImages images_of(const Sequence& sequence, const MaskStore& masks, std::size_t index,
                       int width, const OpenContext& context) {
   RangeImages images;
-  const Scan scan = sequence.scans->load(index);
+  const LocalFrameSource scans(*sequence.scans, lattice_frame(*sequence.scans));
+  const Scan scan = scans.load(index);
   const std::vector<std::uint32_t> labels = sequence.labels->labels(scan);
   const Mask mask = masks.get(index);
   const ShownPoints points(sequence);
@@ -110,7 +112,7 @@ RangeImages images_of(const Sequence& sequence, const MaskStore& masks, std::siz
             ? static_cast<int>(outcome_of(points.moving(labels[k]), mask[k] != 0))
             : -1;
   }
-  OccupancyMap map = cleaned_map(sequence, masks, context);
+  OccupancyMap map = cleaned_map(sequence, scans, masks, context);
   const RayLimits limits{1.0, std::min(120.0, sequence.scans->sensor().range_max)};
   images.map =
       cast_first_hits(map, scan.T_world_sensor, images.grid, limits, context.threads).range;

@@ -151,6 +151,15 @@ PackedScene pack_scene(const Scene& scene, std::size_t number, ordered_json& hea
   head["steps_per_voxel"] = kStepsPerVoxel;
   head["shift"] = frame.shift;
   head["origin"] = frame.origin;
+  if (!scene.T_upright_world.linear().isIdentity(0.0)) {
+    // Rows of the turn back to the world: by them the page tells positions.
+    head["turn"] = ordered_json::array();
+    for (int column = 0; column < 3; ++column) {
+      for (int row = 0; row < 3; ++row) {
+        head["turn"].push_back(scene.T_upright_world.linear()(row, column));
+      }
+    }
+  }
   head["error_cell"] = scene.error_cell * kPageVoxel / kStepsPerVoxel;
   head["other_cell"] = scene.other_cell * kPageVoxel / kStepsPerVoxel;
   head["labels"] = labels_record(scene);

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
 #include "benchmark/reasons.h"
+#include "core/local_frame.h"
 #include "eval/removal_tally.h"
 
 namespace raymoval {
@@ -59,6 +61,7 @@ class SceneBuilder {
         others_(limit, cells.size(), kStepsPerVoxel),
         bytes_(cells.size()) {
     scene_.sequence = sequence.name;
+    scene_.T_upright_world = sequence.upright_frame();
     scene_.cells = std::move(cells);
     scene_.counts.resize(scene_.cells.size());
     only_controls_ = std::all_of(scene_.cells.begin(), scene_.cells.end(),
@@ -129,13 +132,20 @@ class SceneBuilder {
   }
 
   static std::array<std::int32_t, 3> steps_of(const Eigen::Vector3d& world) {
+    constexpr double kMost = std::numeric_limits<std::int32_t>::max() - kStepsPerVoxel;
     // Within the voxel of `voxel_index`, whatever rounding does.
-    const VoxelIndex voxel = voxel_index(world, 1.0 / kPageVoxel);
     std::array<std::int32_t, 3> steps{};
     for (int axis = 0; axis < 3; ++axis) {
-      const double inside = world[axis] / kPageVoxel - voxel[axis];
-      const int step = static_cast<int>(std::floor(inside * kStepsPerVoxel));
-      steps[axis] = voxel[axis] * kStepsPerVoxel + std::clamp(step, 0, kStepsPerVoxel - 1);
+      const double place = world[axis] * (1.0 / kPageVoxel);
+      const double voxel = std::floor(place);
+      const double inside = world[axis] / kPageVoxel - voxel;
+      const double step =
+          std::clamp(std::floor(inside * kStepsPerVoxel), 0.0, double{kStepsPerVoxel - 1});
+      const double steps_from_zero = voxel * kStepsPerVoxel + step;
+      if (!(std::abs(steps_from_zero) <= kMost)) {
+        throw_voxel_out_of_range(world.x(), world.y(), world.z(), kPageVoxel);
+      }
+      steps[axis] = static_cast<std::int32_t>(steps_from_zero);
     }
     return steps;
   }
@@ -183,9 +193,10 @@ class SceneBuilder {
 Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit,
                   Progress* progress) {
   SceneBuilder builder(sequence, std::move(cells), limit);
+  const LocalFrameSource upright(*sequence.scans, sequence.upright_frame());
   if (progress != nullptr) progress->begin("points of " + sequence.name, sequence.scans->size());
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
-    builder.add(sequence.scans->load(i));
+    builder.add(upright.load(i));
     if (progress != nullptr) progress->advance();
   }
   return builder.finish();

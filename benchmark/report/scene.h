@@ -42,7 +42,9 @@ struct Scene {
   std::vector<SceneCell> cells;
   std::vector<VerdictCounts> counts;  ///< Of each cell, over all points within the range limits.
   std::vector<std::string> scans;     ///< Names.
-  std::vector<Eigen::Vector3d> trajectory;  ///< Sensor positions, world, metres.
+  /// Turns the world so that up is z: that is how points and trajectory stand here.
+  Pose T_upright_world = Pose::Identity();
+  std::vector<Eigen::Vector3d> trajectory;  ///< Sensor positions, metres.
   std::vector<SceneLabel> labels;           ///< By id.
   std::uint64_t points_in_range = 0;
   int error_cell = 0, other_cell = 0;  ///< What points were thinned by, in steps; 0: not at all.

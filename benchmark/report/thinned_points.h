@@ -17,7 +17,7 @@ inline constexpr int kStepsPerVoxel = 16;
 
 /// A point that may be shown.
 struct ShownPoint {
-  std::array<std::int32_t, 3> step;  ///< World position in steps, rounded down.
+  std::array<std::int32_t, 3> step;  ///< Position in steps, rounded down.
   std::uint32_t scan = 0;
   std::uint16_t label = 0;  ///< Semantic id.
 };

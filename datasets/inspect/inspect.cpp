@@ -15,8 +15,9 @@ namespace inspection {
 const std::vector<Check>& all_checks() {
   static const std::vector<Check> checks = [] {
     std::vector<Check> all;
-    for (const auto& part : {point_checks(), pose_checks(), time_checks(), label_checks(),
-                             sensor_checks(), sensor_model_checks(), skew_checks()}) {
+    for (const auto& part :
+         {point_checks(), pose_checks(), time_checks(), label_checks(), sensor_checks(),
+          sensor_model_checks(), skew_checks(), world_checks()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

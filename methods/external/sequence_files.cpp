@@ -77,6 +77,7 @@ void write_descriptions(const fs::path& folder, const SensorModel& sensor,
   ordered_json sequence;
   sequence["name"] = "sequence";
   sequence["poses"] = "poses.txt";
+  sequence["up"] = "z";
   sequence["sensor"] = named ? sensor.name : "estimated";
   write_file(folder / "sequence.json", sequence.dump(2) + "\n");
   write_file(folder / "sensor.json", sensor_record(sensor).dump(2) + "\n");

@@ -22,6 +22,7 @@ struct EditedSequence : ScanSource, LabelSource {
   SensorModel model;
   RangeLimits range_m;
   bool labelled = true;
+  std::optional<Eigen::Vector3d> up;  ///< What a user says.
 
   explicit EditedSequence(const SimulationOptions& options) {
     const auto simulated = make_simulated(options, 2);
@@ -77,6 +78,7 @@ struct EditedSequence : ScanSource, LabelSource {
     if (labelled) sequence.labels = self;
     sequence.label_rule.ignored = {0, 1};
     sequence.range_m = range_m;
+    sequence.up_choice = std::make_shared<UpChoice>(up);
     return inspect(sequence);
   }
 };

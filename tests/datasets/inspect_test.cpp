@@ -63,6 +63,33 @@ TEST_CASE("the scenes are silent", "[inspect]") {
   }
 }
 
+TEST_CASE("a world far from its origin is silent", "[inspect]") {
+  EditedSequence far = good_drive();
+  const Eigen::Translation3d shift(691000.25, 5336000.5, 512.0);
+  far.each_pose([&](const Pose& pose) { return shift * pose; });
+  check_silent(far.inspected());
+}
+
+TEST_CASE("a world whose z is not up is a note", "[inspect]") {
+  EditedSequence drive = good_drive();
+  const Pose turn(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
+  drive.each_pose([&](const Pose& pose) { return turn * pose; });
+  const InspectionReport report = drive.inspected();
+  INFO(text_of(report));
+  CHECK(found(report).empty());
+  REQUIRE(report.findings.size() == 1);
+  CHECK(report.findings.front().check == "world-axes");
+  CHECK_THAT(report.findings.front().what, Catch::Contains("up is -y"));
+}
+
+TEST_CASE("up that the scans contradict is named", "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.up = Eigen::Vector3d::UnitZ();
+  check_silent(drive.inspected());
+  drive.up = Eigen::Vector3d(0, -1, 0);
+  check_finds(drive.inspected(), "up-contradicted", "--up");
+}
+
 TEST_CASE("inverted poses are named", "[inspect]") {
   EditedSequence drive = good_drive();
   drive.each_pose([](const Pose& pose) { return pose.inverse(); });

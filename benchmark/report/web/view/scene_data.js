@@ -93,15 +93,20 @@ export class SceneData {
 
   /** Voxel of point i on the world's lattice; null where positions are too coarse to tell. */
   voxel(i) {
-    const {origin, steps_per_voxel: per, shift} = this.head;
+    const {origin, steps_per_voxel: per, shift, turn, voxel} = this.head;
     if (2 ** shift > per) return null;
+    if (turn) return this.world(i).map((value) => Math.floor(value / voxel));
     return origin.map((start, axis) =>
         start + Math.floor(this.places[4 * i + axis] * 2 ** shift / per));
   }
 
   /** World position of point i. */
   world(i) {
-    return this.position(i).map((value, axis) => value + this.head.origin[axis] * this.head.voxel);
+    const {origin, turn, voxel} = this.head;
+    const at = this.position(i).map((value, axis) => value + origin[axis] * voxel);
+    if (!turn) return at;
+    return [0, 1, 2].map((row) =>
+        turn[3 * row] * at[0] + turn[3 * row + 1] * at[1] + turn[3 * row + 2] * at[2]);
   }
 
   sensor(scan) {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "core/local_frame.h"
+
+#include <catch2/catch.hpp>
+
+using namespace raymoval;
+using Eigen::Vector3d;
+
+namespace {
+
+/// One point ahead of the sensor in each scan; scans a metre apart along x.
+class Row : public ScanSource {
+ public:
+  explicit Row(const Vector3d& first) : first_(first) {}
+  [[nodiscard]] std::size_t size() const override { return 3; }
+  [[nodiscard]] Scan load(std::size_t index) const override {
+    Scan scan;
+    scan.index = index;
+    scan.T_world_sensor = pose(index);
+    scan.points = {{5.0F, 0.0F, 0.0F}};
+    return scan;
+  }
+  [[nodiscard]] Pose pose(std::size_t index) const override {
+    return Pose(Eigen::Translation3d(first_ + Vector3d(static_cast<double>(index), 0, 0)));
+  }
+  [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
+
+ private:
+  Vector3d first_;
+  SensorModel sensor_;
+};
+
+}  // namespace
+
+TEST_CASE("methods start at zero wherever the world's origin is, to the last bit") {
+  for (const Vector3d& first : {Vector3d(0, 0, 0), Vector3d(691000.25, 5336000.5, 512)}) {
+    const Row scans(first);
+    const LocalFrameSource local(scans, method_frame(scans, Vector3d::UnitZ()));
+    CHECK(local.pose(0).matrix() == Eigen::Matrix4d::Identity());
+    CHECK(local.pose(2).translation() == Vector3d(2, 0, 0));
+    CHECK(local.load(2).T_world_sensor.translation() == Vector3d(2, 0, 0));
+    CHECK(local.load(1).points == scans.load(1).points);
+  }
+}
+
+TEST_CASE("up becomes z by the shortest turn, exactly where axes are exchanged") {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      const Vector3d up = Vector3d::Unit(axis) * sign;
+      const Eigen::Matrix3d turn = turn_to_z(up);
+      CHECK(turn * up == Vector3d::UnitZ());
+      CHECK(turn.determinant() == 1.0);
+      CHECK(turn.cwiseAbs().sum() == 3.0);  // A permutation of axes: lattices stay lattices.
+    }
+  }
+  CHECK(turn_to_z(Vector3d::UnitZ()) == Eigen::Matrix3d::Identity());
+  const Vector3d tilted = Vector3d(0.3, -0.2, 0.9).normalized();
+  CHECK((turn_to_z(tilted) * tilted - Vector3d::UnitZ()).norm() < 1e-12);
+  CHECK(turn_to_z(tilted).isUnitary(1e-12));
+}
+
+TEST_CASE("scores are counted from a whole kilometre, and from the world's origin near it") {
+  CHECK(lattice_origin(Row({0, 0, 0})) == Vector3d::Zero());
+  CHECK(lattice_origin(Row({-7999, 7999, 300})) == Vector3d::Zero());
+  CHECK(lattice_origin(Row({691234.5, -5336789.0, 512.3})) == Vector3d(691000, -5337000, 1000));
+  const Row far({691000.25, 5336000.5, 512});
+  CHECK(LocalFrameSource(far, lattice_frame(far)).pose(1).translation() ==
+        Vector3d(1.25, 0.5, -488));
+}

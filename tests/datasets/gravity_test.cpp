@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/world_axes/gravity.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/angle.h"
+#include "core/local_frame.h"
+#include "tests/datasets/inspect_data.h"
+
+using namespace raymoval;
+using Eigen::Vector3d;
+
+namespace {
+
+/// A flat piece of the world: `centre` + a `along` + b `across` with a and b from -1 to 1.
+struct Rectangle {
+  Vector3d centre, along, across;
+};
+
+/// Scans of rectangles: rows from -25 to +15 degrees by 1, columns by 1.5 degrees.
+class FlatWorld : public ScanSource {
+ public:
+  void scan(const std::vector<Rectangle>& surfaces, const Pose& T_world_sensor) {
+    Scan scan;
+    scan.index = scans_.size();
+    scan.T_world_sensor = T_world_sensor;
+    for (double azimuth = 0.3; azimuth < 360.0; azimuth += 1.5) {
+      for (double elevation = -25.0; elevation <= 15.0; elevation += 1.0) {
+        const double level = std::cos(elevation * kDegree);
+        const Vector3d ray(level * std::cos(azimuth * kDegree), level * std::sin(azimuth * kDegree),
+                           std::sin(elevation * kDegree));
+        const double range = nearest(surfaces, T_world_sensor, ray);
+        if (range < 60.0) scan.points.push_back((range * ray).cast<float>());
+      }
+    }
+    scan.stored_point_count = scan.size();
+    scans_.push_back(scan);
+  }
+  void shuffle() {
+    std::mt19937 random(5);
+    for (Scan& scan : scans_) std::shuffle(scan.points.begin(), scan.points.end(), random);
+  }
+  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
+  [[nodiscard]] Scan load(std::size_t index) const override { return scans_.at(index); }
+  [[nodiscard]] Pose pose(std::size_t index) const override {
+    return scans_.at(index).T_world_sensor;
+  }
+  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
+
+ private:
+  static double nearest(const std::vector<Rectangle>& surfaces, const Pose& pose,
+                        const Vector3d& ray) {
+    const Vector3d from = pose.translation(), direction = pose.linear() * ray;
+    double range = 1e300;
+    for (const Rectangle& surface : surfaces) {
+      const Vector3d normal = surface.along.cross(surface.across);
+      const double distance = normal.dot(surface.centre - from) / normal.dot(direction);
+      if (!(distance > 0.0 && distance < range)) continue;
+      const Vector3d offset = from + distance * direction - surface.centre;
+      const double a = offset.dot(surface.along) / surface.along.squaredNorm();
+      const double b = offset.dot(surface.across) / surface.across.squaredNorm();
+      if (std::abs(a) <= 1.0 && std::abs(b) <= 1.0) range = distance;
+    }
+    return range;
+  }
+  std::vector<Scan> scans_;
+  SensorModel model_;
+};
+
+enum class Houses { kNone, kRows, kBlocks };
+
+/// A straight road along x that climbs by `percent`, and a car on it: its sensor stands 1.8 m above
+/// the road and leans with it. Houses stand upright: one wall on either side, or blocks with
+/// gables.
+FlatWorld road(double percent, Houses houses) {
+  const double climb = percent / 100.0;
+  const Vector3d ahead = Vector3d(1, 0, climb).normalized();
+  std::vector<Rectangle> surfaces = {{Vector3d::Zero(), 80.0 * ahead, {0, 40, 0}}};
+  if (houses == Houses::kRows) {
+    for (const double y : {-9.0, 8.0}) surfaces.push_back({{0, y, 0}, {70, 0, 0}, {0, 0, 30}});
+  }
+  for (double x = -30.0; houses == Houses::kBlocks && x < 40.0; x += 18.0) {
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3d corner(x, 9.0 * side, climb * x);
+      surfaces.push_back({corner + Vector3d(5, 0, 0), {5, 0, 0}, {0, 0, 7}});
+      surfaces.push_back({corner + Vector3d(0, 5 * side, 0), {0, 5, 0}, {0, 0, 7}});
+      surfaces.push_back({corner + Vector3d(10, 5 * side, 0), {0, 5, 0}, {0, 0, 7}});
+    }
+  }
+  FlatWorld world;
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::AngleAxisd(-std::atan(climb), Vector3d::UnitY()).toRotationMatrix();
+  for (int i = 0; i < 6; ++i) {
+    pose.translation() = ahead * (2.3 * i - 6.0) + 1.8 * pose.linear().col(2);
+    world.scan(surfaces, pose);
+  }
+  return world;
+}
+
+Pose turned(double degrees, const Vector3d& axis) {
+  return Pose(Eigen::AngleAxisd(degrees * kDegree, axis.normalized()));
+}
+
+double degrees_between(const Vector3d& a, const Vector3d& b) {
+  return std::acos(std::clamp(a.dot(b), -1.0, 1.0)) / kDegree;
+}
+
+Vector3d up_of(const ScanSource& scans) {
+  return estimate_gravity(scans).up.direction;
+}
+
+}  // namespace
+
+TEST_CASE("a slope is not mistaken for a tilted world", "[gravity]") {
+  for (const double percent : {0.0, 6.0, 18.0, 30.0, 50.0}) {
+    for (const Houses houses : {Houses::kNone, Houses::kRows, Houses::kBlocks}) {
+      INFO(percent << " %, houses " << static_cast<int>(houses));
+      const GravityEvidence evidence = estimate_gravity(road(percent, houses));
+      // The ground is seen for what it is, and up stays the world's z.
+      CHECK(degrees_between(evidence.ground, Vector3d::UnitZ()) ==
+            Approx(std::atan(percent / 100.0) / kDegree).margin(1.0));
+      CHECK(evidence.up.is_world_z());
+      CHECK(evidence.up.source == UpDirection::Source::kWorldZ);
+    }
+  }
+}
+
+TEST_CASE("houses say how a world is tilted, on the level and on a slope", "[gravity]") {
+  for (const double percent : {0.0, 12.0}) {
+    const FlatWorld upright = road(percent, Houses::kBlocks);
+    for (const double degrees : {12.0, 20.0, 35.0, 60.0, 130.0}) {
+      for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(1, -2, 0.5)}) {
+        INFO(percent << " %, turned by " << degrees << " about " << axis.transpose());
+        const Pose turn = turned(degrees, axis);
+        const GravityEvidence evidence = estimate_gravity(LocalFrameSource(upright, turn));
+        CHECK(degrees_between(evidence.up.direction, turn.linear().col(2)) < 2.0);
+        CHECK(evidence.up.source == UpDirection::Source::kEstimated);
+      }
+    }
+  }
+}
+
+TEST_CASE("a tilt of a few degrees is left alone", "[gravity]") {
+  const FlatWorld upright = road(0.0, Houses::kBlocks);
+  CHECK(estimate_gravity(LocalFrameSource(upright, turned(5.0, {1, 0, 0}))).up.is_world_z());
+}
+
+TEST_CASE("walls that all face one way do not say how far up leans along them", "[gravity]") {
+  const FlatWorld street = road(0.0, Houses::kRows);
+  // About the road the walls lean with the world; about their normal they stay upright, and a road
+  // that climbs by a third looks the same.
+  const Pose roll = turned(20.0, Vector3d::UnitX());
+  CHECK(degrees_between(up_of(LocalFrameSource(street, roll)), roll.linear().col(2)) < 2.0);
+  CHECK(estimate_gravity(LocalFrameSource(street, turned(18.0, {0, 1, 0}))).up.is_world_z());
+}
+
+TEST_CASE("each axis of the world may be up, exactly", "[gravity]") {
+  for (const Houses houses : {Houses::kNone, Houses::kBlocks}) {
+    const FlatWorld upright = road(0.0, houses);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {1.0, -1.0}) {
+        const Vector3d up = Vector3d::Unit(axis) * sign;
+        Pose turn = Pose::Identity();
+        turn.linear() = turn_to_z(up).transpose();
+        INFO("up is " << up_text(up));
+        CHECK(up_of(LocalFrameSource(upright, turn)) == up);
+      }
+    }
+  }
+}
+
+TEST_CASE("a shift of the world and the order of points change nothing", "[gravity]") {
+  const Pose tilt = turned(20.0, {1, 1, 0});
+  Pose far = tilt;
+  far.translation() = Vector3d(691000.25, 5336000.5, 512.0);
+  FlatWorld world = road(0.0, Houses::kBlocks);
+  const Vector3d up = up_of(LocalFrameSource(world, tilt));
+  CHECK(up_of(LocalFrameSource(world, far)) == up);
+  world.shuffle();
+  CHECK(up_of(LocalFrameSource(world, tilt)) == up);
+}
+
+TEST_CASE("without ground or points z is up", "[gravity]") {
+  FlatWorld air;
+  CHECK(estimate_gravity(air).up.is_world_z());
+  air.scan({}, Pose::Identity());
+  CHECK(estimate_gravity(air).up.is_world_z());
+  FlatWorld wall;  // One wall beside the sensor, nothing else.
+  wall.scan({{{10, 0, 0}, {0, 30, 0}, {0, 0, 30}}}, Pose::Identity());
+  CHECK(estimate_gravity(wall).up.is_world_z());
+}
+
+TEST_CASE("a simulated drive is upright in any world", "[gravity]") {
+  const test::EditedSequence drive = test::good_drive();
+  CHECK(estimate_gravity(drive).up.is_world_z());
+  for (const double degrees : {20.0, 30.0, 90.0, 180.0}) {
+    INFO("turned by " << degrees);
+    const Pose turn = turned(degrees, Vector3d(1, 0, 0));
+    CHECK(degrees_between(up_of(LocalFrameSource(drive, turn)), turn.linear().col(2)) < 2.0);
+  }
+}
