@@ -9,7 +9,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/local_frame.h"
-#include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
 #include "datasets/dynamicmap/dynamicmap.h"
