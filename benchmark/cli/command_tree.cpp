@@ -33,6 +33,22 @@ Words method_words(const MethodRegistry& methods) {
   return words;
 }
 
+/// What `run` and `plan` take: `all` for each method's first variant, `NAME:all` for all of one.
+Words words_of_methods_to_run(const MethodRegistry& methods) {
+  Words words = method_words(methods);
+  words.emplace_back("all");
+  for (const auto& entry : methods.entries()) words.push_back(entry->name + ":all");
+  return words;
+}
+
+/// Suites, and the scenes that may stand in their place.
+Words suite_words() {
+  Words words = shipped_suite_names();
+  const Words scenes = scene_words();
+  words.insert(words.end(), scenes.begin(), scenes.end());
+  return words;
+}
+
 void add_keys(const std::string& owner, const std::vector<ParameterSpec>& specs, Words& words) {
   for (const ParameterSpec& spec : specs) words.push_back(owner + "." + spec.name + "=");
 }
@@ -64,12 +80,13 @@ std::vector<ValueSet> common_values(const MethodRegistry& methods) {
           {.name = "files", .files = true},
           {.name = "folders", .folders = true},
           {.name = "methods", .words = method_words(methods)},
+          {.name = "methods_to_run", .words = words_of_methods_to_run(methods)},
           {.name = "described", .words = described_words(methods)},
           {.name = "settings", .words = setting_words(methods), .goes_on = true},
           {.name = "protocols", .words = protocol_words()},
           {.name = "sequences", .words = scene_words(), .folders = true},
           {.name = "scenes", .words = simulated_scene_names(), .files = true},
-          {.name = "suites", .words = shipped_suite_names(), .files = true},
+          {.name = "suites", .words = suite_words(), .files = true},
           {.name = "sensors", .words = sensor_model_names()},
           {.name = "simulated_sensors", .words = simulated_sensor_names(), .files = true}};
 }
@@ -97,7 +114,8 @@ std::string set_of_type(const std::string& command, const std::string& option,
   if (type == "COMMAND") return "commands";
   if (type != "NAME") return "none";
   if (command == "describe") return "described";
-  if (option == "--method") return "methods";
+  const bool runs = command == "run" || command == "plan";
+  if (option == "--method") return runs ? "methods_to_run" : "methods";
   if (option == "--protocol") return "protocols";
   if (option == "--sensor") return command == "simulate" ? "simulated_sensors" : "sensors";
   return option == "--sequence" ? "sequences" : "none";
@@ -137,8 +155,13 @@ CommandText command_text(const CLI::App& app, std::vector<ValueSet>& values) {
                    .footer = app.get_footer()};
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;  // Not shown by --help.
-    auto& list = option->get_positional() ? text.words : text.options;
-    list.push_back(option_text(text.name, *option, values));
+    OptionText told = option_text(text.name, *option, values);
+    const bool named = !told.long_name.empty() || !told.short_name.empty();
+    if (named) text.options.push_back(told);
+    if (!option->get_positional()) continue;  // Some are both: `inspect PATH`, `--sequence PATH`.
+    told.long_name.clear();
+    told.short_name.clear();
+    text.words.push_back(told);
   }
   return text;
 }

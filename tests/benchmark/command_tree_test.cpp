@@ -16,7 +16,7 @@ using Words = std::vector<std::string>;
 /// A program with one command: an option with named values, one that repeats, a flag, a short name,
 /// an option that --help hides, and a word.
 struct SmallProgram {
-  std::string format, output, word, hidden;
+  std::string format, output, word, place, hidden;
   std::vector<std::string> methods;
   bool quiet = false;
   CLI::App app{"small: draws. It does nothing else.", "small"};
@@ -27,6 +27,7 @@ struct SmallProgram {
     draw->add_option("--format", format, "md (default), csv or tex")->type_name("FORMAT");
     draw->add_option("--method", methods, "Method")->type_name("NAME")->allow_extra_args(false);
     draw->add_option("-o,--output", output, "Where to")->type_name("FILE");
+    draw->add_option("place,--sequence", place, "Sequence")->type_name("PATH");
     draw->add_option("--hidden", hidden, "")->group("");
     draw->add_flag("--quiet", quiet, "No progress");
     draw->footer("A sentence.\nExamples:\n  small draw '.x' -o a\\b\nThe end.");
@@ -59,7 +60,7 @@ TEST_CASE("the command tree has what --help shows and nothing else", "[cli]") {
   REQUIRE(tree.commands.size() == 1);
   const CommandText& draw = tree.commands.front();
   CHECK(draw.name == "draw");
-  CHECK(draw.options.size() == 5);  // With --help.
+  CHECK(draw.options.size() == 6);  // With --help.
   CHECK(option(draw, "--method").repeats);
   CHECK(option(draw, "--method").value_set == "methods");
   CHECK_FALSE(option(draw, "--output").repeats);
@@ -67,8 +68,11 @@ TEST_CASE("the command tree has what --help shows and nothing else", "[cli]") {
   CHECK(option(draw, "--output").value_set == "files");
   CHECK(option(draw, "--quiet").value_set.empty());
   CHECK(option(draw, "--format").value_set == "draw_format");
-  REQUIRE(draw.words.size() == 1);
+  REQUIRE(draw.words.size() == 2);
   CHECK(draw.words.front().value == "RUN");
+  CHECK(draw.words.back().value == "PATH");  // It may stand alone or behind its option.
+  CHECK(draw.words.back().long_name.empty());
+  CHECK(option(draw, "--sequence").value_set == "sequences");
 }
 
 TEST_CASE("signs that a shell or troff would take for its own are protected", "[cli]") {

@@ -70,11 +70,12 @@ offers() {
 holds "bash: the script is loaded" bash -c 'source ./script.bash && complete -p raymoval'
 offers "raymoval re" report
 offers "raymoval --v" --version
-offers "raymoval run --method raymoval:on" online
+offers "raymoval clean --method raymoval:on" online
 offers "raymoval run --method=raymoval_plus:offl" offline
 offers "raymoval run --protocol dynamicmap-" dynamicmap-strict
 offers "raymoval run --sequence cou" country
 offers "raymoval run simulated-q" simulated-quick
+offers "raymoval clean --method=raymoval_plus:offl" offline
 offers "raymoval run --keep" --keep-removals
 offers "raymoval run --set raymoval.erase_tau" raymoval.erase_tau0= raymoval.erase_tau1=
 offers "raymoval run --set protocol:erasor.li" erasor.lift=
@@ -90,7 +91,7 @@ offers "raymoval completion " bash zsh fish
 holds "bash: nothing is offered for a number" test -z "$(offered "raymoval run --threads ")"
 holds "bash: every method and variant is offered" diff \
   <("$raymoval" list variants | awk '{ print $1 }' | grep ':' | grep -v '^external' | sort) \
-  <(offered "raymoval run --method " | grep ':.' | sort)
+  <(offered "raymoval clean --method " | grep ':.' | sort)
 
 if has fish; then
   # What fish offers, without the sentences.
@@ -99,7 +100,7 @@ if has fish; then
       "source script.fish; complete -C '$1'" | cut -f1 | sort) <(printf '%s\n' "${@:2}" | sort)
   }
   fish_offers "raymoval repo" report
-  fish_offers "raymoval run --method raymoval:o" raymoval:offline raymoval:online
+  fish_offers "raymoval clean --method raymoval:o" raymoval:offline raymoval:online
   fish_offers "raymoval run --prot" --protocol
   fish_offers "raymoval list se" sensors sequences
   fish_offers "raymoval run simulated-q" simulated-quick
