@@ -16,8 +16,8 @@ inline constexpr const char* kLockFile = "run.lock";
 /// Makes the folder of a run. @throws UsageError if it holds something else; DataError
 void prepare_run_folder(const std::filesystem::path& out);
 
-/// Content of run.json: the suite as resolved, build and machine, and the places where its
-/// sequences are.
+/// Content of run.json: the suite as resolved, its cells, build and machine, and the places where
+/// its sequences are. What else the folder holds is added by `merged_run_record`.
 nlohmann::ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequences,
                                   int threads);
 

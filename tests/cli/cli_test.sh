@@ -200,6 +200,28 @@ mkdir -p root/sequences
 expect 2 "kitti-00" run semantickitti --data root --out kitti
 holds "no refused run made a folder" test ! -e kitti
 
+# The cells of one folder belong together: what is added stands beside what is there, and another
+# suite, or other data under the same name, is refused.
+expect 0 "raymoval:online" run "${short[@]}" --method raymoval:online --out together
+"$raymoval" run --sequence street --frames 0:2 --method octomap --out together >out.txt 2>log.txt
+holds "kept cells are logged as kept" grep -qF 'noop:default on street (kept): ' log.txt
+holds "and those of earlier runs too" grep -qF 'kept of earlier runs on street: raymoval:online' \
+  log.txt
+holds "an added method leaves the others in the tables" grep -q '^street,raymoval,online' \
+  together/results.csv
+expect 0 "raymoval:online" table together
+cp together/results.json before.json
+expect 2 "suite 'two' (2 sequences, 4 methods)" run sweep.json --quiet --out suite
+expect 2 'frames was "0:2:1", is "0:1:1"' run --sequence street --frames 0:1 --quiet \
+  --method octomap --out together
+expect 2 "this run by dynamicmap" run "${short[@]}" --method octomap --protocol dynamicmap \
+  --out together
+expect 0 "But the run is refused" run "${short[@]}" --method octomap --range 0:20 --explain \
+  --out together
+holds "a refused run changes nothing" cmp before.json together/results.json
+expect 0 "octomap:r20" run "${short[@]}" --method octomap --range 0:20 --overwrite --out together
+holds "--overwrite replaces the tables" test -z "$(grep raymoval together/results.csv)"
+
 # Threads never change what is stored outside "measured".
 for threads in 1 2; do
   "$raymoval" run "${short[@]}" --method raymoval:online --threads $threads --out t$threads >/dev/null
@@ -286,6 +308,10 @@ holds "a scene by name is what simulate writes" test "$(fingerprint run_folder)"
   "$(fingerprint run_scene)"
 holds "the record tells scene and seed" grep -q 'scene town, sensor vlp16, seed 3' \
   run_scene/run.json
+cp -r sim/town relabelled
+printf '\xfc\x00\x00\x00' | dd of=relabelled/labels/000001.label conv=notrunc 2>/dev/null
+expect 2 "its scans, poses or labels differ" run --sequence relabelled --name town --method noop \
+  --quiet --out run_folder
 stamp=$(find cache -exec stat -c '%n %y' {} + | sort)
 expect 0 "removed" clean town:scans=2,sensor=vlp16,seed=3 --method noop --quiet -o town.pcd
 holds "what is in the cache is not made again" test "$stamp" = \
