@@ -100,12 +100,17 @@ expect 2 "has those of the LiDAR" run "${short[@]}" --method noop \
 expect 2 "Did you mean 'erasor'" run "${short[@]}" --method noop --set protocol:erasor.frame=eraser --out o
 
 # A reference has no times and no machine; a run is compared with it by counts.
-expect 0 "wrote" compare run reference --update
+expect 0 "without times: --time-band cannot be used with it" compare run reference --update
 holds "a reference has no times" test -z "$(grep -F seconds reference/results.json)"
 expect 0 "no regression" compare run reference
 expect 0 "no regression" compare run/results.json reference/results.json --tolerance F1=0.002
 expect 0 "1.00 times" compare run run --time-band 3
 expect 2 "--time-band" compare run reference --time-band 3
+holds "a reference without times is told once" test "$("$raymoval" compare run reference --time-band 3 | grep -c with-times)" -eq 1
+expect 0 "with its times" compare run timed --update --with-times
+expect 0 "1.00 times" compare run timed --time-band 3
+expect 2 "--with-times goes with --update" compare run timed --with-times
+expect 2 "--update compares nothing" compare run timed --update --across parameters
 expect 2 "two results" compare run
 expect 2 "no such run folder" compare run nowhere
 for wrong in F1 =1 F1=x F1=-1; do expect 2 "METRIC=NUMBER" compare run reference --tolerance $wrong; done
@@ -114,6 +119,18 @@ expect 2 "at least 1" compare run reference --time-band 0.5
 "$raymoval" run "${short[@]}" --method raymoval:online --set raymoval.tau0=0.4 --out other_tau \
   >out.txt 2>err.txt
 expect 2 "parameter tau0 is 0.4, the reference has 0.2" compare other_tau reference
+expect 2 "--across parameters compares the rates" compare other_tau reference
+expect 0 "parameter tau0 is 0.4, the reference has 0.2" compare other_tau reference \
+  --across parameters --tolerance F1=1
+expect 2 "Did you mean 'parameters'" compare other_tau reference --across parameter
+expect 2 "Did you mean 'junit'" compare run reference --format junt
+for format in text md junit json; do
+  expect 2 "street / raymoval:online" compare other_tau reference --format $format -o compared.$format
+  holds "a comparison is written as $format" grep -q "raymoval:online" compared.$format
+done
+expect 2 "nowhere" compare run reference -o nowhere/compared.txt
+python3 -c 'import xml.etree.ElementTree as x; assert x.parse("compared.junit").getroot().get("errors") == "1"' ||
+  complain "compared.junit is no XML with one error"
 "$raymoval" run --sequence street --frames 0:1 --quiet --method raymoval:online \
   --set raymoval.tau0=0.2 --out other_frames >out.txt 2>err.txt
 expect 2 "data fingerprint" compare other_frames reference
