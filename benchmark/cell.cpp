@@ -127,13 +127,14 @@ std::string first_change(const std::string& what, const ordered_json& stored,
   return "";
 }
 
-/// The same, also for what only `stored` has.
-std::string first_difference(const std::string& what, const ordered_json& stored,
-                             const ordered_json& wanted) {
+}  // namespace
+
+std::string record_difference(const std::string& what, const ordered_json& stored,
+                              const ordered_json& wanted) {
   const std::string change = first_change(what, stored, wanted);
   if (!change.empty()) return change;
   for (const auto& [key, value] : stored.items()) {
-    if (!wanted.contains(key)) return what + " " + key + " is no more";
+    if (!wanted.contains(key)) return (what.empty() ? key : what + " " + key) + " is no more";
   }
   return "";
 }
@@ -148,7 +149,7 @@ std::string protocol_difference(const ordered_json& stored, const ordered_json& 
     if (known == stored.end()) return "protocol " + name + " is new";
     ordered_json identity;  // Without counts and rates.
     for (const auto& [key, value] : protocol.items()) identity[key] = known->value(key, value);
-    const std::string inner = first_difference("protocol " + name, identity, protocol);
+    const std::string inner = record_difference("protocol " + name, identity, protocol);
     if (!inner.empty()) return inner;
   }
   for (const ordered_json& protocol : stored) {
@@ -159,8 +160,6 @@ std::string protocol_difference(const ordered_json& stored, const ordered_json& 
   }
   return "";
 }
-
-}  // namespace
 
 ordered_json cell_identity(SequenceBench& bench, const MethodRequest& request) {
   ordered_json identity;
@@ -182,13 +181,13 @@ std::string identity_difference(const ordered_json& stored, const ordered_json& 
   try {
     // What a reader knows comes before hashes.
     const ordered_json& method = wanted.at("method");
-    std::string found = first_difference("parameter", stored.at("method").at("parameters"),
-                                         method.at("parameters"));
-    if (found.empty()) found = first_difference("method", stored.at("method"), method);
+    std::string found = record_difference("parameter", stored.at("method").at("parameters"),
+                                          method.at("parameters"));
+    if (found.empty()) found = record_difference("method", stored.at("method"), method);
     if (found.empty()) {
       found = protocol_difference(stored.at("protocols"), wanted.at("protocols"));
     }
-    if (found.empty()) found = first_difference("data", stored.at("data"), wanted.at("data"));
+    if (found.empty()) found = record_difference("data", stored.at("data"), wanted.at("data"));
     if (found.empty()) {
       ordered_json rest = wanted;
       for (const char* known : {"method", "data", "protocols"}) rest.erase(known);

@@ -39,6 +39,16 @@ std::string cell_key(SequenceBench& bench, const MethodRequest& request);
 std::string identity_difference(const nlohmann::ordered_json& stored,
                                 const nlohmann::ordered_json& wanted);
 
+/// "parameter tau0 was 0.2, is 0.4" for the first part of two records that differs; empty if none
+/// does. @param what stands before the part's name
+std::string record_difference(const std::string& what, const nlohmann::ordered_json& stored,
+                              const nlohmann::ordered_json& wanted);
+
+/// The same of two lists of protocols, by their names. What only `stored` has of a protocol, such
+/// as counts and rates, does not matter.
+std::string protocol_difference(const nlohmann::ordered_json& stored,
+                                const nlohmann::ordered_json& wanted);
+
 /// Runs the method, checks its answer and scores it. Never throws for a fault of the method or the
 /// data: that is a cell with a status and a reason.
 /// @return the content of cell.json; all that varies from run to run stands below "measured"

@@ -68,8 +68,8 @@ void make_folder(const path& folder) {
   }
 }
 
-path CellStore::folder(const std::string& sequence, const MethodRequest& request) const {
-  return out_ / "cells" / folder_name(sequence) / folder_name(request.name);
+path CellStore::folder(const std::string& sequence, const std::string& name) const {
+  return out_ / "cells" / folder_name(sequence) / folder_name(name);
 }
 
 path CellStore::new_removals(const path& folder) const {
@@ -105,10 +105,10 @@ StoredCell CellStore::find(SequenceBench& bench, const MethodRequest& request,
 }
 
 std::optional<StoredRepeat> CellStore::find_repeat(const std::string& sequence,
-                                                   const MethodRequest& request, int number,
+                                                   const std::string& name, int number,
                                                    const std::string& key) const {
   try {
-    const ordered_json json = read_sealed(repeat_file(folder(sequence, request), number));
+    const ordered_json json = read_sealed(repeat_file(folder(sequence, name), number));
     if (json.at("key") != key) return std::nullopt;
     return StoredRepeat{json.at("digest").get<std::string>(),
                         measurement_from(json.at("measured"))};

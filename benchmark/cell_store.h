@@ -40,7 +40,12 @@ class CellStore {
   explicit CellStore(std::filesystem::path out) : out_(std::move(out)) {}
 
   [[nodiscard]] std::filesystem::path folder(const std::string& sequence,
-                                             const MethodRequest& request) const;
+                                             const MethodRequest& request) const {
+    return folder(sequence, request.name);
+  }
+  /// @param name of the method in the suite
+  [[nodiscard]] std::filesystem::path folder(const std::string& sequence,
+                                             const std::string& name) const;
   /// A new name in a cell's folder, where removals are written before `keep`.
   [[nodiscard]] std::filesystem::path new_removals(const std::filesystem::path& folder) const;
 
@@ -48,8 +53,9 @@ class CellStore {
   [[nodiscard]] StoredCell find(SequenceBench& bench, const MethodRequest& request,
                                 bool with_removals) const;
   /// Repeat `number` (2, 3 ...) of the cell with `key`; nothing if it is not there.
+  /// @param name of the method in the suite
   [[nodiscard]] std::optional<StoredRepeat> find_repeat(const std::string& sequence,
-                                                        const MethodRequest& request, int number,
+                                                        const std::string& name, int number,
                                                         const std::string& key) const;
 
   /// Makes the cell's folder and removes what a killed run left there. @throws DataError

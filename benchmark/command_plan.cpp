@@ -40,7 +40,7 @@ ExitCode plan(const PlanFlags& flags) {
   options.out = flags.out;
   options.progress = &progress;
   options.cancel = &interrupt_flag();
-  const std::vector<PlannedCell> cells = plan_suite(suite, options);
+  const std::vector<PlannedCell> cells = plan_suite(suite, options).cells;
   progress.end();
   std::string text;
   for (const PlannedCell& cell : cells) text += json_line(cell, !flags.out.empty());

@@ -25,6 +25,7 @@ struct RunFlags {
   bool explain = false;
   bool collect = false;
   bool in_process = false;
+  bool overwrite = false;
   bool quiet = false;
 };
 
@@ -71,15 +72,21 @@ void check_flags(const RunFlags& flags) {
 ExitCode explain(const Suite& suite, const RunOptions& options) {
   std::string text;
   std::size_t to_run = 0;
-  const std::vector<PlannedCell> cells = plan_suite(suite, options);
-  for (const PlannedCell& cell : cells) {
+  const SuitePlan plan = plan_suite(suite, options);
+  for (const PlannedCell& cell : plan.cells) {
     to_run += cell.to_run ? 1 : 0;
     text += (cell.to_run ? "run   " : "keep  ") + cell.sequence + " / " + cell.name +
             (cell.why.empty() ? "" : ": " + cell.why) + "\n";
   }
+  for (const FolderCell& cell : plan.earlier) {
+    text += "keep  " + cell.sequence + " / " + cell.name + ": of an earlier run\n";
+  }
+  for (const std::string& cell : plan.left_out) text += "leave out of the tables  " + cell + "\n";
   options.progress->end();
-  print(text + std::to_string(to_run) + " of " + std::to_string(cells.size()) +
-        " cells are to be run.\n");
+  text += std::to_string(to_run) + " of " + std::to_string(plan.cells.size()) +
+          " cells are to be run.\n";
+  if (!plan.refused.empty()) text += "But the run is refused: " + plan.refused + "\n";
+  print(text);
   return ExitCode::kDone;
 }
 
@@ -126,6 +133,7 @@ ExitCode run(const RunFlags& flags) {
   options.isolate = !flags.in_process;
   options.selection = selection_of(flags);
   options.collect = flags.collect;
+  options.overwrite = flags.overwrite;
   if (flags.explain) return explain(suite, options);
   const auto summary = run_asked(flags, suite, options);
   if (!summary) return ExitCode::kWorse;
@@ -154,6 +162,8 @@ void add_options(CLI::App& app, RunFlags& flags) {
   app.add_flag("--keep-removals", flags.keep_removals, "Keep what each method removed, per scan");
   app.add_flag("--in-process", flags.in_process,
                "Run methods within this process, for a debugger: a crash ends all");
+  app.add_flag("--overwrite", flags.overwrite,
+               "Replace the results of another suite, or on other data, in the folder");
   app.add_flag("--quiet", flags.quiet, "No progress");
 }
 
@@ -165,11 +175,19 @@ Command add_run_command(CLI::App& program) {
   app->allow_extras();
   add_options(*app, *flags);
   app->footer(
-      "The controls noop, remove-all and oracle are added and checked. A cell that is there "
-      "already\nis not run again. Each method runs in a process of its own: one that crashes or "
-      "exceeds a limit\nis a failed cell, and the rest goes on. So is one whose data or program "
-      "changes during the run.\nThe folder of --out is marked with .raymoval-run; nothing in it is "
-      "deleted but a run's own files.\nExamples:\n"
+      "The controls noop, remove-all and oracle are added and checked. Each method runs in a "
+      "process of\nits own: one that crashes or exceeds a limit is a failed cell, and the rest "
+      "goes on. So is one whose data or program changes during the run. The folder\nof --out is "
+      "marked with .raymoval-run; nothing in it is deleted but a run's own files.\n\n"
+      "The results in one folder belong together. Cells that are there already are kept, and new "
+      "methods\nor sequences are added to the tables. If a method has other parameters or another "
+      "version than\nbefore, the cells asked for are run again, and its other cells are left out "
+      "of the tables, which is\nsaid; cells of methods that this run does not have stay as they "
+      "are. A run is refused if its suite\nhas another name than that of the folder, if it scores "
+      "by other protocols or options, or if a\nsequence of the same name has other data (frames, "
+      "poses, sensor, range, labels, scans). With\n--overwrite such a run replaces the tables: "
+      "they have the cells of this run only.\n"
+      "Examples:\n"
       "  raymoval run --sequence street --method raymoval:online --keep-removals --out out/street\n"
       "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
       "--keep-removals --out out/05\n"
@@ -177,6 +195,7 @@ Command add_run_command(CLI::App& program) {
       "  raymoval run --sequence street --method raymoval --protocol dynamicmap "
       "--set protocol:dynamicmap.maximum_range=50 --out out/near\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"
+      "  raymoval run --sequence town:scans=60,seed=3 --method octomap --out out/town  # is added\n"
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval run simulated --out out/simulated --explain\n"
       "  raymoval run simulated --out out/part2 --shard 2/3\n"

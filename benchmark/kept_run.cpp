@@ -120,7 +120,8 @@ KeptRun::KeptRun(const std::string& run, const std::string& data) {
     const ordered_json record = read_sealed(folder_ / "run.json");
     if (!record.contains("places")) return;  // Of an earlier version.
     for (std::size_t i = 0; i < results_.sequences.size(); ++i) {
-      places_[results_.sequences[i]] = record.at("places").at(i).dump();
+      const ordered_json& place = record.at("places").at(i);
+      if (!place.is_null()) places_[results_.sequences[i]] = place.dump();
     }
   } catch (const ordered_json::exception& error) {
     throw DataError(file.string() + ": not the results of a run (" + error.what() +

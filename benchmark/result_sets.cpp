@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/result_sets.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "benchmark/results.h"
@@ -70,6 +71,15 @@ ComparedCell cell_of(const ordered_json& cell) {
   return compared;
 }
 
+/// "AMD EPYC 7B13, 8 cores, 4 threads used"; empty if the file does not say it.
+std::string machine_of(const ordered_json& run) {
+  if (!run.contains("machine") || run["machine"].is_null()) return "";
+  const ordered_json& machine = run["machine"];
+  return machine.at("processor").get<std::string>() + ", " +
+         std::to_string(machine.at("cores").get<int>()) + " cores, " +
+         std::to_string(machine.at("threads").get<int>()) + " threads used";
+}
+
 }  // namespace
 
 std::filesystem::path find_results(const std::string& given) {
@@ -97,6 +107,7 @@ ResultSet read_result_set(const std::filesystem::path& results) {
   set.control_problems = parse_results(json, results.string()).control_problems;
   try {
     for (const ordered_json& cell : json.at("cells")) set.cells.push_back(cell_of(cell));
+    set.machine = machine_of(json.at("run"));
   } catch (const ordered_json::exception& error) {
     throw DataError(results.string() + ": not the results of a run (" + error.what() +
                     "). Run `raymoval run` again with the same --out.");
@@ -104,7 +115,8 @@ ResultSet read_result_set(const std::filesystem::path& results) {
   return set;
 }
 
-void write_reference(const std::filesystem::path& results, const std::filesystem::path& reference) {
+void write_reference(const std::filesystem::path& results, const std::filesystem::path& reference,
+                     bool with_times) {
   const ResultSet set = read_result_set(results);
   if (!set.control_problems.empty()) {
     throw UsageError(results.string() + ": no reference is made of a run whose controls are off (" +
@@ -115,11 +127,18 @@ void write_reference(const std::filesystem::path& results, const std::filesystem
     throw UsageError(results.string() + ": no reference is made of a run with failed cells (" +
                      cell.sequence + " / " + cell.name + ": " + cell.reason + ").");
   }
+  const bool timed = std::any_of(set.cells.begin(), set.cells.end(), [](const auto& cell) {
+    return cell.seconds_per_scan.has_value();
+  });
+  if (with_times && !timed) {
+    throw UsageError(results.string() +
+                     ": has no times that a reference could keep; leave --with-times out.");
+  }
   ordered_json json = read_sealed(results);
   json["run"]["build"] = nullptr;
-  json["run"]["machine"] = nullptr;
+  if (!with_times) json["run"]["machine"] = nullptr;
   for (ordered_json& cell : json["cells"]) {
-    cell["measured"] = nullptr;
+    if (!with_times) cell["measured"] = nullptr;
     cell["output_tail"] = "";
   }
   write_sealed(reference, std::move(json));

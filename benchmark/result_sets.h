@@ -17,8 +17,11 @@ std::filesystem::path find_results(const std::string& given);
 ResultSet read_result_set(const std::filesystem::path& results);
 
 /// Writes `results` to `reference` without what depends on the machine or the moment: build,
-/// machine, times and memory. @throws UsageError if the run has failed cells or its controls are
-/// off.
-void write_reference(const std::filesystem::path& results, const std::filesystem::path& reference);
+/// machine, times and memory. `with_times` keeps machine, times and memory, so that times can be
+/// judged.
+/// @throws UsageError if the run has failed cells or its controls are off, or if times are asked
+/// for and it has none
+void write_reference(const std::filesystem::path& results, const std::filesystem::path& reference,
+                     bool with_times = false);
 
 }  // namespace raymoval

@@ -16,6 +16,7 @@
 #include "core/files.h"
 #include "core/part_name.h"
 #include "core/text.h"
+#include "eval/protocol.h"
 
 namespace raymoval {
 namespace {
@@ -115,6 +116,7 @@ ordered_json suite_record(const Suite& suite, const std::vector<Sequence>& seque
     ordered_json protocol;
     protocol["name"] = request.name;
     protocol["protocol"] = request.protocol;
+    protocol["version"] = make_protocol(request.protocol, request.options)->version();
     protocol["options"] = to_json(request.options);
     record["protocols"].push_back(std::move(protocol));
   }
@@ -141,6 +143,12 @@ ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequenc
   ordered_json record;
   record["schema_version"] = kSchemaVersion;
   record["suite"] = suite_record(suite, sequences);
+  record["cells"] = ordered_json::array();
+  for (const Sequence& sequence : sequences) {
+    for (const MethodRequest& request : suite.methods) {
+      record["cells"].push_back({{"sequence", sequence.name}, {"name", request.name}});
+    }
+  }
   record["build"] = build_record();
   record["machine"] = machine_record();
   record["machine"]["threads"] = threads;
@@ -155,6 +163,7 @@ RunResults write_results(const path& out, const RunContent& content) {
   results["schema_version"] = kSchemaVersion;
   results["run"] = *content.record;
   results["run"].erase("places");  // Results have no paths: they are copied and compared.
+  results["run"].erase("cells");   // They have the cells themselves.
   results["controls"]["checked"] = content.controls_checked;
   results["controls"]["problems"] = content.control_problems;
   if (!content.missing.empty()) results["missing"] = content.missing;

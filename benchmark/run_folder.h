@@ -26,8 +26,8 @@ void prepare_run_folder(const std::filesystem::path& out);
 /// the folder's lock.
 void sweep_run_folder(const std::filesystem::path& out);
 
-/// Content of run.json: the suite as resolved, build and machine, and the places where its
-/// sequences are.
+/// Content of run.json: the suite as resolved, its cells, build and machine, and the places where
+/// its sequences are. What else the folder holds is added by `merged_run_record`.
 nlohmann::ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequences,
                                   int threads);
 

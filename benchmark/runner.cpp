@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "benchmark/cell.h"
 #include "benchmark/cell_line.h"
@@ -11,6 +12,7 @@
 #include "benchmark/checked_sink.h"
 #include "benchmark/controls_check.h"
 #include "benchmark/flat_sweeps.h"
+#include "benchmark/folder_content.h"
 #include "benchmark/folder_lock.h"
 #include "benchmark/run_folder.h"
 #include "benchmark/sealed_json.h"
@@ -100,18 +102,21 @@ class Runner {
     selected_ = select_cells(options_.selection, names);
     sequences_ = open_sequences(suite_, {threads_, options_.progress, options_.cancel});
     cells_.resize(names.size());
+    benches_.resize(sequences_.size());
   }
 
   RunSummary run_all() {
     prepare_run_folder(options_.out);
     const FolderLock lock(options_.out / kLockFile, FolderLock::Mode::kExclusive);
     sweep_run_folder(options_.out);
+    join_folder();
     store_.sweep();
-    const ordered_json record = run_record(suite_, sequences_, threads_);
-    write_sealed(options_.out / "run.json", record);
+    write_sealed(options_.out / "run.json", record_);
+    summary_.earlier = earlier_.kept.size();
+    for (const std::string& line : earlier_.lines()) say(line);
     for (std::size_t i = 0; i < sequences_.size(); ++i) run_sequence(i);
     if (unreadable_ == sequences_.size()) throw DataError(first_unreadable_);
-    finish(record);
+    finish();
     return summary_;
   }
 
@@ -120,19 +125,29 @@ class Runner {
     const path folder = folder_of(sequence, method);
     prepare_run_folder(options_.out);
     const FolderLock run_lock(options_.out / kLockFile, FolderLock::Mode::kShared);
-    make_folder(folder);
-    const FolderLock cell_lock(folder / kLockFile, FolderLock::Mode::kExclusive);
+    alone_ = true;
     selected_.assign(selected_.size(), false);
     selected_[sequence * suite_.methods.size() + method] = true;
-    alone_ = true;
+    join_folder();
+    make_folder(folder);
+    const FolderLock cell_lock(folder / kLockFile, FolderLock::Mode::kExclusive);
     run_sequence(sequence);
     return summary_;
   }
 
-  std::vector<PlannedCell> plan() {
-    std::vector<PlannedCell> planned;
-    for (std::size_t i = 0; i < sequences_.size(); ++i) plan_sequence(i, planned);
-    return planned;
+  SuitePlan plan() {
+    SuitePlan plan;
+    if (!options_.out.empty()) {
+      try {
+        join_folder();
+      } catch (const UsageError& error) {
+        plan.refused = error.what();
+      }
+    }
+    for (std::size_t i = 0; i < sequences_.size(); ++i) plan_sequence(i, plan.cells);
+    for (const EarlierCells::Kept& kept : earlier_.kept) plan.earlier.push_back(kept.cell);
+    plan.left_out = earlier_.left_out;
+    return plan;
   }
 
  private:
@@ -145,14 +160,48 @@ class Runner {
   [[nodiscard]] ordered_json& cell_at(std::size_t sequence, std::size_t method) {
     return cells_[sequence * suite_.methods.size() + method];
   }
-  [[nodiscard]] SequenceBench bench_of(std::size_t sequence) const {
+  /// The bench that `join_folder` made, which knows its fingerprint already, or a new one.
+  [[nodiscard]] SequenceBench bench_of(std::size_t sequence) {
+    if (auto& made = benches_[sequence]) {
+      SequenceBench bench = std::move(*made);
+      made.reset();
+      return bench;
+    }
     return {sequences_[sequence], suite_.protocols, threads_, options_.progress};
+  }
+
+  /// Makes sure that this run and what the folder holds belong together, and reads the cells of
+  /// earlier runs. @throws UsageError if they do not; DataError
+  void join_folder() {
+    const ordered_json asked = run_record(suite_, sequences_, threads_);
+    record_ = asked;
+    const ordered_json present =
+        options_.overwrite ? ordered_json() : read_run_record(options_.out);
+    if (present.is_null()) return;
+    refuse_other_results(options_.out, why_not_together(present, asked));
+    for (std::size_t i = 0; i < sequences_.size(); ++i) check_same_data(i, present);
+    record_ = merged_run_record(present, asked);
+    if (!alone_) earlier_ = read_earlier_cells(store_, record_, asked);
+  }
+
+  void check_same_data(std::size_t sequence, const ordered_json& present) {
+    const std::string& name = sequences_[sequence].name;
+    if (known_fingerprint(present, name).empty() || !is_needed(sequence)) return;
+    SequenceBench bench = bench_of(sequence);
+    try {
+      (void)bench.data_fingerprint();
+    } catch (const DataError&) {
+      return;  // Its cells will tell.
+    }
+    refuse_other_results(options_.out, why_other_data(present, name, bench.data_fingerprint()));
+    benches_[sequence].emplace(std::move(bench));
   }
 
   /// Whether anything of a sequence is to be run or may be there: else its data is not read.
   [[nodiscard]] bool is_needed(std::size_t sequence) const {
     for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
-      if (is_selected(sequence, method) || has_file(folder_of(sequence, method) / "cell.json")) {
+      if (is_selected(sequence, method)) return true;
+      if (!alone_ && has_file(folder_of(sequence, method) / "cell.json")) {
         return true;
       }
     }
@@ -163,7 +212,9 @@ class Runner {
     if (!is_needed(sequence)) return;
     SequenceBench bench = bench_of(sequence);
     try {
-      (void)bench.data_fingerprint();
+      if (note_fingerprint(record_, bench.sequence().name, bench.data_fingerprint()) && !alone_) {
+        write_sealed(options_.out / "run.json", record_);
+      }
     } catch (const DataError& error) {
       if (unreadable_++ == 0) first_unreadable_ = error.what();
       for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
@@ -216,13 +267,21 @@ class Runner {
     if (stored.state == StoredCell::State::kFresh ||
         (may_fail && stored.state == StoredCell::State::kFailed)) {
       ++summary_.reused;
-      keep_in_memory(sequence, method, std::move(*stored.cell));
+      keep_in_memory(sequence, method, std::move(*stored.cell), true);
     } else if (selected && !options_.collect) {
       store_.prepare(folder_of(sequence, method));
+      if (stored.state == StoredCell::State::kStale) {
+        say(suite_.methods[method].name + " on " + bench.sequence().name +
+            " is run again: " + stored.why);
+      }
       tell_cell(sequence, method, "");
       const CellTask task = task_for(bench, sequence, method);
       keep(sequence, method, execute_cell(task), task.removals);
     }
+  }
+
+  void say(const std::string& line) const {
+    if (options_.progress != nullptr) options_.progress->say(line);
   }
 
   /// What the live line is about.
@@ -240,7 +299,7 @@ class Runner {
     if (cell.is_null() || cell["status"] != "ok" || is_control(request.method.entry->name)) return;
     const std::string& name = bench.sequence().name;
     const auto key = cell["key"].get<std::string>();
-    auto stored = store_.find_repeat(name, request, round, key);
+    auto stored = store_.find_repeat(name, request.name, round, key);
     if (!stored && is_selected(sequence, method) && !options_.collect) {
       if (options_.cancel != nullptr && options_.cancel->load()) throw Cancelled();
       tell_cell(sequence, method, ", repeat " + std::to_string(round));
@@ -274,7 +333,7 @@ class Runner {
     const path folder = folder_of(sequence, method);
     make_folder(folder);
     store_.keep(folder, cell, removals);
-    keep_in_memory(sequence, method, std::move(cell));
+    keep_in_memory(sequence, method, std::move(cell), false);
   }
 
   static std::string failure_text(const ordered_json& cell) {
@@ -282,9 +341,9 @@ class Runner {
            cell["reason"].get<std::string>();
   }
 
-  void keep_in_memory(std::size_t sequence, std::size_t method, ordered_json cell) {
+  void keep_in_memory(std::size_t sequence, std::size_t method, ordered_json cell, bool kept) {
     ++summary_.cells;
-    std::string line = cell_lines(suite_, sequences_).line(summary_.cells, cell);
+    std::string line = cell_lines(suite_, sequences_).line(summary_.cells, cell, kept);
     if (cell["status"] != "ok") {
       line = coloured(line, TerminalColour::kBad, stderr);
       summary_.failures.push_back(failure_text(cell));
@@ -296,39 +355,41 @@ class Runner {
     options_.progress->say(line);
   }
 
-  /// The run of median time stands for all of them; the others' times stand beside it.
-  void merge_repeats(ordered_json& cell) const {
-    const auto found = repeats_.find(&cell);
-    if (found == repeats_.end() || cell["status"] != "ok") return;
-    std::vector<Measurement> runs = found->second;
-    runs.insert(runs.begin(), measurement_from(cell["measured"]));
-    ordered_json means = ordered_json::array();
-    for (const Measurement& run : runs) means.push_back(run.mean_seconds);
-    std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
-      return a.total_seconds < b.total_seconds;
-    });
-    cell["measured"] = to_json(runs[(runs.size() - 1) / 2]);
-    cell["measured"]["repeats"] = std::move(means);
-  }
-
-  void finish(const ordered_json& record) {
+  /// Writes results and tables of all cells that belong to the folder and are there.
+  void finish() {
     std::vector<ordered_json> there;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (!cells_[i].is_null()) {
-        merge_repeats(cells_[i]);
-        there.push_back(cells_[i]);
+    std::vector<std::string> missing;
+    for (const FolderCell& cell : folder_cells(record_)) {
+      const std::optional<std::size_t> asked = index_of(cell);
+      const ordered_json* found = asked ? &cells_[*asked] : earlier_.find(cell);
+      if (found != nullptr && !found->is_null()) {
+        there.push_back(*found);
+        const auto repeats = repeats_.find(found);
+        if (repeats != repeats_.end()) merge_repeats(there.back(), repeats->second);
         continue;
       }
-      summary_.missing.push_back(sequences_[i / suite_.methods.size()].name + " / " +
-                                 suite_.methods[i % suite_.methods.size()].name);
+      missing.push_back(cell.sequence + " / " + cell.name);
+      if (asked) summary_.missing.push_back(missing.back());
     }
-    if (suite_.controls) summary_.controls = check_controls(there);
-    const RunResults results = write_results(
-        options_.out, {&record, &there, suite_.controls, summary_.controls, summary_.missing});
+    const bool controls = record_["suite"]["controls"].get<bool>();
+    if (controls) summary_.controls = check_controls(there);
+    const RunResults results =
+        write_results(options_.out, {&record_, &there, controls, summary_.controls, missing});
     summary_.flat_sweeps = flat_sweeps(results);
   }
 
-  void plan_sequence(std::size_t sequence, std::vector<PlannedCell>& planned) const {
+  /// Place of a cell of the folder among those of the suite; nothing if the suite has no such cell.
+  [[nodiscard]] std::optional<std::size_t> index_of(const FolderCell& cell) const {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (sequences_[i / suite_.methods.size()].name == cell.sequence &&
+          suite_.methods[i % suite_.methods.size()].name == cell.name) {
+        return i;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void plan_sequence(std::size_t sequence, std::vector<PlannedCell>& planned) {
     SequenceBench bench = bench_of(sequence);
     std::string unreadable;
     try {
@@ -365,14 +426,14 @@ class Runner {
     cell.to_run = stored.state != StoredCell::State::kFresh;
     for (int round = 2; round <= suite_.repeats && !cell.to_run; ++round) {
       if (is_control(request.method.entry->name)) break;
-      if (store_.find_repeat(cell.sequence, request, round, cell.key)) continue;
+      if (store_.find_repeat(cell.sequence, request.name, round, cell.key)) continue;
       cell.to_run = true;
       cell.why = "repeat " + std::to_string(round) + " is not there yet";
     }
   }
 
   /// By "SEQUENCE/NAME" without reading data, else by key.
-  [[nodiscard]] std::pair<std::size_t, std::size_t> find_cell(const std::string& wanted) const {
+  [[nodiscard]] std::pair<std::size_t, std::size_t> find_cell(const std::string& wanted) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const std::size_t sequence = i / suite_.methods.size(), method = i % suite_.methods.size();
@@ -398,8 +459,11 @@ class Runner {
   CellStore store_;
   int threads_;
   std::vector<Sequence> sequences_;
-  std::vector<bool> selected_;       ///< By sequence, then method.
-  std::vector<ordered_json> cells_;  ///< The same; null: not there.
+  std::vector<bool> selected_;                         ///< By sequence, then method.
+  std::vector<ordered_json> cells_;                    ///< The same; null: not there.
+  std::vector<std::optional<SequenceBench>> benches_;  ///< By sequence, see `bench_of`.
+  ordered_json record_;                                ///< What run.json says.
+  EarlierCells earlier_;
   std::map<const ordered_json*, std::vector<Measurement>> repeats_;
   RunSummary summary_;
   bool alone_ = false;  ///< One cell only: the others are not looked at.
@@ -417,7 +481,7 @@ RunSummary run_one_cell(const Suite& suite, const RunOptions& options, const std
   return Runner(suite, options).run_one(cell);
 }
 
-std::vector<PlannedCell> plan_suite(const Suite& suite, const RunOptions& options) {
+SuitePlan plan_suite(const Suite& suite, const RunOptions& options) {
   return Runner(suite, options).plan();
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmark/cell_selection.h"
+#include "benchmark/folder_content.h"
 #include "benchmark/suite.h"
 #include "core/progress.h"
 
@@ -24,11 +25,14 @@ struct RunOptions {
   bool isolate = false;
   CellSelection selection = {};
   bool collect = false;  ///< Nothing is run: results are made of the cells that are there.
+  /// Whether results of another suite or on other data give way; else the run is refused.
+  bool overwrite = false;
 };
 
 struct RunSummary {
   std::size_t cells = 0;
   std::size_t reused = 0;                ///< Cells that were there already and are right.
+  std::size_t earlier = 0;               ///< Cells of earlier runs, besides these, in the tables.
   std::vector<std::string> failures;     ///< "sequence / method: reason", one for each failed cell.
   std::vector<std::string> controls;     ///< What is wrong with the controls; empty if all is well.
   std::vector<std::string> flat_sweeps;  ///< Sentences on swept parameters without effect.
@@ -37,9 +41,11 @@ struct RunSummary {
 };
 
 /// Runs every selected cell of `suite` that is not yet in the run folder with the right key, then
-/// writes results and tables of all cells that are there. A cell that fails is recorded, and the
-/// rest goes on. The folder is locked meanwhile.
-/// @throws UsageError, DataError or ConfigurationError if the suite cannot start, none of its
+/// writes results and tables of all cells that are there: also of those that earlier runs left and
+/// that belong together with these (benchmark/folder_content.h). A cell that fails is recorded, and
+/// the rest goes on. The folder is locked meanwhile.
+/// @throws UsageError if the folder holds other results and they are not to be overwritten;
+/// UsageError, DataError or ConfigurationError if the suite cannot start, none of its
 /// sequences can be read, or results cannot be written; Cancelled (finished cells stay and are used
 /// again next time)
 RunSummary run_suite(const Suite& suite, const RunOptions& options);
@@ -61,8 +67,16 @@ struct PlannedCell {
   std::string why;  ///< Why it has to be run; why it is not selected.
 };
 
-/// All cells in their order; nothing is run and nothing written (but simulated scenes go to the
-/// cache). Without `options.out` every cell is to be run.
-std::vector<PlannedCell> plan_suite(const Suite& suite, const RunOptions& options);
+/// What a run would do.
+struct SuitePlan {
+  std::vector<PlannedCell> cells;  ///< Those of the suite, in their order.
+  std::vector<FolderCell> earlier;
+  std::vector<std::string> left_out;  ///< Of earlier runs, with the reason.
+  std::string refused;                ///< Why the run would be refused; empty if it would not.
+};
+
+/// Nothing is run and nothing written (but simulated scenes go to the cache). Without `options.out`
+/// every cell is to be run.
+SuitePlan plan_suite(const Suite& suite, const RunOptions& options);
 
 }  // namespace raymoval

@@ -34,9 +34,12 @@ struct ProtocolRequest {
   Configuration options;
 };
 
+/// Name of a suite that has none: its sequences and methods were named one by one.
+inline constexpr const char* kUnnamedSuite = "run";
+
 /// What one run does: every sequence with every method, scored by every protocol.
 struct Suite {
-  std::string name = "run";
+  std::string name = kUnnamedSuite;
   std::vector<SequenceRequest> sequences;
   std::vector<MethodRequest> methods;
   std::vector<ProtocolRequest> protocols;

@@ -41,6 +41,7 @@ struct ComparedCell {
 struct ResultSet {
   std::vector<ComparedCell> cells;
   std::vector<std::string> control_problems;
+  std::string machine = {};  ///< What times were measured on; empty if that is not known.
 };
 
 struct ComparisonOptions {
@@ -49,9 +50,67 @@ struct ComparisonOptions {
   std::map<std::string, double> tolerances;
   /// Slower than the reference by more than this factor is worse; without it time is only told.
   std::optional<double> time_band;
+  /// Cells that differ in parameters are compared by their rates, which may not fall by more than
+  /// their tolerance; where a protocol has no tolerance, none of its rates may fall. Without it
+  /// such cells are not comparable.
+  bool across_parameters = false;
+  /// The same for cells that differ in the method's version. Without it, their counts must be
+  /// equal.
+  bool across_version = false;
 };
 
-/// Sentences on all that is not the same.
+/// What became of something, in the order of how bad that is.
+enum class Change { kSame, kBetter, kMoved, kWorse, kIncomparable };
+
+/// "same", "better", "moved", "worse", "not comparable".
+const char* change_name(Change change);
+
+/// A rate of the reference, and what it is in the run.
+struct RateChange {
+  std::string name;
+  std::optional<double> before, after;  ///< Nothing where it is undefined.
+  std::optional<double> tolerance;      ///< By how much it may fall; nothing: it is not judged.
+  Change change = Change::kSame;        ///< kMoved: nobody knows whether more of it is better.
+};
+
+/// A count that changed; nothing where one side lacks it.
+struct CountChange {
+  std::string name;
+  std::optional<std::int64_t> before, after;
+};
+
+/// A cell of the reference (or one that only the run has) as one protocol sees it.
+struct ScoreComparison {
+  std::string sequence;
+  std::string name;
+  std::string protocol;  ///< Empty if neither side has a score of this cell.
+  Change change = Change::kSame;
+  std::vector<std::string> reasons;  ///< Why, besides rates and counts: "missing in the run".
+  std::vector<std::string> across;   ///< Parameters or version that differ and were to differ.
+  std::vector<RateChange> rates;     ///< All of the reference, if both sides have them.
+  std::vector<CountChange> counts;
+};
+
+/// Times of a cell on both sides.
+struct TimeChange {
+  std::string sequence;
+  std::string name;
+  std::optional<double> before, after;  ///< Seconds per scan.
+  /// kWorse: beyond the time band; kIncomparable: it is to be judged, and one side has none.
+  Change change = Change::kSame;
+
+  /// How many times slower the run is; only where both sides have a time.
+  [[nodiscard]] double ratio() const { return *after / *before; }
+};
+
+/// Something to tell, and the cell it is about.
+struct ComparisonLine {
+  Change change = Change::kSame;
+  std::string sequence, name, protocol;  ///< Empty where it is about more than that.
+  std::string text;
+};
+
+/// All that is not the same, twice: as sentences, and in parts for whoever writes it otherwise.
 struct Comparison {
   std::vector<std::string> incomparable;
   std::vector<std::string> worse;
@@ -61,18 +120,36 @@ struct Comparison {
   std::size_t cells = 0;       ///< Cells of the reference.
   std::size_t same_cells = 0;  ///< Of these, cells with equal counts and rates.
 
+  std::vector<ComparisonLine> lines;  ///< The sentences but for times, with their cells.
+  std::vector<ScoreComparison> scores;
+  std::vector<TimeChange> time_changes;
+  /// Whether all that is not comparable would be with `across_parameters`.
+  bool parameters_only = false;
+
   /// kCannotDo if anything is not comparable, else kWorse if anything is worse, else kDone.
   [[nodiscard]] ExitCode verdict() const;
+  /// The verdict in words: "not comparable", "worse", "better, no regression", "no regression".
+  [[nodiscard]] std::string verdict_words() const;
 };
 
 /// Compares `run` with `reference` cell by cell. Changed counts are better only if a rate rose,
 /// none fell, and every count that masks cannot change is the same; else they are worse. Cells that
-/// only the run has are told and not judged.
-/// @throws UsageError if a tolerance names a rate that the reference does not have
+/// only the run has are told and not judged. A rate of which nobody knows whether more is better is
+/// told and not judged.
+/// @throws UsageError if a tolerance names a rate that the reference does not have, or one that
+/// cannot be judged; if times are to be judged and the reference has none
 Comparison compare_results(const ResultSet& run, const ResultSet& reference,
                            const ComparisonOptions& options);
 
-/// The comparison as lines for a reader; the last one is a summary.
+/// The comparison as lines for a reader; what holds for several cells is said once, and the last
+/// line is a summary.
 std::string comparison_text(const Comparison& comparison);
+
+/// "F1 0.9368 -> 0.9400 (+0.0032)", "RR 90.0000 -> undefined".
+std::string change_text(const RateChange& rate);
+/// "removed_points 5000 -> 4999 (-1)", "count x is missing".
+std::string change_text(const CountChange& count);
+/// "1.59 times the reference (29.0 ms per scan, was 18.3)".
+std::string change_text(const TimeChange& time);
 
 }  // namespace raymoval

@@ -123,9 +123,11 @@ TEST_CASE("A cell that is there, right and whole is not run again; anything else
   const test::TemporaryFolder folder;
   const auto out = folder.path() / "run";
   Suite suite = two_scans_with({"good"});
+  bool overwrite = false;
   const auto runs_of = [&](bool keep_removals) {
     toy_runs = 0;
-    const RunSummary summary = run_suite(suite, {.out = out, .keep_removals = keep_removals});
+    const RunSummary summary =
+        run_suite(suite, {.out = out, .keep_removals = keep_removals, .overwrite = overwrite});
     CHECK(summary.good());
     return toy_runs.load();
   };
@@ -150,10 +152,161 @@ TEST_CASE("A cell that is there, right and whole is not run again; anything else
   std::filesystem::resize_file(removals, std::filesystem::file_size(removals) - 4);
   CHECK(runs_of(true) == 1);
 
+  overwrite = true;                                              // Else it is refused, see below.
   suite.sequences[0].options.frames = parse_frame_range("0:2");  // Other data.
   CHECK(runs_of(false) == 1);
   suite.protocols[0].options[0].second = 0.4;  // Another voxel size.
   CHECK(runs_of(false) == 1);
+}
+
+namespace {
+
+Suite two_scans_called(const std::string& sequence, const std::string& method) {
+  Suite suite = two_scans_with({method});
+  suite.sequences[0].options.name = sequence;
+  return suite;
+}
+
+/// "sequence/name" of each cell of results.json, controls left out.
+std::vector<std::string> cells_in(const std::filesystem::path& out) {
+  std::vector<std::string> names;
+  const ordered_json results = read_sealed(out / "results.json");
+  for (const ordered_json& cell : results["cells"]) {
+    if (cell["method"]["control"].get<bool>()) continue;
+    names.push_back(cell["sequence"].get<std::string>() + "/" + cell["name"].get<std::string>());
+  }
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("A method or a sequence that is added to a run folder leaves the others in its tables") {
+  const test::TemporaryFolder folder;
+  const auto& out = folder.path();
+  Suite twice = two_scans_called("a", "good");
+  twice.repeats = 2;
+  run_suite(twice, {.out = out});
+  toy_runs = 0;
+  const RunSummary added = run_suite(two_scans_called("a", "throws"), {.out = out});
+  CHECK(toy_runs == 1);
+  CHECK(added.cells == 4);
+  CHECK(added.reused == 3);  // The controls.
+  CHECK(added.earlier == 1);
+  CHECK(cells_in(out) == Names{"a/good:v", "a/throws:v"});
+  const ordered_json good = read_sealed(out / "results.json")["cells"][3];
+  CHECK(good["measured"]["repeats"].size() == 2);  // As in the tables of the run that made it.
+
+  run_suite(two_scans_called("b", "good"), {.out = out});
+  CHECK(cells_in(out) == Names{"a/good:v", "a/throws:v", "b/good:v"});
+  CHECK_THAT(read_text(out / "table.md"), Contains("| a ") && Contains("| b "));
+  // A cell that nobody asked for is not missing.
+  CHECK_FALSE(read_sealed(out / "results.json").contains("missing"));
+  const ordered_json record = read_sealed(out / "run.json");
+  CHECK(record["places"].size() == 2);
+  CHECK(record["suite"]["sequences"][0]["fingerprint"] ==
+        record["suite"]["sequences"][1]["fingerprint"]);
+
+  // The same again is what the folder has already: nothing runs, and the bytes stay.
+  const std::string before = read_text(out / "results.json");
+  toy_runs = 0;
+  run_suite(two_scans_called("b", "good"), {.out = out});
+  CHECK(toy_runs == 0);
+  CHECK(read_text(out / "results.json") == before);
+}
+
+TEST_CASE("A suite of another name is refused, and replaces what is there if that is asked for") {
+  const test::TemporaryFolder folder;
+  const auto& out = folder.path();
+  Suite one = two_scans_called("a", "good");
+  one.name = "one";
+  run_suite(one, {.out = out});
+  const std::string before = read_text(out / "run.json") + read_text(out / "results.json");
+
+  Suite other = two_scans_called("b", "good");
+  other.name = "other";
+  CHECK_THROWS_WITH(run_suite(other, {.out = out}),
+                    Contains("suite 'one' (1 sequence, 4 methods)") && Contains("suite 'other'") &&
+                        Contains("--overwrite"));
+  CHECK_THROWS_AS(run_one_cell(other, {.out = out}, "b/good:v"), UsageError);
+  CHECK_THROWS_AS(run_suite(other, {.out = out, .collect = true}), UsageError);
+  CHECK(read_text(out / "run.json") + read_text(out / "results.json") == before);
+  CHECK_FALSE(std::filesystem::exists(out / "cells/b"));
+  CHECK_THAT(plan_suite(other, {.out = out}).refused, Contains("suite 'one'"));
+
+  // Whoever names sequence and method adds them to the suite.
+  run_suite(two_scans_called("a", "odd"), {.out = out});
+  CHECK(cells_in(out) == Names{"a/good:v", "a/odd:v"});
+  CHECK(read_sealed(out / "run.json")["suite"]["name"] == "one");
+  CHECK(plan_suite(one, {.out = out}).earlier.size() == 1);
+
+  run_suite(other, {.out = out, .overwrite = true});
+  CHECK(cells_in(out) == Names{"b/good:v"});
+  run_suite(other, {.out = out});
+  CHECK_THROWS_AS(run_suite(one, {.out = out}), UsageError);
+}
+
+TEST_CASE("Other data or protocols are refused where the folder has results of the same name") {
+  const test::TemporaryFolder folder;
+  const auto& out = folder.path();
+  const Suite suite = two_scans_called("a", "good");
+  run_suite(suite, {.out = out});
+  const std::string before = read_text(out / "results.json");
+  Suite frames = suite;
+  frames.sequences[0].options.frames = parse_frame_range("1:2");
+  Suite range = suite;
+  range.sequences[0].options.range_m = RangeLimits{0.0, 20.0};
+  Suite option = suite;
+  option.protocols[0].options[0].second = 0.4;
+  Suite protocol = suite;
+  protocol.protocols.clear();
+  add_protocol(protocol, "dynamicmap", "");
+  for (const auto& [changed, reason] : std::vector<std::pair<Suite, std::string>>{
+           {frames, R"(frames was "0:1:1", is "1:2:1")"},
+           {range, "range_m max was null, is 20.0"},
+           {option, "protocol erasor options voxel_size was 0.2, is 0.4"},
+           {protocol, "scored by erasor, and this run by dynamicmap"}}) {
+    CHECK_THROWS_WITH(run_suite(changed, {.out = out}), Contains(reason));
+    CHECK_THROWS_WITH(run_one_cell(changed, {.out = out}, "a/good:v"), Contains(reason));
+    CHECK(read_text(out / "results.json") == before);
+  }
+  run_suite(frames, {.out = out, .overwrite = true});
+  CHECK(cells_in(out) == Names{"a/good:v"});
+  CHECK_THROWS_AS(run_suite(suite, {.out = out}), UsageError);
+}
+
+TEST_CASE("A method with other parameters is run again, and no table mixes it with the old ones") {
+  const test::TemporaryFolder folder;
+  const auto& out = folder.path();
+  run_suite(two_scans_called("a", "good"), {.out = out});
+  Suite changed = two_scans_called("b", "good");
+  apply_settings(changed, {{"good", "size", "2"}});
+  run_suite(changed, {.out = out});
+  CHECK(cells_in(out) == Names{"b/good:v"});
+  const ordered_json missing = read_sealed(out / "results.json")["missing"];
+  CHECK(missing == ordered_json{"a / good:v"});
+  CHECK_THAT(plan_suite(changed, {.out = out}).left_out.at(0),
+             Contains("a / good:v: parameter size was 1.0, is 2.0"));
+  changed.sequences[0].options.name = "a";
+  run_suite(changed, {.out = out});
+  CHECK(cells_in(out) == Names{"a/good:v", "b/good:v"});
+}
+
+TEST_CASE("Names that would share a folder, and a record that is damaged, are refused") {
+  const test::TemporaryFolder folder;
+  const auto& out = folder.path();
+  run_suite(two_scans_called("a:b", "good"), {.out = out});
+  CHECK_THROWS_WITH(run_suite(two_scans_called("a-b", "good"), {.out = out}),
+                    Contains("'a:b'") && Contains("'a-b'"));
+  const std::string record = read_text(out / "run.json");
+  write_atomically(out / "run.json", record.substr(0, record.size() / 2));
+  CHECK_THROWS_WITH(run_suite(two_scans_called("a:b", "good"), {.out = out}),
+                    Contains("run.json") && Contains("--overwrite"));
+  toy_runs = 0;
+  run_suite(two_scans_called("a:b", "good"), {.out = out, .overwrite = true});
+  CHECK(toy_runs == 0);
+  CHECK(read_text(out / "run.json") == record);
 }
 
 TEST_CASE("Two runs give the same bytes but for what is measured, whatever the threads") {

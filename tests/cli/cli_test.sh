@@ -109,12 +109,17 @@ expect 2 "has those of the LiDAR" run "${short[@]}" --method noop \
 expect 2 "Did you mean 'erasor'" run "${short[@]}" --method noop --set protocol:erasor.frame=eraser --out o
 
 # A reference has no times and no machine; a run is compared with it by counts.
-expect 0 "wrote" compare run reference --update
+expect 0 "without times: --time-band cannot be used with it" compare run reference --update
 holds "a reference has no times" test -z "$(grep -F seconds reference/results.json)"
 expect 0 "no regression" compare run reference
 expect 0 "no regression" compare run/results.json reference/results.json --tolerance F1=0.002
 expect 0 "1.00 times" compare run run --time-band 3
 expect 2 "--time-band" compare run reference --time-band 3
+holds "a reference without times is told once" test "$("$raymoval" compare run reference --time-band 3 | grep -c with-times)" -eq 1
+expect 0 "with its times" compare run timed --update --with-times
+expect 0 "1.00 times" compare run timed --time-band 3
+expect 2 "--with-times goes with --update" compare run timed --with-times
+expect 2 "--update compares nothing" compare run timed --update --across parameters
 expect 2 "two results" compare run
 expect 2 "no such run folder" compare run nowhere
 for wrong in F1 =1 F1=x F1=-1; do expect 2 "METRIC=NUMBER" compare run reference --tolerance $wrong; done
@@ -123,6 +128,18 @@ expect 2 "at least 1" compare run reference --time-band 0.5
 "$raymoval" run "${short[@]}" --method raymoval:online --set raymoval.tau0=0.4 --out other_tau \
   >out.txt 2>err.txt
 expect 2 "parameter tau0 is 0.4, the reference has 0.2" compare other_tau reference
+expect 2 "--across parameters compares the rates" compare other_tau reference
+expect 0 "parameter tau0 is 0.4, the reference has 0.2" compare other_tau reference \
+  --across parameters --tolerance F1=1
+expect 2 "Did you mean 'parameters'" compare other_tau reference --across parameter
+expect 2 "Did you mean 'junit'" compare run reference --format junt
+for format in text md junit json; do
+  expect 2 "street / raymoval:online" compare other_tau reference --format $format -o compared.$format
+  holds "a comparison is written as $format" grep -q "raymoval:online" compared.$format
+done
+expect 2 "nowhere" compare run reference -o nowhere/compared.txt
+python3 -c 'import xml.etree.ElementTree as x; assert x.parse("compared.junit").getroot().get("errors") == "1"' ||
+  complain "compared.junit is no XML with one error"
 "$raymoval" run --sequence street --frames 0:1 --quiet --method raymoval:online \
   --set raymoval.tau0=0.2 --out other_frames >out.txt 2>err.txt
 expect 2 "data fingerprint" compare other_frames reference
@@ -214,6 +231,28 @@ mkdir -p root/sequences
 expect 2 "kitti-00" run semantickitti --data root --out kitti
 holds "no refused run made a folder" test ! -e kitti
 
+# The cells of one folder belong together: what is added stands beside what is there, and another
+# suite, or other data under the same name, is refused.
+expect 0 "raymoval:online" run "${short[@]}" --method raymoval:online --out together
+"$raymoval" run --sequence street --frames 0:2 --method octomap --out together >out.txt 2>log.txt
+holds "kept cells are logged as kept" grep -qF 'noop:default on street (kept): ' log.txt
+holds "and those of earlier runs too" grep -qF 'kept of earlier runs on street: raymoval:online' \
+  log.txt
+holds "an added method leaves the others in the tables" grep -q '^street,raymoval,online' \
+  together/results.csv
+expect 0 "raymoval:online" table together
+cp together/results.json before.json
+expect 2 "suite 'two' (2 sequences, 4 methods)" run sweep.json --quiet --out suite
+expect 2 'frames was "0:2:1", is "0:1:1"' run --sequence street --frames 0:1 --quiet \
+  --method octomap --out together
+expect 2 "this run by dynamicmap" run "${short[@]}" --method octomap --protocol dynamicmap \
+  --out together
+expect 0 "But the run is refused" run "${short[@]}" --method octomap --range 0:20 --explain \
+  --out together
+holds "a refused run changes nothing" cmp before.json together/results.json
+expect 0 "octomap:r20" run "${short[@]}" --method octomap --range 0:20 --overwrite --out together
+holds "--overwrite replaces the tables" test -z "$(grep raymoval together/results.csv)"
+
 # Threads never change what is stored outside "measured".
 for threads in 1 2; do
   "$raymoval" run "${short[@]}" --method raymoval:online --threads $threads --out t$threads >/dev/null
@@ -300,6 +339,10 @@ holds "a scene by name is what simulate writes" test "$(fingerprint run_folder)"
   "$(fingerprint run_scene)"
 holds "the record tells scene and seed" grep -q 'scene town, sensor vlp16, seed 3' \
   run_scene/run.json
+cp -r sim/town relabelled
+printf '\xfc\x00\x00\x00' | dd of=relabelled/labels/000001.label conv=notrunc 2>/dev/null
+expect 2 "its scans, poses or labels differ" run --sequence relabelled --name town --method noop \
+  --quiet --out run_folder
 stamp=$(find cache -exec stat -c '%n %y' {} + | sort)
 expect 0 "removed" clean town:scans=2,sensor=vlp16,seed=3 --method noop --quiet -o town.pcd
 holds "what is in the cache is not made again" test "$stamp" = \

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "eval/compare.h"
@@ -214,4 +215,137 @@ TEST_CASE("Time is told, and judged only beyond a band") {
   timeless.seconds_per_scan.reset();
   CHECK(compared(slow, timeless).verdict() == ExitCode::kDone);
   CHECK(compared(slow, timeless, {{}, 3.0}).verdict() == ExitCode::kCannotDo);
+}
+
+namespace {
+
+ComparedCell with_tau0(ComparedCell cell, const std::string& value) {
+  cell.identity["parameter tau0"] = value;
+  return cell;
+}
+
+ComparisonOptions across_parameters(std::map<std::string, double> tolerances = {}) {
+  ComparisonOptions options;
+  options.tolerances = std::move(tolerances);
+  options.across_parameters = true;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("Across parameters rates are judged, and it is told which parameters differ") {
+  // PR 99.0 -> 98.9, RR 90 -> 95: F1 = 2 PR RR / (PR + RR) rises from 0.9429 to 0.9691.
+  const ComparedCell run = with_tau0(cell_with(989, 10), "0.4");
+  CHECK(compared(run, kReference).verdict() == ExitCode::kCannotDo);
+  CHECK(compared(run, kReference).parameters_only);
+  const Comparison strict = compared(run, kReference, across_parameters());
+  CHECK(strict.verdict() == ExitCode::kWorse);  // PR fell, and nothing says that it may.
+  CHECK_THAT(strict.moved.at(0), Contains("parameter tau0 is 0.4, the reference has 0.3"));
+  CHECK(strict.scores.at(0).across ==
+        std::vector<std::string>{"parameter tau0 is 0.4, the reference has 0.3"});
+  // Only F1 is judged, and it rose; PR is told.
+  const Comparison f1 = compared(run, kReference, across_parameters({{"F1", 0.01}}));
+  CHECK(f1.verdict() == ExitCode::kDone);
+  CHECK_THAT(comparison_text(f1), Contains("PR 99.0000 -> 98.9000"));
+  CHECK(compared(run, kReference, across_parameters({{"PR", 0.1}})).verdict() == ExitCode::kDone);
+  CHECK(compared(run, kReference, across_parameters({{"PR", 0.09}})).verdict() == ExitCode::kWorse);
+  // Every rate rose: better, though counts differ.
+  const ComparedCell good = with_tau0(cell_with(991, 10), "0.4");
+  const Comparison better = compared(good, kReference, across_parameters());
+  CHECK(better.verdict() == ExitCode::kDone);
+  CHECK(better.better.size() == 1);
+}
+
+TEST_CASE("Across parameters a cell that does not differ in them is judged by its counts") {
+  CHECK(compared(cell_with(989, 10), kReference, across_parameters()).verdict() ==
+        ExitCode::kWorse);
+  ComparedCell run = kReference;
+  run.scores[0].counts[4].second = 4999;  // Moves no rate.
+  CHECK(compared(run, kReference, across_parameters()).verdict() == ExitCode::kWorse);
+  CHECK(compared(with_tau0(run, "0.4"), kReference, across_parameters()).verdict() ==
+        ExitCode::kDone);
+}
+
+TEST_CASE("Across parameters, data, protocol and counts of the truth must be the same") {
+  ComparedCell run = with_tau0(kReference, "0.4");
+  run.identity["data fingerprint"] = "xyz";
+  CHECK(compared(run, kReference, across_parameters()).verdict() == ExitCode::kCannotDo);
+  CHECK_FALSE(compared(run, kReference).parameters_only);
+  run = with_tau0(kReference, "0.4");
+  run.scores[0].identity["option voxel_size"] = "0.1";
+  CHECK(compared(run, kReference, across_parameters()).verdict() == ExitCode::kCannotDo);
+  run = with_tau0(cell_with(991, 10), "0.4");
+  run.scores[0].counts[0].second = 1001;
+  CHECK(compared(run, kReference, across_parameters()).verdict() == ExitCode::kWorse);
+}
+
+TEST_CASE("Across versions rates are judged where the version differs") {
+  ComparedCell run = cell_with(989, 10);
+  run.method_version = "2";
+  ComparisonOptions options;
+  options.across_version = true;
+  options.tolerances = {{"F1", 0.01}};
+  CHECK(compared(run, kReference, options).verdict() == ExitCode::kDone);
+  options.tolerances.clear();
+  CHECK(compared(run, kReference, options).verdict() == ExitCode::kWorse);
+  CHECK(compared(with_tau0(run, "0.4"), kReference, options).verdict() == ExitCode::kCannotDo);
+  run = kReference;
+  run.method_version = "2";
+  run.scores[0].counts[4].second = 4999;
+  CHECK(compared(run, kReference, options).verdict() == ExitCode::kDone);
+  CHECK(compared(run, kReference).verdict() == ExitCode::kWorse);
+}
+
+TEST_CASE("A rate of which nobody knows the better direction is told and not judged") {
+  ComparedCell reference = kReference;
+  reference.scores[0].rates.push_back({"spread", 3.0, ""});
+  for (const double value : {2.0, 4.0}) {
+    ComparedCell run = with_tau0(reference, "0.4");
+    run.scores[0].rates[3].value = value;
+    const Comparison result = compared(run, reference, across_parameters());
+    CHECK(result.verdict() == ExitCode::kDone);
+    CHECK(result.better.empty());
+    CHECK_THAT(comparison_text(result), Contains("spread 3.0000 -> "));
+    CHECK(result.scores.at(0).change == Change::kMoved);
+  }
+  CHECK_THROWS_AS(compared(reference, reference, {{{"spread", 1.0}}, {}}), UsageError);
+}
+
+TEST_CASE("What holds for several cells is said once") {
+  ResultSet run, reference;
+  for (const char* name : {"a:v", "b:v", "c:v"}) {
+    for (const char* sequence : {"s", "t"}) {
+      reference.cells.push_back(cell_with(990, 20, name));
+      reference.cells.back().sequence = sequence;
+      run.cells.push_back(with_tau0(reference.cells.back(), "0.4"));
+    }
+  }
+  const std::string text = comparison_text(compare_results(run, reference, {}));
+  CHECK_THAT(text, Contains("s, t / a:v, b:v, c:v: parameter tau0 is 0.4"));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 3);  // Heading, line, summary.
+}
+
+TEST_CASE("A reference without times is told once where times are to be judged") {
+  ComparedCell timeless = kReference, other = cell_with(500, 100, "other:v");
+  timeless.seconds_per_scan.reset();
+  const ComparedCell timed_other = other;
+  other.seconds_per_scan.reset();
+  const Comparison result =
+      compare_results({{kReference, timed_other}, {}}, {{timeless, other}, {}}, {{}, 3.0});
+  CHECK(result.verdict() == ExitCode::kCannotDo);
+  REQUIRE(result.incomparable.size() == 1);
+  CHECK_THAT(result.incomparable[0], Contains("--update --with-times"));
+  // One cell of several without a time is told by its name.
+  const Comparison one =
+      compare_results({{kReference, timed_other}, {}}, {{kReference, other}, {}}, {{}, 3.0});
+  CHECK(one.verdict() == ExitCode::kCannotDo);
+  CHECK_THAT(one.incomparable.at(0), Contains("other:v"));
+  CHECK(one.time_changes.size() == 2);
+}
+
+TEST_CASE("Times of another machine are said to be that") {
+  const ResultSet here{{kReference}, {}, "this processor"}, there{{kReference}, {}, "another"};
+  CHECK(compare_results(here, here, {}).times.size() == 1);
+  CHECK_THAT(compare_results(here, there, {}).times.at(1),
+             Contains("this processor") && Contains("another"));
 }
