@@ -46,7 +46,8 @@ says 2 "'now' is unknown" --quick now
 says 2 "'--quik' is unknown; expected nothing, --quick, or semantickitti ROOT" --quik
 mkdir -p copy/scripts copy/build/release stubs
 cp "$scripts/reproduce.sh" copy/scripts/
-printf '#!/usr/bin/env bash\n' | tee copy/scripts/install_dependencies.sh >stubs/cmake
+printf '#!/usr/bin/env bash\n' >copy/scripts/install_dependencies.sh
+printf '#!/usr/bin/env bash\necho "$*" >>"%s/built.txt"\n' "$work" >stubs/cmake
 cat >copy/build/release/raymoval <<STUB
 #!/usr/bin/env bash
 echo "\$*" >>"$work/asked.txt"
@@ -62,4 +63,11 @@ done
 holds "--quick: the scene is short" grep -qE "run --sequence town:scans=[1-9][0-9] " asked.txt
 holds "--quick: the page has the points" grep -q "keep-removals" asked.txt
 holds "--quick: there is a page" test -s first/report.html
+holds "--quick: the program is built and nothing else" grep -qx -- \
+  "--build --preset release --target raymoval_program" built.txt
+holds "--quick: a new build folder is built the quick way" grep -q "DRAYMOVAL_UNITY=core" built.txt
+: >built.txt
+touch copy/build/release/CMakeCache.txt
+PATH=$work/stubs:$PATH says 0 "reproduce.sh: open" --quick
+holds "--quick: one that is there stays as it is" grep -qx -- "--preset release" built.txt
 finish reproduce
