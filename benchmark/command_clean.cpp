@@ -7,6 +7,7 @@
 #include "benchmark/mask_spool.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/loaded_data.h"
 
 namespace raymoval {
 namespace {
@@ -88,10 +89,12 @@ ExitCode clean(const CleanFlags& flags, Progress& progress) {
   const Sequence sequence = opened(flags, paths, method, progress);
   progress.set_context(method.full_name() + " on " + sequence.name);
   CleanOutputs outputs(paths, voxel);
-  const TimedSource scans(*sequence.scans);
+  // A scan that is another when the map is written than when it was judged is an error.
+  const WatchedSequence data = watched(sequence);
+  const TimedSource scans(*data.sequence.scans);
   MaskSpool masks(method.full_name(), scans, paths.map);
-  find_removals(flags, method, sequence, scans, masks, progress);
-  write_outputs(*sequence.scans, masks, outputs, progress);
+  find_removals(flags, method, data.sequence, scans, masks, progress);
+  write_outputs(*data.sequence.scans, masks, outputs, progress);
   print(method.full_name() + " removed " + grouped_text(masks.removed_count()) + " of " +
         counted_text(masks.point_count(), "point") + " in " + counted_text(scans.size(), "scan") +
         "; " + flags.output + " has " + counted_text(outputs.map_points(), "point") + ".\n");
