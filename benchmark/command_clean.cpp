@@ -9,6 +9,7 @@
 #include "core/local_frame.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/loaded_data.h"
 
 namespace raymoval {
 namespace {
@@ -94,11 +95,13 @@ ExitCode clean(const CleanFlags& flags, Progress& progress) {
   progress.set_context(method.full_name() + " on " + sequence.name);
   const MapPrecision precision = map_precision(*sequence.scans);
   CleanOutputs outputs(paths, voxel, precision);
-  const LocalFrameSource local(*sequence.scans, sequence.method_frame());
+  // A scan that is another when the map is written than when it was judged is an error.
+  const WatchedSequence data = watched(sequence);
+  const LocalFrameSource local(*data.sequence.scans, sequence.method_frame());
   const TimedSource scans(local);
   MaskSpool masks(method.full_name(), scans, paths.map);
-  find_removals(flags, method, sequence, scans, masks, progress);
-  write_outputs(*sequence.scans, masks, outputs, progress);
+  find_removals(flags, method, data.sequence, scans, masks, progress);
+  write_outputs(*data.sequence.scans, masks, outputs, progress);
   if (precision.coordinates == Coordinates::kDouble) {
     print("The map lies more than 8 km from the world's origin: its coordinates are float64.\n");
   }

@@ -44,14 +44,20 @@ bool is_part_of_earlier_version(const path& name) {
 }
 
 bool is_lock(const path& entry) {
-  return entry.filename() == kLockFile && is_file(entry) &&
-         (plain_file_size(entry) == 0 || read_piece(entry, 0, 8) == "process ");
+  if (entry.filename() != kLockFile || !is_file(entry)) return false;
+  try {
+    const std::string start = read_piece(entry, 0, 8);
+    return start.empty() || start == "process ";
+  } catch (const DataError&) {
+    return false;  // Its holder took it away.
+  }
 }
 
 /// A folder that holds folders only.
 bool holds_cells(const path& entry) {
-  return entry.filename() == "cells" && is_folder(entry) &&
-         folders_in(entry).size() == entries_of(entry).size();
+  if (entry.filename() != "cells" || !is_folder(entry)) return false;
+  const std::vector<path> inside = entries_of(entry);
+  return std::all_of(inside.begin(), inside.end(), is_folder);
 }
 
 /// What a run may leave before it marks its folder, or somebody who copies cells together.
@@ -84,6 +90,7 @@ void check_is_run_folder(const path& out) {
   }
   for (const path& entry : entries_of(out)) {
     if (may_be_ours(entry)) continue;
+    if (has_file(out / kRunMarker)) return;  // Another process has begun here meanwhile.
     throw UsageError(where + "the folder holds other files (" + entry.filename().string() +
                      ") and no run." + remedy);
   }

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/file_kind.h"
 #include "core/files.h"
 #include "core/text.h"
 
@@ -105,21 +104,18 @@ std::string shown(const std::string& file) {
   throw MethodError(shown(file) + ": " + what);
 }
 
-/// What the program left is its fault and not that of the data.
-std::vector<fs::path> answers_in(const fs::path& folder) {
-  try {
-    return entries_of(folder);
-  } catch (const DataError& error) {
-    throw MethodError(error.what());
-  }
-}
-
 /// Label files that no scan has, or a number of them that is not the number of scans.
 void check_answer_files(const fs::path& folder, std::size_t scans) {
   std::vector<std::string> found, unknown;
-  for (const fs::path& path : answers_in(folder)) {
-    if (path.extension() == ".label") found.push_back(path.filename().string());
+  std::error_code error;
+  for (auto item = fs::directory_iterator(folder, error);
+       !error && item != fs::directory_iterator(); item.increment(error)) {
+    if (item->path().extension() == ".label") found.push_back(item->path().filename().string());
   }
+  if (error) {
+    throw MethodError(std::string(kAnswerFolder) + ": cannot be read (" + error.message() + ")");
+  }
+  std::sort(found.begin(), found.end());
   const std::string count =
       "expected " + std::to_string(scans) + " files, one per scan (" + scan_file_name(0, ".label") +
       " to " + scan_file_name(scans - 1, ".label") + "), found " + std::to_string(found.size());
