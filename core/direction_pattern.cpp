@@ -70,12 +70,12 @@ class PartnerShares {
 
   /// The step at which the directions of a beam repeat; 0 if they do not.
   [[nodiscard]] double step() const {
-    constexpr double kLeastShare = 0.3, kOfBest = 0.6;
+    constexpr double kLeastShare = 0.5, kOfBest = 0.6;
     const double best = *std::max_element(counts_.begin(), counts_.end());
     for (std::size_t bin = 0; bin + 2 < kBins && distance(bin) <= kWidestStep; ++bin) {
       if (counts_[bin] < std::max(kOfBest * best, kLeastShare * samples_)) continue;
       if (counts_[bin] < counts_[bin + 1] || counts_[bin] < counts_[bin + 2]) continue;
-      if (stands_out(bin)) return distance(bin);
+      if (stands_out(bin)) return distance(middle_of_peak(bin));
     }
     return 0.0;
   }
@@ -105,6 +105,15 @@ class PartnerShares {
     for (int bin = std::max(0, bin_of(azimuth - part)); bin <= last; ++bin) {
       partners.set(static_cast<std::size_t>(bin));
     }
+  }
+
+  /// A peak is as wide as what counts as one step.
+  [[nodiscard]] std::size_t middle_of_peak(std::size_t bin) const {
+    constexpr double kLevel = 0.95;
+    std::size_t first = bin, last = bin;
+    while (first > 0 && counts_[first - 1] >= kLevel * counts_[bin]) --first;
+    while (last + 1 < kBins && counts_[last + 1] >= kLevel * counts_[bin]) ++last;
+    return (first + last) / 2;
   }
 
   /// Whether few directions have a partner at half as much again and at somewhat less than `bin`.
@@ -147,12 +156,13 @@ std::pair<double, double> refined(const std::vector<Directions>& scans, double s
 /// Whether neighbours lie beside each other rather than anywhere: a share of them that scattered
 /// directions reach by a factor of two less.
 bool neighbours_lie_beside(const std::vector<Directions>& scans, double spacing) {
-  constexpr double kLevel = 0.15, kShare = 0.45;
+  constexpr double kLevel = 0.15, kShare = 0.45, kSteepest = 60.0 * kDegree;
   std::size_t all = 0, level = 0;
   const double reach = 1.5 * spacing;
   for (const Directions& scan : scans) {
     for (const std::size_t i : scan.sample(samples_for(scan, 4.0 * reach, scans.size()))) {
-      const double scale = std::max(0.1, std::cos(scan[i].elevation));
+      if (std::abs(scan[i].elevation) > kSteepest) continue;  // Azimuths run together above.
+      const double scale = std::cos(scan[i].elevation);
       scan.visit_ahead(i, reach / scale, [&](double azimuth, double rise) {
         const double distance = std::hypot(azimuth * scale, rise);
         if (distance > reach || distance < kLeastStep) return;
@@ -188,24 +198,26 @@ double spacing_of(const Directions& scan) {
 
 /// A direction and how far above it the next of its column lies.
 struct Gap {
-  double elevation, rise;
+  double elevation;
+  double rise;  ///< kNoRise if there is none.
 };
+
+constexpr double kNoRise = 12.0 * kDegree;  ///< No beams are as far apart.
 
 /// Sorted by elevation.
 std::vector<Gap> gaps_in_columns(const std::vector<Directions>& scans, double half_column,
                                  double least_rise) {
-  constexpr double kWidestGap = 12.0 * kDegree;
   constexpr std::size_t kSamples = 20000;
   std::vector<Gap> gaps;
   for (const Directions& scan : scans) {
     const std::size_t most =
         5 * samples_for(scan, 2.0 * half_column, scans.size());  // A bound, rarely reached.
     for (const std::size_t i : scan.sample(std::min(kSamples, most))) {
-      double rise = kWidestGap;
+      double rise = kNoRise;
       scan.visit_around(i, half_column, [&](double, double up) {
         if (up > least_rise) rise = std::min(rise, up);
       });
-      if (rise < kWidestGap) gaps.push_back({scan[i].elevation, rise});
+      gaps.push_back({scan[i].elevation, rise});
     }
   }
   std::sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) {
@@ -214,16 +226,23 @@ std::vector<Gap> gaps_in_columns(const std::vector<Directions>& scans, double ha
   return gaps;
 }
 
+std::vector<Gap>::const_iterator first_from(const std::vector<Gap>& gaps, double elevation) {
+  return std::lower_bound(gaps.begin(), gaps.end(), elevation,
+                          [](const Gap& gap, double value) { return gap.elevation < value; });
+}
+
 /// The usual rise among `gaps` from the direction at `elevation`; where directions above have no
-/// return it is longer, so the short ones count. 0 if there is nothing near.
+/// return it is longer, so the short ones count. kNoRise if next to nothing lies above.
 double usual_rise(const std::vector<Gap>& gaps, double elevation, double reach) {
-  const auto below = [](const Gap& gap, double value) { return gap.elevation < value; };
-  const auto first = std::lower_bound(gaps.begin(), gaps.end(), elevation - reach, below);
-  const auto last = std::lower_bound(first, gaps.end(), elevation + reach, below);
+  constexpr double kLeastShare = 0.05, kShort = 0.3, kLonger = 1.5;
   std::vector<double> rises;
-  for (auto gap = first; gap != last; ++gap) rises.push_back(gap->rise);
-  if (rises.empty()) return 0.0;
-  const double limit = 1.5 * median_of(rises, 0.3);
+  std::size_t all = 0;
+  const auto last = first_from(gaps, elevation + reach);
+  for (auto gap = first_from(gaps, elevation - reach); gap != last; ++gap, ++all) {
+    if (gap->rise < kNoRise) rises.push_back(gap->rise);
+  }
+  if (static_cast<double>(rises.size()) <= kLeastShare * static_cast<double>(all)) return kNoRise;
+  const double limit = kLonger * median_of(rises, kShort);
   std::erase_if(rises, [&](double rise) { return rise > limit; });
   return median_of(rises);
 }
@@ -231,31 +250,25 @@ double usual_rise(const std::vector<Gap>& gaps, double elevation, double reach) 
 /// Climbs from beam to beam.
 void find_beams(const std::vector<Gap>& gaps, double low, double high, DirectionPattern& pattern) {
   constexpr int kMostBeams = 4096;
-  if (gaps.empty()) return;
+  constexpr double kSameBeam = 0.4;  // Of the rise to the next.
   std::vector<double> all;
   for (const Gap& gap : gaps) all.push_back(gap.rise);
-  double rise = median_of(all), at = low, last = low;
-  int beams = 1;
-  while (beams < kMostBeams) {
-    double next = usual_rise(gaps, at, 0.4 * rise);
-    if (next <= 0.0) {
-      // Nothing was seen of this beam: on from the next that was.
-      const auto above =
-          std::lower_bound(gaps.begin(), gaps.end(), at,
-                           [](const Gap& gap, double value) { return gap.elevation < value; });
+  double rise = all.empty() ? kNoRise : median_of(all), at = low;
+  pattern.beams = 1;
+  while (pattern.beams < kMostBeams) {
+    double next = usual_rise(gaps, at, kSameBeam * rise);
+    if (next >= kNoRise) {
+      // Nothing was seen above this beam in its columns: on to what was seen elsewhere.
+      const auto above = first_from(gaps, at + kSameBeam * rise);
       if (above == gaps.end()) break;
-      next = std::max(above->elevation - at, 0.01 * rise);
-      at += next;
-      continue;
+      next = above->elevation - at;
     }
+    if (at + next > high + kSameBeam * next) break;
+    at += next;
     rise = next;
-    if (at + rise > high + 0.5 * rise) break;
-    at += rise;
-    last = at;
-    ++beams;
+    ++pattern.beams;
   }
-  pattern.beams = beams;
-  pattern.elevation_step = beams > 1 ? (last - low) / (beams - 1) : 0.0;
+  if (pattern.beams > 1) pattern.elevation_step = (at - low) / (pattern.beams - 1);
 }
 
 double typical_spacing(const std::vector<Directions>& scans) {

@@ -248,7 +248,7 @@ TEST_CASE("A rosette has the spacing of its directions in one scan", "[sensor-es
   INFO(model.basis);
   CHECK(model.beams == 0);
   CHECK(model.azimuth_step == model.elevation_step);
-  CHECK(model.azimuth_step > 0.2 * kDegree);
+  CHECK(model.azimuth_step > 0.15 * kDegree);
   CHECK(model.azimuth_step < 0.5 * kDegree);
   CHECK_THAT(model.basis, Contains("neither beams nor columns"));
 }
