@@ -7,10 +7,10 @@
 namespace raymoval {
 
 void throw_voxel_out_of_range(double x, double y, double z, double voxel_size) {
-  throw DataError("world point (" + number_text(x) + ", " + number_text(y) + ", " + number_text(z) +
-                  ") m has no voxel of " + number_text(voxel_size) + " m: expected at most " +
-                  grouped_text(kVoxelLimit) +
-                  " voxels from the origin. Check the poses, or move the origin near the data.");
+  throw DataError("point (" + number_text(x) + ", " + number_text(y) + ", " + number_text(z) +
+                  ") m from the first scan, or from the world's origin near it, has no voxel of " +
+                  number_text(voxel_size) + " m: expected at most " + grouped_text(kVoxelLimit) +
+                  " voxels. Check that poses and points are metres (`raymoval inspect`).");
 }
 
 }  // namespace raymoval

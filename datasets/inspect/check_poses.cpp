@@ -91,6 +91,10 @@ std::vector<Check> pose_checks() {
                     "Divide the positions by 1,000."),
       verdict_check("poses-in-kilometres", "positions of the poses are kilometres", "metres",
                     "Multiply the positions by 1,000."),
+      verdict_check("poses-coarse", "positions far from the origin lost their digits",
+                    "positions to the millimetre",
+                    "Write positions with all their digits (in C++ std::setprecision(12)), or "
+                    "shift them to an origin near by."),
       verdict_check("viewpoint-twice", "VIEWPOINT is applied to the stored points twice",
                     "stored points = T p with T from VIEWPOINT and p in the sensor frame",
                     "Apply VIEWPOINT once when writing the points."),

@@ -2,6 +2,7 @@
 #include "datasets/inspect/pose_fit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/text.h"
@@ -226,6 +227,23 @@ std::pair<PoseHypothesis, double> best_hypothesis(const Samples& samples, const 
   return best;
 }
 
+/// The largest of 100, 10, 1 and 0.1 m of which all positions along an axis that is far from the
+/// origin are multiples; 0 if there is none.
+double position_step(const std::vector<Pose>& poses) {
+  constexpr double kFar = 1000.0, kLargest = 100.0, kSmallest = 0.05;
+  double found = 0.0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    double step = kLargest, farthest = 0.0;
+    for (const Pose& pose : poses) {
+      const double at = pose.translation()[axis];
+      farthest = std::max(farthest, std::abs(at));
+      while (step > kSmallest && std::abs(at / step - std::round(at / step)) > 1e-6) step /= 10.0;
+    }
+    if (farthest > kFar && step > kSmallest) found = std::max(found, step);
+  }
+  return found;
+}
+
 PoseVerdict judge(Samples& samples) {
   if (samples.pairs().empty()) return {};
   PairFit fit(samples);
@@ -245,6 +263,11 @@ PoseVerdict judge(Samples& samples) {
   const std::string now = "the scans agree to " + percent(given) + " under the poses";
   if (reached >= kNamed && reached > given + kBetter) {
     return {best.check, now + " and to " + percent(reached) + " " + best.phrase};
+  }
+  if (const double step = position_step(samples.poses()); step > 0.0) {
+    return {"poses-coarse",
+            now + ", whose positions are whole multiples of " + number_text(step) +
+                " m along an axis: written far from the origin with too few digits"};
   }
   if (given >= kForeign) return {};
   return {"poses-of-another-sequence",

@@ -28,9 +28,10 @@ constexpr double kLeastGround = 4.0;  ///< Square metres a scan.
 
 // Upright surfaces.
 constexpr double kCone = 30.0;  ///< Degrees that up may be away from the ground's direction.
-constexpr double kGroundPull =
-    0.15;  ///< What the ground's own direction is ahead of the cone's edge.
-constexpr double kFinePull = 0.002;  ///< The same of the last steps.
+/// What a direction loses at the cone's edge against the ground's own, as a share of all sides.
+constexpr double kGroundPull = 0.15;
+/// What it loses in the last steps, by the squared sine of its angle to the ground's direction.
+constexpr double kFinePull = 0.005;
 constexpr double kOffGround = 30.0;  ///< Degrees from the ground's direction: no ground any more.
 constexpr double kUpright = 2.0;     ///< Degrees that upright surfaces may lean.
 
@@ -39,7 +40,7 @@ constexpr double kMeantAxis = 40.0;    ///< Degrees: so near to the ground's dir
 constexpr double kLeastTilt = 8.0;     ///< Degrees
 constexpr double kSteepest = 30.0;     ///< Degrees, more than a vehicle's way is as a whole.
 constexpr double kLeastShare = 0.12;   ///< Of surfaces that are not ground.
-constexpr double kLeastUpright = 8.0;  ///< Square metres a scan.
+constexpr double kLeastUpright = 4.0;  ///< Square metres a scan.
 constexpr double kTimesBetter = 1.5;
 
 double cosine(double degrees) {

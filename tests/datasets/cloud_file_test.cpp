@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "datasets/cloud_writer.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -121,6 +122,32 @@ TEST_CASE("PLY reads in ASCII and either endianness, with faces after the points
     CHECK(cloud.points[0] == Eigen::Vector3f(1.0F, 2.0F, 0.5F));
     CHECK(cloud.points[1] == Eigen::Vector3f(-4.0F, 2.0F, 0.5F));
     CHECK(cloud.intensity == std::vector<float>{7.0F, 7.0F});
+  }
+}
+
+TEST_CASE("points far from the origin keep their digits when read from near them", "[cloud]") {
+  const TemporaryFolder folder;
+  const Eigen::Vector3d origin(691000.25, 5336000.5, 512.0);
+  const Eigen::Vector3d far(691010.3734, 5335995.9326, 513.7341);
+  const std::string head =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS "
+      "1\nDATA ";
+  const auto written = [&](const std::string& name) {
+    CloudWriter writer(folder / name);
+    writer.start(false, Coordinates::kDouble);
+    writer.add_exact({far}, {});
+    writer.finish();
+    writer.commit();
+    return folder / name;
+  };
+  for (const auto& path :
+       {folder.write("a.pcd", head + "ascii\n691010.3734 5335995.9326 513.7341\n"),
+        folder.write("b.pcd", head + "binary\n" + bytes_of<double>({far.x(), far.y(), far.z()})),
+        written("c.pcd"), written("d.ply")}) {
+    CAPTURE(path);
+    const Eigen::Vector3f near = read_cloud(path, origin).points.at(0);
+    CHECK((near.cast<double>() - (far - origin)).norm() < 1e-5);
+    CHECK(read_cloud(path).points.at(0) == far.cast<float>());  // In steps of half a metre.
   }
 }
 

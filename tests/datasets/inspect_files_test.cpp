@@ -92,6 +92,13 @@ TEST_CASE("a good DynamicMap folder is silent", "[inspect]") {
   check_silent(inspect_dynamicmap({}));
 }
 
+TEST_CASE("points that lost their digits far from the origin are named", "[inspect]") {
+  EditedSequence far = good_drive();
+  far.each_pose(
+      [](const Pose& pose) { return Eigen::Translation3d(150000.0, -3000.0, 0.0) * pose; });
+  check_finds(inspect_dynamicmap({}, "", far), "coordinates-coarse", "float64");
+}
+
 TEST_CASE("VIEWPOINT applied twice or not at all is named", "[inspect]") {
   PcdStyle twice;
   twice.times_applied = 2;

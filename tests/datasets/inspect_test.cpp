@@ -60,6 +60,8 @@ TEST_CASE("the scenes are silent", "[inspect]") {
     const InspectionReport report = EditedSequence(options).inspected();
     INFO(text_of(report));
     CHECK(found(report).empty());
+    // Their world is upright, hills and all.
+    for (const Finding& finding : report.findings) CHECK(finding.check != "world-axes");
   }
 }
 
@@ -68,6 +70,18 @@ TEST_CASE("a world far from its origin is silent", "[inspect]") {
   const Eigen::Translation3d shift(691000.25, 5336000.5, 512.0);
   far.each_pose([&](const Pose& pose) { return shift * pose; });
   check_silent(far.inspected());
+}
+
+TEST_CASE("positions that lost their digits far from the origin are named", "[inspect]") {
+  EditedSequence coarse = good_drive();
+  coarse.each_pose([](const Pose& pose) {
+    Pose far = Eigen::Translation3d(691000.25, 5336000.5, 512.0) * pose;
+    // As a C++ stream writes them by default, with six digits.
+    far.translation().x() = std::round(far.translation().x());
+    far.translation().y() = std::round(far.translation().y() / 10.0) * 10.0;
+    return far;
+  });
+  check_finds(coarse.inspected(), "poses-coarse", "digits");
 }
 
 TEST_CASE("a world whose z is not up is a note", "[inspect]") {

@@ -33,6 +33,17 @@ std::string open_error(const std::string& path, const SequenceOptions& options =
 
 }  // namespace
 
+TEST_CASE("DynamicMap points in UTM coordinates come back to the millimetre", "[dynamicmap]") {
+  const TemporaryFolder folder;
+  // A quarter turn to the left: x of the world is -y of the sensor.
+  std::string pcd = world_pcd("691000.25 5336000.5 512 0.7071067811865476 0 0 0.7071067811865476",
+                              "691010.3734 5335995.9326 513.7341 0\n", 1);
+  folder.write("pcd/000000.pcd", pcd);
+  const Scan scan = open_sequence(folder.text(), {}).scans->load(0);
+  const Eigen::Vector3d expected(-4.5674, -10.1234, 1.7341);
+  CHECK((scan.points.at(0).cast<double>() - expected).norm() < 1e-5);
+}
+
 TEST_CASE("DynamicMap points go from the world back to the sensor, once", "[dynamicmap]") {
   const TemporaryFolder folder;
   write_dynamicmap(folder);
