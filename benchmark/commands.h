@@ -35,12 +35,15 @@ Command add_simulate_command(CLI::App& program);
 Command add_inspect_command(CLI::App& program);
 Command add_report_command(CLI::App& program);
 
+/// What the program was started with, without its own name.
+const std::vector<std::string>& program_arguments();
+
 /// The methods that this program knows, see `run_command_line`.
 const MethodRegistry& program_methods();
 
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {
-  std::string frames, poses, label_rule, range, sensor, name;
+  std::string frames, poses, label_rule, range, sensor, drop_ego, name;
 
   void add_to(CLI::App& app);
   /// @throws UsageError for an ill-formed value

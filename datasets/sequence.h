@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/range_limits.h"
 #include "core/scan_source.h"
+#include "datasets/ego/ego_region.h"
 
 namespace raymoval {
 
@@ -35,7 +36,8 @@ struct SequenceOptions {
   std::optional<std::string> poses;                 ///< Pose file, a name in the folder or a path.
   std::optional<std::filesystem::path> label_rule;  ///< JSON file.
   std::optional<RangeLimits> range_m;
-  std::optional<std::string> sensor;  ///< Name of a known sensor, or "estimated".
+  std::optional<std::string> sensor;  ///< Name of a known sensor, or "estimated" or "" for none.
+  std::optional<EgoRegion> drop_ego;  ///< Points of the own vehicle that are left out.
   std::optional<std::string> name;    ///< Name in results.
 };
 
@@ -44,9 +46,12 @@ struct Sequence {
   std::string name;
   std::string layout;  ///< "semantickitti", "dynamicmap", "files", "simulated".
   std::shared_ptr<const ScanSource> scans;
+  /// The scans as they were opened, where `scans` may be something that passes them on.
+  std::shared_ptr<const ScanSource> opened = nullptr;
   std::shared_ptr<const LabelSource> labels;  ///< Null if the data has none.
   LabelRule label_rule;
   RangeLimits range_m;
+  EgoRegion drop_ego;      ///< As asked for; `scans` leave it out (see `EgoFreeSource`).
   std::string frames;      ///< Range as used, "2350:2670:2".
   std::string poses_file;  ///< Name of the pose file, without a path.
   std::string source;      ///< Free text on origin and licence.
@@ -54,7 +59,8 @@ struct Sequence {
   /// Calibration "Tr" where the pose file has poses of a camera; the scans' poses contain it.
   std::optional<Pose> T_camera_lidar = std::nullopt;
 
-  /// Path-free record for results: name, layout, frames, poses, sensor, label rule, range.
+  /// Path-free record for results: name, layout, frames, poses, sensor, label rule, range, and the
+  /// region that is left out if there is one.
   [[nodiscard]] nlohmann::ordered_json record() const;
 };
 

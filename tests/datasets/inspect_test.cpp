@@ -156,10 +156,16 @@ TEST_CASE("poses of another sequence are named", "[inspect]") {
   check_finds(drive.inspected(), "poses-of-another-sequence", "belongs to these scans");
 }
 
-TEST_CASE("a fake point at the origin is named", "[inspect]") {
+TEST_CASE("a scan with far fewer points than its neighbours is named", "[inspect]") {
   EditedSequence drive = good_drive();
-  drive.scans[0].points[7] = Eigen::Vector3f::Zero();
-  check_finds(drive.inspected(), "point-at-origin", "NaN");
+  Scan& cut = drive.scans[5];
+  cut.points.resize(cut.size() * 7 / 10);
+  cut.reflectance.resize(cut.size());
+  cut.stored_point_count = cut.size();
+  drive.words[5].resize(cut.size());
+  const InspectionReport report = drive.inspected();
+  check_finds(report, "few-points", "Copy the scan again");
+  CHECK(report.findings[0].where == "scan 5");
 }
 
 TEST_CASE("duplicated scans are named", "[inspect]") {
