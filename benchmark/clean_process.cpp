@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean_process.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -22,9 +24,9 @@ namespace fs = std::filesystem;
 std::set<fs::path> unfinished(const CleanPaths& paths) {
   std::set<fs::path> found;
   for (const fs::path& output : {paths.map, paths.removed, paths.labels}) {
+    if (output.empty()) continue;
     const fs::path whole = fs::absolute(output).lexically_normal();
     const fs::path named = whole.has_filename() ? whole : whole.parent_path();
-    if (output.empty()) continue;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(named.parent_path(), error)) {
       const std::string name = entry.path().filename().string();
@@ -71,6 +73,13 @@ std::vector<std::string> arguments_of_child() {
   return arguments;
 }
 
+/// Which file `path` is; one that takes its place is another. Nothing: there is none.
+std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return std::pair{status.st_dev, status.st_ino};
+}
+
 ExitCode answer_of(const ChildEnd& end, double limit_mib) {
   const std::string nothing = " Nothing was written.";
   switch (end.kind) {
@@ -101,6 +110,7 @@ ExitCode answer_of(const ChildEnd& end, double limit_mib) {
 }  // namespace
 
 ExitCode clean_apart(const CleanPaths& paths, double memory_limit_mib) {
+  const auto map_before = identity_of(paths.map);
   ChildEnd end;
   {
     const LeftOvers left_overs(paths);
@@ -111,7 +121,13 @@ ExitCode clean_apart(const CleanPaths& paths, double memory_limit_mib) {
   }
   // Its live line may stand there still.
   if (end.kind != ChildEnd::Kind::kExited) Progress(progress_style_of_stderr()).end();
-  return answer_of(end, memory_limit_mib);
+  const ExitCode answer = answer_of(end, memory_limit_mib);
+  const auto map = identity_of(paths.map);
+  if (answer == ExitCode::kDone && (!map || map == map_before)) {
+    throw MethodError(
+        "cleaning ended without a map, though it told no fault. Try another --method.");
+  }
+  return answer;
 }
 
 }  // namespace raymoval

@@ -197,8 +197,7 @@ TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect]") {
 
 TEST_CASE("missing returns in files are a note, and nothing has to be done", "[inspect]") {
   const float nan = std::nanf("");
-  for (const Eigen::Vector3f& fake :
-       {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(nan, nan, nan)}) {
+  for (const Eigen::Vector3f& fake : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(nan, nan, nan)}) {
     EditedSequence drive = good_drive();
     for (Scan& scan : drive.scans) {
       for (std::size_t i = 0; i < scan.size(); i += 10) scan.points[i] = fake;

@@ -235,16 +235,12 @@ TEST_CASE("a cut at a range is named", "[inspect]") {
   check_finds(drive.inspected(), "range-truncated", "unfiltered");
 }
 
-TEST_CASE("the vehicle in view is a finding, or a note where its labels say so", "[inspect]") {
+TEST_CASE("a vehicle that is hardly in view is no matter, whatever is evaluated", "[inspect]") {
+  // Ten points a scan, 0.03 %; see kManyEgoPoints and ego_test.cpp.
   EditedSequence drive(suburb(sparse_hdl64e(), 14));
-  check_silent(drive.inspected());  // Nearer than what is evaluated.
+  check_silent(drive.inspected());
   drive.range_m.min = 0.0;
-  const InspectionReport noted = drive.inspected();
-  INFO(text_of(noted));
-  REQUIRE(noted.findings.size() == 1);
-  CHECK(noted.findings[0].check == "ego-vehicle");
-  CHECK(noted.findings[0].severity == Severity::kNote);
-  CHECK_FALSE(noted.has_findings());
+  check_silent(drive.inspected());
   drive.labelled = false;
-  check_finds(drive.inspected(), "ego-vehicle", "range");
+  check_silent(drive.inspected());
 }

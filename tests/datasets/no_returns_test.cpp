@@ -67,11 +67,11 @@ TEST_CASE("an organised cloud with NaN opens like any other", "[no-returns]") {
 TEST_CASE("in the world frame a no return is at its origin or at the sensor", "[no-returns]") {
   const TemporaryFolder folder;
   // The sensor stands at (100, 0, 2). Point 0 is at the world's origin, 1 at the sensor, 2 is NaN
-  // with an intensity that is no label; 3 to 5 are returns, the third 0.5 m from the world's origin.
-  folder.write("pcd/000000.pcd",
-               organised_pcd("100 0 2 1 0 0 0",
-                             "0 0 0 0\n100 0 2 0\nnan nan nan nan\n"
-                             "110 0 2 1\n100 5 2 0\n0.5 0 0 1\n"));
+  // with an intensity that is no label; 3 to 5 are returns, the third 0.5 m from the world's
+  // origin.
+  folder.write("pcd/000000.pcd", organised_pcd("100 0 2 1 0 0 0",
+                                               "0 0 0 0\n100 0 2 0\nnan nan nan nan\n"
+                                               "110 0 2 1\n100 5 2 0\n0.5 0 0 1\n"));
   folder.write("sequence.json", R"({"labels": {"moving": [1]}})");
   const Sequence sequence = open_sequence(folder.text(), {});
   const Scan scan = sequence.scans->load(0);

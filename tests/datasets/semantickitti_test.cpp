@@ -215,7 +215,8 @@ TEST_CASE("points without coordinates are left out and keep labels in step", "[s
   std::vector<std::uint32_t> labels;
   for (std::uint32_t i = 0; i < 200; ++i) {
     const auto x = static_cast<float>(i);
-    values.insert(values.end(), {i == 3 ? kNan : x, i == 7 || i == 8 ? 1.0F / 0.0F : 1.0F, 0.0F, x});
+    values.insert(values.end(),
+                  {i == 3 ? kNan : x, i == 7 || i == 8 ? 1.0F / 0.0F : 1.0F, 0.0F, x});
     labels.push_back(i);
   }
   folder.write("velodyne/000000.bin", floats(values));
