@@ -248,6 +248,10 @@ double machine_memory_mib() {
   return mib;
 }
 
+double usual_memory_limit_mib() {
+  return 0.9 * machine_memory_mib();
+}
+
 std::string signal_text(int signal) {
   const char* description = ::sigdescr_np(signal);
   return "signal " + std::to_string(signal) + " (" +

@@ -16,8 +16,9 @@ struct ChildLimits {
 
 /// How a child process is started.
 struct ChildSetup {
-  std::vector<std::string> arguments;            ///< After the program's own name.
-  std::vector<std::pair<int, int>> descriptors;  ///< {this process's, the child's (3 and above)}.
+  std::vector<std::string> arguments;  ///< After the program's own name.
+  /// {this process's, the child's}: 3 and above, or 1 and 2 for output that is not to be caught.
+  std::vector<std::pair<int, int>> descriptors;
   ChildLimits limits;
   const std::atomic<bool>* cancel = nullptr;  ///< Set: the child is ended.
 };
@@ -44,6 +45,9 @@ ChildEnd run_child(const ChildSetup& setup);
 
 /// Memory of the machine in MiB, or of the control group if that is less; 0 if it is not told.
 double machine_memory_mib();
+
+/// The memory limit where a user says none: nine tenths of `machine_memory_mib`.
+double usual_memory_limit_mib();
 
 /// "signal 11 (Segmentation fault)".
 std::string signal_text(int signal);

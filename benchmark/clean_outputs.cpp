@@ -11,7 +11,7 @@
 #include "core/part_name.h"
 #include "core/text.h"
 #include "datasets/cloud_file.h"
-#include "datasets/file_source.h"
+#include "datasets/ego/ego_free_source.h"
 
 namespace raymoval {
 namespace {
@@ -75,7 +75,7 @@ void check_paths(const CleanPaths& paths) {
 }
 
 void check_apart_from(const Sequence& sequence, const CleanPaths& paths) {
-  const auto* files = dynamic_cast<const FileScanSource*>(sequence.scans.get());
+  const auto* files = file_source(sequence);
   if (files == nullptr || files->frames().empty()) return;
   const FrameEntry& frame = files->frames().front();
   const fs::path scans = plain(frame.path).parent_path();

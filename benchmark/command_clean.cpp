@@ -1,26 +1,51 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
+#include <optional>
 
 #include "benchmark/cell.h"
+#include "benchmark/child_process.h"
+#include "benchmark/clean_checks.h"
 #include "benchmark/clean_outputs.h"
+#include "benchmark/clean_process.h"
 #include "benchmark/commands.h"
 #include "benchmark/mask_spool.h"
+#include "benchmark/removal_files.h"
 #include "benchmark/suite_flags.h"
 #include "core/local_frame.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/left_out.h"
 #include "datasets/loaded_data.h"
 
 namespace raymoval {
 namespace {
 
 struct CleanFlags {
-  std::string path, output, dynamic, labels, voxel, threads;
+  std::string path, output, dynamic, labels, voxel, threads, memory_limit;
   std::string method = "raymoval_plus:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
   bool overwrite = false;
+  bool force = false;
+  bool in_process = false;
   bool quiet = false;
+};
+
+/// What `--range` keeps of the points of a scan.
+struct RangeCut {
+  std::optional<RangeLimits> kept;
+  std::uint64_t left_out = 0;
+
+  /// `mask` with `kLeftOutMask` for the points beyond.
+  Mask cut(const Scan& scan, Mask mask) {
+    if (!kept) return mask;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if (kept->contains(scan.points[i].cast<double>().norm())) continue;
+      mask[i] = kLeftOutMask;
+      ++left_out;
+    }
+    return mask;
+  }
 };
 
 ConfiguredMethod configured(const CleanFlags& flags) {
@@ -46,13 +71,19 @@ void find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
   masks.check_complete();
 }
 
-void write_outputs(const ScanSource& scans, const MaskSpool& masks, CleanOutputs& outputs,
-                   Progress& progress) {
+void write_outputs(const ScanSource& scans, const MaskSpool& masks, RangeCut& range,
+                   CleanOutputs& outputs, Progress& progress) {
   progress.begin("writing the map", scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (interrupt_flag()) throw Cancelled();
-    outputs.add(scans.load(i), masks.get(i));
+    const Scan scan = scans.load(i);
+    outputs.add(scan, range.cut(scan, masks.get(i)));
     progress.advance();
+  }
+  if (range.left_out == masks.point_count()) {
+    throw DataError("no point lies within --range " + number_text(range.kept->min) + ":" +
+                    number_text(range.kept->max) +
+                    " (metres from the sensor), so nothing was written. Choose another.");
   }
   outputs.commit();
   progress.end();
@@ -85,13 +116,29 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
   return sequence;
 }
 
-ExitCode clean(const CleanFlags& flags, Progress& progress) {
-  const CleanPaths paths = checked_paths(flags);
+/// What was done, a line each.
+std::string summary(const CleanFlags& flags, const ConfiguredMethod& method,
+                    const Sequence& sequence, const MaskSpool& masks, const RangeCut& range,
+                    const CleanOutputs& outputs) {
+  std::string text = method.full_name() + " removed " + grouped_text(masks.removed_count()) +
+                     " of " + counted_text(masks.point_count(), "point") + " in " +
+                     counted_text(sequence.scans->size(), "scan") + "; " + flags.output + " has " +
+                     counted_text(outputs.map_points(), "point") + ".\n";
+  if (range.kept) {
+    text += counted_text(range.left_out, "point") + " beyond --range " + flags.reading.range +
+            " are in no output.\n";
+  }
+  for (const std::string& line : left_out_lines(sequence)) text += line + ".\n";
+  return text;
+}
+
+ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& progress) {
   const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
   const ConfiguredMethod method = configured(flags);
   const Sequence sequence = opened(flags, paths, method, progress);
   const std::string turned = up_line(sequence.up());
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
+  check_data(sequence, flags.path, flags.force, progress);
   progress.set_context(method.full_name() + " on " + sequence.name);
   const MapPrecision precision = map_precision(*sequence.scans);
   CleanOutputs outputs(paths, voxel, precision);
@@ -101,20 +148,27 @@ ExitCode clean(const CleanFlags& flags, Progress& progress) {
   const TimedSource scans(local);
   MaskSpool masks(method.full_name(), scans, paths.map);
   find_removals(flags, method, data.sequence, scans, masks, progress);
-  write_outputs(*data.sequence.scans, masks, outputs, progress);
+  RangeCut range{flags.reading.options().range_m};
+  write_outputs(*data.sequence.scans, masks, range, outputs, progress);
   if (precision.coordinates == Coordinates::kDouble) {
     print("The map lies more than 8 km from the world's origin: its coordinates are float64.\n");
   }
-  print(method.full_name() + " removed " + grouped_text(masks.removed_count()) + " of " +
-        counted_text(masks.point_count(), "point") + " in " + counted_text(scans.size(), "scan") +
-        "; " + flags.output + " has " + counted_text(outputs.map_points(), "point") + ".\n");
+  if (!is_control(method.entry->name)) {
+    check_removed(masks.removed_count(), masks.point_count(), flags.path);
+  }
+  print(summary(flags, method, sequence, masks, range, outputs));
   return ExitCode::kDone;
 }
 
 ExitCode clean(const CleanFlags& flags) {
+  const CleanPaths paths = checked_paths(flags);
+  const double limit = flags.memory_limit.empty()
+                           ? usual_memory_limit_mib()
+                           : parse_positive("--memory-limit", flags.memory_limit);
+  if (!flags.in_process) return clean_apart(paths, limit);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   try {
-    return clean(flags, progress);
+    return clean_here(flags, paths, progress);
   } catch (...) {
     progress.end();  // The message gets a line of its own.
     throw;
@@ -132,7 +186,8 @@ Command add_clean_command(CLI::App& program) {
   app->add_option("-o,--output", flags->output, "Cleaned map in the world frame: .pcd, .ply, .bin")
       ->type_name("FILE");
   app->add_option("--dynamic", flags->dynamic, "What was removed, as a map")->type_name("FILE");
-  app->add_option("--labels", flags->labels, "Folder for a label file per scan (251 = removed)")
+  app->add_option("--labels", flags->labels,
+                  "Folder for a label file per scan (251 = removed, 9 = kept, 0 = left out)")
       ->type_name("DIR");
   app->add_option("--voxel", flags->voxel, "One point per cell of this size")->type_name("METRES");
   app->add_option("--method", flags->method,
@@ -142,8 +197,17 @@ Command add_clean_command(CLI::App& program) {
       ->type_name("SETTING")
       ->allow_extra_args(false);
   flags->reading.add_to(*app);
+  app->get_option("--range")->description(
+      "Metres from the sensor; points beyond are in no output, but the method sees them");
   app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
       ->type_name("N");
+  app->add_option("--memory-limit", flags->memory_limit,
+                  "MiB of memory it may use (default: nine tenths of the machine's)")
+      ->type_name("MIB");
+  app->add_flag("--force", flags->force,
+                "Clean also where the data has mistakes that make the map wrong");
+  app->add_flag("--in-process", flags->in_process,
+                "Stay in one process, for a debugger: without a limit on memory");
   app->add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
   app->add_flag("--quiet", flags->quiet, "No progress");
   app->footer(
@@ -151,6 +215,11 @@ Command add_clean_command(CLI::App& program) {
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 "
       "--method raymoval:online\n"
+      "  raymoval clean data/05 -o near.pcd --range 2:40 --drop-ego auto\n"
+      "The data is looked at first, as `raymoval inspect` does: mistakes that make the map wrong "
+      "are\nrefused (see `raymoval inspect --list`) unless --force is given. Points of the own "
+      "vehicle (--drop-ego)\nand missing returns (NaN or at the origin) are in no output, and 0 "
+      "in label files.\n"
       "Memory does not grow with the number of scans, and every point is kept without --voxel. "
       "Outputs\nappear when all is done; until then they stand in files *.part beside them.");
   return {app, [flags] { return clean(*flags); }};

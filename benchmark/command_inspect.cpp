@@ -22,8 +22,7 @@ const char* severity_name(Severity severity) {
 }
 
 std::string finding_line(const Finding& finding) {
-  return std::string(severity_name(finding.severity)) + " " + finding.check + ": " + finding.where +
-         ": " + finding.what + "; expected " + finding.expected + ". " + finding.remedy + "\n";
+  return std::string(severity_name(finding.severity)) + " " + finding.sentence() + "\n";
 }
 
 std::string report_text(const InspectionReport& report) {
@@ -62,10 +61,22 @@ std::string report_json(const InspectionReport& report) {
   return json.dump(2) + "\n";
 }
 
+const char* consequence_text(Consequence consequence) {
+  switch (consequence) {
+    case Consequence::kRefused:
+      return " (clean refuses it)";
+    case Consequence::kWarned:
+      return " (clean warns)";
+    case Consequence::kUnused:
+      return " (clean does not mind)";
+  }
+  throw InternalError("unknown consequence of a check");
+}
+
 std::string check_list() {
   std::string text;
   for (const InspectionCheck& check : inspection_checks()) {
-    text += check.name + ": " + check.finds + ".\n";
+    text += check.name + ": " + check.finds + "." + consequence_text(check.consequence) + "\n";
     if (!check.remedy.empty()) text += "    " + check.remedy + "\n";
   }
   return text;

@@ -3,6 +3,7 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -18,6 +19,7 @@ namespace raymoval {
 namespace {
 
 const MethodRegistry* known_methods = nullptr;
+std::vector<std::string> given_arguments;
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
@@ -138,6 +140,14 @@ ExitCode run_program(int argc, const char* const* argv) {
   return chosen_command(program, commands).run();
 }
 
+EgoRegion parse_drop_ego(const std::string& text) {
+  try {
+    return parse_ego_region(text);
+  } catch (const UsageError& error) {
+    throw UsageError("--drop-ego " + std::string(error.what()));
+  }
+}
+
 ExitCode tell(const std::string& message, ExitCode code) {
   std::fprintf(stderr, "%s %s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
                message.c_str());
@@ -145,6 +155,10 @@ ExitCode tell(const std::string& message, ExitCode code) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& program_arguments() {
+  return given_arguments;
+}
 
 const MethodRegistry& program_methods() {
   return *known_methods;
@@ -162,21 +176,28 @@ void SequenceFlags::add_to(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--label-rule", label_rule, "JSON file that says which labels move")
       ->type_name("FILE");
-  app.add_option("--range", range, "Metres; points beyond are not evaluated")->type_name("MIN:MAX");
+  app.add_option("--range", range,
+                 "Metres; points beyond are not evaluated, but methods see them (see --drop-ego)")
+      ->type_name("MIN:MAX");
   app.add_option("--sensor", sensor, "Name of a known sensor (see `raymoval list sensors`)")
       ->type_name("NAME");
   app.add_option("--up", up,
                  "Which way is up in the world of the poses: z, -y, or x,y,z (default: told by "
                  "ground and walls)")
       ->type_name("AXIS");
+  app.add_option("--drop-ego", drop_ego,
+                 "Leave out points of the own vehicle, so that no method sees them: auto "
+                 "(estimated), a radius (2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX of the "
+                 "sensor frame")
+      ->type_name("WHERE");
   app.add_option("--name", name, "Name of the sequence in results")->type_name("NAME");
 }
 
 std::string SequenceFlags::first_given() const {
   const std::pair<const char*, const std::string*> all[] = {
-      {"--frames", &frames}, {"--poses", &poses},   {"--label-rule", &label_rule},
-      {"--range", &range},   {"--sensor", &sensor}, {"--up", &up},
-      {"--name", &name}};
+      {"--frames", &frames},     {"--poses", &poses},   {"--label-rule", &label_rule},
+      {"--range", &range},       {"--sensor", &sensor}, {"--up", &up},
+      {"--drop-ego", &drop_ego}, {"--name", &name}};
   for (const auto& [option, text] : all) {
     if (!text->empty()) return option;
   }
@@ -190,6 +211,7 @@ SequenceOptions SequenceFlags::options() const {
   if (!label_rule.empty()) options.label_rule = label_rule;
   if (!sensor.empty()) options.sensor = sensor;
   if (!up.empty()) options.up = up;
+  if (!drop_ego.empty()) options.drop_ego = parse_drop_ego(drop_ego);
   if (!name.empty()) options.name = name;
   if (range.empty()) return options;
   const auto parts = split(range, ':');
@@ -230,6 +252,7 @@ void print(const std::string& text) {
 
 int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods) {
   known_methods = &methods;
+  given_arguments.assign(argv + std::min(argc, 1), argv + argc);
   // A file that outgrows its limit is then an error of writing, told like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   ExitCode code = ExitCode::kInternal;

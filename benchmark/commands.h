@@ -37,12 +37,15 @@ Command add_report_command(CLI::App& program);
 Command add_help_command(CLI::App& program);  ///< `program` has to live as long as the command.
 Command add_completion_command(CLI::App& program);  ///< The same.
 
+/// What the program was started with, without its own name.
+const std::vector<std::string>& program_arguments();
+
 /// The methods that this program knows, see `run_command_line`.
 const MethodRegistry& program_methods();
 
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {
-  std::string frames, poses, label_rule, range, sensor, up, name;
+  std::string frames, poses, label_rule, range, sensor, up, drop_ego, name;
 
   void add_to(CLI::App& app);
   /// @throws UsageError for an ill-formed value

@@ -47,9 +47,10 @@ Mask read_mask(const std::filesystem::path& path, const Scan& scan) {
 }  // namespace
 
 void write_removal(const std::filesystem::path& folder, const Scan& scan, const Mask& mask) {
-  std::vector<std::uint32_t> words(scan.stored_point_count, kKeptLabel);
+  std::vector<std::uint32_t> words(scan.stored_point_count, kLeftOutLabel);
   for (std::size_t point = 0; point < mask.size(); ++point) {
-    if (mask[point] != 0) words[scan.stored_position(point)] = kRemovedLabel;
+    if (mask[point] == kLeftOutMask) continue;
+    words[scan.stored_position(point)] = mask[point] != 0 ? kRemovedLabel : kKeptLabel;
   }
   write_atomically(label_file(folder, scan), {reinterpret_cast<const char*>(words.data()),
                                               words.size() * sizeof(std::uint32_t)});

@@ -27,7 +27,7 @@ Facts cell_identity(const ordered_json& cell) {
   if (!cell.contains("data")) return facts;  // A sequence that could not be read.
   // Frames, poses and sensor are part of the fingerprint; here they tell why it differs.
   for (const char* key :
-       {"fingerprint", "scans", "frames", "poses", "sensor", "range_m", "label_rule"}) {
+       {"fingerprint", "scans", "frames", "poses", "sensor", "range_m", "label_rule", "drop_ego"}) {
     if (cell.at("data").contains(key)) facts[std::string("data ") + key] = cell["data"][key].dump();
   }
   // Results of earlier versions do not say which way is up; they took z.

@@ -21,6 +21,7 @@
 #include "core/file_kind.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/left_out.h"
 
 namespace raymoval {
 namespace {
@@ -31,7 +32,6 @@ using std::filesystem::path;
 // A method that needs more than this for a scan is no use; a short sequence gets time to start.
 constexpr double kSecondsPerScan = 30.0;
 constexpr double kLeastSeconds = 600.0;
-constexpr double kShareOfMemory = 0.9;
 
 /// The sequences' names. Scenes are not generated for it: what is wrong with names shows before.
 std::vector<std::string> sequence_names(const Suite& suite) {
@@ -75,7 +75,7 @@ ChildLimits limits_for(const Suite& suite, std::size_t scans) {
                        ? suite.time_limit_s
                        : std::max(kLeastSeconds, kSecondsPerScan * static_cast<double>(scans));
   limits.memory_mib =
-      suite.memory_limit_mib > 0.0 ? suite.memory_limit_mib : kShareOfMemory * machine_memory_mib();
+      suite.memory_limit_mib > 0.0 ? suite.memory_limit_mib : usual_memory_limit_mib();
   return limits;
 }
 
@@ -229,6 +229,7 @@ class Runner {
     if (options_.progress != nullptr && !turned.empty()) {
       options_.progress->say(bench.sequence().name + ": " + turned);
     }
+    tell_left_out(sequence);
     for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
       run_cell(bench, sequence, method);
     }
@@ -282,6 +283,14 @@ class Runner {
 
   void say(const std::string& line) const {
     if (options_.progress != nullptr) options_.progress->say(line);
+  }
+
+  /// Which points no method sees, once a sequence.
+  void tell_left_out(std::size_t sequence) const {
+    if (options_.progress == nullptr) return;
+    for (const std::string& line : left_out_lines(sequences_[sequence])) {
+      options_.progress->say(sequences_[sequence].name + ": " + line);
+    }
   }
 
   /// What the live line is about.

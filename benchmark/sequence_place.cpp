@@ -32,6 +32,7 @@ ordered_json place_record(const SequenceRequest& place) {
   if (options.label_rule) record["label_rule"] = options.label_rule->string();
   if (options.sensor) record["sensor"] = *options.sensor;
   if (options.up) record["up"] = *options.up;
+  if (options.drop_ego) record["drop_ego"] = ego_region_text(*options.drop_ego);
   if (options.name) record["name"] = *options.name;
   if (options.range_m) {
     record["range_min"] = number_text(options.range_m->min);  // As text: the limit may be infinite.
@@ -51,6 +52,7 @@ SequenceRequest place_from(const ordered_json& record) {
     if (key == "label_rule") options.label_rule = text;
     if (key == "sensor") options.sensor = text;
     if (key == "up") options.up = text;
+    if (key == "drop_ego") options.drop_ego = parse_ego_region(text);
     if (key == "name") options.name = text;
     if (!key.starts_with("range_")) continue;
     if (!options.range_m) options.range_m.emplace();

@@ -7,6 +7,7 @@
 #include "core/file_kind.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "datasets/settings.h"
 #include "datasets/simulated/scene_text.h"
 
 namespace raymoval {
@@ -90,8 +91,10 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
     request.path = sequence_path(item.get<std::string>(), places, where);
     return request;
   }
-  check_keys(item, {"path", "name", "frames", "poses", "label_rule", "range_m", "sensor", "up"},
-             where);
+  check_keys(
+      item,
+      {"path", "name", "frames", "poses", "label_rule", "range_m", "sensor", "up", "drop_ego"},
+      where);
   const auto path = text_of(item, "path", where);
   if (!path) throw ConfigurationError(where + ": 'path' is missing.");
   request.path = sequence_path(*path, places, where);
@@ -105,6 +108,9 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
   }
   if (const auto rule = text_of(item, "label_rule", where)) {
     options.label_rule = located(*rule, places);
+  }
+  if (item.contains("drop_ego")) {
+    options.drop_ego = ego_region_value(item["drop_ego"], where + ".drop_ego");
   }
   if (item.contains("range_m")) options.range_m = range_of(item["range_m"], where + ".range_m");
   return request;

@@ -15,8 +15,13 @@
 namespace raymoval {
 namespace {
 
-/// Share of non-finite points above which a scan is taken for damaged.
-constexpr double kMostNonFinite = 0.01;
+/// Share of infinite coordinates above which a scan is taken for damaged (evaluation protocol, edge
+/// cases). NaN is no damage: drivers write it where nothing came back.
+constexpr double kMostInfinite = 0.01;
+/// No LiDAR measures nearer than this many metres: a point there stands for a missing return.
+constexpr float kAtSensor = 0.05F;
+/// The same at the origin of stored points in the world frame, where the sensor hardly ever stands.
+constexpr float kAtZero = 1e-3F;
 
 const FrameEntry& frame_of(const std::vector<FrameEntry>& frames, std::size_t index) {
   if (index >= frames.size()) {
@@ -26,49 +31,81 @@ const FrameEntry& frame_of(const std::vector<FrameEntry>& frames, std::size_t in
   return frames[index];
 }
 
-/// Fills points, reflectance and stored_index with the finite points of `cloud`.
-void keep_finite(Cloud&& cloud, Scan& scan) {
-  scan.stored_point_count = cloud.points.size();
-  const auto finite = [](const Eigen::Vector3f& point) { return point.allFinite(); };
-  if (std::all_of(cloud.points.begin(), cloud.points.end(), finite)) {
-    scan.points = std::move(cloud.points);
-    scan.reflectance = std::move(cloud.intensity);
-    return;
-  }
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!finite(cloud.points[i])) continue;
-    scan.points.push_back(cloud.points[i]);
-    if (!cloud.intensity.empty()) scan.reflectance.push_back(cloud.intensity[i]);
-    scan.stored_index.push_back(static_cast<std::uint32_t>(i));
-  }
+/// What a stored point is.
+enum class PointKind { kReturn, kNoReturn, kInfinite };
+
+PointKind kind_of(const Eigen::Vector3f& stored, float nearest) {
+  if (stored.hasNaN()) return PointKind::kNoReturn;
+  if (!stored.allFinite()) return PointKind::kInfinite;
+  return stored.squaredNorm() < nearest * nearest ? PointKind::kNoReturn : PointKind::kReturn;
 }
 
-void check_counts(const Scan& scan, const std::filesystem::path& path) {
+struct KindCounts {
+  std::size_t stored = 0, no_returns = 0, infinite = 0;
+  [[nodiscard]] std::size_t returns() const { return stored - no_returns - infinite; }
+};
+
+void check_kinds(const KindCounts& counts, const std::filesystem::path& path) {
   const std::string remedy = " Copy it again, or leave it out with --frames.";
-  if (scan.stored_point_count == 0) {
+  if (counts.stored == 0) {
     throw DataError(path.string() + ": holds no point; a scan has at least one." + remedy);
   }
-  const double share =
-      static_cast<double>(scan.non_finite_count()) / static_cast<double>(scan.stored_point_count);
-  if (share > kMostNonFinite) {
-    throw DataError(path.string() + ": " + grouped_text(scan.non_finite_count()) + " of " +
-                    grouped_text(scan.stored_point_count) +
-                    " points are not finite (nan or inf), more than 1 %; the file looks damaged." +
+  const double infinite = static_cast<double>(counts.infinite) / static_cast<double>(counts.stored);
+  if (infinite > kMostInfinite) {
+    throw DataError(path.string() + ": " + grouped_text(counts.infinite) + " of " +
+                    grouped_text(counts.stored) +
+                    " points are infinite, more than 1 %; the file looks damaged. Where nothing "
+                    "came back write NaN." +
+                    remedy);
+  }
+  if (counts.returns() == 0) {
+    throw DataError(path.string() + ": none of its " + grouped_text(counts.stored) +
+                    " points is a return (all are NaN or at the origin); a scan has at least one." +
                     remedy);
   }
 }
 
-/// Label words of the points that were kept.
-std::vector<std::uint32_t> of_kept_points(const Scan& scan,
-                                          const std::vector<std::uint32_t>& stored) {
+/// Fills points, reflectance and stored_index with the returns among the points of `cloud`.
+/// @param nearest what is stored nearer to the origin is no return, metres
+KindCounts keep_returns(Cloud&& cloud, float nearest, Scan& scan) {
+  KindCounts counts;
+  counts.stored = scan.stored_point_count = cloud.points.size();
+  for (const Eigen::Vector3f& point : cloud.points) {
+    const PointKind kind = kind_of(point, nearest);
+    counts.no_returns += kind == PointKind::kNoReturn ? 1 : 0;
+    counts.infinite += kind == PointKind::kInfinite ? 1 : 0;
+  }
+  if (counts.returns() == counts.stored) {
+    scan.points = std::move(cloud.points);
+    scan.reflectance = std::move(cloud.intensity);
+    return counts;
+  }
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (kind_of(cloud.points[i], nearest) != PointKind::kReturn) continue;
+    scan.points.push_back(cloud.points[i]);
+    if (!cloud.intensity.empty()) scan.reflectance.push_back(cloud.intensity[i]);
+    scan.stored_index.push_back(static_cast<std::uint32_t>(i));
+  }
+  return counts;
+}
+
+/// Takes the returns among `points` from the world to the sensor; others stay as they are stored.
+void bring_to_sensor(const Pose& T_sensor_world, std::vector<Eigen::Vector3f>& points) {
+  for (Eigen::Vector3f& point : points) {
+    if (kind_of(point, kAtZero) != PointKind::kReturn) continue;
+    point = (T_sensor_world * point.cast<double>()).cast<float>();
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> of_kept_points(const Scan& scan, std::vector<std::uint32_t> stored) {
   if (scan.stored_index.empty()) return stored;
   std::vector<std::uint32_t> words;
   words.reserve(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) words.push_back(stored[scan.stored_position(i)]);
   return words;
 }
-
-}  // namespace
 
 SensorChoice::SensorChoice(const std::optional<std::string>& name) {
   if (name && *name != "estimated") model_ = sensor_model_named(*name);
@@ -104,14 +141,10 @@ Scan FileScanSource::load(std::size_t index) const {
   }
   Cloud cloud = read_cloud(frame.path, origin);
   if (!traits_.has_reflectance) cloud.intensity.clear();
-  if (in_world) {
-    const Pose T_sensor_world = T_world_sensor.inverse();
-    for (Eigen::Vector3f& point : cloud.points) {
-      point = (T_sensor_world * point.cast<double>()).cast<float>();
-    }
-  }
-  keep_finite(std::move(cloud), scan);
-  check_counts(scan, frame.path);
+  if (in_world) bring_to_sensor(T_world_sensor.inverse(), cloud.points);
+  const KindCounts counts = keep_returns(std::move(cloud), kAtSensor, scan);
+  check_kinds(counts, frame.path);
+  tally_.set(index, counts.stored, counts.no_returns);
   return scan;
 }
 
@@ -136,7 +169,7 @@ std::vector<std::uint32_t> LabelFileSource::labels(const Scan& scan) const {
   }
   std::vector<std::uint32_t> stored(scan.stored_point_count);
   if (!bytes.empty()) std::memcpy(stored.data(), bytes.data(), bytes.size());
-  return of_kept_points(scan, stored);
+  return of_kept_points(scan, std::move(stored));
 }
 
 std::vector<std::uint32_t> IntensityLabelSource::labels(const Scan& scan) const {
@@ -149,18 +182,20 @@ std::vector<std::uint32_t> IntensityLabelSource::labels(const Scan& scan) const 
                     " points; a label rule was given, so each point's intensity has to be its "
                     "label.");
   }
-  std::vector<std::uint32_t> stored;
-  stored.reserve(cloud.intensity.size());
-  for (const float value : cloud.intensity) {
+  std::vector<std::uint32_t> words;
+  words.reserve(scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const std::size_t position = scan.stored_position(i);
+    const float value = cloud.intensity[position];
     if (!(value >= 0.0F && value < kExactLimit) || value != std::floor(value)) {
-      throw DataError(frame.path.string() + ": point " + grouped_text(stored.size()) +
+      throw DataError(frame.path.string() + ": point " + grouped_text(position) +
                       " has intensity " + number_text(static_cast<double>(value)) +
                       ", which is no label (a whole number from 0 to 16,777,215). If intensity is "
                       "the strength of the return here, leave the label rule out.");
     }
-    stored.push_back(static_cast<std::uint32_t>(value));
+    words.push_back(static_cast<std::uint32_t>(value));
   }
-  return of_kept_points(scan, stored);
+  return words;
 }
 
 bool find_label_files(const std::filesystem::path& folder, std::vector<FrameEntry>& frames) {

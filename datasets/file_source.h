@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/scan_source.h"
+#include "datasets/left_out.h"
 
 namespace raymoval {
 
@@ -37,9 +38,11 @@ class SensorChoice {
   mutable std::optional<SensorModel> model_;
 };
 
-/// Scans in files of their own (.bin, .pcd, .ply). Non-finite points are dropped and counted.
+/// Scans in files of their own (.bin, .pcd, .ply). Points that stand for a missing return (a NaN
+/// coordinate, or within 5 cm of the sensor; in the world frame also at its origin) and infinite
+/// ones are left out; `tally` counts the former.
 ///
-/// `load` throws DataError for a file without points and for one with more than 1 % non-finite
+/// `load` throws DataError for a file without any return and for one with more than 1 % infinite
 /// points (evaluation protocol, edge cases).
 class FileScanSource : public ScanSource {
  public:
@@ -50,19 +53,25 @@ class FileScanSource : public ScanSource {
   };
   FileScanSource(std::vector<FrameEntry> frames, Traits traits,
                  const std::optional<std::string>& sensor)
-      : frames_(std::move(frames)), traits_(traits), sensor_(sensor) {}
+      : frames_(std::move(frames)), traits_(traits), sensor_(sensor), tally_(frames_.size()) {}
 
   [[nodiscard]] std::size_t size() const override { return frames_.size(); }
   [[nodiscard]] Scan load(std::size_t index) const override;
   [[nodiscard]] Pose pose(std::size_t index) const override;
   [[nodiscard]] const SensorModel& sensor() const override;
   [[nodiscard]] const std::vector<FrameEntry>& frames() const { return frames_; }
+  /// Missing returns of the scans read so far.
+  [[nodiscard]] const LeftOutTally& tally() const { return tally_; }
 
  private:
   std::vector<FrameEntry> frames_;
   Traits traits_;
   SensorChoice sensor_;
+  LeftOutTally tally_;
 };
+
+/// Of `stored`, a word for each stored point of `scan`, those of the points that it has.
+std::vector<std::uint32_t> of_kept_points(const Scan& scan, std::vector<std::uint32_t> stored);
 
 /// SemanticKITTI label files: one uint32 a stored point, in the order of the scan file.
 class LabelFileSource : public LabelSource {
@@ -78,8 +87,8 @@ class LabelFileSource : public LabelSource {
 class IntensityLabelSource : public LabelSource {
  public:
   explicit IntensityLabelSource(std::vector<FrameEntry> frames) : frames_(std::move(frames)) {}
-  /// @throws DataError if an intensity is no whole number from 0 to 2^24 - 1 (what float32 holds
-  ///   exactly)
+  /// @throws DataError if the intensity of a point of `scan` is no whole number from 0 to 2^24 - 1
+  ///   (what float32 holds exactly)
   [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override;
 
  private:

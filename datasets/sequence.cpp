@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "datasets/cloud_file.h"
 #include "datasets/dynamicmap/dynamicmap.h"
+#include "datasets/ego/ego_free_source.h"
 #include "datasets/files/files.h"
 #include "datasets/frames.h"
 #include "datasets/semantickitti/semantickitti.h"
@@ -127,13 +128,20 @@ nlohmann::ordered_json Sequence::record() const {
   if (scan_period_s) record["scan_period_s"] = *scan_period_s;
   record["range_m"] = {{"min", range_m.min}, {"max", nullptr}};
   if (range_m.max < RangeLimits{}.max) record["range_m"]["max"] = range_m.max;
+  if (const EgoFreeSource* without_ego = ego_free_source(*this)) {
+    record["drop_ego"] = {{"asked", ego_region_text(without_ego->asked())},
+                          {"left_out", ego_region_text(without_ego->region())}};
+  }
   record["label_rule"] = nullptr;
   if (labels) record["label_rule"] = to_json(label_rule);
   return record;
 }
 
-Sequence open_sequence(const std::string& path, const SequenceOptions& options,
-                       const OpenContext& context) {
+namespace {
+
+/// The sequence with all that its scans hold.
+Sequence open_whole(const std::string& path, const SequenceOptions& options,
+                    const OpenContext& context) {
   if (path == "street") return open_street(options);
   if (names_scene(path)) return open_scene(path, options, context);
   if (is_folder(path)) return open_folder(path, options);
@@ -155,6 +163,18 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
     throw DataError(root + ": no such folder." + scene_suggestion(root) + " " + kKnownLayouts);
   }
   return open_semantickitti_root(root, path.substr(colon + 1), options);
+}
+
+}  // namespace
+
+Sequence open_sequence(const std::string& path, const SequenceOptions& options,
+                       const OpenContext& context) {
+  Sequence sequence = open_whole(path, options, context);
+  if (sequence.drop_ego.kind != EgoRegion::Kind::kNone) {
+    sequence.scans = std::make_shared<EgoFreeSource>(sequence.scans, sequence.drop_ego);
+  }
+  sequence.opened = sequence.scans;
+  return sequence;
 }
 
 std::string sequence_name(const std::string& path, const SequenceOptions& options) {

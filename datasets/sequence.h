@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/range_limits.h"
 #include "core/scan_source.h"
+#include "datasets/ego/ego_region.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
@@ -36,8 +37,9 @@ struct SequenceOptions {
   std::optional<std::string> poses;                 ///< Pose file, a name in the folder or a path.
   std::optional<std::filesystem::path> label_rule;  ///< JSON file.
   std::optional<RangeLimits> range_m;
-  std::optional<std::string> sensor;  ///< Name of a known sensor, or "estimated".
+  std::optional<std::string> sensor;  ///< Name of a known sensor, or "estimated" or "" for none.
   std::optional<std::string> up;      ///< Which way is up in the world, see `parse_up`.
+  std::optional<EgoRegion> drop_ego;  ///< Points of the own vehicle that are left out.
   std::optional<std::string> name;    ///< Name in results.
 };
 
@@ -46,9 +48,12 @@ struct Sequence {
   std::string name;
   std::string layout;  ///< "semantickitti", "dynamicmap", "files", "simulated".
   std::shared_ptr<const ScanSource> scans;
+  /// The scans as they were opened, where `scans` may be something that passes them on.
+  std::shared_ptr<const ScanSource> opened = nullptr;
   std::shared_ptr<const LabelSource> labels;  ///< Null if the data has none.
   LabelRule label_rule;
   RangeLimits range_m;
+  EgoRegion drop_ego;      ///< As asked for; `scans` leave it out (see `EgoFreeSource`).
   std::string frames;      ///< Range as used, "2350:2670:2".
   std::string poses_file;  ///< Name of the pose file, without a path.
   std::string source;      ///< Free text on origin and licence.
@@ -67,7 +72,7 @@ struct Sequence {
   /// The turn of the world that brings up to z, about its origin. @throws DataError as `up`
   [[nodiscard]] Pose upright_frame() const;
   /// Path-free record for results: name, layout, frames, poses, sensor, up, label
-  /// rule, range.
+  /// rule, range, and the region that is left out if there is one.
   [[nodiscard]] nlohmann::ordered_json record() const;
 };
 

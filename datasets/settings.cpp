@@ -50,18 +50,29 @@ RangeLimits range_value(const json& value, const std::string& where) {
   return range;
 }
 
+/// A name of a sensor; an empty one says that none is named.
+std::optional<std::string> sensor_value(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  return name;
+}
+
 void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
   const std::string where = path.string();
   const json file = read_json(path);
   check_keys(file,
              {"name", "source", "sensor", "up", "scan_period_s", "poses", "poses_are_lidar",
-              "range_m", "labels"},
+              "range_m", "labels", "drop_ego"},
              where);
   const auto at = [&where](const char* key) { return where + ": " + key; };
   if (file.contains("name")) settings.name = text_value(file["name"], at("name"));
   if (file.contains("source")) settings.source = text_value(file["source"], at("source"));
-  if (file.contains("sensor")) settings.sensor = text_value(file["sensor"], at("sensor"));
+  if (file.contains("sensor")) {
+    settings.sensor = sensor_value(text_value(file["sensor"], at("sensor")));
+  }
   if (file.contains("up")) settings.up = up_value(file["up"], at("up"));
+  if (file.contains("drop_ego")) {
+    settings.drop_ego = ego_region_value(file["drop_ego"], at("drop_ego"));
+  }
   if (file.contains("poses")) settings.poses = text_value(file["poses"], at("poses"));
   if (file.contains("scan_period_s")) {
     settings.scan_period_s = positive_value(file["scan_period_s"], at("scan_period_s"), false);
@@ -121,11 +132,21 @@ std::string folder_name(const std::filesystem::path& folder) {
 
 }  // namespace
 
+EgoRegion ego_region_value(const json& value, const std::string& where) {
+  try {
+    if (value.is_number()) return parse_ego_region(number_text(value.get<double>()));
+    return parse_ego_region(text_value(value, where));
+  } catch (const UsageError& error) {
+    throw ConfigurationError(where + ": " + error.what());
+  }
+}
+
 SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings settings) {
   if (options.frames) settings.frames = *options.frames;
   if (options.poses) settings.poses = options.poses;
   if (options.range_m) settings.range_m = *options.range_m;
-  if (options.sensor) settings.sensor = options.sensor;
+  if (options.sensor) settings.sensor = sensor_value(*options.sensor);
+  if (options.drop_ego) settings.drop_ego = *options.drop_ego;
   if (options.name) settings.name = *options.name;
   if (options.up) {
     settings.up = parse_up(*options.up);
@@ -159,6 +180,7 @@ Sequence make_sequence(const SequenceSettings& settings, const std::string& layo
   sequence.layout = layout;
   sequence.label_rule = settings.label_rule;
   sequence.range_m = settings.range_m;
+  sequence.drop_ego = settings.drop_ego;
   sequence.frames = frame_range_text(range);
   sequence.source = settings.source;
   sequence.scan_period_s = settings.scan_period_s;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,7 @@ struct SequenceSettings {
   bool poses_are_lidar = false;      ///< Poses need no calibration.
   std::optional<std::string> sensor;
   std::optional<Eigen::Vector3d> up;  ///< Unit vector of the world frame.
+  EgoRegion drop_ego;
   std::optional<double> scan_period_s;
   RangeLimits range_m;
   LabelRule label_rule;
@@ -25,12 +27,16 @@ struct SequenceSettings {
 };
 
 /// Reads `folder`/sequence.json if there is one and lays `options` over it. Its keys, all optional:
-/// name, source, sensor (a known sensor or "estimated"), up, scan_period_s, poses, poses_are_lidar,
-/// range_m {min, max}, labels {name, moving, ignored}.
+/// name, source, sensor (a known sensor, or "estimated" or "" for none), up, drop_ego (as
+/// `parse_ego_region`, or a number of metres), scan_period_s, poses, poses_are_lidar, range_m {min,
+/// max}, labels {name, moving, ignored}.
 /// @param defaults what holds where neither says anything; a `name` in it stands above the file's
 /// @throws ConfigurationError for an unknown key (with the nearest known one) or an illegal value
 SequenceSettings read_settings(const std::filesystem::path& folder, const SequenceOptions& options,
                                const SequenceSettings& defaults);
+
+/// "drop_ego" of a sequence.json or a suite. @throws ConfigurationError saying what the forms are
+EgoRegion ego_region_value(const nlohmann::json& value, const std::string& where);
 
 /// Lays `options` over `defaults` for a sequence without a folder.
 SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings settings);

@@ -255,18 +255,19 @@ std::vector<Check> label_checks() {
   return {
       {"labels-shifted", "labels belong to the scan before or after",
        "labels/N.label with the labels of scan N", "Rename the label files by one frame.",
-       look_for_shift},
+       look_for_shift, Consequence::kUnused},
       {"label-count", "a scan has more or fewer labels than points",
        "one label for each stored point",
        "Copy scan and labels again from one source, or leave the frame out with --frames.",
-       look_for_counts},
+       look_for_counts, Consequence::kUnused},
       {"labels-in-intensity-by-value", "labels stand in the intensity of the points",
-       "the strength of the return", "Write the labels to labels/NAME.label.", look_for_values},
+       "the strength of the return", "Write the labels to labels/NAME.label.", look_for_values,
+       Consequence::kUnused},
       {"labels-in-intensity-by-bits", "bits of labels stand in the intensity of the points",
        "the strength of the return, or labels by value",
        "Reinterpret the bits as uint32 and write them to labels/NAME.label, or store the value "
        "(252.0) and give a label rule.",
-       look_for_bits},
+       look_for_bits, Consequence::kUnused},
   };
 }
 

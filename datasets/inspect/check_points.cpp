@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "datasets/inspect/checks.h"
 #include "datasets/inspect/pose_fit.h"
+#include "datasets/left_out.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -24,31 +25,91 @@ std::vector<Finding> look_for_millimetres(Samples& samples) {
   return {finding};
 }
 
-/// Files write a missing return as a point at the sensor, in the world frame also as one at zero.
-std::vector<Finding> look_for_origin(Samples& samples) {
-  constexpr double kAtSensor = 0.05, kAtZero = 1e-3;
-  std::size_t points = 0, scans = 0, first = 0;
-  for (const auto& [index, scan] : samples.scans()) {
-    std::size_t here = 0;
-    for (const Eigen::Vector3f& point : scan.points) {
-      const Eigen::Vector3d p = point.cast<double>();
-      const bool at_zero = samples.stored_in_world() && (scan.T_world_sensor * p).norm() < kAtZero;
-      if (p.norm() < kAtSensor || at_zero) ++here;
-    }
-    if (here > 0 && scans++ == 0) first = index;
-    points += here;
+/// True of most drivers' files, and nothing has to be done: readers leave such points out.
+std::vector<Finding> look_for_no_returns(Samples& samples) {
+  const LeftOutPoints points = left_out_points(samples.sequence());
+  std::vector<Finding> findings;
+  for (const std::string& line : left_out_lines(samples.sequence())) {
+    findings.emplace_back();
+    findings.back().severity = Severity::kNote;
+    findings.back().where = "points of the scans read";
+    findings.back().what = line;
   }
-  if (points == 0) return {};
+  if (points.no_returns > 0) {
+    samples.measures.emplace_back("share_of_no_returns", static_cast<double>(points.no_returns) /
+                                                             static_cast<double>(points.stored));
+  }
+  return findings;
+}
+
+/// How much a scan holds: of files their bytes, else points.
+struct ScanSize {
+  std::size_t scan = 0;
+  double size = 0.0;
+};
+
+std::vector<ScanSize> scan_sizes(const Samples& samples) {
+  std::vector<ScanSize> sizes;
+  for (std::size_t i = 0; i < samples.files().size(); ++i) {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(samples.files()[i].path, error);
+    if (!error) sizes.push_back({i, static_cast<double>(bytes)});
+  }
+  if (!sizes.empty()) return sizes;
+  for (const auto& [index, scan] : samples.scans()) {
+    sizes.push_back({index, static_cast<double>(scan.stored_point_count)});
+  }
+  return sizes;
+}
+
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Middle size of up to three scans before and three after.
+double size_around(const std::vector<ScanSize>& sizes, std::size_t at) {
+  constexpr std::size_t kAround = 3;
+  std::vector<double> around;
+  const std::size_t first = at < kAround ? 0 : at - kAround;
+  for (std::size_t i = first; i <= at + kAround && i < sizes.size(); ++i) {
+    if (i != at) around.push_back(sizes[i].size);
+  }
+  return middle_of(std::move(around));
+}
+
+/// A file that was cut at a whole point reads well, but is smaller than those around it by far more
+/// than these differ among each other.
+std::vector<Finding> look_for_few_points(Samples& samples) {
+  constexpr double kLeastLoss = 0.2, kUsualLosses = 10.0, kMostLoss = 0.7;
+  constexpr std::size_t kFewest = 4;
+  const std::vector<ScanSize> sizes = scan_sizes(samples);
+  if (sizes.size() < kFewest) return {};
+  std::vector<double> shares, losses;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    shares.push_back(sizes[i].size / std::max(1.0, size_around(sizes, i)));
+    losses.push_back(std::abs(1.0 - shares.back()));
+  }
+  const double loss = std::clamp(kUsualLosses * middle_of(losses), kLeastLoss, kMostLoss);
+  std::vector<std::size_t> small;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (shares[i] < 1.0 - loss) small.push_back(i);
+  }
+  if (small.empty()) return {};
+  const std::size_t at = small.front();
+  const std::string unit = samples.files().empty() ? " points" : " bytes";
   Finding finding;
-  finding.where = samples.scan_name(first);
-  finding.what = grouped_text(points) + " points in " + grouped_text(scans) + " of " +
-                 grouped_text(samples.scans().size()) +
-                 " scans lie at the origin, where the sensor itself is";
+  finding.where = samples.scan_name(sizes[at].scan);
+  finding.what =
+      "holds " + grouped_text(static_cast<std::uint64_t>(sizes[at].size)) + unit + ", " +
+      fixed_text(100.0 * shares[at], 0) + " % of what the scans around it hold; it looks cut off" +
+      (small.size() > 1 ? ", and so do " + grouped_text(small.size() - 1) + " more" : "");
   return {finding};
 }
 
 /// 16 KiB out of the middle of a file: enough to tell scans apart.
-std::string middle_of(const std::filesystem::path& path, std::uintmax_t size) {
+std::string middle_piece(const std::filesystem::path& path, std::uintmax_t size) {
   constexpr std::uintmax_t kPiece = 16384;
   const std::uintmax_t piece = std::min(size, kPiece);
   return read_piece(path, (size - piece) / 2, static_cast<std::size_t>(piece));
@@ -68,7 +129,7 @@ std::vector<ScanPair> equal_files(const std::vector<FrameEntry>& files) {
     if (group.size() < 2) continue;
     std::map<std::string, std::size_t> seen;
     for (const std::size_t i : group) {
-      const auto [first, is_new] = seen.emplace(content_hash(middle_of(files[i].path, size)), i);
+      const auto [first, is_new] = seen.emplace(content_hash(middle_piece(files[i].path, size)), i);
       if (is_new) continue;
       const bool sure = pairs.size() >= kCompared;
       if (sure || read_bytes(files[first->second].path) == read_bytes(files[i].path)) {
@@ -159,10 +220,15 @@ std::vector<Finding> look_for_truncation(Samples& samples) {
 std::vector<Check> point_checks() {
   return {
       {"points-in-millimetres", "points are millimetres", "metres",
-       "Multiply the coordinates by 0.001.", look_for_millimetres},
-      {"point-at-origin", "points at the origin stand for missing returns",
-       "no point where there was no return",
-       "Leave such points (and their labels) out, or write them as NaN.", look_for_origin},
+       "Multiply the coordinates by 0.001.", look_for_millimetres, Consequence::kRefused},
+      {"left-out",
+       "points are no returns (NaN or at the origin), or of the own vehicle (--drop-ego), and no "
+       "method sees them",
+       "returns of what is around the sensor",
+       "Nothing: labels and masks keep the places of all stored points.", look_for_no_returns},
+      {"few-points", "a scan has far fewer points than those around it",
+       "as many points as in the scans before and after",
+       "Copy the scan again with its labels, or leave it out with --frames.", look_for_few_points},
       {"duplicated-scans", "a scan is there twice", "each scan once",
        "Remove the copy with its pose and labels, or leave it out with --frames.",
        look_for_duplicates},

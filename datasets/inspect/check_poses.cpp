@@ -19,7 +19,7 @@ Check verdict_check(const std::string& name, const std::string& finds, const std
     }
     return findings;
   };
-  return {name, finds, expected, remedy, look};
+  return {name, finds, expected, remedy, look, Consequence::kRefused};
 }
 
 /// Points right below `centre`, where a sensor's own blind zone is.
@@ -106,7 +106,8 @@ std::vector<Check> pose_checks() {
                     "beside a pose file, where points stay in the sensor frame."),
       {"sensor-elsewhere", "the sensor does not stand where VIEWPOINT says",
        "VIEWPOINT = tx ty tz qw qx qy qz, the pose of the sensor",
-       "Write the pose of the sensor at each scan into its VIEWPOINT.", look_for_sensor},
+       "Write the pose of the sensor at each scan into its VIEWPOINT.", look_for_sensor,
+       Consequence::kRefused},
       verdict_check("points-in-world", "points stand in the world frame though there are poses",
                     "points in the frame of the sensor",
                     "Take the points back to the sensor with the inverse of each pose, or use the "

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/inspect/finding.h"
 #include "datasets/inspect/samples.h"
 
 namespace raymoval::inspection {
@@ -18,6 +19,7 @@ struct Check {
   /// Findings with at least `what` filled in; `where`, `expected` and `remedy` default to the
   /// pose source and frames, and to the texts above.
   std::function<std::vector<Finding>(Samples&)> look;
+  Consequence consequence = Consequence::kWarned;
 };
 
 /// All checks, in the order in which they are run and reported.
@@ -28,7 +30,7 @@ std::vector<Check> pose_checks();
 std::vector<Check> point_checks();
 std::vector<Check> label_checks();
 std::vector<Check> time_checks();
-std::vector<Check> sensor_checks();
+std::vector<Check> ego_checks();
 std::vector<Check> sensor_model_checks();
 std::vector<Check> skew_checks();
 std::vector<Check> world_checks();

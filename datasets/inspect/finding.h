@@ -12,14 +12,27 @@ enum class Severity {
   kFinding,  ///< Results would be wrong or misleading.
 };
 
+/// What `raymoval clean` does about a finding (never about a note).
+enum class Consequence {
+  kRefused,  ///< The map would be wrong: refused, unless the user insists.
+  kWarned,   ///< The map may be worse than it could be: said.
+  kUnused,   ///< About labels, which cleaning does not use.
+};
+
 /// Something that an inspection found.
 struct Finding {
   std::string check;  ///< Name in the table of checks, such as "poses-inverted".
   Severity severity = Severity::kFinding;
-  std::string where;     ///< File and frames.
-  std::string what;      ///< What was found, with numbers.
-  std::string expected;  ///< What good data has there.
-  std::string remedy;    ///< What to do.
+  std::string where;                               ///< File and frames.
+  std::string what;                                ///< What was found, with numbers.
+  std::string expected;                            ///< What good data has there.
+  std::string remedy;                              ///< What to do.
+  Consequence consequence = Consequence::kWarned;  ///< That of its check.
+
+  /// "poses-inverted: poses.txt, ...: the scans agree to ...; expected .... Invert each pose."
+  [[nodiscard]] std::string sentence() const {
+    return check + ": " + where + ": " + what + "; expected " + expected + ". " + remedy;
+  }
 };
 
 /// All that an inspection says.

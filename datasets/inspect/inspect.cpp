@@ -15,9 +15,8 @@ namespace inspection {
 const std::vector<Check>& all_checks() {
   static const std::vector<Check> checks = [] {
     std::vector<Check> all;
-    for (const auto& part :
-         {point_checks(), pose_checks(), time_checks(), label_checks(), sensor_checks(),
-          sensor_model_checks(), skew_checks(), world_checks()}) {
+    for (const auto& part : {point_checks(), pose_checks(), time_checks(), label_checks(),
+                             ego_checks(), sensor_model_checks(), skew_checks(), world_checks()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
@@ -32,6 +31,7 @@ Finding completed(Finding finding, const Check& check, const Samples& samples) {
   if (finding.check.empty()) finding.check = check.name;
   if (finding.expected.empty()) finding.expected = check.expected;
   if (finding.remedy.empty()) finding.remedy = check.remedy;
+  finding.consequence = check.consequence;
   if (finding.where.empty()) finding.where = samples.pose_source() + ", " + samples.all_frames();
   return finding;
 }
@@ -69,7 +69,7 @@ InspectionReport inspect_path(const std::string& path, const SequenceOptions& op
 std::vector<InspectionCheck> inspection_checks() {
   std::vector<InspectionCheck> list;
   for (const inspection::Check& check : inspection::all_checks()) {
-    list.push_back({check.name, check.finds, check.remedy});
+    list.push_back({check.name, check.finds, check.remedy, check.consequence});
   }
   return list;
 }

@@ -21,9 +21,10 @@ InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* canc
 InspectionReport inspect_path(const std::string& path, const SequenceOptions& options,
                               const OpenContext& context = {});
 
-/// What `inspect` looks for: name, what it finds, remedy.
+/// What `inspect` looks for: name, what it finds, remedy, what cleaning does about it.
 struct InspectionCheck {
   std::string name, finds, remedy;
+  Consequence consequence;
 };
 std::vector<InspectionCheck> inspection_checks();
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/ego/ego_free_source.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kMillimetre = 0.001;
 }  // namespace
 
 Samples::Samples(const Sequence& sequence, const std::atomic<bool>* cancel) : sequence_(sequence) {
-  if (const auto* files = dynamic_cast<const FileScanSource*>(sequence.scans.get())) {
+  if (const FileScanSource* files = file_source(sequence)) {
     files_ = files->frames();
   }
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {

@@ -176,10 +176,10 @@ class StreetLabels : public LabelSource {
   [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override {
     std::vector<std::uint32_t> words;
     for (const Return& hit : scene_->cast(frames_.at(scan.index))) words.push_back(hit.label);
-    if (words.size() != scan.size()) {
+    if (words.size() != scan.stored_point_count) {
       throw InternalError("scan " + scan.name + " is not one of this street");
     }
-    return words;
+    return of_kept_points(scan, std::move(words));
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -114,7 +115,7 @@ nlohmann::ordered_json moves_of(const SimulatedSequence& sequence, std::size_t m
   for (std::size_t i = 0; i < states.size(); ++i) {
     const MoverTruth& truth = states[i][mover];
     const std::string state =
-        !truth.present ? "away" : (truth.speed_mps > 0.01 ? "moves" : "stands");
+        !truth.present ? "away" : (std::abs(truth.speed_mps) > 0.01 ? "moves" : "stands");
     if (state == last) continue;
     last = state;
     const Eigen::Vector3d at = truth.T_world_mover.translation();

@@ -33,9 +33,10 @@ TEST_CASE("Removals are written per point of the file and read back per point of
   const test::TwoScans scans;
   const test::TemporaryFolder folder;
   write_removals(folder.path() / "deep", scans, two_masks(), [] {});
-  // The scan's points stand at positions 0, 2 and 4 of the file; the last two are removed.
+  // The scan's points stand at positions 0, 2 and 4 of the file; the last two are removed, and
+  // what it leaves out is neither kept nor removed.
   CHECK(words_of(folder.path() / "deep/000007.label") ==
-        std::vector<std::uint32_t>{9, 9, 251, 9, 251});
+        std::vector<std::uint32_t>{9, 0, 251, 0, 251});
   CHECK(words_of(folder.path() / "deep/000008.label") == std::vector<std::uint32_t>{251});
 
   const MaskStore back = read_removals(folder.path() / "deep", scans, [] {});

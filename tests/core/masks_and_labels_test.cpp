@@ -102,7 +102,7 @@ TEST_CASE("A scan knows where its points stand in its file") {
   Scan scan;
   scan.points.resize(2);
   scan.stored_point_count = 5;
-  CHECK(scan.non_finite_count() == 3);
+  CHECK(scan.left_out_count() == 3);
   CHECK(scan.stored_position(1) == 1);
   scan.stored_index = {0, 4};
   CHECK(scan.stored_position(1) == 4);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Defects of files. Scans are those of a simulated drive, written in each layout.
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -187,6 +188,36 @@ TEST_CASE("a gap between frames is named, and so is a time that stands", "[inspe
   SequenceOptions options;  // Chosen frames have no gap where their stride is even.
   options.frames = parse_frame_range("6:11");
   check_silent(inspect_path(drive, options));
+}
+
+TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect]") {
+  const TemporaryFolder folder;
+  write_simulated(suburb("vlp16", 12), folder / "drive", 2, nullptr);
+  fs::remove_all(folder / "drive/labels");
+  const auto path = folder / "drive/velodyne/000010.bin";
+  fs::resize_file(path, fs::file_size(path) / 32 * 16);
+  const InspectionReport report = inspect_path((folder / "drive").string(), {});
+  check_finds(report, "few-points", "--frames");
+  CHECK(report.findings[0].where == "000010.bin");
+  CHECK_THAT(report.findings[0].what, Catch::Contains("50 % of what the scans around it hold"));
+}
+
+TEST_CASE("missing returns in files are a note, and nothing has to be done", "[inspect]") {
+  const float nan = std::nanf("");
+  for (const Eigen::Vector3f& fake : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(nan, nan, nan)}) {
+    EditedSequence drive = good_drive();
+    for (Scan& scan : drive.scans) {
+      for (std::size_t i = 0; i < scan.size(); i += 10) scan.points[i] = fake;
+    }
+    const TemporaryFolder folder;
+    write_files(folder, drive);
+    const InspectionReport report = inspect_path(folder.text(), {});
+    INFO(text_of(report));
+    REQUIRE(report.findings.size() == 1);
+    CHECK_FALSE(report.has_findings());
+    CHECK(report.findings[0].check == "left-out");
+    CHECK_THAT(report.findings[0].what, Catch::Contains("10.0 % of the stored points"));
+  }
 }
 
 TEST_CASE("copied files are named wherever they are", "[inspect]") {

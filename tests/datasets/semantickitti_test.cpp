@@ -207,36 +207,37 @@ TEST_CASE("a truncated or empty scan is named", "[semantickitti]") {
              {"000001.bin", "holds no point"});
 }
 
-TEST_CASE("non-finite points are dropped, counted and keep labels in step", "[semantickitti]") {
+TEST_CASE("points without coordinates are left out and keep labels in step", "[semantickitti]") {
   const TemporaryFolder folder;
   write_sequence(folder, "", 1);
-  // 200 points (i, 1, 0) with label i; points 3 and 7 have a NaN and an infinity: exactly 1 %.
+  // 200 points (i, 1, 0) with label i; point 3 has a NaN, points 7 and 8 an infinity: exactly 1 %.
   std::vector<float> values;
   std::vector<std::uint32_t> labels;
   for (std::uint32_t i = 0; i < 200; ++i) {
     const auto x = static_cast<float>(i);
-    values.insert(values.end(), {i == 3 ? kNan : x, i == 7 ? 1.0F / 0.0F : 1.0F, 0.0F, x});
+    values.insert(values.end(),
+                  {i == 3 ? kNan : x, i == 7 || i == 8 ? 1.0F / 0.0F : 1.0F, 0.0F, x});
     labels.push_back(i);
   }
   folder.write("velodyne/000000.bin", floats(values));
   folder.write("labels/000000.label", words(labels));
   const Sequence sequence = open_sequence(folder.text(), {});
   const Scan scan = sequence.scans->load(0);
-  CHECK(scan.size() == 198);
+  CHECK(scan.size() == 197);
   CHECK(scan.stored_point_count == 200);
-  CHECK(scan.non_finite_count() == 2);
+  CHECK(scan.left_out_count() == 3);
   const auto kept = sequence.labels->labels(scan);
-  REQUIRE(kept.size() == 198);
+  REQUIRE(kept.size() == 197);
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    CHECK(scan.stored_position(i) == i + (i >= 3 ? 1 : 0) + (i >= 6 ? 1 : 0));
+    CHECK(scan.stored_position(i) == i + (i >= 3 ? 1 : 0) + (i >= 6 ? 2 : 0));
     CHECK(scan.points[i].x() == static_cast<float>(scan.stored_position(i)));
     CHECK(scan.reflectance[i] == scan.points[i].x());
     CHECK(kept[i] == scan.stored_position(i));
   }
-  values[4 * 9] = kNan;  // A third: 1.5 %.
+  values[4 * 9] = 1.0F / 0.0F;  // A third: 1.5 %.
   folder.write("velodyne/000000.bin", floats(values));
   check_says(message_of<DataError>([&] { sequence.scans->load(0); }),
-             {"000000.bin", "3 of 200", "1 %"});
+             {"000000.bin", "3 of 200 points are infinite", "1 %"});
 }
 
 TEST_CASE("sequence.json is read, and options stand above it", "[semantickitti]") {

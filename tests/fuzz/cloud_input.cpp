@@ -31,7 +31,7 @@ void read_as_scan(const std::filesystem::path& path) {
   frame.path = path;
   const FileScanSource source({frame}, {}, std::nullopt);
   const Scan scan = source.load(0);
-  require(scan.size() + scan.non_finite_count() == scan.stored_point_count,
+  require(scan.size() + scan.left_out_count() == scan.stored_point_count,
           "points of a scan are lost");
   for (const Eigen::Vector3f& point : scan.points) {
     require(point.allFinite(), "a point of a scan is not finite");

@@ -132,6 +132,22 @@ TEST_CASE("written files hold what the source gives, in SemanticKITTI's layout")
   CHECK_THROWS_AS(write_simulated(small(), folder, 1, nullptr), DataError);
 }
 
+TEST_CASE("a mover that backs up is written as moving") {
+  const ScratchFolder scratch;
+  std::ofstream(scratch.path() / "reverse.json") << R"({
+    "roads": [{"name": "a", "points": [[0, 0], [99, 0]]}],
+    "ego": {"road": "a", "speed": 5},
+    "movers": [{"kind": "car", "road": "a", "start_m": 60, "speed": [[0, -3], [9, -3]]}]})";
+  SimulationOptions options = small();
+  options.scene = (scratch.path() / "reverse.json").string();
+  write_simulated(options, scratch.path() / "reverse", 1, nullptr);
+  const auto movers = read_json(scratch.path() / "reverse" / "movers.json");
+  REQUIRE(movers.size() == 1);
+  CHECK(movers[0].at("moves") == true);
+  CHECK(movers[0].at("when").size() == 1);
+  CHECK(movers[0].at("when")[0].at("state") == "moves");
+}
+
 TEST_CASE("the cache makes a sequence once, whoever asks at once") {
   const ScratchFolder scratch;
   const fs::path cache = scratch.path() / "simulated";

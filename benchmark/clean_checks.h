@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/progress.h"
+#include "datasets/sequence.h"
+
+namespace raymoval {
+
+/// Looks for mistakes in the data before a map is made of it, as `raymoval inspect` does, and says
+/// on standard error what may make the map worse (see `Consequence`).
+/// @param path what the user called the sequence, for the message
+/// @param force goes on where the map would be wrong, and says so
+/// @throws DataError with the findings for which it would be wrong; Cancelled
+void check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress);
+
+/// Says on standard error what is unusual about `removed` of `points`: none, or more than half.
+void check_removed(std::uint64_t removed, std::uint64_t points, const std::string& path);
+
+}  // namespace raymoval

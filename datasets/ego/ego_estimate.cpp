@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/ego/ego_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raymoval {
+namespace {
+
+using Eigen::Vector3d;
+using inspection::Surfel;
+
+/// The machine begins nearer to the sensor than the first, and ends nearer than the second.
+constexpr double kStart = 2.5, kEnd = 8.5, kReach = 9.0;
+
+/// The plane that the sensor's vehicle stands on, n . p = offset with n up.
+struct GroundPlane {
+  Vector3d normal = Vector3d::UnitZ();
+  double offset = -1.0;
+  [[nodiscard]] double height(const Vector3d& point) const { return normal.dot(point) - offset; }
+};
+
+GroundPlane ground_of(std::size_t scans,
+                      const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
+  Vector3d normal = Vector3d::Zero();
+  std::vector<Vector3d> flat;
+  for (std::size_t k = 0; k < scans; ++k) {
+    for (const Surfel& surfel : surfels(k)) {
+      if (surfel.group != Surfel::Group::kNormalZ || std::abs(surfel.axis.z()) < 0.85) continue;
+      if (surfel.mean.norm() > 15.0 || surfel.mean.z() > -0.3) continue;
+      normal += surfel.axis.z() > 0.0 ? surfel.axis : Vector3d(-surfel.axis);
+      flat.push_back(surfel.mean);
+    }
+  }
+  GroundPlane plane;
+  if (flat.empty()) return plane;
+  plane.normal = normal.normalized();
+  std::vector<double> offsets;
+  for (const Vector3d& mean : flat) offsets.push_back(plane.normal.dot(mean));
+  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
+  std::nth_element(offsets.begin(), middle, offsets.end());
+  plane.offset = *middle;
+  return plane;
+}
+
+/// Cells of the sensor frame above the ground that hold points in nearly every one of `scans`.
+VoxelSet steady_cells(const std::vector<const Scan*>& scans, const GroundPlane& ground) {
+  constexpr double kAboveGround = 0.4, kNearlyAll = 0.85;
+  VoxelMap<std::size_t> seen;
+  for (const Scan* scan : scans) {
+    VoxelSet here;
+    for (const Eigen::Vector3f& point : scan->points) {
+      const Vector3d p = point.cast<double>();
+      if (!(p.norm() <= kReach) || ground.height(p) < kAboveGround) continue;
+      here.insert(voxel_key(voxel_index(p, 1.0 / kEgoCell)));
+    }
+    for (const VoxelKey key : here) ++seen[key];
+  }
+  VoxelSet steady;
+  for (const auto& [key, count] : seen) {
+    if (static_cast<double>(count) >= kNearlyAll * static_cast<double>(scans.size())) {
+      steady.insert(key);
+    }
+  }
+  return steady;
+}
+
+/// Of `steady`, the cells that hang together with one near the sensor; empty if they go on.
+VoxelSet grown_from_sensor(const VoxelSet& steady) {
+  const auto distance = [](VoxelKey key) {
+    return ((voxel_index(key).cast<double>().array() + 0.5) * kEgoCell).matrix().norm();
+  };
+  VoxelSet own;
+  std::vector<VoxelKey> open;
+  for (const VoxelKey key : steady) {
+    if (distance(key) <= kStart && own.insert(key).second) open.push_back(key);
+  }
+  while (!open.empty()) {
+    const VoxelIndex at = voxel_index(open.back());
+    if (distance(open.back()) > kEnd) return {};
+    open.pop_back();
+    for (int k = 0; k < 27; ++k) {
+      const VoxelKey next =
+          voxel_key(VoxelIndex(at + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+      if (steady.count(next) > 0 && own.insert(next).second) open.push_back(next);
+    }
+  }
+  return own;
+}
+
+}  // namespace
+
+bool EgoEstimate::contains(const Vector3d& point) const {
+  return point.norm() <= kReach && own.count(voxel_key(voxel_index(point, 1.0 / kEgoCell))) > 0;
+}
+
+EgoRegion EgoEstimate::region() const {
+  // Cells that noise or a turn of the scan leaves empty now and then are not steady.
+  constexpr double kRoom = 0.15;
+  const auto rounded = [](double metres) { return std::round(metres * 100.0) / 100.0; };
+  EgoRegion region;
+  if (!found()) return region;
+  region.kind = EgoRegion::Kind::kBox;
+  for (const VoxelKey key : own) {
+    const Vector3d low = voxel_index(key).cast<double>() * kEgoCell;
+    region.box.extend((low.array() - kRoom).unaryExpr(rounded).matrix());
+    region.box.extend((low.array() + kEgoCell + kRoom).unaryExpr(rounded).matrix());
+  }
+  return region;
+}
+
+std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
+                                     const std::vector<std::size_t>& candidates, std::size_t most) {
+  constexpr double kApart = 1.0, kMetresPerRadian = 3.0;
+  // Against the last one chosen first: nearly always it decides.
+  std::vector<std::size_t> apart;
+  for (const std::size_t index : candidates) {
+    const bool far = std::all_of(apart.rbegin(), apart.rend(), [&](std::size_t other) {
+      const Pose motion = poses[other].inverse() * poses[index];
+      const double turn = Eigen::AngleAxisd(motion.linear()).angle();
+      return motion.translation().norm() + kMetresPerRadian * turn >= kApart;
+    });
+    if (far) apart.push_back(index);
+  }
+  if (apart.size() <= most) return apart;
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < most; ++k)
+    chosen.push_back(apart[k * (apart.size() - 1) / (most - 1)]);
+  return chosen;
+}
+
+EgoEstimate estimate_ego(const std::vector<const Scan*>& scans,
+                         const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
+  EgoEstimate estimate;
+  estimate.scans = scans.size();
+  if (!estimate.can_tell()) return estimate;
+  const VoxelSet steady = steady_cells(scans, ground_of(scans.size(), surfels));
+  estimate.steady = steady.size();
+  estimate.own = grown_from_sensor(steady);
+  return estimate;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What `raymoval clean` refuses, warns of and leaves behind, and what no method gets to see.
+# Usage: clean_test.sh PATH/TO/raymoval_faulty
+set -uo pipefail
+raymoval=$(readlink -f "$1")
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+export RAYMOVAL_CACHE=$work/cache
+
+nothing_left() {
+  holds "$1 leaves nothing" test -z "$(find . -name 'map*' -o -name '*.part' -o -name labels_out)"
+}
+
+expect 0 "12 scans" simulate suburb -o drive --scans 12 --sensor vlp16 --seed 5 --quiet
+online=(--method raymoval:online --quiet)
+expect 0 "raymoval:online removed" clean drive "${online[@]}" -o good.pcd
+cp err.txt said.txt
+holds "nothing is said of good data" test ! -s said.txt
+
+# Points in millimetres: refused at once and with the finding, in spite of any memory.
+cp -r drive millimetres
+for scan in millimetres/velodyne/*.bin; do
+  perl -e 'binmode STDIN; binmode STDOUT; local $/; @v = unpack("f<*", <STDIN>);
+    for $i (0..$#v) { $v[$i] *= 1000 if $i % 4 != 3 } print pack("f<*", @v)' <"$scan" >scan.bin
+  mv scan.bin "$scan"
+done
+expect 2 "points-in-millimetres: points of all scans read: half of the points" \
+  clean millimetres -o map.pcd --labels labels_out --quiet
+cp err.txt said.txt
+holds "the remedy is said" grep -q "Multiply the coordinates by 0.001." said.txt
+holds "and how to go on" grep -q -- "--force cleans all the same" said.txt
+nothing_left "a refusal"
+
+# Poses of a camera read as the LiDAR's.
+cp -r drive frames
+sed -i 's/"poses"/"poses_are_lidar": true, "poses"/' frames/sequence.json
+expect 2 "camera-frame: poses.txt" clean frames -o map.pcd --quiet
+nothing_left "a refusal of poses"
+expect 0 "warning: going on because of --force, in spite of camera-frame" \
+  clean frames "${online[@]}" -o forced.pcd --force
+expect 0 "poses-inverted: poses take the world to the sensor (T_sensor_world). (clean refuses it)" \
+  inspect --list
+expect 0 "few-points: a scan has far fewer points than those around it. (clean warns)" inspect --list
+
+# A file cut at a whole point is said, and cleaned all the same.
+cp -r drive cut
+rm -r cut/labels
+truncate -s $((16 * 9000)) cut/velodyne/000007.bin
+expect 0 "warning: few-points: 000007.bin" clean cut "${online[@]}" -o cut.pcd
+holds "inspect finds it" grep -q "^finding few-points: 000007.bin" <("$raymoval" inspect cut --quiet)
+
+# Results that are worth a look.
+expect 0 "warning: nothing was removed" clean street --frames 0:1 "${online[@]}" -o none.pcd
+expect 0 "warning: more than half of all points were removed" \
+  clean street --frames 1:1 --method comb --set comb.milliseconds=0 --quiet -o half.pcd
+
+# --range: what is beyond is in no output.
+expect 2 "no point lies within --range 2000:40000" \
+  clean street --frames 0:2 "${online[@]}" --range 2000:40000 -o map.pcd
+nothing_left "an empty range"
+expect 0 "beyond --range 0:10 are in no output." clean street --frames 0:2 --method noop --quiet \
+  --range 0:10 -o near.bin --labels near
+expect 0 "" clean street --frames 0:2 --method noop --quiet -o far.bin
+holds "the near map is smaller" test "$(stat -c %s near.bin)" -lt "$(stat -c %s far.bin)"
+# words DIR: counts of the label words of all files.
+words() { cat "$1"/*.label | od -An -v -tu4 -w4 | sort | uniq -c | awk '{ print $2 ":" $1 }'; }
+points=$(($(stat -c %s near.bin) / 16))
+holds "labels tell what is beyond" test "$(words near | grep ^9:)" = "9:$points"
+holds "by 0" grep -q "^0:[1-9]" <(words near)
+
+# --drop-ego: no method sees these points, and no output has them.
+expect 0 "of the own vehicle (nearer than 6 m) and are left out." clean street --frames 0:2 \
+  --method remove-all --quiet --drop-ego 6 -o ego.pcd --labels ego
+holds "labels tell what was dropped" grep -q "^0:[1-9]" <(words ego)
+expect 2 "--drop-ego 'car' says no part" clean street --drop-ego car -o map.pcd
+expect 0 "street: " run --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 --method noop --out run
+holds "run says it once" test "$(grep -c 'of the own vehicle (in the box' err.txt)" -eq 1
+holds "the record has it" grep -q '"left_out": "-9:9,-3:3,:-1"' run/cells/street/noop-default/cell.json
+expect 0 "All controls" run --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 \
+  --method comb --set comb.milliseconds=0 --keep-removals --quiet --out run
+expect 0 "precision" score --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 --quiet \
+  --predictions run/cells/street/comb-default/removals
+cat >ego.json <<'JSON'
+{ "sequences": [{"path": "street", "frames": "0:2", "drop_ego": "-9:9,-3:3,:-1"}],
+  "methods": [{"method": "comb", "set": {"milliseconds": 0}}] }
+JSON
+expect 0 "0 of 4 cells" run ego.json --out run --explain
+expect 0 "Leave it out with --drop-ego auto" inspect --list
+
+# Whatever becomes of it, nothing unfinished is left.
+outputs=(-o map.pcd --dynamic map2.pcd --labels labels_out --quiet)
+expect 2 "cleaning took more than 600 MiB of memory (see --memory-limit) and was ended. Nothing was" \
+  clean drive --method leak --memory-limit 600 "${outputs[@]}"
+nothing_left "a leak"
+expect 2 "more than 600 MiB" clean drive --method leak-child --memory-limit 600 "${outputs[@]}"
+nothing_left "a leak of a child"
+expect 1 "cleaning crashed: signal 11" clean drive --method crash "${outputs[@]}"
+nothing_left "a crash"
+expect 2 "killed from outside" clean drive --method killed "${outputs[@]}"
+nothing_left "a kill"
+expect 1 "cleaning ended without a map" clean drive --method quit "${outputs[@]}"
+nothing_left "an end without an answer"
+expect 2 "--memory-limit" clean drive --memory-limit much -o map.pcd
+"$raymoval" clean drive --method comb --set comb.milliseconds=300 "${outputs[@]}" 2>interrupted.txt &
+process=$!
+until compgen -G 'map.pcd*.part' >/dev/null || ! kill -0 $process 2>/dev/null; do sleep 0.05; done
+kill -INT $process
+wait $process
+holds "an interruption is told" test $? -eq 1 -a -n "$(grep cancelled interrupted.txt)"
+nothing_left "an interruption"
+finish clean
