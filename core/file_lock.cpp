@@ -31,17 +31,7 @@ FileLock::~FileLock() {
 FileLock::State FileLock::take(Mode mode) {
   const int kind = mode == Mode::kExclusive ? LOCK_EX : LOCK_SH;
   while (true) {
-    if (!file_.valid()) {
-      file_ = Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
-    }
-    // Another user's lock file; locks work on it all the same, but on some network file systems.
-    if (!file_.valid() && errno == EACCES) {
-      file_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-    }
-    if (!file_.valid()) {
-      throw DataError(path_.string() + ": cannot be written (" +
-                      std::generic_category().message(errno) + ").");
-    }
+    if (!file_.valid()) open();
     if (::flock(file_.get(), kind | LOCK_NB) == 0) {
       if (is_still_there()) break;
       file_.close();  // Between open and flock the holder before has removed the file.
@@ -51,6 +41,19 @@ FileLock::State FileLock::take(Mode mode) {
   }
   write_holder();
   return State::kHeld;
+}
+
+void FileLock::open() {
+  file_ = Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
+  if (file_.valid()) return;
+  const int reason = errno;
+  // Another user's lock file; locks work on it all the same, but on some network file systems.
+  if (reason == EACCES) {
+    file_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+    if (file_.valid()) return;
+  }
+  throw DataError(path_.string() + ": cannot be written (" +
+                  std::generic_category().message(reason) + ").");
 }
 
 bool FileLock::is_still_there() const {

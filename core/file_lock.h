@@ -36,6 +36,7 @@ class FileLock {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
+  void open();
   [[nodiscard]] bool is_still_there() const;
   void write_holder() const;
 
