@@ -197,6 +197,7 @@ std::vector<MethodVariant> variants() {
   };
   Configuration online = {{"offline", false}};
   online.emplace_back("map_source", std::string("growing"));
+  const Configuration eq11 = {{"erased_points", false}};
   return {
       {"offline", "Every scan tested against the prior map that all scans leave.", false, {}},
       {"online", "Each scan answered when it arrives, from a growing map.", true, online},
@@ -204,6 +205,7 @@ std::vector<MethodVariant> variants() {
        reading("growing")},
       {"offline-naive", "Every point answered by what the scans see through; eq. 11 has no effect.",
        false, reading("naive")},
+      {"offline-eq11", "As offline, but eq. 11 alone decides what is a candidate.", false, eq11},
       {"table1", "As offline, with every value as printed in Table 1.", false, printed({})},
       {"table1-online", "As online, with every value as printed in Table 1.", true,
        printed(online)},
@@ -211,6 +213,8 @@ std::vector<MethodVariant> variants() {
        printed(reading("growing"))},
       {"table1-naive", "As offline-naive, with every value as printed in Table 1.", false,
        printed(reading("naive"))},
+      {"table1-eq11", "As offline-eq11, with every value as printed in Table 1.", false,
+       printed(eq11)},
   };
 }
 

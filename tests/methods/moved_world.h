@@ -41,12 +41,12 @@ inline Pose whole_motion(double x, double y, double z, int quarters) {
 /// A road with walls, a pole and two movers: a car (box 3) that drives off and a person (box 4)
 /// who crosses. Every coordinate is drawn off the lattices of 0.05 m and its multiples, so that no
 /// surface lies on a voxel wall. The sensor stands 1.6 m above the road and drives 0.7 m a scan.
-inline World street(int scans, unsigned seed = 7) {
+inline World street(int scans, unsigned seed = 7, const Scanner& scanner = {}) {
   std::mt19937 random(seed);
   const auto off_lattice = [&random] {
     return 0.0071 + 0.03 * static_cast<double>(random() % 1000) / 1000.0;
   };
-  World world{Scanner{}};
+  World world{scanner};
   const double road = -1.63 + off_lattice();
   const std::vector<Box> fixed{{{-40, -40, road - 0.5}, {40, 40, road}},
                                {{-30, 9.0 + off_lattice(), road}, {30, 9.5, 2.4}},

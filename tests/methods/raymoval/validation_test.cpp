@@ -143,6 +143,16 @@ TEST_CASE("supported points of a dynamic cluster are kept, and small remainders 
   CHECK(validate_candidates(points, map, parameters) == Mask(6, 0));
 }
 
+TEST_CASE("a support share of 1 keeps no point, also in a voxel of the static map") {
+  OccupancyMap map(0.2);
+  for (int z = 0; z < 3; ++z) map.insert({0, 0, z});
+  const ScanPoints points = points_at({{0.1, 0.1, 0.1}, {0.1, 0.1, 0.3}, {0.1, 0.1, 0.5}}, 1.0);
+  RaymovalParameters parameters = lenient();  // The share is 1.
+  CHECK(validate_candidates(points, map, parameters) == Mask(3, 1));
+  parameters.support_share = 0.95;  // Every voxel around is static.
+  CHECK(validate_candidates(points, map, parameters) == Mask(3, 0));
+}
+
 TEST_CASE("support equals a count voxel by voxel, across the borders of bricks") {
   std::mt19937 random(4);
   const auto pick = [&] { return static_cast<int>(random() % 24) - 12; };
