@@ -162,7 +162,7 @@ void SequenceFlags::add_to(CLI::App& app) {
   app.add_option("--label-rule", label_rule, "JSON file that says which labels move")
       ->type_name("FILE");
   app.add_option("--range", range, "Metres; points beyond are not evaluated")->type_name("MIN:MAX");
-  app.add_option("--sensor", sensor, "Name of a known sensor (see `raymoval list sensors`)")
+  app.add_option("--sensor", sensor, "A known sensor (see `raymoval list sensors`), or estimated")
       ->type_name("NAME");
   app.add_option("--name", name, "Name of the sequence in results")->type_name("NAME");
 }
