@@ -179,7 +179,7 @@ void SequenceFlags::add_to(CLI::App& app) {
   app.add_option("--range", range,
                  "Metres; points beyond are not evaluated, but methods see them (see --drop-ego)")
       ->type_name("MIN:MAX");
-  app.add_option("--sensor", sensor, "Name of a known sensor (see `raymoval list sensors`)")
+  app.add_option("--sensor", sensor, "A known sensor (see `raymoval list sensors`), or estimated")
       ->type_name("NAME");
   app.add_option("--up", up,
                  "Which way is up in the world of the poses: z, -y, or x,y,z (default: told by "

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/angle.h"
 #include "core/direction_pattern.h"
@@ -84,6 +85,27 @@ void set_azimuths(std::vector<double>& azimuths, SensorModel& model) {
   model.azimuth_max = model.azimuth_min + high - low;
 }
 
+bool near(double a, double b) {
+  constexpr double kPart = 0.08;
+  return std::abs(a - b) <= kPart * b;
+}
+
+/// The known sensor whose steps and field of view are those of `pattern`, if there is one. Where
+/// nothing stands above or below, less is seen than the sensor can see.
+std::optional<SensorModel> recognised(const DirectionPattern& pattern, double low, double high) {
+  constexpr double kMargin = 2.0 * kDegree;
+  if (pattern.kind != DirectionPattern::Kind::kColumns) return {};
+  for (const std::string& name : sensor_model_names()) {
+    const SensorModel known = sensor_model_named(name);
+    if (!near(pattern.azimuth_step, known.azimuth_step)) continue;
+    if (!near(pattern.elevation_step, known.elevation_step)) continue;
+    const double below = known.elevation_min - low, above = high - known.elevation_max;
+    if (std::max(below, above) > kMargin || std::max(-below, -above) > 15.0 * kMargin) continue;
+    if (std::min(std::abs(below), std::abs(above)) <= kMargin) return known;
+  }
+  return {};
+}
+
 std::string degrees_text(double radians, int decimals) {
   return fixed_text(radians / kDegree, decimals) + " deg";
 }
@@ -129,9 +151,9 @@ SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
   const double high = quantile_of(seen.elevations, 1.0 - kTail);
   // A few points near the sensor lie beyond its beams, which do not start in one place.
   constexpr double kBeamTail = 1e-3;
-  const DirectionPattern pattern =
-      find_direction_pattern(seen.scans, quantile_of(seen.elevations, kBeamTail),
-                             quantile_of(seen.elevations, 1.0 - kBeamTail));
+  const double lowest_beam = quantile_of(seen.elevations, kBeamTail);
+  const double highest_beam = quantile_of(seen.elevations, 1.0 - kBeamTail);
+  const DirectionPattern pattern = find_direction_pattern(seen.scans, lowest_beam, highest_beam);
   model.azimuth_step = pattern.azimuth_step;
   model.elevation_step = pattern.elevation_step;
   model.beams = pattern.beams;
@@ -141,6 +163,14 @@ SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
   model.range_min = seen.nearest;
   model.range_max = seen.farthest;
   model.basis = basis_text(model, pattern, scans.size(), directions);
+  // A data sheet is more exact, and naming the sensor then changes no bin.
+  if (const auto known = recognised(pattern, lowest_beam, highest_beam)) {
+    model.azimuth_step = known->azimuth_step;
+    model.elevation_step = known->elevation_step;
+    model.elevation_min = known->elevation_min;
+    model.elevation_max = known->elevation_max;
+    model.basis += "; taken for a sensor like '" + known->name + "'";
+  }
   return model;
 }
 

@@ -46,12 +46,12 @@ std::vector<std::string> sensor_model_names();
 /// @throws ConfigurationError for an unknown name; the message lists the known ones.
 SensorModel sensor_model_named(const std::string& name);
 
-/// Field of view, steps and ranges as seen in `scans` (at least one with points). The model depends
-/// on the directions and ranges of the points and not on their order. As on a data sheet, the field
-/// of view goes from the outermost directions on one side to those on the other; 0.01 % of the
-/// points on either side are not counted. A part of the circle may go across +-pi. How steps are
-/// found is said at `find_direction_pattern`; they stay 0 (unknown) where there are too few
-/// directions.
+/// Field of view, steps and ranges as seen in `scans` (at least one with points), for any order of
+/// points. The field of view goes from the outermost directions to those opposite; 0.01 % of the
+/// points on either side are not counted. It may go across +-pi. How steps are found is said at
+/// `find_direction_pattern`; they stay 0 (unknown) where there are too few directions. Steps and
+/// elevations that are nearly those of a known sensor become its own, so that naming that sensor
+/// changes nothing.
 /// @throws DataError if there is no point to look at.
 SensorModel estimate_sensor_model(const std::vector<Scan>& scans);
 

@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "core/text.h"
 #include "datasets/inspect/checks.h"
+#include "datasets/inspect/overlap.h"
 #include "datasets/inspect/pose_fit.h"
 
 namespace raymoval::inspection {
@@ -17,14 +20,15 @@ constexpr double kDistance = 6.0;  // metres of way between the scans of a pair
 constexpr double kReach = 0.1;     // metres; skew moves surfaces by decimetres
 constexpr double kClear = 1.03;    // on good data undoing a skew makes the agreement worse
 
-/// How a sensor may sweep: from the azimuth of its cut, once around.
+/// How a sensor may sweep: from the azimuth of its cut, once around or somewhat more.
 struct Sweep {
   double cut = 0.0;   ///< Azimuth in radians.
   int direction = 1;  ///< +1 counter-clockwise, -1 clockwise.
   const char* text = "";
+  double twice = 0.0;  ///< Part of a turn from the cut on that is passed again in the end.
 };
 
-const std::vector<Sweep>& sweeps() {
+const std::vector<Sweep>& whole_sweeps() {
   constexpr double kQuarter = std::numbers::pi / 2.0;
   static const std::vector<Sweep> all = {
       {0.0, 1, "counter-clockwise from ahead"},
@@ -39,12 +43,57 @@ const std::vector<Sweep>& sweeps() {
   return all;
 }
 
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+/// Part of a turn from the start of the sweep to a direction, 0 to 1.
+double turns_to(const Eigen::Vector3d& point, const Sweep& sweep) {
+  const double turns = sweep.direction * (std::atan2(point.y(), point.x()) - sweep.cut) / kTurn;
+  return turns - std::floor(turns);
+}
+
 /// When in the sweep a direction is measured, -0.5 to 0.5.
 double phase(const Eigen::Vector3d& point, const Sweep& sweep) {
-  const double turns =
-      sweep.direction * (std::atan2(point.y(), point.x()) - sweep.cut) / (2.0 * std::numbers::pi);
-  return turns - std::floor(turns) - 0.5;
+  return turns_to(point, sweep) / (1.0 + sweep.twice) - 0.5;
 }
+
+/// Both sweeps of a scan of more than one revolution, which begins where it passes twice.
+std::vector<Sweep> sweeps_over(const Overlap& overlap) {
+  const double twice = overlap.width / kTurn;
+  return {{overlap.from, 1, "counter-clockwise, more than one revolution a scan", twice},
+          {overlap.to(), -1, "clockwise, more than one revolution a scan", twice}};
+}
+
+/// How the scans may sweep: where each scan has an overlap, from there, else from anywhere.
+class Sweeps {
+ public:
+  Sweeps(const Samples& samples, const std::vector<ScanPair>& pairs) {
+    for (const ScanPair& pair : pairs) {
+      for (const std::size_t index : {pair.from, pair.to}) {
+        const std::optional<Overlap> overlap = overlap_of(samples, index);
+        if (!overlap) {
+          overlaps_.clear();
+          return;
+        }
+        overlaps_[index] = *overlap;
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<Sweep> of(std::size_t scan) const {
+    const auto found = overlaps_.find(scan);
+    return found == overlaps_.end() ? whole_sweeps() : sweeps_over(found->second);
+  }
+
+ private:
+  static std::optional<Overlap> overlap_of(const Samples& samples, std::size_t index) {
+    const auto read = samples.scans().find(index);
+    return find_overlap(
+        read != samples.scans().end() ? read->second : samples.sequence().scans->load(index),
+        samples.seen_sensor());
+  }
+
+  std::map<std::size_t, Overlap> overlaps_;  ///< Of all scans, or none.
+};
 
 /// Share `part` of a motion.
 Pose part_of(const Pose& motion, double part) {
@@ -69,6 +118,14 @@ std::vector<Surfel> unskewed(std::vector<Surfel> surfels, const Pose& motion, co
 Pose motion_during(const Samples& samples, std::size_t scan) {
   const auto& poses = samples.poses();
   return part_of(poses[scan - 1].inverse() * poses[scan + 1], 0.5);
+}
+
+/// Without what is passed twice, at two times.
+std::vector<Surfel> passed_once(std::vector<Surfel> surfels, const Sweep& sweep) {
+  if (sweep.twice <= 0.0) return surfels;
+  std::erase_if(surfels,
+                [&](const Surfel& surfel) { return turns_to(surfel.mean, sweep) < sweep.twice; });
+  return surfels;
 }
 
 /// Pairs so far apart that the same surface is seen in other directions.
@@ -121,18 +178,21 @@ struct SkewFit {
   }
 };
 
-SkewFit fit_sweeps(const Samples& samples, const std::vector<ScanPair>& pairs) {
+SkewFit fit_sweeps(const Samples& samples, const std::vector<ScanPair>& pairs,
+                   const Sweeps& sweeps) {
   SkewFit fit;
-  fit.undone.resize(sweeps().size());
+  fit.undone.resize(sweeps.of(pairs.front().from).size());
   for (const ScanPair& pair : pairs) {
-    const auto from = surfels_of(samples, pair.from), to = surfels_of(samples, pair.to);
+    const auto from_sweeps = sweeps.of(pair.from), to_sweeps = sweeps.of(pair.to);
+    const auto from = passed_once(surfels_of(samples, pair.from), from_sweeps.front());
+    const auto to = passed_once(surfels_of(samples, pair.to), to_sweeps.front());
     const Pose motion = samples.poses()[pair.from].inverse() * samples.poses()[pair.to];
     const Pose from_motion = motion_during(samples, pair.from);
     const Pose to_motion = motion_during(samples, pair.to);
     fit.given.push_back(registered(from, to, motion));
-    for (std::size_t k = 0; k < sweeps().size(); ++k) {
-      fit.undone[k].push_back(registered(unskewed(from, from_motion, sweeps()[k]),
-                                         unskewed(to, to_motion, sweeps()[k]), motion));
+    for (std::size_t k = 0; k < fit.undone.size(); ++k) {
+      fit.undone[k].push_back(registered(unskewed(from, from_motion, from_sweeps[k]),
+                                         unskewed(to, to_motion, to_sweeps[k]), motion));
     }
   }
   return fit;
@@ -145,12 +205,13 @@ std::vector<Finding> look_for_skew(Samples& samples) {
   if (!pose_verdict(samples).check.empty()) return {};
   const std::vector<ScanPair> pairs = far_pairs(samples);
   if (pairs.size() < kFewestPairs) return {};
-  const SkewFit fit = fit_sweeps(samples, pairs);
+  const Sweeps sweeps(samples, pairs);
+  const SkewFit fit = fit_sweeps(samples, pairs, sweeps);
   std::size_t best = 0;
   for (std::size_t k = 1; k < fit.undone.size(); ++k) {
     if (SkewFit::sum(fit.undone[k]) > SkewFit::sum(fit.undone[best])) best = k;
   }
-  const std::size_t opposite = (best + sweeps().size() / 2) % sweeps().size();
+  const std::size_t opposite = (best + fit.undone.size() / 2) % fit.undone.size();
   const double given = SkewFit::sum(fit.given);
   if (given <= 0.0) return {};
   const double gain = SkewFit::sum(fit.undone[best]) / given;
@@ -166,7 +227,7 @@ std::vector<Finding> look_for_skew(Samples& samples) {
   finding.what = "scans " + fixed_text(kDistance, 0) + " m apart agree " +
                  fixed_text(100.0 * (gain - 1.0), 0) +
                  " % better if the sensor's motion is undone within each (sweep " +
-                 sweeps()[best].text + ")";
+                 sweeps.of(pairs.front().from)[best].text + ")";
   return {finding};
 }
 

@@ -31,6 +31,11 @@ class RangeImage {
   RangeImage(const SensorModel& sensor, const RaymovalPlusParameters& parameters,
              InstructionSet set = InstructionSet::kBest);
 
+  /// Bins of the image. At most about four million, whatever the sensor's steps.
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_);
+  }
+
   /// Replaces the image with that of `scan`.
   void fill(const Scan& scan);
   /// What the scan says of a place of the sensor frame (metres): **agree** if any return of the

@@ -355,6 +355,14 @@ expect 2 "Did you mean 'simulated'" run simulatd --out other_sim
 
 # Inspecting: silent on good data, a finding has a line of its own, exit codes 0, 1, 2.
 expect 0 "0 findings" inspect sim/town --quiet
+expect 0 "sensor vlp16; the scans show 16 beams, 0.200 deg by 2.00" inspect sim/town --quiet
+"$raymoval" inspect sim/town --sensor hdl64e --quiet >found.txt 2>err.txt
+holds "a sensor named by mistake is a finding" grep -q "^finding other-sensor: sensor 'hdl64e': " found.txt
+expect 0 "sensor estimated: 16 beams, 0.200 deg by 2.00" inspect sim/town --sensor estimated --quiet
+expect 0 "town: sensor estimated: 16 beams, 0.200 deg by 2.00" run --method noop \
+  --sequence sim/town --sensor estimated --out run_estimated
+holds "a cell tells what an estimated sensor rests on" grep -q '"sensor_basis": "16 beams, ' \
+  run_estimated/cells/town/noop-default/cell.json
 expect 0 "poses-inverted" inspect --list
 expect 0 '"findings": []' inspect sim/town --json --quiet
 cp -r sim/town shortened

@@ -41,6 +41,47 @@ void turn_world(EditedSequence& drive, double yaw) {
   drive.each_pose([&](const Pose& pose) { return turn * pose; });
 }
 
+/// The same points in scans of `degrees` each, as if the head had turned on and files were cut
+/// elsewhere. Each point keeps the frame that it has: that of its own time.
+/// @param drive skewed scans, one revolution clockwise from behind each
+EditedSequence cut_anew(const EditedSequence& drive, double degrees) {
+  const double turns = degrees / 360.0;
+  const auto count = static_cast<std::size_t>(static_cast<double>(drive.size()) / turns);
+  EditedSequence result = drive;
+  result.scans.assign(count, Scan{});
+  result.words.assign(count, {});
+  for (const Scan& scan : drive.scans) {
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      const Eigen::Vector3f& p = scan.points[i];
+      const double azimuth = std::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi);
+      const double turn = static_cast<double>(scan.index) + 0.5 - azimuth;
+      const auto to = static_cast<std::size_t>(turn / turns);
+      if (to >= count) continue;
+      result.scans[to].points.push_back(p);
+      result.scans[to].reflectance.push_back(scan.reflectance[i]);
+      result.words[to].push_back(drive.words[scan.index][i]);
+    }
+  }
+  const double period = drive.scans[1].time_s - drive.scans[0].time_s;
+  for (std::size_t k = 0; k < count; ++k) {
+    Scan& scan = result.scans[k];
+    const double middle = (static_cast<double>(k) + 0.5) * turns - 0.5;  // In scans of the drive.
+    const std::size_t before = std::min(static_cast<std::size_t>(middle), drive.size() - 2);
+    const Pose& a = drive.scans[before].T_world_sensor;
+    const Pose& b = drive.scans[before + 1].T_world_sensor;
+    const double share = middle - static_cast<double>(before);
+    scan.index = k;
+    scan.name = std::to_string(k);
+    scan.time_s = middle * period;
+    scan.stored_point_count = scan.size();
+    scan.T_world_sensor.translation() = (1.0 - share) * a.translation() + share * b.translation();
+    scan.T_world_sensor.linear() = Eigen::Quaterniond(a.linear())
+                                       .slerp(share, Eigen::Quaterniond(b.linear()))
+                                       .toRotationMatrix();
+  }
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("a good drive is silent", "[inspect]") {
@@ -268,6 +309,37 @@ TEST_CASE("skewed scans are named, corrected ones are not", "[inspect]") {
   CHECK_THAT(report.findings[0].what, Catch::Contains("clockwise from behind"));
   options.rolling = Rolling::kCorrected;
   check_silent(EditedSequence(options).inspected());
+}
+
+TEST_CASE("skewed scans of more than one revolution are named", "[inspect]") {
+  SimulationOptions options = suburb(sparse_hdl64e(), 18);
+  options.scene = "country";
+  options.rolling = Rolling::kSkewed;
+  const InspectionReport report = cut_anew(EditedSequence(options), 395.0).inspected();
+  check_finds(report, "skewed-scans", "deskewing");
+  CHECK_THAT(report.findings[0].what, Catch::Contains("clockwise, more than one revolution"));
+}
+
+TEST_CASE("a sensor that is named by mistake is named", "[inspect]") {
+  EditedSequence drive = good_drive();  // Of a VLP-16.
+  for (const char* name : {"hdl64e", "hdl32e", "os1-128"}) {
+    INFO(name);
+    drive.model = sensor_model_named(name);
+    check_finds(drive.inspected(), "other-sensor", "--sensor estimated");
+  }
+  drive.model = sensor_model_named("vlp16");
+  const InspectionReport report = drive.inspected();
+  check_silent(report);
+  CHECK_THAT(report.sensor, Catch::Contains("vlp16; the scans show 16 beams, 0.200 deg by 2.0"));
+}
+
+TEST_CASE("what the sensor is taken for is told, also where it is estimated", "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.model = estimate_sensor_model({drive.scans[0], drive.scans[8], drive.scans[15]});
+  const InspectionReport report = drive.inspected();
+  check_silent(report);
+  CHECK_THAT(report.sensor,
+             Catch::StartsWith("estimated: 16 beams, ") && Catch::Contains("from 3 scans with "));
 }
 
 TEST_CASE("a cut at a range is named", "[inspect]") {

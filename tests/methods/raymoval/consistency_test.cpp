@@ -91,4 +91,8 @@ TEST_CASE("no return counts only within the sensor's view and the range asked fo
   CHECK(find_no_return({kNoRange, 6, kNoRange, kNoRange}, hits, grid, sensor, 20.0) ==
         std::vector<int>{2});
   CHECK(find_no_return(silent, hits, grid, sensor, 4.0).empty());
+  // A view of the back: from 90 degrees over 180 to 270.
+  sensor.azimuth_min = std::numbers::pi / 2;
+  sensor.azimuth_max = 3 * std::numbers::pi / 2;
+  CHECK(find_no_return(silent, hits, grid, sensor, 20.0) == std::vector<int>{0, 3});
 }

@@ -62,6 +62,37 @@ TEST_CASE("a place agrees with, hides behind or stands in front of a return") {
   CHECK(image.test({0.0F, 5.0F, 0.0F}) == Seen::kUnknown);  // no return that way
 }
 
+TEST_CASE("steps that no sensor has cost no more memory than the finest sensor") {
+  Scan scan;
+  scan.points.emplace_back(10.0F, 0.0F, 0.0F);
+  for (const double step : {0.0, 1e-300, 1e-9, 1e-4, 3.0}) {
+    INFO(step);
+    SensorModel sensor = half_degree_sensor();
+    sensor.elevation_min = -1.6;
+    sensor.elevation_max = 1.6;
+    sensor.azimuth_step = sensor.elevation_step = step;
+    RangeImage image(sensor, RaymovalPlusParameters{});
+    CHECK(image.size() <= 4'000'000);
+    CHECK(image.size() >= 90);
+    image.fill(scan);
+    CHECK(image.test({10.0F, 0.0F, 0.0F}) == Seen::kAgree);
+  }
+}
+
+TEST_CASE("rows are half a beam high, wherever the field of view ends") {
+  // 16 beams 2 degrees apart are 30 rows of 1 degree, and 4 more at either end.
+  SensorModel sensor = half_degree_sensor();
+  sensor.azimuth_step = 0.2 * kDegree;
+  sensor.elevation_step = 2.0 * kDegree;
+  sensor.elevation_min = -15.0 * kDegree;
+  sensor.elevation_max = 15.0 * kDegree;
+  const RangeImage named(sensor, RaymovalPlusParameters{});
+  sensor.elevation_max += 0.3 * kDegree;
+  const RangeImage seen(sensor, RaymovalPlusParameters{});
+  CHECK(named.size() == 38 * 1241);
+  CHECK(seen.size() == 39 * 1241);
+}
+
 TEST_CASE("agreement saves before occlusion abstains before freedom counts") {
   Scan scan;
   for (const float range : {4.0F, 10.0F, 30.0F}) scan.points.emplace_back(range, 0.0F, 0.0F);
