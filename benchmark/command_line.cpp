@@ -164,9 +164,7 @@ void SequenceFlags::add_to(CLI::App& app) {
   app.add_option("--range", range, "Metres; points beyond are not evaluated")->type_name("MIN:MAX");
   app.add_option("--sensor", sensor, "Name of a known sensor (see `raymoval list sensors`)")
       ->type_name("NAME");
-  app.add_option("--up", up,
-                 "Which way is up in the world of the poses: z, -y, or x,y,z (default: told by "
-                 "ground and walls)")
+  app.add_option("--up", up, "Up in the world of the poses: z, -y, or x,y,z (default: estimated)")
       ->type_name("AXIS");
   app.add_option("--name", name, "Name of the sequence in results")->type_name("NAME");
 }
