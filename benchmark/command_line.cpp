@@ -181,9 +181,7 @@ void SequenceFlags::add_to(CLI::App& app) {
       ->type_name("MIN:MAX");
   app.add_option("--sensor", sensor, "A known sensor (see `raymoval list sensors`), or estimated")
       ->type_name("NAME");
-  app.add_option("--up", up,
-                 "Which way is up in the world of the poses: z, -y, or x,y,z (default: told by "
-                 "ground and walls)")
+  app.add_option("--up", up, "Up in the world of the poses: z, -y, or x,y,z (default: estimated)")
       ->type_name("AXIS");
   app.add_option("--drop-ego", drop_ego,
                  "Leave out points of the own vehicle, so that no method sees them: auto "

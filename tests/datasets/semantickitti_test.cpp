@@ -255,7 +255,8 @@ TEST_CASE("sequence.json is read, and options stand above it", "[semantickitti]"
   CHECK(sequence.label_rule.classify(253) == LabelClass::kStatic);
   CHECK(nlohmann::json(sequence.record()) == nlohmann::json::parse(R"({
       "name": "drive", "layout": "semantickitti", "source": "a test", "frames": "0:1:1",
-      "scans": 2, "poses": "other.txt", "sensor": "hdl64e", "scan_period_s": 0.05,
+      "scans": 2, "poses": "other.txt", "sensor": "hdl64e", "up": "z", "up_source": "world z",
+      "scan_period_s": 0.05,
       "range_m": {"min": 2.7, "max": 50.0},
       "label_rule": {"name": "drive", "moving": [252], "ignored": [0]}})"));
 
