@@ -117,9 +117,9 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
 }
 
 /// What was done, a line each.
-std::string summary(const CleanFlags& flags, const ConfiguredMethod& method,
-                    const Sequence& sequence, const MaskSpool& masks, const RangeCut& range,
-                    const CleanOutputs& outputs) {
+std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& method,
+                             const Sequence& sequence, const MaskSpool& masks,
+                             const RangeCut& range, const CleanOutputs& outputs) {
   std::string text = method.full_name() + " removed " + grouped_text(masks.removed_count()) +
                      " of " + counted_text(masks.point_count(), "point") + " in " +
                      counted_text(sequence.scans->size(), "scan") + "; " + flags.output + " has " +
@@ -156,7 +156,7 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   if (!is_control(method.entry->name)) {
     check_removed(masks.removed_count(), masks.point_count(), flags.path);
   }
-  print(summary(flags, method, sequence, masks, range, outputs));
+  print(cleaning_summary(flags, method, sequence, masks, range, outputs));
   return ExitCode::kDone;
 }
 

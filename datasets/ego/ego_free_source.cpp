@@ -20,13 +20,6 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
   return chosen;
 }
 
-/// Without what is within 3 m, where a vehicle sees itself.
-std::vector<Eigen::Vector3f> far_points(const Scan& scan) {
-  std::vector<Eigen::Vector3f> points = scan.points;
-  std::erase_if(points, [](const Eigen::Vector3f& point) { return point.norm() < 3.0F; });
-  return points;
-}
-
 EgoRegion estimated_region(const ScanSource& source) {
   constexpr std::size_t kCandidates = 400, kMostScans = 20;
   std::vector<Pose> poses;
@@ -42,7 +35,9 @@ EgoRegion estimated_region(const ScanSource& source) {
       estimate_ego(chosen, [&](std::size_t k) -> const std::vector<inspection::Surfel>& {
         const auto found = surfels.find(k);
         if (found != surfels.end()) return found->second;
-        return surfels.emplace(k, inspection::find_surfels(far_points(scans[k]))).first->second;
+        return surfels
+            .emplace(k, inspection::find_surfels(inspection::without_near(scans[k].points)))
+            .first->second;
       });
   if (!estimate.can_tell()) {
     throw DataError(

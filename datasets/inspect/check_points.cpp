@@ -62,7 +62,7 @@ std::vector<ScanSize> scan_sizes(const Samples& samples) {
   return sizes;
 }
 
-double middle_of(std::vector<double> values) {
+double middle_value(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -76,7 +76,7 @@ double size_around(const std::vector<ScanSize>& sizes, std::size_t at) {
   for (std::size_t i = first; i <= at + kAround && i < sizes.size(); ++i) {
     if (i != at) around.push_back(sizes[i].size);
   }
-  return middle_of(std::move(around));
+  return middle_value(std::move(around));
 }
 
 /// A file that was cut at a whole point reads well, but is smaller than those around it by far more
@@ -91,7 +91,7 @@ std::vector<Finding> look_for_few_points(Samples& samples) {
     shares.push_back(sizes[i].size / std::max(1.0, size_around(sizes, i)));
     losses.push_back(std::abs(1.0 - shares.back()));
   }
-  const double loss = std::clamp(kUsualLosses * middle_of(losses), kLeastLoss, kMostLoss);
+  const double loss = std::clamp(kUsualLosses * middle_value(losses), kLeastLoss, kMostLoss);
   std::vector<std::size_t> small;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if (shares[i] < 1.0 - loss) small.push_back(i);

@@ -82,12 +82,6 @@ void Samples::settle_point_scale() {
   }
 }
 
-std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points) {
-  constexpr float kNear = 3.0F;
-  std::erase_if(points, [](const Eigen::Vector3f& point) { return point.norm() < kNear; });
-  return points;
-}
-
 const std::vector<Surfel>& Samples::surfels(std::size_t scan) const {
   const auto found = surfels_.find(scan);
   if (found != surfels_.end()) return found->second;

@@ -27,9 +27,6 @@ struct PoseVerdict {
   std::string what;   ///< What the numbers say.
 };
 
-/// Without what is within 3 m, where a vehicle sees itself: that goes along with the sensor.
-std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points);
-
 /// What the checks look at: the whole sequence by its poses and files, and about thirty
 /// scans, evenly spread, with their points. Reading is all that happens to the data.
 class Samples {

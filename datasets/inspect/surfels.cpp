@@ -104,6 +104,12 @@ Matrix3d cross_matrix(const Vector3d& v) {
 
 }  // namespace
 
+std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points) {
+  constexpr float kNear = 3.0F;
+  std::erase_if(points, [](const Eigen::Vector3f& point) { return point.norm() < kNear; });
+  return points;
+}
+
 std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points, std::size_t most) {
   std::unordered_map<std::uint64_t, std::size_t> places;
   std::vector<Moments> cells;

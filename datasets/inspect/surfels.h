@@ -21,6 +21,9 @@ struct Surfel {
   [[nodiscard]] bool is_line() const { return group == Group::kLine; }
 };
 
+/// Without what is within 3 m, where a vehicle sees itself: that goes along with the sensor.
+std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points);
+
 /// Surfels of a scan in its own frame: cells of 0.8 m with at least six points that lie on a plane
 /// or a pole. At most `most` of them, evenly chosen, in a fixed order.
 std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points,

@@ -234,6 +234,23 @@ TEST_CASE("copied files are named wherever they are", "[inspect]") {
   CHECK_THAT(report.findings[0].what, Catch::Contains("000002.bin"));
 }
 
+TEST_CASE("cleaning refuses what makes the map wrong, and does not mind labels", "[inspect]") {
+  std::set<std::string> refused, unused;
+  for (const InspectionCheck& check : inspection_checks()) {
+    if (check.consequence == Consequence::kRefused) refused.insert(check.name);
+    if (check.consequence == Consequence::kUnused) unused.insert(check.name);
+  }
+  CHECK(refused ==
+        std::set<std::string>{"points-in-millimetres", "poses-inverted", "camera-frame",
+                              "lidar-poses-as-camera", "degrees-for-radians", "radians-for-degrees",
+                              "quaternion-order", "poses-in-millimetres", "poses-in-kilometres",
+                              "viewpoint-twice", "viewpoint-missing", "sensor-elsewhere",
+                              "points-in-world", "poses-shifted", "poses-of-another-sequence"});
+  CHECK(unused == std::set<std::string>{"labels-shifted", "label-count",
+                                        "labels-in-intensity-by-value",
+                                        "labels-in-intensity-by-bits"});
+}
+
 TEST_CASE("each check has a name of its own, a sentence and a remedy", "[inspect]") {
   std::set<std::string> names;
   for (const InspectionCheck& check : inspection_checks()) {
