@@ -49,6 +49,30 @@ LinearAxis axis_up_to(double least, double high);
 /// An axis that begins at 0 and ends at a round number above `most`.
 LinearAxis axis_from_zero(double most);
 
+/// Texts beside points, where they cover neither points nor each other if there is room.
+class PointLabels {
+ public:
+  /// Keeps a point free that is drawn at (x, y).
+  void add_point(double x, double y);
+  /// Says `text` beside the point at (x, y). Points in nearly one place share a text: "0.1, 0.2".
+  void add_text(double x, double y, const std::string& text);
+  void draw(SvgWriter& svg) const;
+
+ private:
+  struct Text {
+    double x, y;
+    std::vector<std::string> parts;
+  };
+  std::vector<std::pair<double, double>> points_;
+  std::vector<Text> texts_;
+};
+
+/// What a point of a sweep was set to: "0.2", or "0.2, true" of two parameters; empty for others.
+std::string sweep_label(const RunResults& results, const std::string& cell);
+
+/// How wide a legend has to be for its longest name.
+double legend_width(const std::vector<ChartSeries>& series);
+
 /// Draws markers and names in rows; @return the height it takes.
 double draw_legend(SvgWriter& svg, const std::vector<ChartSeries>& series, double x, double y,
                    double width);

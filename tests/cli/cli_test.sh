@@ -76,6 +76,8 @@ done
 cell=run/cells/street/raymoval-online
 holds "the cell is there" test -s $cell/cell.json
 holds "the setting is recorded" grep -q '"tau0": 0.2' $cell/cell.json
+holds "the build says its commit" grep -qE '"commit": "([0-9a-f]{40}|unknown)"' run/run.json
+holds "and whether its tree was clean" grep -qE '"source_tree": "(clean|changed|unknown)"' run/run.json
 holds "removals are kept" test -s $cell/removals/000002.label
 holds "no part file is left" test -z "$(find run -name '*.part')"
 holds "no path is told" test -z "$(grep -rlF "$work" run)"
@@ -348,7 +350,9 @@ expect 2 "which run" picture -o map.png
 expect 2 "-o FILE.png" picture shown
 expect 2 "no such run folder" picture nowhere -o map.png
 expect 2 "Did you mean 'range'" picture shown -o map.png --kind rang
-expect 2 ".svg" picture shown -o map.png --kind stages
+expect 2 ".svg" picture shown -o map.jpg --kind stages
+for format in pdf png; do expect 0 "" picture shown -o rates.$format --kind pr-rr; done
+holds "a chart can be a PDF" grep -q '^%PDF-' rates.pdf
 expect 2 "--only" picture shown -o map.png --method raymoval:online
 expect 2 "--scan goes with --kind range" picture shown -o map.png --scan 1
 expect 2 "frames are 0:2" picture shown -o range.png --kind range --scan 9 --quiet
