@@ -108,10 +108,11 @@ class Plot {
                   spot.cell + ": mean " + rate + " " + rate_text(rate, spot.accuracy) + ", " +
                       time_text(spot.ms) + " per scan");
     }
-    PointLabels labels;
+    PointLabels labels(kLeft, kLeft + kPlotWidth + 20.0);
     for (const Spot& spot : spots_) {
       labels.add_point(to_x(spot.ms), to_y(spot.accuracy));
-      labels.add_text(to_x(spot.ms), to_y(spot.accuracy), spot.point);
+      labels.add_text(to_x(spot.ms), to_y(spot.accuracy), colour_text(spot.look.colour),
+                      spot.point);
     }
     labels.draw(svg_);
   }

@@ -113,18 +113,20 @@ void PointLabels::add_point(double x, double y) {
   points_.emplace_back(x, y);
 }
 
-void PointLabels::add_text(double x, double y, const std::string& text) {
+void PointLabels::add_text(double x, double y, const std::string& series, const std::string& text) {
   if (text.empty()) return;
   for (Text& known : texts_) {
-    if (std::hypot(known.x - x, known.y - y) > 4.0) continue;
+    if (known.series != series || std::hypot(known.x - x, known.y - y) > 4.0) continue;
     known.parts.push_back(text);
     return;
   }
-  texts_.push_back({x, y, {text}});
+  texts_.push_back({x, y, series, {text}});
 }
 
 void PointLabels::draw(SvgWriter& svg) const {
-  std::vector<Box> taken;
+  // What is far outside counts as taken.
+  constexpr double kFar = 1e5;
+  std::vector<Box> taken = {{-kFar, -kFar, left_, kFar}, {right_, -kFar, kFar, kFar}};
   for (const auto& [x, y] : points_) taken.push_back({x - 6.0, y - 6.0, x + 6.0, y + 6.0});
   for (const Text& text : texts_) {
     const std::size_t count = text.parts.size();

@@ -52,17 +52,22 @@ LinearAxis axis_from_zero(double most);
 /// Texts beside points, where they cover neither points nor each other if there is room.
 class PointLabels {
  public:
+  /// @param left,right between which texts stand where there is room, in pixels
+  PointLabels(double left, double right) : left_(left), right_(right) {}
   /// Keeps a point free that is drawn at (x, y).
   void add_point(double x, double y);
-  /// Says `text` beside the point at (x, y). Points in nearly one place share a text: "0.1, 0.2".
-  void add_text(double x, double y, const std::string& text);
+  /// Says `text` beside the point at (x, y). Points of one series in nearly one place share a text:
+  /// "0.1, 0.2".
+  void add_text(double x, double y, const std::string& series, const std::string& text);
   void draw(SvgWriter& svg) const;
 
  private:
   struct Text {
     double x, y;
+    std::string series;
     std::vector<std::string> parts;
   };
+  double left_, right_;
   std::vector<std::pair<double, double>> points_;
   std::vector<Text> texts_;
 };

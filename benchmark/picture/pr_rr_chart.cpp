@@ -36,7 +36,7 @@ std::string point_hint(const ResultRow& row, const RateTrio& trio) {
 class Panel {
  public:
   Panel(SvgWriter& svg, const Frame& frame, double x, double y)
-      : svg_(svg), frame_(frame), x_(x), y_(y) {}
+      : svg_(svg), frame_(frame), x_(x), y_(y), labels_(x - 30.0, x + kSide + 30.0) {}
 
   void draw_axes(const std::string& sequence) {
     svg_.text(x_, y_ - 24.0, sequence, "bold");
@@ -95,7 +95,7 @@ class Panel {
       const double y = to_y(*rate_value(row, frame_.trio.up));
       svg_.marker(x, y, series.look, point_hint(*row, frame_.trio));
       labels_.add_point(x, y);
-      labels_.add_text(x, y, sweep_label(results, row->cell));
+      labels_.add_text(x, y, series.name, sweep_label(results, row->cell));
     }
     return !rows.empty();
   }
