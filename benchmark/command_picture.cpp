@@ -6,6 +6,7 @@
 
 #include "benchmark/commands.h"
 #include "benchmark/kept_run.h"
+#include "benchmark/picture/chart_file.h"
 #include "benchmark/picture/charts.h"
 #include "benchmark/picture/map_picture.h"
 #include "benchmark/picture/overview_picture.h"
@@ -64,13 +65,15 @@ void check_flags(const PictureFlags& flags) {
   if (std::find(kinds().begin(), kinds().end(), flags.kind) == kinds().end()) {
     throw UsageError("--kind " + flags.kind + " is unknown." + suggestion(flags.kind, kinds()));
   }
-  const char* extension = is_chart(flags.kind) ? ".svg" : ".png";
+  const std::vector<std::string> extensions =
+      is_chart(flags.kind) ? chart_extensions() : std::vector<std::string>{".png"};
   if (flags.output.empty()) {
-    throw UsageError(std::string("-o FILE") + extension + " is missing: name the picture's file.");
+    throw UsageError("-o FILE" + extensions.front() + " is missing: name the picture's file.");
   }
-  if (std::filesystem::path(flags.output).extension() != extension) {
-    throw UsageError("-o " + flags.output + ": --kind " + flags.kind + " makes a " + extension +
-                     " file. Give the name that ending.");
+  const std::string extension = std::filesystem::path(flags.output).extension().string();
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    throw UsageError("-o " + flags.output + ": --kind " + flags.kind + " makes a " +
+                     join(extensions, ", ") + " file. Give the name such an ending.");
   }
   check_options(flags);
   check_folder_of(flags.output);
@@ -142,25 +145,24 @@ RgbImage drawn(const PictureFlags& flags, Progress& progress) {
                                : overview_picture(run, cell, overview, context);
 }
 
-std::string charted(const PictureFlags& flags) {
-  const KeptRun run(flags.run, "");
-  const RunResults& results = run.results();
+/// The chart that was asked for, of a run that has what it shows.
+DrawChart charted(const PictureFlags& flags) {
+  const RunResults results = KeptRun(flags.run, "").results();
   if (flags.kind == "stages") {
-    const std::string chart = stage_chart(results);
-    if (chart.empty()) throw DataError(flags.run + ": no method has times; none finished a cell.");
-    return chart;
+    if (stage_chart(results).empty()) {
+      throw DataError(flags.run + ": no method has times; none finished a cell.");
+    }
+    return [results](ChartPlace place) { return stage_chart(results, place); };
   }
   RunResults checked = results;
   if (!flags.protocol.empty()) choose_protocols(checked, {flags.protocol});
+  const auto chart = flags.kind == "pr-rr" ? pr_rr_chart : accuracy_time_chart;
   for (const std::string& protocol : checked.protocols) {
-    const std::string chart = flags.kind == "pr-rr" ? pr_rr_chart(results, protocol)
-                                                    : accuracy_time_chart(results, protocol);
-    if (!chart.empty()) return chart;
+    if (chart(results, protocol, ChartPlace::kFile).empty()) continue;
+    return [=](ChartPlace place) { return chart(results, protocol, place); };
   }
   throw DataError(flags.run + ": no method has what --kind " + flags.kind +
-                  " shows; see `raymoval "
-                  "table " +
-                  flags.run + "`.");
+                  " shows; see `raymoval table " + flags.run + "`.");
 }
 
 ExitCode draw(const PictureFlags& flags) {
@@ -168,7 +170,7 @@ ExitCode draw(const PictureFlags& flags) {
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   try {
     if (is_chart(flags.kind)) {
-      write_atomically(flags.output, charted(flags));
+      write_chart(flags.output, charted(flags));
     } else {
       write_png(flags.output, drawn(flags, progress));
     }
@@ -182,7 +184,8 @@ ExitCode draw(const PictureFlags& flags) {
 
 void add_options(CLI::App& app, PictureFlags& flags) {
   app.add_option("run", flags.run, "Run folder")->type_name("RUN");
-  app.add_option("-o,--output", flags.output, "The picture: .png, charts .svg; replaced if there")
+  app.add_option("-o,--output", flags.output,
+                 "The picture: .png; charts also .svg and .pdf; replaced if there")
       ->type_name("FILE");
   app.add_option("--kind", flags.kind,
                  "map (default), range, overview, pr-rr, stages or accuracy-time; the last three "
@@ -238,7 +241,7 @@ Command add_picture_command(CLI::App& program) {
       "  raymoval picture out/05 -o scan.png --kind range --method raymoval:offline --scan 30\n"
       "  raymoval picture out/05 -o overview.png --kind overview --method raymoval:offline\n"
       "  raymoval run simulated --out out/simulated\n"
-      "  raymoval picture out/simulated -o rates.svg --kind pr-rr\n"
+      "  raymoval picture out/simulated -o rates.pdf --kind pr-rr\n"
       "  raymoval picture out/simulated -o stages.svg --kind stages");
   return {app, [flags] { return draw(*flags); }};
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmark/build_commit.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -33,6 +34,8 @@ std::optional<double> kibibytes(const std::string& field) {
 nlohmann::ordered_json build_record() {
   nlohmann::ordered_json record;
   record["version"] = RAYMOVAL_VERSION;
+  record["commit"] = build_commit();
+  record["source_tree"] = build_tree();
   record["compiler"] = RAYMOVAL_COMPILER;
   record["build_type"] = RAYMOVAL_BUILD_TYPE;
   return record;

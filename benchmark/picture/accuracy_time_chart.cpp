@@ -18,20 +18,12 @@ constexpr double kMost = 30.0;  ///< Names in the list beside the plot before it
 /// A method in the plane of time and accuracy.
 struct Spot {
   std::string cell;
+  std::string point;  ///< What it was set to, if it is a point of a sweep.
   SeriesLook look;
   double ms = 0.0;
   double accuracy = 0.0;
   std::size_t sequences = 0;  ///< That have a value.
 };
-
-std::optional<double> ms_per_scan(const RunResults& results, const std::string& cell) {
-  for (const MethodTimes& times : results.times) {
-    if (times.cell == cell && times.scans > 0 && times.seconds > 0.0) {
-      return 1000.0 * times.seconds / static_cast<double>(times.scans);
-    }
-  }
-  return std::nullopt;
-}
 
 std::vector<Spot> spots_of(const RunResults& results, const std::string& protocol,
                            const std::string& rate) {
@@ -43,8 +35,10 @@ std::vector<Spot> spots_of(const RunResults& results, const std::string& protoco
         values.push_back(rate_value(results.find(sequence, cell, protocol), rate));
       }
       const Mean mean = mean_of(values);
-      const auto ms = ms_per_scan(results, cell);
-      if (mean.value && ms) spots.push_back({cell, series.look, *ms, *mean.value, mean.segments});
+      const auto ms = results.ms_per_scan(cell);
+      if (mean.value && ms && *ms > 0.0)
+        spots.push_back(
+            {cell, sweep_label(results, cell), series.look, *ms, *mean.value, mean.segments});
     }
   }
   std::stable_sort(spots.begin(), spots.end(),
@@ -114,6 +108,13 @@ class Plot {
                   spot.cell + ": mean " + rate + " " + rate_text(rate, spot.accuracy) + ", " +
                       time_text(spot.ms) + " per scan");
     }
+    PointLabels labels(kLeft, kLeft + kPlotWidth + 20.0);
+    for (const Spot& spot : spots_) {
+      labels.add_point(to_x(spot.ms), to_y(spot.accuracy));
+      labels.add_text(to_x(spot.ms), to_y(spot.accuracy), colour_text(spot.look.colour),
+                      spot.point);
+    }
+    labels.draw(svg_);
   }
 
  private:

@@ -49,6 +49,35 @@ LinearAxis axis_up_to(double least, double high);
 /// An axis that begins at 0 and ends at a round number above `most`.
 LinearAxis axis_from_zero(double most);
 
+/// Texts beside points, where they cover neither points nor each other if there is room.
+class PointLabels {
+ public:
+  /// @param left,right between which texts stand where there is room, in pixels
+  PointLabels(double left, double right) : left_(left), right_(right) {}
+  /// Keeps a point free that is drawn at (x, y).
+  void add_point(double x, double y);
+  /// Says `text` beside the point at (x, y). Points of one series in nearly one place share a text:
+  /// "0.1, 0.2".
+  void add_text(double x, double y, const std::string& series, const std::string& text);
+  void draw(SvgWriter& svg) const;
+
+ private:
+  struct Text {
+    double x, y;
+    std::string series;
+    std::vector<std::string> parts;
+  };
+  double left_, right_;
+  std::vector<std::pair<double, double>> points_;
+  std::vector<Text> texts_;
+};
+
+/// What a point of a sweep was set to: "0.2", or "0.2, true" of two parameters; empty for others.
+std::string sweep_label(const RunResults& results, const std::string& cell);
+
+/// How wide a legend has to be for its longest name.
+double legend_width(const std::vector<ChartSeries>& series);
+
 /// Draws markers and names in rows; @return the height it takes.
 double draw_legend(SvgWriter& svg, const std::vector<ChartSeries>& series, double x, double y,
                    double width);

@@ -11,6 +11,7 @@ namespace raymoval {
 enum class ChartPlace {
   kFile,  ///< A file of its own, with its style; follows the viewer's light or dark scheme.
   kPage,  ///< Within an HTML page that has `chart_style()` in a style sheet.
+  kPrint  ///< To be drawn on paper or as pixels: light, without custom properties.
 };
 
 /// The charts' style for a page. Colours of text, lines and ground are the custom properties

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace raymoval {
 
@@ -29,5 +31,9 @@ inline constexpr Colour kKeptStatic{176, 176, 176};   ///< Static and kept: grey
 /// lost on light ground.
 inline constexpr std::array<Colour, 6> kSeriesColours = {
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
+
+/// `count` colours of which no two are the same: those of the palette, then lighter and darker ones
+/// of the same hues.
+std::vector<Colour> distinct_colours(std::size_t count);
 
 }  // namespace raymoval

@@ -36,7 +36,7 @@ std::string point_hint(const ResultRow& row, const RateTrio& trio) {
 class Panel {
  public:
   Panel(SvgWriter& svg, const Frame& frame, double x, double y)
-      : svg_(svg), frame_(frame), x_(x), y_(y) {}
+      : svg_(svg), frame_(frame), x_(x), y_(y), labels_(x - 30.0, x + kSide + 30.0) {}
 
   void draw_axes(const std::string& sequence) {
     svg_.text(x_, y_ - 24.0, sequence, "bold");
@@ -91,12 +91,17 @@ class Panel {
     }
     if (rows.size() > 1) svg_.polyline(joined, "joined", colour_text(series.look.colour));
     for (const ResultRow* row : rows) {
-      svg_.marker(to_x(*rate_value(row, frame_.trio.across)),
-                  to_y(*rate_value(row, frame_.trio.up)), series.look,
-                  point_hint(*row, frame_.trio));
+      const double x = to_x(*rate_value(row, frame_.trio.across));
+      const double y = to_y(*rate_value(row, frame_.trio.up));
+      svg_.marker(x, y, series.look, point_hint(*row, frame_.trio));
+      labels_.add_point(x, y);
+      labels_.add_text(x, y, series.name, sweep_label(results, row->cell));
     }
     return !rows.empty();
   }
+
+  /// What the points of sweeps were set to, when all are drawn.
+  void draw_labels() { labels_.draw(svg_); }
 
   void say_empty() { svg_.text(x_ + kSide / 2.0, y_ + kSide / 2.0, "no result", "soft middle"); }
 
@@ -119,6 +124,7 @@ class Panel {
   const Frame& frame_;
   double x_, y_;
   double last_label_ = -1e9;
+  PointLabels labels_;
 };
 
 /// Axes that show every point; nothing if there is none.
@@ -169,9 +175,12 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol, 
     for (const ChartSeries& item : series) {
       any = panel.draw_series(item, results, results.sequences[i], protocol) || any;
     }
+    panel.draw_labels();
     if (!any) panel.say_empty();
   }
-  const double width = 16.0 + std::max(1.0 * columns, 2.0) * kPitch;
+  const double width =
+      std::max(16.0 + std::max(1.0 * columns, 2.0) * kPitch,
+               std::max(legend_width(series), text_width(title) * 1.1 + 130.0) + 32.0);
   const auto rows = static_cast<double>((results.sequences.size() + columns - 1) / columns);
   const double legend_top = kTop - 14.0 + rows * kRowPitch;
   const double legend = draw_legend(svg, series, 16.0, legend_top, width - 32.0);

@@ -46,10 +46,10 @@ std::string ms_text(double ms) {
   return fixed_text(ms, ms < 10.0 ? 2 : 1) + " ms";
 }
 
-/// Colours run anew along each bar, since methods have stages of their own.
+/// Colours run anew along each bar, since methods have stages of their own; none comes twice.
 Colour stage_colour(const Bar& bar, std::size_t stage) {
   if (bar.stages[stage].name == "other") return kOther;
-  return kSeriesColours[stage % kSeriesColours.size()];
+  return distinct_colours(bar.stages.size())[stage];
 }
 
 /// The stages' names and times below a bar, in lines. @return their height
@@ -98,9 +98,17 @@ std::string stage_chart(const RunResults& results, ChartPlace place) {
   if (bars.empty()) return "";
   SvgWriter svg("stages", "Milliseconds per scan by stage",
                 "A bar for each method, made of its stages in the order in which they run.");
+  const bool overlap = std::any_of(bars.begin(), bars.end(),
+                                   [](const Bar& bar) { return bar.length_ms > bar.total_ms; });
   svg.text(kMargin, 22.0, "Milliseconds per scan by stage, without reading files", "bold");
+  if (overlap) {
+    svg.text(kMargin, 38.0,
+             "Stages that ran on several threads at once are summed over them; the number beside a "
+             "bar is the time that passed.",
+             "soft");
+  }
   const LinearAxis axis{0.0, most > 0.0 ? most : 1.0, 1.0};
-  double y = kTop;
+  double y = kTop + (overlap ? 14.0 : 0.0);
   for (const Bar& bar : bars) y += draw_bar(svg, bar, axis, y);
   return svg.finish(kWidth, y + 4.0, place);
 }

@@ -25,10 +25,55 @@ std::size_t sequence_length(const std::string& text, std::size_t at) {
   return overlong || surrogate || code > 0x10FFFF || (code & 0xFFFEU) == 0xFFFEU ? 0 : length;
 }
 
-constexpr const char* kLight =
-    "--chart-ink:#1a1a1a;--chart-soft:#595959;--chart-line:#d4d4d4;--chart-ground:#ffffff";
-constexpr const char* kDark =
-    "--chart-ink:#f0f0f0;--chart-soft:#b4b4b4;--chart-line:#4a4a4a;--chart-ground:#1c1c1c";
+/// A custom property of the charts' style, by its value in light and in dark.
+struct ChartColour {
+  const char* name;
+  const char* light;
+  const char* dark;
+};
+constexpr ChartColour kChartColours[] = {{"--chart-ink", "#1a1a1a", "#f0f0f0"},
+                                         {"--chart-soft", "#595959", "#b4b4b4"},
+                                         {"--chart-line", "#d4d4d4", "#4a4a4a"},
+                                         {"--chart-ground", "#ffffff", "#1c1c1c"}};
+
+/// "--chart-ink:#1a1a1a;--chart-soft:#595959" and so on.
+std::string declarations(bool dark) {
+  std::vector<std::string> all;
+  for (const ChartColour& colour : kChartColours) {
+    all.push_back(std::string(colour.name) + ":" + (dark ? colour.dark : colour.light));
+  }
+  return join(all, ";");
+}
+
+std::string rules() {
+  const std::string in = ".raymoval-chart";
+  std::string css =
+      in + "{font-family:'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;font-size:12px}\n";
+  css += in + " .ground{fill:var(--chart-ground)}\n";
+  css += in + " text{fill:var(--chart-ink)}\n";
+  css += in + " .soft{fill:var(--chart-soft)}\n";
+  css += in + " .bold{font-weight:bold}\n";
+  css += in + " .middle{text-anchor:middle}\n" + in + " .end{text-anchor:end}\n";
+  css += in + " .small{font-size:10px}\n";
+  css += in + " .axis{stroke:var(--chart-soft);fill:none}\n";
+  css += in + " .grid{stroke:var(--chart-line);fill:none}\n";
+  css += in + " .iso{stroke:var(--chart-soft);stroke-dasharray:2 3;fill:none}\n";
+  css += in + " .front{stroke:var(--chart-soft);stroke-width:1.5;fill:none}\n";
+  css += in + " .joined{stroke-width:1.5;fill:none}\n";
+  return css + in + " .mark{stroke:var(--chart-ground);stroke-width:1}\n";
+}
+
+/// The rules with the colours of the light scheme in them, for programs without custom properties.
+std::string print_style() {
+  std::string css = rules();
+  for (const ChartColour& colour : kChartColours) {
+    const std::string use = "var(" + std::string(colour.name) + ")";
+    for (std::size_t at = css.find(use); at != std::string::npos; at = css.find(use, at)) {
+      css.replace(at, use.size(), colour.light);
+    }
+  }
+  return css;
+}
 
 std::string shape_path(double x, double y, int shape) {
   const auto at = [&](double dx, double dy) { return point_text(x + dx, y + dy); };
@@ -76,26 +121,13 @@ std::string xml_escaped(const std::string& text) {
   return escaped;
 }
 
-SeriesLook series_look(std::size_t index) {
-  return {kSeriesColours[index % kSeriesColours.size()], static_cast<int>(index % 5)};
+SeriesLook series_look(std::size_t index, std::size_t count) {
+  return {distinct_colours(count)[index], static_cast<int>(index % 5)};
 }
 
 std::string chart_style() {
-  const std::string in = ".raymoval-chart";
-  std::string css = ":root{" + std::string(kLight) +
-                    "}\n@media (prefers-color-scheme:dark){:root{" + kDark + "}}\n";
-  css += in + "{font-family:'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;font-size:12px}\n";
-  css += in + " .ground{fill:var(--chart-ground)}\n";
-  css += in + " text{fill:var(--chart-ink)}\n";
-  css += in + " .soft{fill:var(--chart-soft)}\n";
-  css += in + " .bold{font-weight:bold}\n";
-  css += in + " .middle{text-anchor:middle}\n" + in + " .end{text-anchor:end}\n";
-  css += in + " .axis{stroke:var(--chart-soft);fill:none}\n";
-  css += in + " .grid{stroke:var(--chart-line);fill:none}\n";
-  css += in + " .iso{stroke:var(--chart-soft);stroke-dasharray:2 3;fill:none}\n";
-  css += in + " .front{stroke:var(--chart-soft);stroke-width:1.5;fill:none}\n";
-  css += in + " .joined{stroke-width:1.5;fill:none}\n";
-  return css + in + " .mark{stroke:var(--chart-ground);stroke-width:1}\n";
+  return ":root{" + declarations(false) + "}\n@media (prefers-color-scheme:dark){:root{" +
+         declarations(true) + "}}\n" + rules();
 }
 
 SvgWriter::SvgWriter(const std::string& name, const std::string& title,
@@ -170,7 +202,10 @@ std::string SvgWriter::finish(double width, double height, ChartPlace place) con
          "\" viewBox=\"0 0 " + length_text(width) + " " + length_text(height) + "\">\n";
   svg += "<title id=\"" + name_ + "-title\">" + xml_escaped(title_) + "</title>\n";
   svg += "<desc id=\"" + name_ + "-desc\">" + xml_escaped(description_) + "</desc>\n";
-  if (place == ChartPlace::kFile) svg += "<style>\n" + chart_style() + "</style>\n";
+  if (place != ChartPlace::kPage) {
+    svg +=
+        "<style>\n" + (place == ChartPlace::kPrint ? print_style() : chart_style()) + "</style>\n";
+  }
   svg += "<rect class=\"ground\" width=\"" + size + "\"/>\n" + body_;
   return svg + "</svg>\n";
 }

@@ -13,12 +13,13 @@ namespace raymoval {
 std::string xml_escaped(const std::string& text);
 
 /// How a series of points looks: colour and shape change together, so that neither alone has to
-/// tell two of them apart, and 30 series differ.
+/// tell two of them apart.
 struct SeriesLook {
   Colour colour;
   int shape = 0;  ///< 0 .. 4: circle, square, diamond, triangle up, triangle down.
 };
-SeriesLook series_look(std::size_t index);
+/// @param count of the series in the chart, no two of which have one colour
+SeriesLook series_look(std::size_t index, std::size_t count);
 
 /// Writes an <svg> element piece by piece. Lengths in pixels, x to the right, y down, rounded to
 /// hundredths.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "benchmark/picture/svg.h"
 #include "core/text.h"
@@ -149,6 +150,19 @@ std::string whole_table(const TextTable& table, TableHeight height, bool heat) {
 
 std::string html_text(const std::string& text) {
   return xml_escaped(text);
+}
+
+std::string html_name(const std::string& name) {
+  std::string html, piece;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    piece += name[i];
+    if (std::string_view(":_/=,").find(name[i]) == std::string_view::npos || i + 1 == name.size()) {
+      continue;
+    }
+    html += html_text(piece) + "<wbr>";
+    piece.clear();
+  }
+  return html + html_text(piece);
 }
 
 std::string html_id(const std::string& text) {

@@ -12,6 +12,9 @@ namespace raymoval {
 /// Text for an HTML page, also within quotes; what is not UTF-8 is replaced.
 std::string html_text(const std::string& text);
 
+/// The same for a name, which may be broken into lines behind ':', '_', '/', '=' and ','.
+std::string html_name(const std::string& name);
+
 /// Text for an id: letters, digits and '-'.
 std::string html_id(const std::string& text);
 

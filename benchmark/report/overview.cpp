@@ -48,7 +48,7 @@ void mark_column(TextTable& table, std::size_t place, bool higher_is_better) {
 
 std::string fact(const std::string& name, const std::string& value, const std::string& more,
                  const char* look = "") {
-  return "<div><dt>" + html_text(name) + "</dt><dd class=\"" + look + "\">" + html_text(value) +
+  return "<div><dt>" + html_text(name) + "</dt><dd class=\"" + look + "\">" + html_name(value) +
          (more.empty() ? "" : "<small>" + html_text(more) + "</small>") + "</dd></div>\n";
 }
 

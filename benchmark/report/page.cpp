@@ -10,6 +10,7 @@
 #include "benchmark/report/page_files.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/sealed_json.h"
+#include "benchmark/suite.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -183,8 +184,32 @@ std::string scripts_html(const Points& points) {
   return html;
 }
 
+/// "a, b and c", or "4 methods".
+std::string listed(const std::vector<std::string>& names, const std::string& noun) {
+  constexpr std::size_t kMost = 3;
+  if (names.size() > kMost) return std::to_string(names.size()) + " " + noun;
+  if (names.size() < 2) return names.empty() ? "no " + noun : names.front();
+  return join({names.begin(), names.end() - 1}) + " and " + names.back();
+}
+
+/// What was run: "simulated-quick: raymoval:online and raymoval:offline on town and crossing". Runs
+/// without a suite file all have one name, which says nothing.
+std::string title_of(const RunResults& results) {
+  std::vector<std::string> methods;
+  for (const std::string& cell : results.cells) {
+    const SweptCell* point = results.swept(cell);
+    const std::string name = point == nullptr ? cell : "a sweep of " + point->sweep();
+    const bool known = std::find(methods.begin(), methods.end(), name) != methods.end();
+    if (!known && !results.is_control(cell)) methods.push_back(name);
+  }
+  const std::string name = results.name == Suite().name ? "" : results.name + ": ";
+  return name + (methods.empty() ? "the controls" : listed(methods, "methods")) + " on " +
+         listed(results.sequences, "sequences");
+}
+
 std::string subtitle(const RunResults& results) {
-  return join(results.sequences) + "; scored by " + join(results.protocols);
+  return "Which points are removed, and how well: " + join(results.sequences) + "; scored by " +
+         join(results.protocols);
 }
 
 }  // namespace
@@ -194,10 +219,10 @@ Page make_page(const PageRequest& request) {
   Points points;
   if (request.with_points) points = collect_points(request);
   const std::vector<PageSection> sections = sections_of(request, points);
-  const std::string title = results.name + ": which points are removed, and how well";
+  const std::string title = title_of(results);
   std::string html = head_html(title) +
                      "<body>\n<a class=\"skip\" href=\"#main\">To the content</a>\n<header><h1>" +
-                     html_text(results.name) + "</h1>\n<p>" + html_text(subtitle(results)) +
+                     html_name(title) + "</h1>\n<p>" + html_text(subtitle(results)) +
                      "</p></header>\n" + navigation_html(sections) + "<main id=\"main\">\n" +
                      facts_html(request.content);
   for (const PageSection& section : sections) html += html_section(section);

@@ -3,7 +3,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
+#include "benchmark/picture/chart_file.h"
 #include "benchmark/picture/chart_parts.h"
+#include "benchmark/picture/png_file.h"
+#include "core/files.h"
+#include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
@@ -159,14 +165,78 @@ TEST_CASE("A chart for a page leaves its style to the page") {
   CHECK_THAT(chart_style(), Contains("--chart-ink"));
 }
 
-TEST_CASE("Thirty series look different") {
-  std::vector<std::pair<std::string, int>> looks;
-  for (std::size_t i = 0; i < 30; ++i) {
-    const SeriesLook look = series_look(i);
-    looks.emplace_back(colour_text(look.colour), look.shape);
+TEST_CASE("No colour comes twice in a chart") {
+  for (const std::size_t count : {1U, 6U, 7U, 13U, 40U}) {
+    std::vector<std::string> colours;
+    for (std::size_t i = 0; i < count; ++i) {
+      colours.push_back(colour_text(series_look(i, count).colour));
+    }
+    CHECK(colours.front() == colour_text(kSeriesColours.front()));
+    std::sort(colours.begin(), colours.end());
+    CHECK(std::adjacent_find(colours.begin(), colours.end()) == colours.end());
+    CHECK(std::find(colours.begin(), colours.end(), "#FFFFFF") == colours.end());
   }
-  std::sort(looks.begin(), looks.end());
-  CHECK(std::adjacent_find(looks.begin(), looks.end()) == looks.end());
+}
+
+TEST_CASE("A bar of nine stages has nine colours") {
+  RunResults results;
+  results.times = {{"x", 1, 9.0, 0.0, {}, 1, 1}};
+  for (int i = 0; i < 9; ++i) results.times[0].stages.emplace_back("s" + std::to_string(i), 1.0);
+  const std::string svg = stage_chart(results);
+  std::vector<std::string> fills;
+  for (std::size_t at = svg.find("fill=\"#"); at != std::string::npos;
+       at = svg.find("fill=\"#", at + 1)) {
+    fills.push_back(svg.substr(at + 6, 7));
+  }
+  REQUIRE(fills.size() == 18);  // In the bar and below it.
+  std::sort(fills.begin(), fills.end());
+  CHECK(std::unique(fills.begin(), fills.end()) - fills.begin() == 9);
+}
+
+TEST_CASE("Points of a sweep carry what they were set to, apart from each other") {
+  RunResults results = two_points();
+  results.sweeps = {{"x", "m", {{"tau", "0.1"}}}, {"y", "m", {{"tau", "0.35"}}}};
+  const std::string svg = pr_rr_chart(results, "erasor");
+  CHECK_THAT(svg, Contains(">0.1</text>") && Contains(">0.35</text>"));
+  CHECK_THAT(svg, Contains("m over tau"));
+  CHECK_THAT(accuracy_time_chart(results, "erasor"), Contains(">0.35</text>"));
+  // Where both points are one, they share a text.
+  results.rows[2].rates = results.rows[1].rates;
+  CHECK_THAT(pr_rr_chart(results, "erasor"), Contains(">0.1, 0.35</text>"));
+  CHECK(pr_rr_chart(two_points(), "erasor").find("class=\"small\"") == std::string::npos);
+}
+
+TEST_CASE("Two sweeps of one variant are two series") {
+  RunResults results = two_points();
+  results.sweeps = {{"x", "m", {{"tau", "1"}}}, {"y", "m", {{"test", "true"}}}};
+  const std::vector<ChartSeries> series = chart_series(results);
+  REQUIRE(series.size() == 3);  // And the broken one.
+  CHECK(series[0].name == "m over tau");
+  CHECK(series[1].name == "m over test");
+}
+
+TEST_CASE("A chart is written as PDF and PNG too") {
+  const test::TemporaryFolder folder;
+  const RunResults results = two_points();
+  const auto draw = [&](ChartPlace place) { return pr_rr_chart(results, "erasor", place); };
+  const auto written = [&](const char* name) {
+    write_chart(folder.path() / name, draw);
+    return read_text(folder.path() / name);
+  };
+  CHECK(draw(ChartPlace::kPrint).find("var(") == std::string::npos);
+  CHECK_THAT(written("a.svg"), Catch::Matchers::StartsWith("<svg "));
+  const std::string pdf = written("a.pdf");
+  CHECK_THAT(pdf, Catch::Matchers::StartsWith("%PDF-"));
+  CHECK(pdf.find("CreationDate") == std::string::npos);
+  CHECK(pdf == written("b.pdf"));
+  write_chart(folder.path() / "a.png", draw);
+  const RgbImage image = read_png(folder.path() / "a.png");
+  CHECK_THAT(draw(ChartPlace::kPrint),
+             Contains("width=\"" + std::to_string(image.width / 2) + "\" height"));
+  // The ground is white, and there is ink.
+  CHECK(image.rgb[0] == 255);
+  CHECK(std::count_if(image.rgb.begin(), image.rgb.end(), [](int value) { return value < 100; }) >
+        500);
 }
 
 TEST_CASE("Axes begin and end at round numbers") {

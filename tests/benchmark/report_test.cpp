@@ -148,6 +148,23 @@ TEST_CASE("text cannot leave its place in a page", "[report]") {
   }
 }
 
+TEST_CASE("a name is broken where its parts end", "[report]") {
+  CHECK(html_name("raymoval_plus:offline") == "raymoval_<wbr>plus:<wbr>offline");
+  CHECK(html_name("a<b:") == "a&lt;b:");
+}
+
+TEST_CASE("blocks of a table have a heading each", "[report]") {
+  const TextTable table{"t",
+                        "method",
+                        {{"", {"PR"}}},
+                        {{"x", {{"1"}}, false, "a&b"}, {"x", {{"2"}}, false, "c"}},
+                        {}};
+  const std::string html = html_table(table);
+  CHECK_THAT(html,
+             Contains("<tr class=\"block\"><th scope=\"rowgroup\" colspan=\"2\">a&amp;b</th>"));
+  CHECK(html.find("<tbody>") != html.rfind("<tbody>"));
+}
+
 TEST_CASE("a table says what its cells are", "[report]") {
   TextTable table{"T", "method", {{"p", {"PR", "why"}}}, {}, {}};
   table.rows.push_back({"a", {{"1,234.5", Mark::kBest}, {"3 of them"}}, false});

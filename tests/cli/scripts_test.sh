@@ -21,4 +21,32 @@ for script in scripts/*.sh scripts/workflow/test_slurm.sh; do
   holds "$script --help is its head only" test -z "$(grep -e '^set ' -e '^#' <("$script" --help))"
   tells 2 "--nonsense" "$script" --nonsense
 done
+
+# Which commit is built: read in each build, written only if it is another one.
+# asks FOLDER: what the source says of the commit and the tree of FOLDER.
+asks() {
+  cmake -DSOURCE="$PWD/$1" -DOUTPUT="$PWD/commit.cpp" -P "$scripts/../cmake/build_commit.cmake"
+  sed -n 's/.*return "\(.*\)".*/\1/p' commit.cpp | paste -sd' '
+}
+mkdir -p plain repository/core
+holds "without a repository the commit is unknown" test "$(asks plain)" = "unknown unknown"
+if command -v git >/dev/null; then
+  git=(git -C repository -c user.name=n -c user.email=e@example.org)
+  "${git[@]}" init -q
+  echo one >repository/core/a.cpp
+  "${git[@]}" add -A
+  "${git[@]}" commit -qm one
+  commit=$("${git[@]}" rev-parse HEAD)
+  holds "a repository has its commit" test "$(asks repository)" = "$commit clean"
+  touch -d 2001-01-01 commit.cpp
+  asks repository >said.txt
+  holds "what is known is not written again" test "$(date -r commit.cpp +%Y)" = 2001
+  echo two >repository/results.csv
+  holds "results do not change the tree" test "$(asks repository)" = "$commit clean"
+  echo two >repository/core/a.cpp
+  holds "sources do" test "$(asks repository)" = "$commit changed"
+  mkdir -p repository/inner
+  holds "a folder within another repository is none of it" \
+    test "$(asks repository/inner)" = "unknown unknown"
+fi
 finish scripts

@@ -10,14 +10,18 @@ fi
 raymoval=$(readlink -f "$1")
 source "$(dirname "${BASH_SOURCE[0]}")/../cli/checks.sh"
 
-# compiles FILE.tex: without an error, and with nothing that sticks out by more than a letter.
+# compiles FILE.tex: in an article of one column and of two, without an error, and with nothing that
+# sticks out by more than a letter.
 compiles() {
-  local document=${1%.tex}_document
-  printf '%s\n' '\documentclass{article}' '\usepackage{booktabs}' '\begin{document}' \
-    "\\input{$1}" '\end{document}' >"$document.tex"
-  holds "$1 compiles" pdflatex -interaction=nonstopmode -halt-on-error "$document.tex"
-  holds "$1 fits the page" test -z "$(grep -E '^Overfull .hbox \(([6-9]|[0-9]{2,})' \
-    "$document.log"; grep -E 'Float too large|undefined' "$document.log")"
+  local columns document
+  for columns in onecolumn twocolumn; do
+    document=${1%.tex}_$columns
+    printf '%s\n' "\\documentclass[$columns]{article}" '\usepackage{booktabs}' '\begin{document}' \
+      "\\input{$1}" '\end{document}' >"$document.tex"
+    holds "$1 compiles in $columns" pdflatex -interaction=nonstopmode -halt-on-error "$document.tex"
+    holds "$1 fits the page in $columns" test -z "$(grep -E '^Overfull .hbox \(([6-9]|[0-9]{2,})' \
+      "$document.log"; grep -E 'Float too large|undefined' "$document.log")"
+  done
 }
 
 # The long way round: many methods, a sweep, odd names, a cell that fails with a long reason.
@@ -50,6 +54,12 @@ compiles run.tex
 compiles published.tex
 "$raymoval" table run --columns --format tex >columns.tex
 compiles columns.tex
+"$raymoval" table run --layout paper --disagreements --format tex >paper.tex
+compiles paper.tex
+# One method's rates fit a column: a plain table.
+"$raymoval" table run --only '*/raymoval*' --rates PR,RR,F1 --format tex >narrow.tex
+compiles narrow.tex
+holds "a narrow table stays in its column" grep -qF '\begin{table}' narrow.tex
 holds "the best is bold" grep -qF '\textbf{' run.tex
 holds "the second is underlined" grep -qF '\underline{' run.tex
 finish latex

@@ -209,27 +209,13 @@ class View {
     this.stage.request();
   }
 
-  /** Centre of the path, and how far the path reaches. */
-  extent() {
-    const {trajectory} = this.data.head;
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    trajectory.forEach((value, i) => {
-      low[i % 3] = Math.min(low[i % 3], value);
-      high[i % 3] = Math.max(high[i % 3], value);
-    });
-    const centre = low.map((value, axis) => (value + high[axis]) / 2);
-    return {centre, reach: Math.hypot(...high.map((value, axis) => value - low[axis]))};
-  }
-
+  /** Shows the whole map, obliquely or from above. */
   lookAtAll(fromAbove = false) {
-    const {centre, reach} = this.extent();
-    const {clientWidth: width, clientHeight: height} = element('canvas');
-    const narrow = Math.max(1, 1.2 * height * this.clouds.length / Math.max(width, 1));
-    const range = Math.max(35, reach * 0.75) * narrow;
+    const {low, high} = this.data.box();
     const first = this.data.sensor(0), last = this.data.sensor(this.data.head.scans.length - 1);
     const angle = Math.atan2(last[1] - first[1], last[0] - first[0]) + 2.2;
-    this.stage.look(centre, fromAbove ? [0.01 * Math.cos(angle), 0.01 * Math.sin(angle), range * 1.6]
-                                      : [range * Math.cos(angle), range * Math.sin(angle), range * 0.75]);
+    this.stage.lookAtBox(low, high, fromAbove ? [0.001 * Math.cos(angle), 0.001 * Math.sin(angle), 1]
+                                              : [Math.cos(angle), Math.sin(angle), 0.75]);
   }
 
   lookFromSensor() {

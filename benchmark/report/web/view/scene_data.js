@@ -73,17 +73,30 @@ export class SceneData {
     return cell;
   }
 
+  /** Steps along an axis below which a share of the points are. */
+  quantiles(axis, shares) {
+    const bins = new Uint32Array(65536);
+    for (let i = 0; i < this.count; ++i) ++bins[this.places[4 * i + axis]];
+    return shares.map((share) => {
+      let sum = 0, place = 0;
+      while (place < 65535 && sum + bins[place] <= share * this.count) sum += bins[place++];
+      return place;
+    });
+  }
+
   /** Heights in steps below which 1 % and 99 % of the points are. */
   findHeights() {
-    const bins = new Uint32Array(65536);
-    for (let i = 0; i < this.count; ++i) ++bins[this.places[4 * i + 2]];
-    const at = (share) => {
-      let sum = 0, z = 0;
-      while (z < 65535 && sum + bins[z] <= share * this.count) sum += bins[z++];
-      return z;
-    };
-    this.low = at(0.01);
-    this.high = Math.max(this.low + 1, at(0.99));
+    const [low, high] = this.quantiles(2, [0.01, 0.99]);
+    this.low = low;
+    this.high = Math.max(low + 1, high);
+  }
+
+  /** Corners of the box that holds the map in metres, without the outermost thousandth of the points
+      at each side, which single far returns are. */
+  box() {
+    const ends = [0, 1, 2].map((axis) => this.quantiles(axis, [0.001, 0.999]));
+    return {low: ends.map(([low]) => low * this.step),
+            high: ends.map(([, high]) => (high + 1) * this.step)};
   }
 
   /** Of point i, in metres from the scene's origin. */

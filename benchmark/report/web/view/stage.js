@@ -109,6 +109,26 @@ export class Stage {
     this.request();
   }
 
+  /** Looks at the box between two corners from `direction`, from as near as shows all of it. */
+  lookAtBox(low, high, direction) {
+    this.resize();
+    const each = this.width / Math.max(1, this.sides.length);
+    const tangent = Math.tan(this.camera.fov * Math.PI / 360), margin = 1.04;
+    const tangents = [tangent * each / Math.max(1, this.height) / margin, tangent / margin];
+    const towards = new Vector3(...direction).normalize();
+    const right = new Vector3(0, 0, 1).cross(towards).normalize();
+    const axes = [right, towards.clone().cross(right)];
+    const centre = low.map((value, axis) => (value + high[axis]) / 2);
+    let range = 5;
+    for (let corner = 0; corner < 8; ++corner) {
+      const offset = new Vector3(...centre.map((value, axis) => (corner >> axis & 1 ? high : low)[axis] - value));
+      axes.forEach((axis, i) => {
+        range = Math.max(range, offset.dot(towards) + Math.abs(offset.dot(axis)) / tangents[i]);
+      });
+    }
+    this.look(centre, towards.multiplyScalar(range).toArray());
+  }
+
   /** Turns by angles in radians about the target. */
   turn(azimuth, polar) {
     const offset = this.camera.position.clone().sub(this.controls.target);
