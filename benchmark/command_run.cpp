@@ -100,8 +100,8 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
 ExitCode run(const RunFlags& flags) {
   if (flags.what.suite.empty() && flags.what.sequences.empty()) {
     throw UsageError(
-        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence PATH "
-        "--method NAME --out DIR`.");
+        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run PATH --method NAME "
+        "--out DIR`.");
   }
   const Suite suite = flags.what.resolved();
   check_flags(flags);
@@ -176,6 +176,7 @@ Command add_run_command(CLI::App& program) {
       "--set protocol:dynamicmap.maximum_range=50 --out out/near\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method octomap --out out/town  # is added\n"
+      "  raymoval run data/05 --method all --method octomap:all --out out/all\n"
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval run simulated --out out/simulated --explain\n"
       "  raymoval run simulated --out out/part2 --shard 2/3\n"
