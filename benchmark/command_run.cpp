@@ -100,8 +100,8 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
 ExitCode run(const RunFlags& flags) {
   if (flags.what.suite.empty() && flags.what.sequences.empty()) {
     throw UsageError(
-        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run PATH --method NAME "
-        "--out DIR`.");
+        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence PATH "
+        "--method NAME --out DIR`.");
   }
   const Suite suite = flags.what.resolved();
   check_flags(flags);

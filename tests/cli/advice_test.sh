@@ -124,8 +124,9 @@ expect 2 "Did you mean 'erasor'" run "${short[@]}" --method ERASOR --out o
 expect 2 "Did you mean 'hdl64e'" run "${short[@]}" --method noop --sensor HDL64E --out o
 expect 2 "MIN comes first: write 2:50." run "${short[@]}" --method noop --range 50:2 --out o
 expect 2 "Write :50 for at most 50 m" run "${short[@]}" --method noop --range 50 --out o
-expect 2 "min is 50 and max 2" run <(echo '{"sequences": [{"path": "street", "range_m":
-  {"min": 50, "max": 2}}], "methods": ["noop"]}') --out o
+echo '{"sequences": [{"path": "street", "range_m": {"min": 50, "max": 2}}], "methods": ["noop"]}' \
+  >swapped.json
+expect 2 "min is 50 and max 2" run swapped.json --out o
 expect 2 "500MB, 2GB or 2GiB" run "${short[@]}" --method noop --memory-limit 2XB --out o
 expect 2 "90s, 5min or 2h" run "${short[@]}" --method noop --time-limit 5:00 --out o
 expect 0 "All controls" run "${short[@]}" --method noop --memory-limit 2GB --time-limit 5min \
