@@ -181,8 +181,7 @@ Command add_clean_command(CLI::App& program) {
   auto flags = std::make_shared<CleanFlags>();
   CLI::App* app = program.add_subcommand("clean", "Writes a map without moving objects");
   app->allow_extras();
-  app->add_option("path", flags->path, "Sequence folder, ROOT:05, `street`, or a scene")
-      ->type_name("PATH");
+  SequenceFlags::add_place_to(*app, flags->path);
   app->add_option("-o,--output", flags->output, "Cleaned map in the world frame: .pcd, .ply, .bin")
       ->type_name("FILE");
   app->add_option("--dynamic", flags->dynamic, "What was removed, as a map")->type_name("FILE");

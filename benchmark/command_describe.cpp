@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,11 @@ Description description_of(const std::string& name) {
   const std::string protocol = prefixed ? name.substr(std::string(kProtocolPrefix).size()) : name;
   if (const ProtocolEntry* entry = find_protocol(protocol)) return describe_protocol(*entry);
   for (const ProtocolEntry& entry : protocol_entries()) names.push_back(entry.name);
+  const std::string owner = protocol.substr(0, protocol.rfind('.'));
+  if (owner != protocol && std::find(names.begin(), names.end(), owner) != names.end()) {
+    throw UsageError("'" + protocol + "' is a parameter; `raymoval describe " + owner +
+                     "` lists those of " + owner + " with their meaning.");
+  }
   throw UsageError("there is no method or protocol '" + protocol + "'." +
                    suggestion(protocol, names));
 }

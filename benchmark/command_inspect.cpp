@@ -106,8 +106,7 @@ Command add_inspect_command(CLI::App& program) {
   auto flags = std::make_shared<InspectFlags>();
   CLI::App* app = program.add_subcommand("inspect", "Finds mistakes in the data of a sequence");
   app->allow_extras();
-  app->add_option("sequence", flags->path, "Sequence folder, ROOT:05, `street`, or a scene")
-      ->type_name("PATH");
+  SequenceFlags::add_place_to(*app, flags->path);
   flags->reading.add_to(*app);
   app->add_flag("--json", flags->json, "Print findings and measured numbers as JSON");
   app->add_flag("--list", flags->list, "Say what is looked for, and what to do about each");

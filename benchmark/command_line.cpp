@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <new>
 
+#include "benchmark/amounts.h"
 #include "benchmark/commands.h"
 #include "benchmark/terminal_colour.h"
 #include "core/file_kind.h"
@@ -63,8 +64,10 @@ void check_nothing_left(const CLI::App& app, const std::string& help) {
         (reads && may_be_sequence(name) ? " Name it with --sequence " + name + "." : "") +
         " See `" + help + " --help`.");
   }
-  throw UsageError("unknown option '" + name + "'." + suggestion(name, option_names(app)) +
-                   " See `" + help + " --help`.");
+  const bool short_out = name == "-o" && app.get_option_no_throw("--out") != nullptr;
+  throw UsageError("unknown option '" + name + "'." +
+                   suggestion(short_out ? "--out" : name, option_names(app)) + " See `" + help +
+                   " --help`.");
 }
 
 /// "raymoval clean": what was being read of the command line.
@@ -73,11 +76,17 @@ std::string parsed_command(const CLI::App& program) {
   return "raymoval" + (commands.empty() ? "" : " " + commands.front()->get_name());
 }
 
-/// The parser's message, which says "--output: 1 required FILE missing" of an option without value.
+/// The parser's message, in plain words where it says "--output: 1 required FILE missing" of an
+/// option without value, or "--frames: At Most 1 required but received 2".
 std::string parse_problem(const CLI::ParseError& error) {
   constexpr std::string_view kRequired = ": 1 required ";
   constexpr std::string_view kMissing = " missing";
+  constexpr std::string_view kTooMany = ": At Most 1 required but received ";
   const std::string text = error.what();
+  if (const std::size_t often = text.find(kTooMany); often != std::string::npos) {
+    return text.substr(0, often) + " is given " + text.substr(often + kTooMany.size()) +
+           " times; leave all but one out.";
+  }
   const std::size_t at = text.find(kRequired);
   if (at == std::string::npos || !text.ends_with(kMissing)) return text;
   const std::size_t type = at + kRequired.size();
@@ -98,6 +107,10 @@ const Command& chosen_command(const CLI::App& program, const std::vector<Command
   const std::vector<std::string> left = program.remaining();
   if (left.empty()) throw UsageError("a command is missing: " + join(names) + ".");
   if (left.front().starts_with("-")) check_nothing_left(program, "raymoval");
+  if (!closest_name(left.front(), names)) {
+    const auto option = closest_name(left.front(), option_names(program));
+    if (option) names = {*option};  // "version"
+  }
   throw UsageError("'" + left.front() + "' is no command." + suggestion(left.front(), names) +
                    " See `raymoval --help`.");
 }
@@ -169,6 +182,11 @@ const std::atomic<bool>& interrupt_flag() {
   return interrupted;
 }
 
+void SequenceFlags::add_place_to(CLI::App& app, std::string& place) {
+  app.add_option("path,--sequence", place, "Sequence folder, ROOT:05, `street`, or a scene")
+      ->type_name("PATH");
+}
+
 void SequenceFlags::add_to(CLI::App& app) {
   app.add_option("--frames", frames, "Frames, ends included; parts may be empty")
       ->type_name("FIRST:LAST:STRIDE");
@@ -212,19 +230,7 @@ SequenceOptions SequenceFlags::options() const {
   if (!drop_ego.empty()) options.drop_ego = parse_drop_ego(drop_ego);
   if (!name.empty()) options.name = name;
   if (range.empty()) return options;
-  const auto parts = split(range, ':');
-  RangeLimits limits;
-  bool good = parts.size() == 2;
-  for (std::size_t i = 0; good && i < 2; ++i) {
-    if (parts[i].empty()) continue;
-    const auto value = parse_number<double>(parts[i]);
-    good = value.has_value();
-    if (good) (i == 0 ? limits.min : limits.max) = *value;
-  }
-  if (!good || !(limits.min >= 0.0 && limits.max > limits.min)) {
-    throw UsageError("--range " + range + ": expected MIN:MAX in metres, such as 2.7:50.");
-  }
-  options.range_m = limits;
+  options.range_m = parse_range("--range", range);
   return options;
 }
 
@@ -238,7 +244,8 @@ int parse_threads(const std::string& text) {
 double parse_positive(const std::string& option, const std::string& text) {
   const auto value = parse_number<double>(text);
   if (value && *value > 0.0 && *value < 1e6) return *value;
-  throw UsageError(option + " " + text + ": expected a number greater than 0.");
+  throw UsageError(option + " " + text +
+                   ": expected a number greater than 0 and less than 1,000,000, without a unit.");
 }
 
 void print(const std::string& text) {

@@ -63,7 +63,15 @@ std::string size_text(std::size_t bytes) {
 
 ExitCode report(const ReportFlags& flags) {
   if (flags.run.empty()) throw UsageError("which run? Expected `raymoval report RUN`.");
-  if (!flags.output.empty()) check_folder_of(flags.output);
+  if (!flags.output.empty()) {
+    const std::string extension = std::filesystem::path(flags.output).extension().string();
+    if (extension != ".html" && extension != ".htm") {
+      throw UsageError("-o " + flags.output +
+                       ": a report is a page, expected a name that ends in .html. A browser prints "
+                       "it to PDF.");
+    }
+    check_folder_of(flags.output);
+  }
   const int threads = parse_threads(flags.threads);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   PageRequest request;

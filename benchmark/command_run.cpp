@@ -196,6 +196,7 @@ Command add_run_command(CLI::App& program) {
       "--set protocol:dynamicmap.maximum_range=50 --out out/near\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method octomap --out out/town  # is added\n"
+      "  raymoval run data/05 --method all --method octomap:all --out out/all\n"
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval run simulated --out out/simulated --explain\n"
       "  raymoval run simulated --out out/part2 --shard 2/3\n"

@@ -190,7 +190,8 @@ class Scoring {
 };
 
 void check_flags(const ScoreFlags& flags) {
-  if (flags.sequence.empty()) throw UsageError("--sequence PATH is missing.");
+  if (flags.sequence.empty())
+    throw UsageError("score what? Expected `raymoval score PATH --predictions DIR`.");
   check_not_both(flags.sequence);
   if (flags.predictions.empty() && flags.cloud.empty()) {
     throw UsageError(
@@ -243,8 +244,7 @@ Command add_score_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("score", "Scores label files or a cleaned map made by any program");
   app->allow_extras();
-  app->add_option("--sequence", flags->sequence, "Sequence folder, ROOT:05, `street`, or a scene")
-      ->type_name("PATH");
+  SequenceFlags::add_place_to(*app, flags->sequence);
   app->add_option("--predictions", flags->predictions,
                   "Folder of NNNNNN.label files: 251 to 259 = removed, others kept")
       ->type_name("DIR");
@@ -257,7 +257,7 @@ Command add_score_command(CLI::App& program) {
   app->add_option("--protocol", flags->protocols, "Protocol to score by (default: erasor)")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  app->add_option("--set", flags->settings, "Option of a protocol: PROTOCOL.key=value")
+  app->add_option("--set", flags->settings, "Option of a protocol: protocol:NAME.key=value")
       ->type_name("SETTING")
       ->allow_extra_args(false);
   flags->reading.add_to(*app);
@@ -274,6 +274,8 @@ Command add_score_command(CLI::App& program) {
       "  raymoval score --sequence data/05 --predictions out/labels\n"
       "  raymoval score --sequence data/05 --cloud static.pcd --voxel 0.1 --protocol erasor "
       "--protocol dynamicmap\n"
+      "  raymoval score data/05 --predictions out/labels --protocol dynamicmap "
+      "--set protocol:dynamicmap.distance=0.1\n"
       "  raymoval score --sequence street --predictions "
       "out/street/cells/street/raymoval-online/removals --json score.json");
   return {app, [flags] { return score(*flags); }};

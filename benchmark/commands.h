@@ -48,6 +48,8 @@ struct SequenceFlags {
   std::string frames, poses, label_rule, range, sensor, up, drop_ego, name;
 
   void add_to(CLI::App& app);
+  /// The sequence that a command is about, which may be given with --sequence or without it.
+  static void add_place_to(CLI::App& app, std::string& place);
   /// @throws UsageError for an ill-formed value
   [[nodiscard]] SequenceOptions options() const;
   /// The first of these options that was given, such as "--frames"; empty if none was.

@@ -75,15 +75,18 @@ ComparedCell cell_of(const ordered_json& cell) {
 std::string machine_of(const ordered_json& run) {
   if (!run.contains("machine") || run["machine"].is_null()) return "";
   const ordered_json& machine = run["machine"];
-  return machine.at("processor").get<std::string>() + ", " +
-         std::to_string(machine.at("cores").get<int>()) + " cores, " +
-         std::to_string(machine.at("threads").get<int>()) + " threads used";
+  return machine.value("processor", "an unknown processor") + ", " +
+         std::to_string(machine.value("cores", 0)) + " cores, " +
+         std::to_string(machine.value("threads", 0)) + " threads used";
 }
 
 }  // namespace
 
 std::filesystem::path find_results(const std::string& given) {
   const std::filesystem::path path(given);
+  if (is_file(path) && path.extension() != ".json") {
+    throw UsageError(given + ": expected a run folder, or its results.json.");
+  }
   if (is_file(path)) return path;
   if (!is_folder(path)) {
     throw UsageError(given + ": no such run folder; expected what `raymoval run --out` made.");

@@ -42,6 +42,12 @@ Setting parse_setting(const std::string& text) {
 
 MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
                           const MethodRegistry& registry) {
+  if (const auto names = expanded_methods(name_and_variant, registry);
+      names != std::vector{name_and_variant}) {
+    throw UsageError("method '" + name_and_variant + "' stands for " +
+                     counted_text(names.size(), "method") +
+                     ", and one is expected here: " + join(names) + ".");
+  }
   MethodRequest request;
   request.method = registry.configure(name_and_variant);
   request.name = as.empty() ? request.method.full_name() : as;
@@ -54,6 +60,25 @@ MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, con
   }
   suite.methods.push_back(std::move(request));
   return suite.methods.back();
+}
+
+std::vector<std::string> expanded_methods(const std::string& name, const MethodRegistry& registry) {
+  constexpr std::string_view kAllVariants = ":all";
+  std::vector<std::string> names;
+  if (name == "all") {
+    for (const auto& entry : registry.entries()) {
+      if (!is_control(entry->name)) {
+        names.push_back(entry->name + ":" + entry->variants.front().name);
+      }
+    }
+    return names;
+  }
+  if (name.starts_with("external:") || !name.ends_with(kAllVariants)) return {name};
+  const MethodEntry& entry = registry.find(name.substr(0, name.size() - kAllVariants.size()));
+  for (const MethodVariant& variant : entry.variants) {
+    names.push_back(entry.name + ":" + variant.name);
+  }
+  return names;
 }
 
 const std::vector<ParameterSpec>& protocol_parameters(const std::string& name) {

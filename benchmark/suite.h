@@ -73,6 +73,11 @@ Suite read_suite(const std::filesystem::path& path, const MethodRegistry& regist
 MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
                           const MethodRegistry& registry);
 
+/// Names of methods with their variants: "all" stands for the default variant of each method of the
+/// registry but the controls, "raymoval:all" for all variants of one. Anything else is itself.
+/// @throws UsageError if there is no such method
+std::vector<std::string> expanded_methods(const std::string& name, const MethodRegistry& registry);
+
 /// Options of a protocol. @throws UsageError suggesting the nearest protocol
 const std::vector<ParameterSpec>& protocol_parameters(const std::string& name);
 

@@ -46,7 +46,8 @@ RangeLimits range_of(const json& object, const std::string& where) {
     (key == "min" ? range.min : range.max) = value.get<double>();
   }
   if (!(range.min >= 0.0 && range.max > range.min)) {
-    throw ConfigurationError(where + ": expected 0 <= min < max in metres.");
+    throw ConfigurationError(where + ": expected 0 <= min < max in metres, but min is " +
+                             number_text(range.min) + " and max " + number_text(range.max) + ".");
   }
   return range;
 }
@@ -201,7 +202,9 @@ void add_points(const std::string& name, const std::string& as, const json& set,
 void read_method(const json& item, const std::string& where, const MethodRegistry& registry,
                  Suite& suite) {
   if (item.is_string()) {
-    add_method(suite, item.get<std::string>(), "", registry);
+    for (const std::string& name : expanded_methods(item.get<std::string>(), registry)) {
+      add_method(suite, name, "", registry);
+    }
     return;
   }
   check_keys(item, {"method", "set", "as"}, where);
@@ -209,7 +212,13 @@ void read_method(const json& item, const std::string& where, const MethodRegistr
   if (!name) throw ConfigurationError(where + ": 'method' is missing.");
   const json set = item.value("set", json::object());
   if (!set.is_object()) throw_wrong_type(where, "set", "an object { \"key\": value }");
-  add_points(*name, text_of(item, "as", where).value_or(""), set, where, registry, suite);
+  const std::vector<std::string> names = expanded_methods(*name, registry);
+  const std::string as = text_of(item, "as", where).value_or("");
+  if (names.size() > 1 && !as.empty()) {
+    throw ConfigurationError(where + ": 'as' names one method, but " + *name + " stands for " +
+                             std::to_string(names.size()) + ". Leave it out.");
+  }
+  for (const std::string& one : names) add_points(one, as, set, where, registry, suite);
 }
 
 void read_protocol(const json& item, const std::string& where, Suite& suite) {

@@ -89,6 +89,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+std::string small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return small;
+}
+
 bool contains_either_way(std::string_view a, std::string_view b) {
   if (std::min(a.size(), b.size()) < 3) return false;
   return a.find(b) != std::string_view::npos || b.find(a) != std::string_view::npos;
@@ -98,13 +106,16 @@ bool contains_either_way(std::string_view a, std::string_view b) {
 
 std::optional<std::string> closest_name(std::string_view name,
                                         const std::vector<std::string>& candidates) {
+  const std::string wanted = small_letters(name);
   std::optional<std::string> best;
   std::size_t best_distance = std::string_view::npos;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(name, candidate);
-    const std::size_t longer = std::max(name.size(), candidate.size());
-    const bool near = (longer > 1 && distance <= std::max<std::size_t>(1, longer / 3)) ||
-                      contains_either_way(name, candidate);
+    const std::string known = small_letters(candidate);
+    const std::size_t distance = edit_distance(wanted, known);
+    const std::size_t longer = std::max(wanted.size(), known.size());
+    const bool near = wanted == known ||
+                      (longer > 1 && distance <= std::max<std::size_t>(1, longer / 3)) ||
+                      contains_either_way(wanted, known);
     if (near && distance < best_distance) {
       best = candidate;
       best_distance = distance;

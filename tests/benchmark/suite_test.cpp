@@ -158,3 +158,21 @@ TEST_CASE("Every slip in a suite file is named with its place and the nearest le
                     Contains("no variant 'c'"));
   CHECK_THROWS_AS(suite_of(R"({"sequences": ["street"], "methods": [7]})"), ConfigurationError);
 }
+
+TEST_CASE("\"all\" is the default variant of each method but the controls, NAME:all all variants") {
+  CHECK(expanded_methods("all", toys()) == std::vector<std::string>{"toy:a"});
+  CHECK(expanded_methods("toy:all", toys()) == std::vector<std::string>{"toy:a", "toy:b"});
+  CHECK(expanded_methods("toy", toys()) == std::vector<std::string>{"toy"});
+  CHECK_THROWS_WITH(expanded_methods("toi:all", toys()), Contains("Did you mean 'toy'"));
+  const Suite suite = suite_of(
+      R"({"sequences": ["street"], "methods": ["noop", {"method": "toy:all", "set": {"size": 4}}]})");
+  REQUIRE(suite.methods.size() == 3);
+  CHECK(suite.methods[1].name == "toy:a");
+  CHECK(value(suite, 2, "size") == 4.0);
+  CHECK_THROWS_WITH(
+      suite_of(R"({"sequences": ["street"], "methods": [{"method": "toy:all", "as": "mine"}]})"),
+      Contains("'as' names one method"));
+  Suite one;
+  CHECK_THROWS_WITH(add_method(one, "toy:all", "", toys()),
+                    Contains("stands for 2 methods") && Contains("toy:a, toy:b"));
+}

@@ -53,14 +53,28 @@ expect 2 "--data data/05: is for the 3-D view, which --no-points leaves out" \
   report kept --no-points --data data/05
 
 # Folders and scenes where a suite is expected, and words too many.
-for command in run plan; do
-  expect 2 "data/05: is a folder, expected a suite file. To run on it: \`raymoval run --sequence data/05" \
-    $command data/05
+for place in data/05 town unlabelled:05; do
+  for command in run plan; do
+    expect 2 "name a method with --method NAME[:variant], or all of them with --method all" \
+      $command $place
+  done
 done
-expect 2 "town: is a scene, expected a suite file." run town --out o
-expect 2 "data/05: is a folder" run data/05 --method noop --out o
-expect 2 "unlabelled:05: is a sequence" plan unlabelled:05
-expect 2 "Name it with --sequence data/05." score data/05
+expect 0 "All controls are as they must be" run data/05 --method noop --quiet --out by_place
+expect 2 "has no labels" run unlabelled:05 --method noop --out o
+expect 2 "nowhere: no such folder" run nowhere --method noop --out o
+expect 2 "nowhere: no such suite file" run nowhere --out o
+expect 2 "Name it with --sequence one." run data/05 one --method noop --out o
+mkdir quick
+expect 2 "If the folder of that name is meant, write ./quick." run quick --method noop --out o
+rmdir quick
+expect 2 "--predictions DIR is missing" score data/05
+for command in "clean -o map.pcd --method noop" inspect; do
+  # shellcheck disable=SC2086
+  expect 0 "" $command --sequence data/05 --quiet
+  # shellcheck disable=SC2086
+  expect 2 "--sequence is given 2 times" $command data/05 --sequence data/05
+done
+rm map.pcd
 expect 2 "run what?" run
 expect 2 "run what?" run --method noop
 expect 2 "a method with --method" plan --sequence data/05
@@ -104,6 +118,31 @@ expect 2 "are called 'town' (data/05 and one). Run them into two folders, the se
   run --sequence data/05 --sequence one --method noop --out o
 expect 2 "--output: FILE is missing after it. See \`raymoval clean --help\`." clean data/05 --output
 expect 2 "--frames: FIRST:LAST:STRIDE is missing after it. See \`raymoval run --help\`." run --frames
+
+# Letters of the other case, values in the other order, units, several methods at once.
+expect 2 "Did you mean 'erasor'" run "${short[@]}" --method ERASOR --out o
+expect 2 "Did you mean 'hdl64e'" run "${short[@]}" --method noop --sensor HDL64E --out o
+expect 2 "MIN comes first: write 2:50." run "${short[@]}" --method noop --range 50:2 --out o
+expect 2 "Write :50 for at most 50 m" run "${short[@]}" --method noop --range 50 --out o
+echo '{"sequences": [{"path": "street", "range_m": {"min": 50, "max": 2}}], "methods": ["noop"]}' \
+  >swapped.json
+expect 2 "min is 50 and max 2" run swapped.json --out o
+expect 2 "500MB, 2GB or 2GiB" run "${short[@]}" --method noop --memory-limit 2XB --out o
+expect 2 "90s, 5min or 2h" run "${short[@]}" --method noop --time-limit 5:00 --out o
+expect 0 "All controls" run "${short[@]}" --method noop --memory-limit 2GB --time-limit 5min \
+  --out limits
+expect 0 "run   street / dufomap:offline" run "${short[@]}" --method all --method raymoval:online \
+  --explain --out o
+expect 0 "run   street / octomap:ground-noise" run "${short[@]}" --method octomap:all \
+  --method octomap --explain --out o
+expect 2 "'all' stands for 7 methods, and one is expected here" clean street -o map.pcd --method all
+expect 2 "--frames is given 2 times" run "${short[@]}" --frames 0:1 --method noop --out o
+expect 2 "Did you mean '--out'" run "${short[@]}" --method noop -o o
+expect 2 "Did you mean '--version'" version
+expect 2 "without a unit" clean street -o map.pcd --voxel 10cm
+expect 2 "a name that ends in .html" report kept -o page.pdf
+expect 2 "expected a run folder" table kept/results.csv
+expect 2 "'raymoval.tau0' is a parameter; \`raymoval describe raymoval\`" describe raymoval.tau0
 
 # Scene and sensor files go by their paths.
 mkdir files

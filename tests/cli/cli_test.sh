@@ -51,8 +51,8 @@ expect 2 "--range" run "${short[@]}" --method noop --range 5 --out o
 expect 2 "--range" run "${short[@]}" --method noop --range 9:5 --out o
 expect 2 "" run --sequence street --frames nine --method noop --out o
 expect 2 "" run --sequence street --sensor nose --method noop --out o
-expect 2 "--sequence street" run street --method noop --out o
-expect 2 "--method cannot be given" run simulated --method noop --out o
+expect 2 "'nowhere' was not expected here" run street nowhere --method noop --out o
+expect 2 "--method cannot be given together with the suite" run simulated --method noop --out o
 expect 2 "expected METHOD.key=value" run "${short[@]}" --method raymoval --set raymoval.tau0 0.2 --out o
 expect 2 "once for each" run "${short[@]}" --method raymoval:online,raymoval:offline --out o
 expect 2 "ROOT:kitti-05" run --sequence kitti-05 --method noop --out o

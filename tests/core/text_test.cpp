@@ -117,10 +117,12 @@ TEST_CASE("Texts are taken apart and put together") {
 }
 
 TEST_CASE("The closest name is that with the fewest changes, if it is near") {
-  CHECK(closest_name("erasr", {"dynamicmap", "erasor"}) == "erasor");          // 1 of 6 changes.
-  CHECK(closest_name("tau", {"tau10", "tau1"}) == "tau1");                     // 2 and 1.
-  CHECK(closest_name("abc", {"abx", "xyz"}) == "abx");                         // 1 of 3: just near.
-  CHECK_FALSE(closest_name("abcd", {"abxy", "wxyz"}).has_value());             // 2 of 4: too far.
+  CHECK(closest_name("erasr", {"dynamicmap", "erasor"}) == "erasor");   // 1 of 6 changes.
+  CHECK(closest_name("tau", {"tau10", "tau1"}) == "tau1");              // 2 and 1.
+  CHECK(closest_name("abc", {"abx", "xyz"}) == "abx");                  // 1 of 3: just near.
+  CHECK_FALSE(closest_name("abcd", {"abxy", "wxyz"}).has_value());      // 2 of 4: too far.
+  CHECK(closest_name("ERASOR", {"dynamicmap", "erasor"}) == "erasor");  // Case is no change.
+  CHECK(closest_name("f1", {"PR", "F1"}) == "F1");
   CHECK(closest_name("voxel", {"percentile", "voxel_size"}) == "voxel_size");  // Part of it.
   CHECK_FALSE(closest_name("vo", {"voxel_size"}).has_value());  // Too short for a part.
   CHECK_FALSE(closest_name("x", {}).has_value());
