@@ -7,6 +7,7 @@
 #include "benchmark/cell.h"
 #include "benchmark/sealed_json.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -191,8 +192,7 @@ std::vector<Measurement> further_runs(const CellStore& store, const FolderCell& 
 
 ordered_json read_run_record(const path& out) {
   const path file = out / "run.json";
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return nullptr;
+  if (!is_there(file)) return nullptr;
   const auto unreadable = [&](const std::string& problem) {
     return DataError(file.string() + ": " + problem +
                      ", so what the folder holds cannot be told. Name another folder, or replace "
@@ -327,8 +327,7 @@ EarlierCells read_earlier_cells(const CellStore& store, const ordered_json& reco
     const std::string text = cell_text(cell.sequence, cell.name);
     if (std::binary_search(wanted.begin(), wanted.end(), text)) continue;
     const path file = store.folder(cell.sequence, cell.name) / "cell.json";
-    std::error_code error;
-    if (!std::filesystem::exists(file, error)) continue;
+    if (!is_there(file)) continue;
     std::string why = "its file is damaged";
     try {
       ordered_json json = read_sealed(file);

@@ -52,9 +52,7 @@ struct ScanSize {
 std::vector<ScanSize> scan_sizes(const Samples& samples) {
   std::vector<ScanSize> sizes;
   for (std::size_t i = 0; i < samples.files().size(); ++i) {
-    std::error_code error;
-    const auto bytes = std::filesystem::file_size(samples.files()[i].path, error);
-    if (!error) sizes.push_back({i, static_cast<double>(bytes)});
+    sizes.push_back({i, static_cast<double>(plain_file_size(samples.files()[i].path))});
   }
   if (!sizes.empty()) return sizes;
   for (const auto& [index, scan] : samples.scans()) {
