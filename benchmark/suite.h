@@ -34,7 +34,8 @@ struct ProtocolRequest {
   Configuration options;
 };
 
-/// Name of a suite that has none: its sequences and methods were named one by one.
+/// Name of a suite that has none: its sequences and methods were named one by one. A suite file
+/// that gives this name counts as one without.
 inline constexpr const char* kUnnamedSuite = "run";
 
 /// What one run does: every sequence with every method, scored by every protocol.
