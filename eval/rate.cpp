@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/rate.h"
 
+#include <algorithm>
+
 namespace raymoval {
 
 const std::vector<RateSpec>& rate_specs() {
@@ -13,6 +15,12 @@ const std::vector<RateSpec>& rate_specs() {
       {"AA", RateUnit::kPercent, 3, true, RateRole::kMean},
       {"HA", RateUnit::kPercent, 3, true, RateRole::kHeadline}};
   return specs;
+}
+
+bool is_known_rate(const std::string& name) {
+  return std::any_of(rate_specs().begin(), rate_specs().end(), [&](const RateSpec& spec) {
+    return name == spec.name || name.starts_with(spec.name + "_");
+  });
 }
 
 RateSpec rate_spec(const std::string& name) {

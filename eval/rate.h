@@ -32,6 +32,9 @@ struct RateSpec {
 /// The rates that are shown without being asked for, in the order in which they are shown.
 const std::vector<RateSpec>& rate_specs();
 
+/// Whether `rate_spec` knows what the rate called `name` is.
+bool is_known_rate(const std::string& name);
+
 /// What the rate called `name` is. One that is not in `rate_specs()` is secondary; it has unit and
 /// decimals of the rate that its name begins with ("F1_no_truck": those of F1), else it is a
 /// percentage.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "eval/rate.h"
 
 namespace raymoval {
 namespace {
@@ -124,7 +125,8 @@ Change judged(const ComparedCell& cell, const Movement& movement) {
 }  // namespace
 
 bool higher_is_better(std::string_view rate) {
-  return is_one_of(rate, {"PR", "RR", "F1", "SA", "DA", "AA", "HA"});
+  const std::string name(rate);
+  return is_known_rate(name) && rate_spec(name).higher_is_better;
 }
 
 std::string judge_score(const ComparedCell& cell, const ComparedScore& run,
