@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 import {Matrix4} from 'three';
 
-const REACH = 7;  // Pixels.
+const REACH = 7, COVERED = 1.5;  // Pixels; about what a point that is drawn covers around itself.
 
 /**
- * The point under a place of the canvas, or -1: of those within reach the one that is nearest to
- * the viewer, nearness on the screen weighed in.
+ * The point under a place of the canvas, or -1: of those that cover it the one that is nearest to
+ * the viewer, else one within reach, where each pixel off the place weighs much.
  * @param at what Stage.locate gave
  * @param visible whether each kind is shown
  * @param filter whether a scan's points are shown
@@ -26,9 +26,9 @@ export function pick(stage, data, cell, at, visible, filter) {
     if (w <= 0.3) continue;
     const dx = ((m[0] * x + m[4] * y + m[8] * z + m[12]) / w - at.x) * wide;
     const dy = ((m[1] * x + m[5] * y + m[9] * z + m[13]) / w - at.y) * high;
-    const far = (dx * dx + dy * dy) / (REACH * REACH);
-    if (far > 1) continue;
-    const score = w * (1 + far);
+    const off = dx * dx + dy * dy;
+    if (off > REACH * REACH) continue;
+    const score = w * (1 + Math.max(0, off - COVERED * COVERED));
     if (score < bestScore) {
       best = i;
       bestScore = score;
