@@ -164,12 +164,14 @@ SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
   model.range_max = seen.farthest;
   model.basis = basis_text(model, pattern, scans.size(), directions);
   // A data sheet is more exact, and naming the sensor then changes no bin.
-  if (const auto known = recognised(pattern, lowest_beam, highest_beam)) {
+  constexpr double kFewNear = 5e-3;  // A beam of 64 has three times as many points.
+  if (const auto known = recognised(pattern, quantile_of(seen.elevations, kFewNear),
+                                    quantile_of(seen.elevations, 1.0 - kFewNear))) {
     model.azimuth_step = known->azimuth_step;
     model.elevation_step = known->elevation_step;
     model.elevation_min = known->elevation_min;
     model.elevation_max = known->elevation_max;
-    model.basis += "; taken for a sensor like '" + known->name + "'";
+    model.basis += "; the data sheet of '" + known->name + "' fits and is used";
   }
   return model;
 }

@@ -169,6 +169,21 @@ TEST_CASE("Uneven beams are counted one by one", "[sensor-estimate]") {
   }
 }
 
+TEST_CASE("A known sensor gets the bins of its data sheet", "[sensor-estimate]") {
+  const SensorModel model = estimate_sensor_model(scans_of(vlp16()));
+  const SensorModel named = sensor_model_named("vlp16");
+  CHECK(model.name == "estimated");
+  CHECK(model.azimuth_step == named.azimuth_step);
+  CHECK(model.elevation_step == named.elevation_step);
+  CHECK(model.elevation_min == named.elevation_min);
+  CHECK(model.elevation_max == named.elevation_max);
+  CHECK_THAT(model.basis, Contains("the data sheet of 'vlp16' fits and is used"));
+  // 16 beams as far apart that look up are none of its.
+  Head other = vlp16();
+  other.elevations = evenly(-10.0, 20.0, 16);
+  CHECK_THAT(estimate_sensor_model(scans_of(other)).basis, !Contains("data sheet"));
+}
+
 TEST_CASE("Columns that are shifted from beam to beam are no finer columns", "[sensor-estimate]") {
   // As an Ouster's, whose pixels look to the side by different angles.
   Head head;
