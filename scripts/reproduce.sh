@@ -134,17 +134,18 @@ out=results/run-$label
 [[ -z ${RAYMOVAL_OUT:-} ]] || out=$(from_caller "$RAYMOVAL_OUT")
 
 echo "reproduce.sh: running on $data, results go to $out"
+# --overwrite: the folder is for this one result. Cells that are still right are kept all the same.
 if [[ -n $quick ]]; then
-  build/release/raymoval run "${what[@]}" --keep-removals --out "$out"
+  build/release/raymoval run "${what[@]}" --keep-removals --overwrite --out "$out"
   build/release/raymoval report "$out" --quiet
   echo "reproduce.sh: open $(readlink -f "$out")/report.html in a browser: tables, charts, and the points in 3-D."
   exit
 fi
 if [[ $label != semantickitti ]]; then
-  exec build/release/raymoval run "${what[@]}" --out "$out"
+  exec build/release/raymoval run "${what[@]}" --overwrite --out "$out"
 fi
 status=0
-build/release/raymoval run "${what[@]}" --out "$out" >/dev/null || status=$?
+build/release/raymoval run "${what[@]}" --overwrite --out "$out" >/dev/null || status=$?
 # Table 2 with the paper's own rows beside ours; Table 3 are the stage times at its end.
 [[ ! -e $out/results.json ]] || build/release/raymoval table "$out" --with-published
 exit $status
