@@ -72,7 +72,7 @@ void add_tests(Table& table) {
       .integer("erase_elevation_window", &P::erase_elevation_window,
                {"bins", -1, 100, kOurs,
                 "A voxel is erased only if no return within so many rows supports it; -1 reaches "
-                "the neighbouring beam."})
+                "the neighbouring beam, but at most 0.5 degrees."})
       .flag("permanent_erase", &P::permanent_erase,
             {.source = kOurs, .sentence = "A voxel once seen through is never filled again."});
 }
@@ -174,7 +174,7 @@ MethodEntry raymoval_entry() {
       "Raycasting against the map: flags what stands in front of it, erases what is "
       "seen through, validates clusters against what remains.";
   entry.source = "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping";
-  entry.version = "2";
+  entry.version = "3";
   entry.notes = {
       "The paper leaves the erase test's margin, the origin of its map, and all cluster and "
       "coverage values open; the variants called table1 use every printed value in both tests.",
