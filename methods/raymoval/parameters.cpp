@@ -88,7 +88,7 @@ void add_tests(Table& table) {
       .integer("erase_elevation_window", &P::erase_elevation_window,
                {"bins", -1, 100, kOurs,
                 "A voxel is erased only if no return within so many rows supports it; -1 reaches "
-                "the neighbouring beam.",
+                "the neighbouring beam, but at most 0.5 degrees.",
                 kErase})
       .flag("permanent_erase", &P::permanent_erase,
             {.source = kOurs,

@@ -40,6 +40,7 @@ struct Scanner {
   double azimuth_from = -180.0;  ///< Degrees.
   double azimuth_to = 180.0;
   double range = 50.0;
+  double elevation_step = 0.5;  ///< That the model tells, degrees; rows stay half a degree apart.
 
   [[nodiscard]] SensorModel model() const {
     SensorModel sensor;
@@ -47,7 +48,8 @@ struct Scanner {
     sensor.azimuth_max = azimuth_to * kDegree;
     sensor.elevation_min = -10.0 * kDegree;
     sensor.elevation_max = 10.0 * kDegree;
-    sensor.azimuth_step = sensor.elevation_step = 0.5 * kDegree;
+    sensor.azimuth_step = 0.5 * kDegree;
+    sensor.elevation_step = elevation_step * kDegree;
     sensor.range_max = range;
     sensor.missing_return_is_meaningful = true;
     return sensor;

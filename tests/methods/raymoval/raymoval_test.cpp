@@ -76,6 +76,25 @@ TEST_CASE("online knows nothing of later scans") {
   CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) == 0.0);
 }
 
+TEST_CASE("beams far apart are no witnesses for each other") {
+  // A sign hangs at the range of the box, 1.5 degrees above it, and stays when the box leaves. A
+  // window from one beam to the next, 4 degrees either way, would find it and keep the box.
+  const Box sign{{6.03, -1, 0.8}, {6.3, 1, 1.0}};
+  const Box low_box{{6.03, -1, -0.6}, {8, 1, 0.6}};
+  for (const double step : {0.0, 0.5, 4.0}) {
+    INFO(step);
+    toy::Scanner scanner;
+    scanner.elevation_step = step;
+    World world(scanner);
+    for (int i = 0; i < 10; ++i) {
+      std::vector<Box> boxes = {kWall, sign};
+      if (i < 5) boxes.push_back(low_box);
+      world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
+    }
+    CHECK(toy::removed_share(world, run("offline", world), 2, 0, 4) > 0.9);
+  }
+}
+
 TEST_CASE("a box that stays is static") {
   World world{toy::Scanner{}};
   for (int i = 0; i < 8; ++i) world.scan({kWall, kCar}, pose_at(0.013 * i + 0.01, 0.02, 0.03));
