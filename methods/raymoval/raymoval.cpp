@@ -150,7 +150,7 @@ class RaymovalRemover : public Remover {
     } else {
       for_each_scan("raymoval, naive map", scans, context,
                     [&](const Scan& scan) { builder.collect(scan); });
-      pass_over("raymoval, erasing", scans, context,
+      pass_over("raymoval", scans, context,
                 [&](Scan scan) { builder.erase_seen_through(std::move(scan)); });
     }
     answer_from(builder.map(), scans, sink, context);
