@@ -74,7 +74,7 @@ std::string rate_words(const RateGrid& grid, const TableOptions& options) {
   if (among(grid.rates, "AA")) {
     text += " AA is the geometric and HA the harmonic mean of SA and DA.";
   }
-  const bool averages = grid.sequences.size() > 1 || options.layout == TableLayout::kPaper;
+  const bool averages = grid.sequences.size() > 1 || options.layout == TableLayout::kSequenceRows;
   if (averages && among(grid.rates, "F1")) {
     text += " mean_F1 is the mean of the F1 values; F1_of_means is the F1 of mean PR and mean RR.";
   }
@@ -125,7 +125,7 @@ std::vector<TextTable> accuracy_tables(const RunResults& results, const std::str
   grid.sequences = results.sequences;
   grid.methods = run_methods(results, protocol, false);
   grid.rates = chosen_rates(options, results, protocol);
-  grid.timed = shows_time(options) && options.layout == TableLayout::kMethods;
+  grid.timed = shows_time(options) && options.layout == TableLayout::kMethodRows;
   for (const OutsideColumn& given : options.outside) {
     if (!is_of(given, protocol, results) || !shares_sequence(given, results)) continue;
     grid.methods.push_back(outside_rates(results.sequences, given));

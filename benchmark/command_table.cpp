@@ -61,7 +61,7 @@ void check_flags(const TableFlags& flags) {
 
 TableOptions options_of(const TableFlags& flags, const RunResults& results) {
   TableOptions options;
-  options.layout = flags.layout == "paper" ? TableLayout::kPaper : TableLayout::kMethods;
+  options.layout = flags.layout == "paper" ? TableLayout::kSequenceRows : TableLayout::kMethodRows;
   for (const std::string& text : flags.rates) {
     for (const std::string_view rate : split(text, ',')) options.rates.emplace_back(rate);
   }

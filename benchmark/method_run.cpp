@@ -29,7 +29,7 @@ std::optional<double> quantile(const std::vector<double>& sorted, double share) 
 }
 
 /// Mean of the values from `first` on, `count` of them.
-double mean_of(const std::vector<double>& values, std::size_t first, std::size_t count) {
+double mean_from(const std::vector<double>& values, std::size_t first, std::size_t count) {
   const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
   return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(count), 0.0) /
          static_cast<double>(count);
@@ -39,8 +39,8 @@ double mean_of(const std::vector<double>& values, std::size_t first, std::size_t
 void measure_growth(const std::vector<double>& by_scan, Measurement& measured) {
   constexpr std::size_t kFewest = 300, kFirst = 50, kCount = 100;
   if (by_scan.size() < kFewest) return;
-  measured.early_seconds = mean_of(by_scan, kFirst, kCount);
-  measured.late_seconds = mean_of(by_scan, by_scan.size() - kCount, kCount);
+  measured.early_seconds = mean_from(by_scan, kFirst, kCount);
+  measured.late_seconds = mean_from(by_scan, by_scan.size() - kCount, kCount);
 }
 
 /// Largest memory of this process since `reset_peak_memory`, or of one that the method started.

@@ -244,7 +244,7 @@ TextTable methods_side_by_side(const RateGrid& grid, const TableOptions& options
 }
 
 std::vector<TextTable> rate_tables(const RateGrid& grid, const TableOptions& options) {
-  if (options.layout == TableLayout::kMethods) return method_rows(grid, options);
+  if (options.layout == TableLayout::kMethodRows) return method_rows(grid, options);
   return {methods_side_by_side(grid, options)};
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::optional<double> number_or_nothing(const ordered_json& json) {
+std::optional<double> optional_number(const ordered_json& json) {
   if (json.is_null()) return std::nullopt;
   return json.get<double>();
 }
@@ -33,8 +33,8 @@ ResultRow row_head(const ordered_json& cell) {
   }
   const ordered_json& measured = cell.at("measured");
   if (!measured.is_null()) {
-    row.seconds_per_scan = number_or_nothing(measured.at("seconds_per_scan").at("mean"));
-    row.peak_memory_mib = number_or_nothing(measured.at("peak_memory_mib"));
+    row.seconds_per_scan = optional_number(measured.at("seconds_per_scan").at("mean"));
+    row.peak_memory_mib = optional_number(measured.at("peak_memory_mib"));
   }
   return row;
 }
@@ -47,7 +47,7 @@ void add_rows(const ordered_json& cell, RunResults& results) {
     for (const ordered_json& scored : cell.at("protocols")) {
       if (scored.at("name") != protocol) continue;
       for (const auto& [name, value] : scored.at("rates").items()) {
-        row.rates[name] = number_or_nothing(value);
+        row.rates[name] = optional_number(value);
       }
       add_intervals(scored, row);
     }

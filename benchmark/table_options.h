@@ -24,8 +24,8 @@ struct OutsideColumn {
 };
 
 enum class TableLayout {
-  kMethods,  ///< A row for each method, a column for each rate, a block for each sequence.
-  kPaper     ///< A row for each sequence, methods side by side: the paper's Table 2.
+  kMethodRows,   ///< A row for each method, a column for each rate, a block for each sequence.
+  kSequenceRows  ///< A row for each sequence, methods side by side: the paper's Table 2.
 };
 
 /// The column of times beside rates, by the name that users choose it by.
@@ -33,7 +33,7 @@ inline constexpr const char* kTimeRate = "ms";
 
 /// How tables of rates are to look.
 struct TableOptions {
-  TableLayout layout = TableLayout::kMethods;
+  TableLayout layout = TableLayout::kMethodRows;
   std::vector<std::string> rates = {};  ///< In this order, also kTimeRate; empty: the main ones.
   std::optional<int> decimals = {};     ///< Of every rate; none: what is usual for the rate.
   std::map<std::string, int> decimals_of = {};  ///< Of one rate; comes before `decimals`.

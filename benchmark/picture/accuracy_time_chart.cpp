@@ -108,7 +108,7 @@ class Plot {
                   spot.cell + ": mean " + rate + " " + rate_text(rate, spot.accuracy) + ", " +
                       time_text(spot.ms) + " per scan");
     }
-    PointLabels labels(kLeft, kLeft + kPlotWidth + 20.0);
+    PointLabels labels(kLeft, kLeft + kPlotWidth + 20.0, kTop - 6.0);
     for (const Spot& spot : spots_) {
       labels.add_point(to_x(spot.ms), to_y(spot.accuracy));
       labels.add_text(to_x(spot.ms), to_y(spot.accuracy), colour_text(spot.look.colour),

@@ -126,7 +126,8 @@ void PointLabels::add_text(double x, double y, const std::string& series, const 
 void PointLabels::draw(SvgWriter& svg) const {
   // What is far outside counts as taken.
   constexpr double kFar = 1e5;
-  std::vector<Box> taken = {{-kFar, -kFar, left_, kFar}, {right_, -kFar, kFar, kFar}};
+  std::vector<Box> taken = {
+      {-kFar, -kFar, left_, kFar}, {right_, -kFar, kFar, kFar}, {-kFar, -kFar, kFar, top_}};
   for (const auto& [x, y] : points_) taken.push_back({x - 6.0, y - 6.0, x + 6.0, y + 6.0});
   for (const Text& text : texts_) {
     const std::size_t count = text.parts.size();

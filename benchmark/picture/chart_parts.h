@@ -53,7 +53,8 @@ LinearAxis axis_from_zero(double most);
 class PointLabels {
  public:
   /// @param left,right between which texts stand where there is room, in pixels
-  PointLabels(double left, double right) : left_(left), right_(right) {}
+  /// @param top below which they do
+  PointLabels(double left, double right, double top) : left_(left), right_(right), top_(top) {}
   /// Keeps a point free that is drawn at (x, y).
   void add_point(double x, double y);
   /// Says `text` beside the point at (x, y). Points of one series in nearly one place share a text:
@@ -67,7 +68,7 @@ class PointLabels {
     std::string series;
     std::vector<std::string> parts;
   };
-  double left_, right_;
+  double left_, right_, top_;
   std::vector<std::pair<double, double>> points_;
   std::vector<Text> texts_;
 };

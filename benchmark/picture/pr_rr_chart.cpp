@@ -36,7 +36,7 @@ std::string point_hint(const ResultRow& row, const RateTrio& trio) {
 class Panel {
  public:
   Panel(SvgWriter& svg, const Frame& frame, double x, double y)
-      : svg_(svg), frame_(frame), x_(x), y_(y), labels_(x - 30.0, x + kSide + 30.0) {}
+      : svg_(svg), frame_(frame), x_(x), y_(y), labels_(x - 30.0, x + kSide + 30.0, y - 6.0) {}
 
   void draw_axes(const std::string& sequence) {
     svg_.text(x_, y_ - 24.0, sequence, "bold");

@@ -40,7 +40,7 @@ RunResults two_by_two() {
 
 TableOptions paper_layout() {
   TableOptions options;
-  options.layout = TableLayout::kPaper;
+  options.layout = TableLayout::kSequenceRows;
   return options;
 }
 
