@@ -99,7 +99,8 @@ Sequence open_scene(const std::string& text, const SequenceOptions& options,
 }  // namespace
 
 UpDirection Sequence::up() const {
-  return up_choice ? up_choice->get(*scans) : UpDirection{};
+  // From the scans as opened: what is only looked at for this is nothing that a method has read.
+  return up_choice ? up_choice->get(opened ? *opened : *scans) : UpDirection{};
 }
 
 Pose Sequence::method_frame() const {

@@ -63,7 +63,7 @@ struct Drive {
     add_protocol(suite, "erasor", "");
     suite.controls = false;
     suite.threads = 1;
-    (void)run_suite(suite, {.out = folder.path() / "run"});
+    (void)run_suite(suite, {.out = folder.path() / "run", .overwrite = true});
     const ordered_json cell =
         read_sealed(folder.path() / "run/cells/town" / (method.name + "-default") / "cell.json");
     return {cell["status"], cell["reason"]};

@@ -43,7 +43,7 @@ cat >sweep.json <<'END'
 END
 flat="tau1 made no difference: with each of its 2 values exactly the same points were removed."
 expect 0 "$warning" run sweep.json --quiet --out sweep
-expect 0 "raymoval: warning: sweep of $naive: $flat" run sweep.json --quiet --out sweep
+expect 0 "raymoval: warning: sweep of $naive over tau1: $flat" run sweep.json --quiet --out sweep
 expect 0 "$flat" table sweep
 
 finish effects

@@ -43,7 +43,7 @@ holds "the example runs" "${run[@]}" --out out
 holds "it keeps what stands" awk -v x="$(column PR)" 'BEGIN { exit !(x > 85) }'
 holds "it removes what moves" awk -v x="$(column RR)" 'BEGIN { exit !(x > 80) }'
 holds "it leaves no file behind" test -z "$(ls temporary)"
-holds "a short run" "${short[@]}" --out out
+holds "a short run" "${short[@]}" --out out --overwrite
 holds "runs again" "${short[@]}" --out again
 holds "with the same answer" test "$(value digest out/$cell)" = "$(value digest again/$cell)"
 holds "and the same key" test "$(value key out/$cell)" = "$(value key again/$cell)"

@@ -100,7 +100,7 @@ if has fish; then
       "source script.fish; complete -C '$1'" | cut -f1 | sort) <(printf '%s\n' "${@:2}" | sort)
   }
   fish_offers "raymoval repo" report
-  fish_offers "raymoval clean --method raymoval:o" raymoval:offline raymoval:online
+  fish_offers "raymoval clean --method raymoval:on" raymoval:online
   fish_offers "raymoval run --prot" --protocol
   fish_offers "raymoval list se" sensors sequences
   fish_offers "raymoval run simulated-q" simulated-quick

@@ -56,7 +56,8 @@ holds "cells from before stand" grep -q '"status": "ok"' run/cells/town/comb-def
 unset FAULTY_COMMAND
 expect 0 "run   town / comb:default: data fingerprint" "${scores[@]}" --method meddle --out run \
   --explain
-expect 0 "" "${scores[@]}" --method meddle --out run
+expect 2 "--overwrite" "${scores[@]}" --method meddle --out run
+expect 0 "" "${scores[@]}" --method meddle --out run --overwrite
 # Labels count for who reads them.
 fresh
 export FAULTY_COMMAND="printf 'xyz' | dd of=data/labels/000004.label conv=notrunc status=none"
