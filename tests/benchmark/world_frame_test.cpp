@@ -27,7 +27,7 @@ struct MovedStreet {
     options.frames = FrameRange{0, 27, 3};
     street = moved = open_sequence("street", options);
     scans = std::make_shared<const LocalFrameSource>(*street.scans, motion);
-    moved.scans = scans;
+    moved.opened = moved.scans = scans;
     moved.up_choice = std::make_shared<UpChoice>(std::nullopt);
   }
 };
