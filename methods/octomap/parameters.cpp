@@ -120,7 +120,8 @@ std::vector<std::string> notes() {
       "kth, ground and ground-noise keep the KTH port's settings (0.1 m, clamping at 0.12 and "
       "0.97), its missing subtraction, and its dropping of unknown points; the port's map appends "
       "ground points a second time, here each point has one verdict.",
-      "The ground plane is fitted in world axes, as in the KTH port: z must point up, which the harness sees to.",
+      "The ground plane is fitted in world axes, as in the KTH port: z must point up, which the "
+      "harness sees to.",
       "The KTH port of 2024 swaps the noise filter's two settings when reading them; ground-noise "
       "is the filter of 2023 (K = 50, S = 1).",
       "octomap_server's own ground filter (200 tries, planes accepted by their height in a base "
