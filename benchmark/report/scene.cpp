@@ -9,6 +9,7 @@
 
 #include "benchmark/reasons.h"
 #include "core/local_frame.h"
+#include "core/morton.h"
 #include "eval/removal_tally.h"
 
 namespace raymoval {
@@ -20,21 +21,12 @@ constexpr double kErrorShare = 0.6;
 /// Of a point with all its 16-bit-and-more coordinates: bits in turn, z on top.
 using Morton = std::array<std::uint64_t, 2>;
 
-std::uint64_t spread(std::uint64_t value) {  // 21 bits, two zeros between each.
-  value &= 0x1FFFFF;
-  value = (value | value << 32) & 0x1F00000000FFFF;
-  value = (value | value << 16) & 0x1F0000FF0000FF;
-  value = (value | value << 8) & 0x100F00F00F00F00F;
-  value = (value | value << 4) & 0x10C30C30C30C30C3;
-  return (value | value << 2) & 0x1249249249249249;
-}
-
 Morton morton_of(const ShownPoint& point) {
   Morton code{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto biased = static_cast<std::uint64_t>(std::int64_t{point.step[axis]} + (1LL << 31));
-    code[0] |= spread(biased >> 21) << axis;
-    code[1] |= spread(biased) << axis;
+    code[0] |= spread_bits(biased >> 21) << axis;
+    code[1] |= spread_bits(biased) << axis;
   }
   return code;
 }

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/morton.h"
+
 namespace raymoval {
 namespace {
 
@@ -24,15 +26,6 @@ struct PlacedPoint {
   std::uint64_t code = 0;
   MillimetrePoint at;
 };
-
-std::uint64_t spread_bits(std::uint64_t value) {  // 21 bits, two zeros between each.
-  value &= 0x1FFFFF;
-  value = (value | value << 32) & 0x1F00000000FFFF;
-  value = (value | value << 16) & 0x1F0000FF0000FF;
-  value = (value | value << 8) & 0x100F00F00F00F00F;
-  value = (value | value << 4) & 0x10C30C30C30C30C3;
-  return (value | value << 2) & 0x1249249249249249;
-}
 
 std::vector<PlacedPoint> placed_points(const Scan& scan) {
   constexpr int kBias = 1 << 17;  // 131 m: no coordinate is negative.
