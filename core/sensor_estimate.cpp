@@ -16,7 +16,7 @@ namespace raymoval {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kTail = 1e-4;  ///< Share of the points beyond either end of the field of view.
+constexpr double kViewTail = 1e-4;  ///< Share of the points beyond either end of the field of view.
 
 /// The angle below which the share `quantile` of them lies. @param angles reordered
 double quantile_of(std::vector<double>& angles, double quantile) {
@@ -77,8 +77,8 @@ void set_azimuths(std::vector<double>& azimuths, SensorModel& model) {
     azimuth -= cut;
     azimuth -= kTurn * std::floor(azimuth / kTurn);
   }
-  const double low = quantile_of(azimuths, kTail);
-  const double high = quantile_of(azimuths, 1.0 - kTail);
+  const double low = quantile_of(azimuths, kViewTail);
+  const double high = quantile_of(azimuths, 1.0 - kViewTail);
   if (high - low > 350.0 * kDegree) return;
   model.azimuth_min = cut + low;
   if (model.azimuth_min >= std::numbers::pi) model.azimuth_min -= kTurn;
@@ -147,8 +147,8 @@ SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
   SensorModel model;
   model.name = "estimated";
   const std::size_t directions = seen.azimuths.size();
-  const double low = quantile_of(seen.elevations, kTail);
-  const double high = quantile_of(seen.elevations, 1.0 - kTail);
+  const double low = quantile_of(seen.elevations, kViewTail);
+  const double high = quantile_of(seen.elevations, 1.0 - kViewTail);
   // A few points near the sensor lie beyond its beams, which do not start in one place.
   constexpr double kBeamTail = 1e-3;
   const double lowest_beam = quantile_of(seen.elevations, kBeamTail);
