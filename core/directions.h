@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/angle.h"
 #include "core/scan.h"
 
 namespace raymoval {
@@ -46,7 +47,6 @@ class Directions {
  private:
   template <class Visit>
   void walk(std::size_t i, double reach, int step, Visit& visit) const {
-    constexpr double kTurn = 2.0 * std::numbers::pi;
     const std::size_t count = sorted_.size();
     std::size_t j = i;
     for (std::size_t steps = 1; steps < count; ++steps) {

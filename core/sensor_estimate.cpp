@@ -15,7 +15,6 @@
 namespace raymoval {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kViewTail = 1e-4;  ///< Share of the points beyond either end of the field of view.
 
 /// The angle below which the share `quantile` of them lies. @param angles reordered

@@ -54,7 +54,6 @@ SensorModel sensor_model_named(const std::string& name) {
 
 bool SensorModel::sees(double azimuth, double elevation) const {
   if (!(elevation >= elevation_min && elevation <= elevation_max)) return false;
-  constexpr double kTurn = 2.0 * std::numbers::pi;
   const double from_start = azimuth - azimuth_min;
   return from_start - kTurn * std::floor(from_start / kTurn) <= azimuth_max - azimuth_min;
 }

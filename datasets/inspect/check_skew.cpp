@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/angle.h"
 #include "core/text.h"
 #include "datasets/inspect/checks.h"
 #include "datasets/inspect/overlap.h"
@@ -42,8 +43,6 @@ const std::vector<Sweep>& whole_sweeps() {
   };
   return all;
 }
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// Part of a turn from the start of the sweep to a direction, 0 to 1.
 double turns_to(const Eigen::Vector3d& point, const Sweep& sweep) {

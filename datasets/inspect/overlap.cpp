@@ -13,7 +13,6 @@
 namespace raymoval::inspection {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kArcs = 72;
 
 struct Ray {

@@ -18,8 +18,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
 /// Metres from scan to scan that no vehicle goes, and that a moving one always exceeds: beyond them
 /// other units are worth a thought.
 constexpr double kTooFast = 10.0, kTooSlow = 0.02;
