@@ -77,7 +77,7 @@ ProtocolResult scored(const Sequence& sequence, const std::string& protocol,
 
 }  // namespace
 
-TEST_CASE("no method is changed by a shift of the world", "[frames]") {
+TEST_CASE("no method is changed by a shift of the world", "[frames][every-method]") {
   // A shift that double precision holds exactly beside the street's poses, and one it does not.
   const MovedStreet utm(shifted(691000.25, 5336000.5, 512.0));
   const MovedStreet odd(
@@ -91,7 +91,7 @@ TEST_CASE("no method is changed by a shift of the world", "[frames]") {
   }
 }
 
-TEST_CASE("no method is changed by an exchange of the world's axes", "[frames]") {
+TEST_CASE("no method is changed by an exchange of the world's axes", "[frames][every-method]") {
   Pose y_down = Pose::Identity();
   y_down.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   const MovedStreet turned(y_down);
