@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "benchmark/amounts.h"
 #include "benchmark/cell.h"
 #include "benchmark/child_process.h"
 #include "benchmark/clean_checks.h"
@@ -164,7 +165,7 @@ ExitCode clean(const CleanFlags& flags) {
   const CleanPaths paths = checked_paths(flags);
   const double limit = flags.memory_limit.empty()
                            ? usual_memory_limit_mib()
-                           : parse_positive("--memory-limit", flags.memory_limit);
+                           : parse_memory_mib("--memory-limit", flags.memory_limit);
   if (!flags.in_process) return clean_apart(paths, limit);
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   try {
@@ -201,8 +202,9 @@ Command add_clean_command(CLI::App& program) {
   app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
       ->type_name("N");
   app->add_option("--memory-limit", flags->memory_limit,
-                  "MiB of memory it may use (default: nine tenths of the machine's)")
-      ->type_name("MIB");
+                  "Memory it may use: MiB, or with a unit such as 2GB (default: nine tenths of the "
+                  "machine's)")
+      ->type_name("SIZE");
   app->add_flag("--force", flags->force,
                 "Clean also where the data has mistakes that make the map wrong");
   app->add_flag("--in-process", flags->in_process,
