@@ -30,7 +30,7 @@ if(git)
   endif()
 endif()
 set(text "// Written by cmake/build_commit.cmake.
-#include \"benchmark/build_commit.h\"
+#include \"benchmark/process/build_commit.h\"
 
 namespace raymoval {
 const char* build_commit() { return \"${commit}\"; }

@@ -21,7 +21,7 @@ set(arrays_all "")
 raymoval_embed(worlds built_in_worlds arrays_all)
 raymoval_embed(sensors built_in_sensors arrays_all)
 file(WRITE ${OUTPUT} "// Made by cmake/embed_simulated.cmake; do not edit.
-#include \"datasets/simulated/library.h\"
+#include \"datasets/simulation/scene/library.h\"
 
 namespace raymoval::simulated {
 namespace {

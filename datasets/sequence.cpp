@@ -7,18 +7,18 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/local_frame.h"
+#include "core/files/files.h"
+#include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "datasets/cloud_file.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/frames.h"
 #include "datasets/dynamicmap/dynamicmap.h"
 #include "datasets/ego/ego_free_source.h"
 #include "datasets/files/files.h"
-#include "datasets/frames.h"
 #include "datasets/semantickitti/semantickitti.h"
-#include "datasets/simulated/library.h"
-#include "datasets/simulated/scene_text.h"
-#include "datasets/simulated/street.h"
+#include "datasets/simulation/scene/library.h"
+#include "datasets/simulation/scene/scene_text.h"
+#include "datasets/simulation/street/street.h"
 
 namespace raymoval {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "core/label_rule.h"
 #include "core/progress.h"
-#include "core/range_limits.h"
-#include "core/scan_source.h"
+#include "core/scan/label_rule.h"
+#include "core/scan/range_limits.h"
+#include "core/scan/scan_source.h"
 #include "datasets/ego/ego_region.h"
 #include "datasets/world_axes/up_direction.h"
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/sensor_model.h"
+#include "core/files/files.h"
+#include "core/scan/sensor_model.h"
 #include "core/text.h"
-#include "datasets/frames.h"
+#include "datasets/clouds/frames.h"
 
 namespace raymoval {
 namespace {

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/label_rule.h"
-#include "core/mask_store.h"
 #include "core/parameters.h"
 #include "core/progress.h"
-#include "core/range_limits.h"
-#include "core/scan_source.h"
+#include "core/scan/label_rule.h"
+#include "core/scan/mask_store.h"
+#include "core/scan/range_limits.h"
+#include "core/scan/scan_source.h"
 #include "eval/bootstrap.h"
 
 namespace raymoval {

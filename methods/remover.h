@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "core/progress.h"
-#include "core/scan.h"
-#include "core/scan_source.h"
+#include "core/scan/scan.h"
+#include "core/scan/scan_source.h"
 #include "core/stage_timer.h"
 
 namespace raymoval {

@@ -19,9 +19,9 @@
 
 #include "benchmark/picture/canvas.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/scan/voxel_key.h"
 #include "core/text.h"
-#include "core/voxel_key.h"
 
 namespace {
 

@@ -2,9 +2,9 @@
 #include <CLI/Formatter.hpp>
 #include <memory>
 
+#include "benchmark/cli/commands.h"
 #include "benchmark/cli/completion.h"
 #include "benchmark/cli/manual_page.h"
-#include "benchmark/commands.h"
 #include "core/text.h"
 
 namespace raymoval {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include "benchmark/shipped_suites.h"
-#include "core/sensor_model.h"
+#include "benchmark/suite/shipped_suites.h"
+#include "core/scan/sensor_model.h"
 #include "core/text.h"
-#include "datasets/simulated/simulated.h"
+#include "datasets/simulation/scene/simulated.h"
 #include "eval/protocol.h"
 
 namespace raymoval {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "methods/raymoval/compiled_sets.h"
+#include "core/simd/compiled_sets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "benchmark/kernels/packet_walk.cpp"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "methods/raymoval/first_hit.h"
+#include "methods/raymoval/kernels/first_hit.h"
 
 namespace octomap {
 class OcTree;

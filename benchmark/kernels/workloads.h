@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scan_source.h"
-#include "methods/raymoval/first_hit.h"
+#include "core/scan/scan_source.h"
+#include "methods/raymoval/kernels/first_hit.h"
 
 namespace raymoval::kernels_bench {
 

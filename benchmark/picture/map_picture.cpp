@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/cell_selection.h"
+#include "benchmark/suite/cell_selection.h"
 #include "core/error.h"
-#include "core/local_frame.h"
+#include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "eval/rate.h"
 

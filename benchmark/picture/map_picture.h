@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/kept_run.h"
 #include "benchmark/picture/png_file.h"
 #include "benchmark/picture/top_down.h"
+#include "benchmark/run/kept_run.h"
 
 namespace raymoval {
 

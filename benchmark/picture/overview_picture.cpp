@@ -9,9 +9,9 @@
 #include "benchmark/picture/colour_maps.h"
 #include "benchmark/picture/oblique_view.h"
 #include "core/error.h"
-#include "core/local_frame.h"
+#include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "eval/removal_tally.h"
+#include "eval/columns/removal_tally.h"
 
 namespace raymoval {
 namespace {

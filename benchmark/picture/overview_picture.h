@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "benchmark/kept_run.h"
 #include "benchmark/picture/png_file.h"
 #include "benchmark/picture/top_down.h"
+#include "benchmark/run/kept_run.h"
 
 namespace raymoval {
 

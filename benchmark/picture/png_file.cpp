@@ -4,7 +4,7 @@
 #include <png.h>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 
 namespace raymoval {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/picture/point_outcome.h"
 
-#include "eval/removal_tally.h"
+#include "eval/columns/removal_tally.h"
 
 namespace raymoval {
 

@@ -7,7 +7,7 @@
 
 #include "benchmark/picture/colours.h"
 #include "datasets/sequence.h"
-#include "eval/labelled_voxels.h"
+#include "eval/points/labelled_voxels.h"
 
 namespace raymoval {
 

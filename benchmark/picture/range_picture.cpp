@@ -9,9 +9,9 @@
 #include "benchmark/picture/point_outcome.h"
 #include "benchmark/picture/top_down.h"
 #include "core/error.h"
-#include "core/local_frame.h"
+#include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "methods/raymoval/first_hit.h"
+#include "methods/raymoval/kernels/first_hit.h"
 
 namespace raymoval {
 namespace {

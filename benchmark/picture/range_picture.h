@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "benchmark/kept_run.h"
 #include "benchmark/picture/png_file.h"
+#include "benchmark/run/kept_run.h"
 
 namespace raymoval {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "benchmark/picture/svg.h"
+#include "benchmark/picture/charts/svg.h"
 #include "core/text.h"
 
 namespace raymoval {

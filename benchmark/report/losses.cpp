@@ -3,7 +3,7 @@
 
 #include "benchmark/report/sections.h"
 #include "core/text.h"
-#include "eval/columns.h"
+#include "eval/columns/columns.h"
 
 namespace raymoval {
 namespace {

@@ -5,10 +5,10 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/accuracy_tables.h"
-#include "benchmark/column_tables.h"
-#include "benchmark/picture/charts.h"
+#include "benchmark/picture/charts/charts.h"
 #include "benchmark/report/sections.h"
+#include "benchmark/tables/accuracy_tables.h"
+#include "benchmark/tables/column_tables.h"
 #include "core/text.h"
 #include "eval/rate.h"
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/picture/charts.h"
+#include "benchmark/picture/charts/charts.h"
 #include "benchmark/picture/colours.h"
-#include "benchmark/reasons.h"
 #include "benchmark/report/page_files.h"
 #include "benchmark/report/scene.h"
-#include "benchmark/sealed_json.h"
-#include "benchmark/suite.h"
+#include "benchmark/result/reasons.h"
+#include "benchmark/result/sealed_json.h"
+#include "benchmark/suite/suite.h"
 #include "core/error.h"
 #include "core/text.h"
 

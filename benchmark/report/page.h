@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/kept_run.h"
 #include "benchmark/report/sections.h"
+#include "benchmark/run/kept_run.h"
 #include "core/progress.h"
 
 namespace raymoval {

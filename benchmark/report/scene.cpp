@@ -7,10 +7,10 @@
 #include <map>
 #include <numeric>
 
-#include "benchmark/reasons.h"
-#include "core/local_frame.h"
+#include "benchmark/result/reasons.h"
 #include "core/morton.h"
-#include "eval/removal_tally.h"
+#include "core/scan/local_frame.h"
+#include "eval/columns/removal_tally.h"
 
 namespace raymoval {
 namespace {

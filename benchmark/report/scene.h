@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/kept_run.h"
 #include "benchmark/report/thinned_points.h"
+#include "benchmark/run/kept_run.h"
 #include "core/progress.h"
 
 namespace raymoval {

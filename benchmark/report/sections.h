@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "benchmark/report/html.h"
-#include "benchmark/results.h"
-#include "benchmark/tables.h"
-#include "eval/compare.h"
+#include "benchmark/result/results.h"
+#include "benchmark/tables/tables.h"
+#include "eval/comparison/compare.h"
 #include "methods/registry.h"
 
 namespace raymoval {

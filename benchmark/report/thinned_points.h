@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 
 namespace raymoval {
 

@@ -2,9 +2,9 @@
 #include "datasets/dynamicmap/dynamicmap.h"
 
 #include "core/error.h"
-#include "datasets/cloud_file.h"
-#include "datasets/file_source.h"
-#include "datasets/frames.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/file_source.h"
+#include "datasets/clouds/frames.h"
 #include "datasets/settings.h"
 
 namespace raymoval {

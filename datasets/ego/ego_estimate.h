@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "core/scan.h"
-#include "core/voxel_key.h"
+#include "core/scan/scan.h"
+#include "core/scan/voxel_key.h"
 #include "datasets/ego/ego_region.h"
-#include "datasets/inspect/surfels.h"
+#include "datasets/inspection/surfels.h"
 
 namespace raymoval {
 

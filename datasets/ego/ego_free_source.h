@@ -5,10 +5,10 @@
 #include <mutex>
 #include <optional>
 
-#include "core/scan_source.h"
+#include "core/scan/scan_source.h"
+#include "datasets/clouds/file_source.h"
 #include "datasets/ego/ego_region.h"
-#include "datasets/file_source.h"
-#include "datasets/left_out.h"
+#include "datasets/reading/left_out.h"
 #include "datasets/sequence.h"
 
 namespace raymoval {

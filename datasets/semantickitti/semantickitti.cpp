@@ -5,10 +5,10 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/cloud_file.h"
-#include "datasets/file_source.h"
-#include "datasets/frames.h"
-#include "datasets/poses.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/file_source.h"
+#include "datasets/clouds/frames.h"
+#include "datasets/clouds/poses.h"
 #include "datasets/settings.h"
 
 namespace raymoval {

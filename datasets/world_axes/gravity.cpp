@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/angle.h"
-#include "core/local_frame.h"
+#include "core/scan/local_frame.h"
 #include "datasets/world_axes/surface_patches.h"
 
 namespace raymoval {

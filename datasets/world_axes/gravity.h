@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/scan_source.h"
+#include "core/scan/scan_source.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {

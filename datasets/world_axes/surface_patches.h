@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 
 namespace raymoval {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/scan_source.h"
+#include "core/scan/scan_source.h"
 
 namespace raymoval {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "eval/dynamicmap/dynamicmap.h"
 
-#include "eval/cloud_masks.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/presence.h"
+#include "eval/points/cloud_masks.h"
 
 namespace raymoval {
 namespace {

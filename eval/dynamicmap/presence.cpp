@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "core/voxel_key.h"
-#include "eval/nearby_points.h"
+#include "core/scan/voxel_key.h"
+#include "eval/points/nearby_points.h"
 
 namespace raymoval::dynamicmap {
 namespace {

@@ -8,9 +8,9 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "eval/cloud_masks.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/truth_points.h"
+#include "eval/points/cloud_masks.h"
 
 namespace raymoval {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/checked_scan.h"
-#include "eval/labelled_voxels.h"
+#include "eval/points/checked_scan.h"
+#include "eval/points/labelled_voxels.h"
 
 namespace raymoval::dynamicmap {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "eval/checked_scan.h"
 #include "eval/erasor/frame.h"
+#include "eval/points/checked_scan.h"
 
 namespace raymoval::erasor {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/mask_store.h"
+#include "core/scan/mask_store.h"
 #include "eval/erasor/options.h"
-#include "eval/labelled_voxels.h"
+#include "eval/points/labelled_voxels.h"
 #include "eval/protocol.h"
 
 namespace raymoval::erasor {

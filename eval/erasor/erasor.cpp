@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "core/text.h"
-#include "eval/checked_scan.h"
-#include "eval/cloud_masks.h"
 #include "eval/erasor/accumulate.h"
 #include "eval/erasor/matching.h"
 #include "eval/erasor/options.h"
-#include "eval/nearest_labels.h"
+#include "eval/points/checked_scan.h"
+#include "eval/points/cloud_masks.h"
+#include "eval/points/nearest_labels.h"
 #include "eval/rates.h"
 
 namespace raymoval {

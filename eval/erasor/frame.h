@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 
 namespace raymoval::erasor {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "core/scan_source.h"
-#include "eval/cell_neighbours.h"
+#include "core/scan/scan_source.h"
+#include "eval/points/cell_neighbours.h"
 
 namespace raymoval::erasor {
 namespace {

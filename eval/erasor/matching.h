@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "eval/erasor/options.h"
-#include "eval/labelled_voxels.h"
+#include "eval/points/labelled_voxels.h"
 
 namespace raymoval::erasor {
 

@@ -2,7 +2,7 @@
 // A method of one's own, registered beside the built-in ones and run on the built-in scene.
 #include <cstdio>
 
-#include "core/mask_store.h"
+#include "core/scan/mask_store.h"
 #include "datasets/sequence.h"
 #include "eval/protocol.h"
 #include "methods/registry.h"

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "methods/scan_passes.h"
+#include "methods/common/scan_passes.h"
 
 namespace raymoval {
 namespace {

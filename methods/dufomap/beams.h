@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/dufomap/parameters.h"
 #include "methods/dufomap/scan_grid.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 
 namespace raymoval::dufomap {
 

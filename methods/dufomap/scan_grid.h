@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 
 namespace raymoval::dufomap {
 

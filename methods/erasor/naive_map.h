@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 
 namespace raymoval {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/file_kind.h"
-#include "core/files.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
 #include "core/text.h"
 
 namespace raymoval {

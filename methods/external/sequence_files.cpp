@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 
 static_assert(std::endian::native == std::endian::little, "files hold little-endian numbers");

@@ -4,13 +4,13 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/mask_store.h"
 #include "core/parallel.h"
+#include "core/scan/mask_store.h"
 #include "core/text.h"
+#include "methods/common/scan_passes.h"
 #include "methods/octomap/occupancy_tree.h"
 #include "methods/octomap/point_filters.h"
 #include "methods/octomap/scan_cells.h"
-#include "methods/scan_passes.h"
 
 namespace raymoval {
 namespace {

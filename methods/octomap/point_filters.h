@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/octomap/parameters.h"
 
 namespace raymoval {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/octomap/beam_tracer.h"
 #include "methods/octomap/parameters.h"
 

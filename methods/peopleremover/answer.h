@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/peopleremover/lattice_scan.h"
 #include "methods/peopleremover/traversal.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scan.h"
-#include "core/voxel_key.h"
+#include "core/scan/scan.h"
+#include "core/scan/voxel_key.h"
 #include "methods/peopleremover/parameters.h"
 
 namespace raymoval::peopleremover {

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "core/parallel.h"
+#include "methods/common/workspaces.h"
 #include "methods/peopleremover/answer.h"
 #include "methods/peopleremover/beam_ends.h"
 #include "methods/peopleremover/bricks.h"
@@ -12,7 +13,6 @@
 #include "methods/peopleremover/lattice_scan.h"
 #include "methods/peopleremover/thinning.h"
 #include "methods/peopleremover/traversal.h"
-#include "methods/workspaces.h"
 
 namespace raymoval {
 namespace peopleremover {

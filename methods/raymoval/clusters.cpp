@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "methods/disjoint_sets.h"
+#include "methods/common/disjoint_sets.h"
 
 namespace raymoval {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 
 namespace raymoval {
 

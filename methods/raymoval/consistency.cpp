@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "methods/raymoval/scan_kernels.h"
+#include "methods/raymoval/kernels/scan_kernels.h"
 
 namespace raymoval {
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "core/sensor_model.h"
-#include "methods/raymoval/angular_grid.h"
-#include "methods/raymoval/first_hit.h"
+#include "core/scan/sensor_model.h"
+#include "methods/raymoval/kernels/angular_grid.h"
+#include "methods/raymoval/kernels/first_hit.h"
 
 namespace raymoval {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "methods/raymoval/scan_kernels.h"
+#include "methods/raymoval/kernels/scan_kernels.h"
 
 namespace raymoval {
 namespace {

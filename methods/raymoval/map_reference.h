@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "methods/raymoval/angular_grid.h"
+#include "methods/raymoval/kernels/angular_grid.h"
 
 namespace raymoval {
 

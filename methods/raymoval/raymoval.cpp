@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "methods/common/scan_passes.h"
+#include "methods/common/workspaces.h"
 #include "methods/raymoval/erase_evidence.h"
 #include "methods/raymoval/scan_against_map.h"
 #include "methods/raymoval/static_map.h"
-#include "methods/scan_passes.h"
-#include "methods/workspaces.h"
 
 namespace raymoval {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "methods/raymoval/first_hit.h"
+#include "methods/raymoval/kernels/first_hit.h"
 #include "methods/raymoval/parameters.h"
 #include "methods/registry.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/scan.h"
-#include "methods/raymoval/occupancy_map.h"
+#include "core/scan/scan.h"
+#include "methods/raymoval/kernels/occupancy_map.h"
 
 namespace raymoval {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "methods/range_adaptive_clusters.h"
+#include "methods/common/range_adaptive_clusters.h"
 
 namespace raymoval {
 namespace {

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/raymoval/clusters.h"
-#include "methods/raymoval/occupancy_map.h"
+#include "methods/raymoval/kernels/occupancy_map.h"
 #include "methods/raymoval/parameters.h"
 
 namespace raymoval {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/sensor_model.h"
+#include "core/scan/sensor_model.h"
 #include "core/stage_timer.h"
 #include "methods/raymoval_plus/evidence_map.h"
 #include "methods/raymoval_plus/parameters.h"

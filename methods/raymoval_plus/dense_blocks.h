@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 
 namespace raymoval {
 

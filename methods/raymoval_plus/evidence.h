@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/raymoval_plus/evidence_map.h"
 #include "methods/raymoval_plus/parameters.h"
 #include "methods/raymoval_plus/range_image.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 #include "methods/raymoval_plus/dense_blocks.h"
 
 namespace raymoval {

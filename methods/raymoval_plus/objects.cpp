@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "methods/range_adaptive_clusters.h"
+#include "methods/common/range_adaptive_clusters.h"
 
 namespace raymoval {
 namespace {

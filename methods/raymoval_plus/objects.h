@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/raymoval_plus/evidence_map.h"
 #include "methods/raymoval_plus/parameters.h"
 #include "methods/raymoval_plus/tracks.h"

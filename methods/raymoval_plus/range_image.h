@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scan.h"
-#include "core/sensor_model.h"
+#include "core/scan/scan.h"
+#include "core/scan/sensor_model.h"
 #include "methods/raymoval_plus/parameters.h"
 #include "methods/raymoval_plus/sight_kernels.h"
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "methods/common/scan_passes.h"
 #include "methods/raymoval_plus/arriving_scans.h"
 #include "methods/raymoval_plus/evidence.h"
 #include "methods/raymoval_plus/judge.h"
 #include "methods/raymoval_plus/verdicts.h"
-#include "methods/scan_passes.h"
 
 namespace raymoval {
 namespace {

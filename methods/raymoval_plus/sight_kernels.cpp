@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "methods/raymoval/compiled_sets.h"
+#include "core/simd/compiled_sets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "methods/raymoval_plus/sight_kernels.cpp"
@@ -149,7 +149,7 @@ SightKernels sight_kernels() {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "methods/raymoval/instruction_sets.h"
+#include "core/simd/instruction_sets.h"
 
 namespace raymoval::kernels {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "methods/raymoval/simd.h"
+#include "core/simd/simd.h"
 
 /// Loops of `RangeImage`, compiled for each instruction set; all give the same numbers.
 namespace raymoval::kernels {

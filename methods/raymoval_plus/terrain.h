@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 #include "methods/raymoval_plus/dense_blocks.h"
 #include "methods/raymoval_plus/parameters.h"
 

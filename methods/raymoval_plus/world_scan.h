@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/raymoval_plus/evidence_map.h"
 #include "methods/raymoval_plus/parameters.h"
 #include "methods/raymoval_plus/terrain.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/removert/map_points.h"
 #include "methods/removert/parameters.h"
 

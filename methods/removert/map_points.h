@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scan.h"
-#include "core/voxel_key.h"
+#include "core/scan/scan.h"
+#include "core/scan/voxel_key.h"
 
 namespace raymoval::removert {
 

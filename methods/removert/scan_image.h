@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/scan.h"
+#include "core/scan/scan.h"
 #include "methods/removert/pixel_grid.h"
 
 namespace raymoval::removert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/amounts.h"
+#include "benchmark/suite/amounts.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cell_selection.h"
+#include "benchmark/suite/cell_selection.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -4,10 +4,10 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/runner.h"
-#include "benchmark/sealed_json.h"
-#include "core/files.h"
-#include "datasets/simulated/simulated.h"
+#include "benchmark/result/sealed_json.h"
+#include "benchmark/run/runner.h"
+#include "core/files/files.h"
+#include "datasets/simulation/scene/simulated.h"
 #include "methods/controls/controls.h"
 #include "methods/external/external.h"
 #include "tests/benchmark/small_world.h"

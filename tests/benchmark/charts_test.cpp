@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/charts.h"
+#include "benchmark/picture/charts/charts.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 
-#include "benchmark/picture/chart_file.h"
-#include "benchmark/picture/chart_parts.h"
+#include "benchmark/picture/charts/chart_file.h"
+#include "benchmark/picture/charts/chart_parts.h"
 #include "benchmark/picture/png_file.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

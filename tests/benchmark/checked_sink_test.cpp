@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/checked_sink.h"
+#include "benchmark/process/checked_sink.h"
 
 #include <catch2/catch.hpp>
 

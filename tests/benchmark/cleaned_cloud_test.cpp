@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cleaned_cloud.h"
+#include "benchmark/clean/cleaned_cloud.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <random>
 
-#include "benchmark/sequence_bench.h"
-#include "datasets/cloud_file.h"
+#include "benchmark/run/sequence_bench.h"
+#include "datasets/clouds/cloud_file.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

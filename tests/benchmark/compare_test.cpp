@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/command_line.h"
-#include "benchmark/result_sets.h"
-#include "benchmark/runner.h"
-#include "benchmark/sealed_json.h"
+#include "benchmark/cli/command_line.h"
+#include "benchmark/result/result_sets.h"
+#include "benchmark/result/sealed_json.h"
+#include "benchmark/run/runner.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"
 

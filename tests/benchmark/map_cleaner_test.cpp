@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/map_cleaner.h"
+#include "benchmark/clean/map_cleaner.h"
 
 #include <catch2/catch.hpp>
 
-#include "core/files.h"
-#include "datasets/cloud_file.h"
+#include "core/files/files.h"
+#include "datasets/clouds/cloud_file.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

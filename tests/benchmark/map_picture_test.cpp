@@ -7,9 +7,9 @@
 
 #include "benchmark/picture/overview_picture.h"
 #include "benchmark/picture/range_picture.h"
-#include "benchmark/runner.h"
+#include "benchmark/run/runner.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"
 

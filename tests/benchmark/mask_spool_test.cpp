@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/mask_spool.h"
+#include "benchmark/process/mask_spool.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/removal_files.h"
+#include "benchmark/result/removal_files.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

@@ -4,11 +4,11 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/reasons.h"
 #include "benchmark/report/html.h"
 #include "benchmark/report/pack.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/report/thinned_points.h"
+#include "benchmark/result/reasons.h"
 #include "core/error.h"
 #include "tests/benchmark/small_world.h"
 

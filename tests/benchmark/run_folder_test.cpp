@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run_folder.h"
+#include "benchmark/run/run_folder.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/runner.h"
-#include "benchmark/sealed_json.h"
+#include "benchmark/result/sealed_json.h"
+#include "benchmark/run/runner.h"
 #include "core/error.h"
-#include "core/file_kind.h"
-#include "core/files.h"
-#include "core/part_name.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "core/files/part_name.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/runner.h"
+#include "benchmark/run/runner.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/sealed_json.h"
+#include "benchmark/result/sealed_json.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/shipped_suites.h"
+#include "benchmark/suite/shipped_suites.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "benchmark/suite.h"
-#include "core/files.h"
+#include "benchmark/suite/suite.h"
+#include "core/files/files.h"
 #include "datasets/semantickitti/semantickitti.h"
 #include "eval/protocol.h"
 

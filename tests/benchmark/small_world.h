@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/scan_source.h"
+#include "core/scan/scan_source.h"
 
 namespace raymoval::test {
 

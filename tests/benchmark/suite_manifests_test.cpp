@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/suite_manifests.h"
+#include "benchmark/suite/suite_manifests.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

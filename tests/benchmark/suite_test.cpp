@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/suite.h"
+#include "benchmark/suite/suite.h"
 
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "eval/protocol.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "benchmark/flat_sweeps.h"
-#include "benchmark/suite.h"
-#include "benchmark/tables.h"
+#include "benchmark/result/flat_sweeps.h"
+#include "benchmark/suite/suite.h"
+#include "benchmark/tables/tables.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"
 

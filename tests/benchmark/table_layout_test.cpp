@@ -2,12 +2,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/accuracy_tables.h"
-#include "benchmark/cell_line.h"
-#include "benchmark/run_summary.h"
-#include "benchmark/tables.h"
+#include "benchmark/tables/accuracy_tables.h"
+#include "benchmark/tables/cell_line.h"
+#include "benchmark/tables/run_summary.h"
+#include "benchmark/tables/tables.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "eval/rate.h"
 #include "tests/benchmark/small_world.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/tables.h"
+#include "benchmark/tables/tables.h"
 
 #include <catch2/catch.hpp>
 
-#include "benchmark/column_tables.h"
-#include "benchmark/published_columns.h"
+#include "benchmark/tables/column_tables.h"
+#include "benchmark/tables/published_columns.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;

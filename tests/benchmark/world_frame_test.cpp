@@ -4,12 +4,12 @@
 #include <cmath>
 #include <memory>
 
-#include "benchmark/cleaned_cloud.h"
-#include "benchmark/map_cleaner.h"
-#include "benchmark/method_run.h"
-#include "benchmark/sequence_bench.h"
-#include "core/local_frame.h"
-#include "datasets/cloud_file.h"
+#include "benchmark/clean/cleaned_cloud.h"
+#include "benchmark/clean/map_cleaner.h"
+#include "benchmark/process/method_run.h"
+#include "benchmark/run/sequence_bench.h"
+#include "core/scan/local_frame.h"
+#include "datasets/clouds/cloud_file.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

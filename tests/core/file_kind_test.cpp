@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/file_kind.h"
+#include "core/files/file_kind.h"
 
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -10,8 +10,8 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/part_name.h"
+#include "core/files/files.h"
+#include "core/files/part_name.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

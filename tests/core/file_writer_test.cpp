@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/file_writer.h"
+#include "core/files/file_writer.h"
 
 #include <sys/resource.h>
 
@@ -7,7 +7,7 @@
 #include <csignal>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

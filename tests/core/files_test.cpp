@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/files.h"
+#include "core/files/files.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

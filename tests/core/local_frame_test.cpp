@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/local_frame.h"
+#include "core/scan/local_frame.h"
 
 #include <catch2/catch.hpp>
 

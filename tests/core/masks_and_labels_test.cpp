@@ -6,10 +6,10 @@
 #include <random>
 
 #include "core/error.h"
-#include "core/label_rule.h"
-#include "core/mask_store.h"
-#include "core/range_limits.h"
-#include "core/scan_source.h"
+#include "core/scan/label_rule.h"
+#include "core/scan/mask_store.h"
+#include "core/scan/range_limits.h"
+#include "core/scan/scan_source.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/stage_timer.h"
 #include "tests/benchmark/small_world.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/angle.h"
-#include "core/sensor_model.h"
+#include "core/scan/sensor_model.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/sensor_model.h"
+#include "core/scan/sensor_model.h"
 #include "core/angle.h"
 
 #include <catch2/catch.hpp>

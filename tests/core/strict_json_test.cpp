@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/strict_json.h"
+#include "core/files/strict_json.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

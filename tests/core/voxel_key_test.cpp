@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 
 #include <algorithm>
 #include <array>

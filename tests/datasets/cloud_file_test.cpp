@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/cloud_file.h"
+#include "datasets/clouds/cloud_file.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -8,8 +8,8 @@
 #include <random>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "datasets/cloud_writer.h"
+#include "core/files/files.h"
+#include "datasets/clouds/cloud_writer.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/cloud_writer.h"
+#include "datasets/clouds/cloud_writer.h"
 
 #include "core/error.h"
-#include "core/files.h"
-#include "datasets/cloud_file.h"
+#include "core/files/files.h"
+#include "datasets/clouds/cloud_file.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "datasets/ego/ego_free_source.h"
-#include "datasets/left_out.h"
+#include "datasets/reading/left_out.h"
 #include "tests/datasets/inspect_data.h"
 
 using namespace raymoval;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/frames.h"
+#include "datasets/clouds/frames.h"
 
 #include <catch2/catch.hpp>
 

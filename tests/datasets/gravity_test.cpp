@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/angle.h"
-#include "core/local_frame.h"
+#include "core/scan/local_frame.h"
 #include "tests/datasets/inspect_data.h"
 
 using namespace raymoval;

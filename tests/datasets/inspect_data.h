@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "datasets/inspect/inspect.h"
-#include "datasets/simulated/simulated.h"
+#include "datasets/inspection/inspect.h"
+#include "datasets/simulation/scene/simulated.h"
 #include "tests/datasets/temporary_folder.h"
 
 namespace raymoval::test {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/angle.h"
-#include "datasets/simulated/library.h"
+#include "datasets/simulation/scene/library.h"
 #include "tests/datasets/inspect_data.h"
 
 using namespace raymoval;

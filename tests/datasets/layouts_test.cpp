@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "datasets/cloud_file.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/sequence.h"
 #include "tests/datasets/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/loaded_data.h"
+#include "datasets/reading/loaded_data.h"
 
 #include "core/error.h"
 #include "tests/datasets/temporary_folder.h"

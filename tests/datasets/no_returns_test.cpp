@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "datasets/left_out.h"
+#include "datasets/reading/left_out.h"
 #include "datasets/sequence.h"
 #include "tests/datasets/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/poses.h"
+#include "datasets/clouds/poses.h"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/simulated/street.h"
+#include "datasets/simulation/street/street.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/mask_store.h"
-#include "core/scan_source.h"
+#include "core/scan/mask_store.h"
+#include "core/scan/scan_source.h"
 #include "eval/protocol.h"
 
 namespace raymoval::test {

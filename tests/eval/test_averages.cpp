@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "eval/averages.h"
-#include "eval/published.h"
+#include "eval/published/published.h"
 #include "eval/rates.h"
 
 namespace raymoval {

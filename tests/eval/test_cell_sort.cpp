@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "eval/cell_sort.h"
+#include "eval/points/cell_sort.h"
 
 namespace raymoval {
 

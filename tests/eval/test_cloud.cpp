@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "eval/cloud_masks.h"
+#include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"
 #include "tests/eval/random_sequence.h"
 #include "tests/eval/worked_example.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "eval/columns.h"
+#include "eval/columns/columns.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "eval/compare.h"
+#include "eval/comparison/compare.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;

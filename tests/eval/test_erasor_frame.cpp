@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "eval/cloud_masks.h"
 #include "eval/erasor/accumulate.h"
 #include "eval/erasor/frame.h"
+#include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"
 
 namespace raymoval::test {

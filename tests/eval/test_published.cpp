@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "eval/published.h"
+#include "eval/published/published.h"
 
 namespace raymoval {
 namespace {

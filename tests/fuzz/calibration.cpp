@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/poses.h"
+#include "datasets/clouds/poses.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

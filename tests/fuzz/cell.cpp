@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
-#include "benchmark/result_sets.h"
-#include "benchmark/sealed_json.h"
+#include "benchmark/result/result_sets.h"
+#include "benchmark/result/sealed_json.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "datasets/cloud_file.h"
-#include "datasets/file_source.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/file_source.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

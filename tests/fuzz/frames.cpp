@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/frames.h"
+#include "datasets/clouds/frames.h"
 
-#include "benchmark/suite.h"
+#include "benchmark/suite/suite.h"
 #include "tests/fuzz/target.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/removal_files.h"
-#include "core/label_rule.h"
-#include "datasets/file_source.h"
+#include "benchmark/result/removal_files.h"
+#include "core/scan/label_rule.h"
+#include "datasets/clouds/file_source.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/label_rule.h"
+#include "core/scan/label_rule.h"
 
 #include <nlohmann/json.hpp>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

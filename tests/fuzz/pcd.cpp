@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/cloud_file.h"
+#include "datasets/clouds/cloud_file.h"
 #include "tests/fuzz/cloud_input.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/simulated/scene_text.h"
+#include "datasets/simulation/scene/scene_text.h"
 
 #include "tests/fuzz/target.h"
 

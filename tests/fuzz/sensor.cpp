@@ -2,8 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/files.h"
-#include "datasets/simulated/sensor_file.h"
+#include "core/files/files.h"
+#include "datasets/simulation/sensor/sensor_file.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

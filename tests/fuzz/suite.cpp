@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/suite.h"
+#include "benchmark/suite/suite.h"
 
 #include <nlohmann/json.hpp>
 

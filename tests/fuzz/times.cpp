@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "datasets/poses.h"
+#include "datasets/clouds/poses.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

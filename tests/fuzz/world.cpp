@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/simulated/world.h"
+#include "datasets/simulation/world/world.h"
 
 #include <nlohmann/json.hpp>
 
-#include "core/files.h"
-#include "datasets/simulated/world_file.h"
+#include "core/files/files.h"
+#include "datasets/simulation/world/world_file.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

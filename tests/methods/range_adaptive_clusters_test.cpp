@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "methods/range_adaptive_clusters.h"
+#include "methods/common/range_adaptive_clusters.h"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "core/voxel_key.h"
-#include "methods/disjoint_sets.h"
+#include "core/scan/voxel_key.h"
+#include "methods/common/disjoint_sets.h"
 
 using namespace raymoval;
 

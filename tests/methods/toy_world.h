@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/angle.h"
-#include "core/mask_store.h"
+#include "core/scan/mask_store.h"
 #include "methods/remover.h"
 
 namespace raymoval::toy {

@@ -52,7 +52,7 @@ for path in bin/raymoval include/raymoval/methods/remover.h include/raymoval/met
   share/raymoval/suites/quick.json share/raymoval/published/raymoval_table2.json \
   share/raymoval/schema/manifest.schema.json share/doc/raymoval/copyright \
   share/doc/raymoval/methods/README.md \
-  share/doc/raymoval/methods/raymoval/README.md share/doc/raymoval/datasets/simulated/README.md \
+  share/doc/raymoval/methods/raymoval/README.md share/doc/raymoval/datasets/simulation/README.md \
   share/doc/raymoval/results/pictures/maps.png share/doc/raymoval/examples/cpp_method/near_points.cpp \
   share/doc/raymoval/examples/external/voxel_counts/manifest.json \
   share/doc/raymoval/README.md share/doc/raymoval/docs/your-data.md \

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "datasets/simulated/ground.h"
-#include "datasets/simulated/mover.h"
-#include "datasets/simulated/scanner.h"
-#include "datasets/simulated/sensor_file.h"
-#include "datasets/simulated/shapes.h"
-#include "datasets/simulated/world.h"
+#include "datasets/simulation/sensor/scanner.h"
+#include "datasets/simulation/sensor/sensor_file.h"
+#include "datasets/simulation/shapes/shapes.h"
+#include "datasets/simulation/world/ground.h"
+#include "datasets/simulation/world/mover.h"
+#include "datasets/simulation/world/world.h"
 
 namespace raymoval::simulated {
 

@@ -14,13 +14,13 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/file_kind.h"
-#include "core/file_lock.h"
-#include "core/files.h"
-#include "core/part_name.h"
-#include "datasets/simulated/making_place.h"
-#include "datasets/simulated/scene_folder.h"
-#include "datasets/simulated/simulated.h"
+#include "core/files/file_kind.h"
+#include "core/files/file_lock.h"
+#include "core/files/files.h"
+#include "core/files/part_name.h"
+#include "datasets/simulation/scene/making_place.h"
+#include "datasets/simulation/scene/scene_folder.h"
+#include "datasets/simulation/scene/simulated.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;

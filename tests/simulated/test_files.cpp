@@ -8,12 +8,12 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/sequence.h"
-#include "datasets/simulated/pose_noise.h"
-#include "datasets/simulated/simulated.h"
+#include "datasets/simulation/scene/simulated.h"
+#include "datasets/simulation/sensor/pose_noise.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "datasets/simulated/random.h"
-#include "datasets/simulated/ray_tracer.h"
+#include "datasets/simulation/sensor/ray_tracer.h"
+#include "datasets/simulation/shapes/random.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;

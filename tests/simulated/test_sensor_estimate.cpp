@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/angle.h"
-#include "core/sensor_model.h"
-#include "datasets/simulated/simulated.h"
+#include "core/scan/sensor_model.h"
+#include "datasets/simulation/scene/simulated.h"
 
 using namespace raymoval;
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "datasets/simulated/library.h"
+#include "datasets/simulation/scene/library.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/error.h"
-#include "datasets/simulated/library.h"
-#include "datasets/simulated/simulated.h"
+#include "datasets/simulation/scene/library.h"
+#include "datasets/simulation/scene/simulated.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;

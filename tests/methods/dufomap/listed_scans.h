@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/scan_source.h"
+#include "core/scan/scan_source.h"
 
 namespace raymoval::dufomap_test {
 

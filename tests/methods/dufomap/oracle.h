@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/scan_source.h"
+#include "core/scan/scan_source.h"
 #include "methods/dufomap/parameters.h"
 
 namespace raymoval::dufomap_test {

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <thread>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/datasets/temporary_folder.h"
 #include "tests/methods/toy_world.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "core/voxel_key.h"
+#include "core/scan/voxel_key.h"
 #include "methods/peopleremover/beam_ends.h"
 #include "tests/methods/moved_world.h"
 #include "tests/methods/peopleremover/listed_scans.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/raymoval/angular_grid.h"
+#include "methods/raymoval/kernels/angular_grid.h"
 
 #include <catch2/catch.hpp>
 #include <numbers>

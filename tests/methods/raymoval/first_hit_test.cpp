@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/raymoval/first_hit.h"
+#include "methods/raymoval/kernels/first_hit.h"
 
 #include <catch2/catch.hpp>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/raymoval/occupancy_map.h"
+#include "methods/raymoval/kernels/occupancy_map.h"
 
 #include <catch2/catch.hpp>
 #include <set>

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "methods/raymoval/first_hit.h"
+#include "methods/raymoval/kernels/first_hit.h"
 
 namespace raymoval::random_map {
 

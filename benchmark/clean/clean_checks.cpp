@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/clean/clean_checks.h"
+
+#include <cstdio>
+#include <vector>
+
+#include "benchmark/cli/commands.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/inspection/inspect.h"
+
+namespace raymoval {
+namespace {
+
+void warn(const std::string& text) {
+  std::fprintf(stderr, "raymoval: warning: %s\n", text.c_str());
+}
+
+}  // namespace
+
+void check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress) {
+  progress.begin("looking for mistakes in the data", 1);
+  const InspectionReport report = inspect(sequence, &interrupt_flag());
+  progress.end();
+  std::vector<std::string> wrong;
+  for (const Finding& finding : report.findings) {
+    if (finding.severity == Severity::kNote || finding.consequence == Consequence::kUnused)
+      continue;
+    const bool refused = finding.consequence == Consequence::kRefused;
+    if (refused && !force) {
+      wrong.push_back(finding.sentence());
+    } else {
+      warn((refused ? "going on because of --force, in spite of " : "") + finding.sentence());
+    }
+  }
+  if (wrong.empty()) return;
+  throw DataError(join(wrong, "\nraymoval: ") +
+                  " The map would be wrong, so nothing was written; `" + "raymoval inspect " +
+                  path + "` says more, and --force cleans all the same.");
+}
+
+void check_removed(std::uint64_t removed, std::uint64_t points, const std::string& path) {
+  const std::string look = " Look at the poses, units and sensor (`raymoval inspect " + path +
+                           "`), or try another "
+                           "--method.";
+  if (removed == 0) {
+    warn("nothing was removed: either nothing moves here, or the method cannot see it." + look);
+  } else if (2 * removed > points) {
+    warn("more than half of all points were removed, which is much for things that move." + look);
+  }
+}
+
+}  // namespace raymoval

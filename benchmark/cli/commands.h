@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmark/suite/suite.h"
+#include "core/error.h"
+#include "datasets/sequence.h"
+#include "methods/registry.h"
+
+namespace raymoval {
+
+/// A command of the program: its options, and what it does once they are read.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<ExitCode()> run;
+};
+
+/// One function per command, each in its own file command_<name>.cpp.
+Command add_run_command(CLI::App& program);
+Command add_plan_command(CLI::App& program);
+Command add_run_method_command(CLI::App& program);  ///< The child's side of `run`; not shown.
+Command add_table_command(CLI::App& program);
+Command add_picture_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
+Command add_list_command(CLI::App& program);
+Command add_describe_command(CLI::App& program);
+Command add_score_command(CLI::App& program);
+Command add_clean_command(CLI::App& program);
+Command add_simulate_command(CLI::App& program);
+Command add_inspect_command(CLI::App& program);
+Command add_report_command(CLI::App& program);
+Command add_help_command(CLI::App& program);  ///< `program` has to live as long as the command.
+Command add_completion_command(CLI::App& program);  ///< The same.
+
+/// What the program was started with, without its own name.
+const std::vector<std::string>& program_arguments();
+
+/// The methods that this program knows, see `run_command_line`.
+const MethodRegistry& program_methods();
+
+/// Options that say how sequences are read, as texts of the command line.
+struct SequenceFlags {
+  std::string frames, poses, label_rule, range, sensor, up, drop_ego, name;
+
+  void add_to(CLI::App& app);
+  /// The sequence that a command is about, which may be given with --sequence or without it.
+  static void add_place_to(CLI::App& app, std::string& place);
+  /// @throws UsageError for an ill-formed value
+  [[nodiscard]] SequenceOptions options() const;
+  /// The first of these options that was given, such as "--frames"; empty if none was.
+  [[nodiscard]] std::string first_given() const;
+};
+
+/// `--threads N`: 0 if it was not given. @throws UsageError unless a whole number from 1 to 4096.
+int parse_threads(const std::string& text);
+
+/// @throws UsageError unless `text` is a decimal number greater than 0; `option` is for the
+/// message.
+double parse_positive(const std::string& option, const std::string& text);
+
+/// Set to true by the first Ctrl-C; a second one ends the program at once.
+const std::atomic<bool>& interrupt_flag();
+
+/// Prints to standard output. @throws DataError if nobody can read it (a full disk, a closed pipe).
+void print(const std::string& text);
+
+}  // namespace raymoval

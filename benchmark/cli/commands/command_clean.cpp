@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+#include <optional>
+
+#include "benchmark/clean/clean_checks.h"
+#include "benchmark/clean/clean_outputs.h"
+#include "benchmark/clean/clean_process.h"
+#include "benchmark/cli/commands.h"
+#include "benchmark/cli/suite_flags.h"
+#include "benchmark/process/mask_spool.h"
+#include "benchmark/result/cell.h"
+#include "benchmark/result/removal_files.h"
+#include "benchmark/suite/amounts.h"
+#include "core/parallel.h"
+#include "core/process/child_process.h"
+#include "core/scan/local_frame.h"
+#include "core/text.h"
+#include "datasets/reading/left_out.h"
+#include "datasets/reading/loaded_data.h"
+
+namespace raymoval {
+namespace {
+
+struct CleanFlags {
+  std::string path, output, dynamic, labels, voxel, threads, memory_limit;
+  std::string method = "raymoval_plus:offline";
+  std::vector<std::string> settings;
+  SequenceFlags reading;
+  bool overwrite = false;
+  bool force = false;
+  bool in_process = false;
+  bool quiet = false;
+};
+
+/// What `--range` keeps of the points of a scan.
+struct RangeCut {
+  std::optional<RangeLimits> kept;
+  std::uint64_t left_out = 0;
+
+  /// `mask` with `kLeftOutMask` for the points beyond.
+  Mask cut(const Scan& scan, Mask mask) {
+    if (!kept) return mask;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if (kept->contains(scan.points[i].cast<double>().norm())) continue;
+      mask[i] = kLeftOutMask;
+      ++left_out;
+    }
+    return mask;
+  }
+};
+
+ConfiguredMethod configured(const CleanFlags& flags) {
+  Suite suite;
+  add_method(suite, flags.method, "", program_methods());
+  std::vector<Setting> settings;
+  for (const std::string& text : flags.settings) settings.push_back(parse_setting(text));
+  apply_settings(suite, settings);
+  warn_of_settings_without_effect(suite);
+  return suite.methods.front().method;
+}
+
+void find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
+                   const Sequence& sequence, const TimedSource& scans, MaskSpool& masks,
+                   Progress& progress) {
+  const int given = parse_threads(flags.threads);
+  const auto remover = make_remover(method, sequence);
+  RunContext context;
+  context.threads = given > 0 ? given : hardware_threads();
+  context.progress = &progress;
+  context.cancel = &interrupt_flag();
+  remover->run(scans, masks, context);
+  masks.check_complete();
+}
+
+void write_outputs(const ScanSource& scans, const MaskSpool& masks, RangeCut& range,
+                   CleanOutputs& outputs, Progress& progress) {
+  progress.begin("writing the map", scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (interrupt_flag()) throw Cancelled();
+    const Scan scan = scans.load(i);
+    outputs.add(scan, range.cut(scan, masks.get(i)));
+    progress.advance();
+  }
+  if (range.left_out == masks.point_count()) {
+    throw DataError("no point lies within --range " + number_text(range.kept->min) + ":" +
+                    number_text(range.kept->max) +
+                    " (metres from the sensor), so nothing was written. Choose another.");
+  }
+  outputs.commit();
+  progress.end();
+}
+
+CleanPaths checked_paths(const CleanFlags& flags) {
+  if (flags.path.empty()) throw UsageError("clean what? Expected `raymoval clean PATH -o FILE`.");
+  if (flags.output.empty()) throw UsageError("-o FILE is missing: name the cleaned map's file.");
+  check_not_both(flags.path);
+  CleanPaths paths{flags.output, flags.dynamic, flags.labels, flags.overwrite};
+  check_paths(paths);
+  return paths;
+}
+
+Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const ConfiguredMethod& method,
+                Progress& progress) {
+  const int given = parse_threads(flags.threads);
+  Sequence sequence =
+      open_sequence(flags.path, flags.reading.options(),
+                    {given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()});
+  if (sequence.scans->size() == 0) {
+    throw DataError("sequence '" + sequence.name + "' has no scan in the chosen frames (" +
+                    sequence.frames + ").");
+  }
+  check_apart_from(sequence, paths);
+  if (method.entry->needs_truth && !sequence.labels) {
+    throw UsageError("sequence '" + sequence.name + "' has no labels, and " + method.entry->name +
+                     " answers from them; choose another --method.");
+  }
+  return sequence;
+}
+
+/// What was done, a line each.
+std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& method,
+                             const Sequence& sequence, const MaskSpool& masks,
+                             const RangeCut& range, const CleanOutputs& outputs) {
+  std::string text = method.full_name() + " removed " + grouped_text(masks.removed_count()) +
+                     " of " + counted_text(masks.point_count(), "point") + " in " +
+                     counted_text(sequence.scans->size(), "scan") + "; " + flags.output + " has " +
+                     counted_text(outputs.map_points(), "point") + ".\n";
+  if (range.kept) {
+    text += counted_text(range.left_out, "point") + " beyond --range " + flags.reading.range +
+            " are in no output.\n";
+  }
+  for (const std::string& line : left_out_lines(sequence)) text += line + ".\n";
+  return text;
+}
+
+ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& progress) {
+  const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
+  const ConfiguredMethod method = configured(flags);
+  const Sequence sequence = opened(flags, paths, method, progress);
+  const std::string turned = up_line(sequence.up());
+  if (!turned.empty()) progress.say(sequence.name + ": " + turned);
+  check_data(sequence, flags.path, flags.force, progress);
+  progress.set_context(method.full_name() + " on " + sequence.name);
+  const MapPrecision precision = map_precision(*sequence.scans);
+  CleanOutputs outputs(paths, voxel, precision);
+  // A scan that is another when the map is written than when it was judged is an error.
+  const WatchedSequence data = watched(sequence);
+  const LocalFrameSource local(*data.sequence.scans, sequence.method_frame());
+  const TimedSource scans(local);
+  MaskSpool masks(method.full_name(), scans, paths.map);
+  find_removals(flags, method, data.sequence, scans, masks, progress);
+  RangeCut range{flags.reading.options().range_m};
+  write_outputs(*data.sequence.scans, masks, range, outputs, progress);
+  if (precision.coordinates == Coordinates::kDouble) {
+    print("The map lies more than 8 km from the world's origin: its coordinates are float64.\n");
+  }
+  if (!is_control(method.entry->name)) {
+    check_removed(masks.removed_count(), masks.point_count(), flags.path);
+  }
+  print(cleaning_summary(flags, method, sequence, masks, range, outputs));
+  return ExitCode::kDone;
+}
+
+ExitCode clean(const CleanFlags& flags) {
+  const CleanPaths paths = checked_paths(flags);
+  const double limit = flags.memory_limit.empty()
+                           ? usual_memory_limit_mib()
+                           : parse_memory_mib("--memory-limit", flags.memory_limit);
+  if (!flags.in_process) return clean_apart(paths, limit);
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  try {
+    return clean_here(flags, paths, progress);
+  } catch (...) {
+    progress.end();  // The message gets a line of its own.
+    throw;
+  }
+}
+
+}  // namespace
+
+Command add_clean_command(CLI::App& program) {
+  auto flags = std::make_shared<CleanFlags>();
+  CLI::App* app = program.add_subcommand("clean", "Writes a map without moving objects");
+  app->allow_extras();
+  SequenceFlags::add_place_to(*app, flags->path);
+  app->add_option("-o,--output", flags->output, "Cleaned map in the world frame: .pcd, .ply, .bin")
+      ->type_name("FILE");
+  app->add_option("--dynamic", flags->dynamic, "What was removed, as a map")->type_name("FILE");
+  app->add_option("--labels", flags->labels,
+                  "Folder for a label file per scan (251 = removed, 9 = kept, 0 = left out)")
+      ->type_name("DIR");
+  app->add_option("--voxel", flags->voxel, "One point per cell of this size")->type_name("METRES");
+  app->add_option("--method", flags->method,
+                  "Method (default: raymoval_plus:offline, the best of them)")
+      ->type_name("NAME");
+  app->add_option("--set", flags->settings, "Parameter: METHOD.key=value")
+      ->type_name("SETTING")
+      ->allow_extra_args(false);
+  flags->reading.add_to(*app);
+  app->get_option("--range")->description(
+      "Metres from the sensor; points beyond are in no output, but the method sees them");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
+  app->add_option("--memory-limit", flags->memory_limit,
+                  "Memory it may use: MiB, or with a unit such as 2GB (default: nine tenths of the "
+                  "machine's)")
+      ->type_name("SIZE");
+  app->add_flag("--force", flags->force,
+                "Clean also where the data has mistakes that make the map wrong");
+  app->add_flag("--in-process", flags->in_process,
+                "Stay in one process, for a debugger: without a limit on memory");
+  app->add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
+  app->add_flag("--quiet", flags->quiet, "No progress");
+  app->footer(
+      "Examples:\n"
+      "  raymoval clean data/05 -o static.pcd\n"
+      "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 "
+      "--method raymoval:online\n"
+      "  raymoval clean data/05 -o near.pcd --range 2:40 --drop-ego auto\n"
+      "The data is looked at first, as `raymoval inspect` does: mistakes that make the map wrong "
+      "are\nrefused (see `raymoval inspect --list`) unless --force is given. Points of the own "
+      "vehicle (--drop-ego)\nand missing returns (NaN or at the origin) are in no output, and 0 "
+      "in label files.\n"
+      "Memory does not grow with the number of scans, and every point is kept without --voxel. "
+      "Outputs\nappear when all is done; until then they stand in files *.part beside them.");
+  return {app, [flags] { return clean(*flags); }};
+}
+
+}  // namespace raymoval

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+
+#include "benchmark/cli/commands.h"
+#include "benchmark/cli/terminal_colour.h"
+#include "benchmark/result/result_sets.h"
+#include "benchmark/tables/comparison_files.h"
+#include "core/files/files.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+struct CompareFlags {
+  std::string run, reference, time_band, format = "text", output;
+  std::vector<std::string> tolerances, across;
+  bool update = false, with_times = false;
+};
+
+/// `--across parameters,version`, or each on its own.
+void read_across(const std::vector<std::string>& given, ComparisonOptions& options) {
+  for (const std::string& text : given) {
+    for (const std::string_view word : split(text, ',')) {
+      if (word == "parameters") {
+        options.across_parameters = true;
+      } else if (word == "version") {
+        options.across_version = true;
+      } else {
+        throw UsageError("--across " + text + ": expected what may differ." +
+                         suggestion(word, {"parameters", "version"}));
+      }
+    }
+  }
+}
+
+ComparisonOptions options_of(const CompareFlags& flags) {
+  ComparisonOptions options;
+  for (const std::string& text : flags.tolerances) {
+    const std::size_t equals = text.find('=');
+    const auto value = equals == std::string::npos
+                           ? std::nullopt
+                           : parse_number<double>(std::string_view(text).substr(equals + 1));
+    if (equals == 0 || !value || !(*value >= 0.0 && *value <= 100.0)) {
+      throw UsageError(
+          "--tolerance " + text +
+          ": expected METRIC=NUMBER from 0 to 100 in the metric's own unit, such as F1=0.002 or "
+          "PR=0.1.");
+    }
+    if (!options.tolerances.emplace(text.substr(0, equals), *value).second) {
+      throw UsageError("--tolerance gives " + text.substr(0, equals) + " twice; leave one out.");
+    }
+  }
+  read_across(flags.across, options);
+  if (flags.time_band.empty()) return options;
+  options.time_band = parse_positive("--time-band", flags.time_band);
+  if (*options.time_band < 1.0) {
+    throw UsageError("--time-band " + flags.time_band +
+                     ": expected a factor of at least 1, such as 3.");
+  }
+  return options;
+}
+
+/// `reference` as the file that is to be written; its folder is made.
+std::filesystem::path reference_file(const std::string& reference) {
+  const std::filesystem::path given(reference);
+  const std::filesystem::path file = given.extension() == ".json" ? given : given / "results.json";
+  if (!file.has_parent_path()) return file;
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (error) {
+    throw DataError(file.parent_path().string() + ": cannot be made (" + error.message() + ").");
+  }
+  return file;
+}
+
+std::string coloured_verdicts(const std::string& text) {
+  return coloured_phrases(text,
+                          {{"Worse", TerminalColour::kBad},
+                           {"worse", TerminalColour::kBad},
+                           {"Better", TerminalColour::kGood},
+                           {"better, no regression", TerminalColour::kGood},
+                           {"no regression", TerminalColour::kGood},
+                           {"Not comparable", TerminalColour::kNotice},
+                           {"not comparable", TerminalColour::kNotice}},
+                          stdout);
+}
+
+ExitCode update(const CompareFlags& flags) {
+  if (!flags.tolerances.empty() || !flags.across.empty() || !flags.time_band.empty() ||
+      !flags.output.empty()) {
+    throw UsageError(
+        "--update compares nothing: leave --tolerance, --across, --time-band and -o out.");
+  }
+  const std::filesystem::path run = find_results(flags.run);
+  const std::filesystem::path file = reference_file(flags.reference);
+  write_reference(run, file, flags.with_times);
+  print("wrote " + file.string() +
+        (flags.with_times
+             ? " with its times. They tell something on this machine only.\n"
+             : " without times: --time-band cannot be used with it (--with-times keeps them).\n"));
+  return ExitCode::kDone;
+}
+
+/// Ends with the exit code of the comparison. What is wrong stands in the output already.
+ExitCode judged(const Comparison& comparison, const ComparisonOptions& options) {
+  if (comparison.verdict() == ExitCode::kCannotDo) {
+    const bool hint = comparison.parameters_only && !options.across_parameters;
+    throw UsageError(
+        std::string("the results are not comparable, see above.") +
+        (hint ? " Only parameters differ: --across parameters compares the rates." : ""));
+  }
+  if (comparison.verdict() == ExitCode::kWorse) {
+    throw Error("the run is worse than the reference, see above.", ExitCode::kWorse);
+  }
+  return ExitCode::kDone;
+}
+
+ExitCode compare(const CompareFlags& flags) {
+  if (flags.run.empty() || flags.reference.empty()) {
+    throw UsageError("two results are needed: expected `raymoval compare RUN REFERENCE`.");
+  }
+  if (flags.with_times && !flags.update) {
+    throw UsageError("--with-times goes with --update: it keeps the times in the new reference.");
+  }
+  if (flags.update) return update(flags);
+  const ComparisonSubject subject{flags.run, flags.reference, options_of(flags)};
+  (void)comparison_in(flags.format, {}, subject);  // A wrong format shows before the work.
+  if (!flags.output.empty()) check_folder_of(flags.output);
+  const Comparison comparison =
+      compare_results(read_result_set(find_results(flags.run)),
+                      read_result_set(find_results(flags.reference)), subject.options);
+  const std::string text = comparison_in(flags.format, comparison, subject);
+  if (!flags.output.empty()) write_atomically(flags.output, text);
+  const bool shows_text = !flags.output.empty() || flags.format == "text";
+  print(shows_text ? coloured_verdicts(comparison_text(comparison)) : text);
+  return judged(comparison, subject.options);
+}
+
+}  // namespace
+
+Command add_compare_command(CLI::App& program) {
+  auto flags = std::make_shared<CompareFlags>();
+  CLI::App* app = program.add_subcommand("compare", "Tells whether a run got worse");
+  app->allow_extras();
+  app->add_option("run", flags->run, "Run folder, or its results.json")->type_name("RUN");
+  app->add_option("reference", flags->reference, "What it is compared with: the same")
+      ->type_name("REFERENCE");
+  app->add_option(
+         "--tolerance", flags->tolerances,
+         "METRIC=NUMBER: judge this rate, which may fall by at most NUMBER, instead of the "
+         "counts (F1 is a fraction, other rates are in percent)")
+      ->type_name("TOLERANCE")
+      ->allow_extra_args(false);
+  app->add_option("--across", flags->across,
+                  "What may differ, parameters or version of methods or both "
+                  "(parameters,version): such cells are judged by their rates")
+      ->type_name("WHAT")
+      ->allow_extra_args(false);
+  app->add_option("--time-band", flags->time_band,
+                  "Slower than the reference by more than this factor is worse (default: times are "
+                  "shown, never judged)")
+      ->type_name("FACTOR");
+  app->add_option("--format", flags->format, "text, md, junit or json (default: text)")
+      ->type_name("FORMAT");
+  app->add_option("-o,--output", flags->output,
+                  "Write the comparison to this file, and print it as text")
+      ->type_name("FILE");
+  app->add_flag("--update", flags->update,
+                "Make RUN the new REFERENCE, without times and machine; compare nothing");
+  app->add_flag("--with-times", flags->with_times,
+                "With --update: keep times and machine, for --time-band");
+  app->footer(
+      "Counts must be equal; other data, protocols or parameters are not comparable. With "
+      "--tolerance\nthe rates named are judged, in the protocols that have them.\n"
+      "--across parameters judges a changed default: cells whose parameters differ are compared "
+      "by\n"
+      "their rates, which may not fall by more than their tolerance (none, if the protocol has no "
+      "rate\nwith one). What differs is told.\n"
+      "--format junit is XML for a CI server: a test suite for each sequence, a test case for "
+      "each\n"
+      "method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
+      "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\nExamples:\n"
+      "  raymoval run quick --out out/quick\n"
+      "  raymoval compare out/quick results/reference/street\n"
+      "  raymoval compare out/new out/old --tolerance F1=0.002 --time-band 3\n"
+      "  raymoval compare out/new out/old --across parameters --tolerance F1=0.01\n"
+      "  raymoval compare out/new out/old --format junit -o compare.xml\n"
+      "  raymoval compare out/new reference --update --with-times");
+  return {app, [flags] { return compare(*flags); }};
+}
+
+}  // namespace raymoval

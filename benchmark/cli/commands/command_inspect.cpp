@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/cli/commands.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "datasets/inspection/inspect.h"
+
+namespace raymoval {
+namespace {
+
+struct InspectFlags {
+  std::string path, threads;
+  SequenceFlags reading;
+  bool json = false, list = false, quiet = false;
+};
+
+const char* severity_name(Severity severity) {
+  return severity == Severity::kNote ? "note" : "finding";
+}
+
+std::string finding_line(const Finding& finding) {
+  return std::string(severity_name(finding.severity)) + " " + finding.sentence() + "\n";
+}
+
+std::string report_text(const InspectionReport& report) {
+  std::string text;
+  for (const Finding& finding : report.findings) text += finding_line(finding);
+  const auto notes = static_cast<std::size_t>(
+      std::count_if(report.findings.begin(), report.findings.end(),
+                    [](const Finding& f) { return f.severity == Severity::kNote; }));
+  const std::size_t findings = report.findings.size() - notes;
+  if (!report.sensor.empty()) text += report.sequence + ": sensor " + report.sensor + ".\n";
+  text += report.sequence + ": " + counted_text(findings, "finding");
+  if (notes > 0) text += ", " + counted_text(notes, "note");
+  if (report.scans == 0) return text + "; the sequence cannot be opened.\n";
+  return text + " (" + report.layout + ", " + grouped_text(report.scans_read) + " of " +
+         counted_text(report.scans, "scan") + " read).\n";
+}
+
+std::string report_json(const InspectionReport& report) {
+  nlohmann::ordered_json json;
+  json["sequence"] = report.sequence;
+  json["layout"] = report.layout;
+  json["scans"] = report.scans;
+  json["scans_read"] = report.scans_read;
+  json["sensor"] = report.sensor;
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const Finding& finding : report.findings) {
+    json["findings"].push_back({{"check", finding.check},
+                                {"severity", severity_name(finding.severity)},
+                                {"where", finding.where},
+                                {"what", finding.what},
+                                {"expected", finding.expected},
+                                {"remedy", finding.remedy}});
+  }
+  json["measures"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : report.measures) json["measures"][name] = value;
+  return json.dump(2) + "\n";
+}
+
+const char* consequence_text(Consequence consequence) {
+  switch (consequence) {
+    case Consequence::kRefused:
+      return " (clean refuses it)";
+    case Consequence::kWarned:
+      return " (clean warns)";
+    case Consequence::kUnused:
+      return " (clean does not mind)";
+  }
+  throw InternalError("unknown consequence of a check");
+}
+
+std::string check_list() {
+  std::string text;
+  for (const InspectionCheck& check : inspection_checks()) {
+    text += check.name + ": " + check.finds + "." + consequence_text(check.consequence) + "\n";
+    if (!check.remedy.empty()) text += "    " + check.remedy + "\n";
+  }
+  return text;
+}
+
+ExitCode inspect_command(const InspectFlags& flags) {
+  if (flags.list) {
+    print(check_list());
+    return ExitCode::kDone;
+  }
+  if (flags.path.empty()) {
+    throw UsageError("inspect what? Name a sequence folder, ROOT:05, or a scene.");
+  }
+  check_not_both(flags.path);
+  const int given = parse_threads(flags.threads);
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  const InspectionReport report =
+      inspect_path(flags.path, flags.reading.options(),
+                   {given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()});
+  print(flags.json ? report_json(report) : report_text(report));
+  return report.has_findings() ? ExitCode::kWorse : ExitCode::kDone;
+}
+
+}  // namespace
+
+Command add_inspect_command(CLI::App& program) {
+  auto flags = std::make_shared<InspectFlags>();
+  CLI::App* app = program.add_subcommand("inspect", "Finds mistakes in the data of a sequence");
+  app->allow_extras();
+  SequenceFlags::add_place_to(*app, flags->path);
+  flags->reading.add_to(*app);
+  app->add_flag("--json", flags->json, "Print findings and measured numbers as JSON");
+  app->add_flag("--list", flags->list, "Say what is looked for, and what to do about each");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
+  app->add_flag("--quiet", flags->quiet, "No progress");
+  app->footer(
+      "One line per finding: what is wrong, where, what was expected, what to do; then the sensor\n"
+      "as it is named and as the scans show it. About thirty scans are read, and the poses, times\n"
+      "and file sizes of all.\n"
+      "Exit codes: 0 nothing found, 1 findings, 2 cannot be read as asked.\n"
+      "Examples:\n"
+      "  raymoval inspect data/05\n"
+      "  raymoval inspect KITTI:kitti-05 --json\n"
+      "  raymoval inspect scans/ --poses odometry.txt\n"
+      "  raymoval inspect --list");
+  return {app, [flags] { return inspect_command(*flags); }};
+}
+
+}  // namespace raymoval

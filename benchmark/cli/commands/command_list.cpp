@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <memory>
+
+#include "benchmark/cli/commands.h"
+#include "benchmark/suite/shipped_suites.h"
+#include "core/scan/sensor_model.h"
+#include "core/text.h"
+#include "datasets/semantickitti/semantickitti.h"
+#include "datasets/simulation/scene/library.h"
+#include "datasets/simulation/scene/scene_text.h"
+#include "eval/columns/columns.h"
+#include "eval/protocol.h"
+
+namespace raymoval {
+namespace {
+
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+Lines method_lines(bool variants) {
+  Lines lines;
+  for (const auto& entry : program_methods().entries()) {
+    if (!variants) {
+      lines.emplace_back(entry->name, entry->sentence);
+      continue;
+    }
+    for (const MethodVariant& variant : entry->variants) {
+      lines.emplace_back(entry->name + ":" + variant.name, variant.sentence);
+    }
+  }
+  lines.emplace_back("external:MANIFEST",
+                     "A program of yours in any language, see methods/README.md.");
+  return lines;
+}
+
+Lines protocol_lines() {
+  Lines lines;
+  for (const ProtocolEntry& entry : protocol_entries()) {
+    lines.emplace_back(entry.name, entry.sentence);
+  }
+  return lines;
+}
+
+Lines sensor_lines() {
+  Lines lines;
+  for (const std::string& name : sensor_model_names()) lines.emplace_back(name, "");
+  lines.emplace_back("estimated", "field of view and steps as seen in the scans");
+  return lines;
+}
+
+Lines scene_lines() {
+  Lines lines;
+  for (const std::string& name : simulated_scene_names()) {
+    const simulated::WorldFile world = simulated::parse_world(simulated::find_world(name));
+    lines.emplace_back(name, world.description + " (" +
+                                 grouped_text(static_cast<std::uint64_t>(world.scans)) +
+                                 " scans, " + world.sensor + ")");
+  }
+  return lines;
+}
+
+Lines simulated_sensor_lines() {
+  Lines lines;
+  for (const std::string& name : simulated_sensor_names()) {
+    lines.emplace_back(name, simulated::parse_sensor(simulated::find_sensor(name)).description);
+  }
+  return lines;
+}
+
+Lines sequence_lines() {
+  Lines lines = {{"street", "small built-in scene, needs no data"},
+                 {"SCENE", "a scene of `raymoval list scenes`, simulated once and cached"},
+                 {"SCENE:key=value,...",
+                  "the same with scans=N, seed=N, sensor=NAME, pose_noise=F, rolling=skewed"},
+                 {"FOLDER", "a folder in SemanticKITTI or DynamicMap layout, or one of scan files"},
+                 {"ROOT:05", "a whole sequence of a SemanticKITTI root folder"}};
+  for (const PaperSegment& segment : paper_segments()) {
+    lines.emplace_back("ROOT:" + segment.name, "sequence " + segment.sequence + ", frames " +
+                                                   frame_range_text(segment.frames) +
+                                                   ", as papers compare on");
+  }
+  return lines;
+}
+
+Lines column_lines() {
+  Lines lines;
+  for (const Column& column : general_columns()) {
+    const char* better =
+        column.better == Better::kHigher ? " (higher is better)" : " (lower is better)";
+    lines.emplace_back(column.name, column.description + better);
+  }
+  lines.emplace_back("rejection [CLASS, BAND]", "For each moving class that occurs.");
+  lines.emplace_back("preservation [CLASS, BAND]", "For each static class that occurs.");
+  return lines;
+}
+
+Lines suite_lines() {
+  Lines lines;
+  for (const std::string& name : shipped_suite_names())
+    lines.emplace_back(name, suite_sentence(name));
+  return lines;
+}
+
+void print_lines(const std::string& heading, const Lines& lines) {
+  std::size_t width = 0;
+  for (const auto& [name, sentence] : lines) width = std::max(width, name.size());
+  std::string text = heading.empty() ? "" : heading + ":\n";
+  for (const auto& [name, sentence] : lines) {
+    text += (heading.empty() ? "" : "  ") + name;
+    if (!sentence.empty()) text += std::string(width - name.size() + 2, ' ') + sentence;
+    text += "\n";
+  }
+  print(text);
+}
+
+ExitCode list(const std::string& what) {
+  const std::vector<std::pair<std::string, std::function<Lines()>>> lists = {
+      {"methods", [] { return method_lines(false); }},
+      {"variants", [] { return method_lines(true); }},
+      {"protocols", protocol_lines},
+      {"columns", column_lines},
+      {"sensors", sensor_lines},
+      {"sequences", sequence_lines},
+      {"scenes", scene_lines},
+      {"simulated-sensors", simulated_sensor_lines},
+      {"suites", suite_lines}};
+  std::vector<std::string> names;
+  bool found = false;
+  for (const auto& [name, make] : lists) {
+    names.push_back(name);
+    if (!what.empty() && what != name) continue;
+    print_lines(what.empty() ? name : "", make());
+    found = true;
+  }
+  if (!found) throw UsageError("there is no list of '" + what + "'." + suggestion(what, names));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Command add_list_command(CLI::App& program) {
+  auto what = std::make_shared<std::string>();
+  CLI::App* app =
+      program.add_subcommand("list", "Names methods, protocols, sensors, scenes, suites");
+  app->allow_extras();
+  app->add_option("what", *what,
+                  "methods, variants, protocols, columns, sensors, sequences, scenes, "
+                  "simulated-sensors or suites; all if empty")
+      ->type_name("WHAT");
+  app->footer("Examples:\n  raymoval list\n  raymoval list variants");
+  return {app, [what] { return list(*what); }};
+}
+
+}  // namespace raymoval

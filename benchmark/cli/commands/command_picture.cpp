@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+
+#include "benchmark/cli/commands.h"
+#include "benchmark/picture/charts/chart_file.h"
+#include "benchmark/picture/charts/charts.h"
+#include "benchmark/picture/map_picture.h"
+#include "benchmark/picture/overview_picture.h"
+#include "benchmark/picture/range_picture.h"
+#include "benchmark/run/kept_run.h"
+#include "core/files/files.h"
+#include "core/parallel.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+struct PictureFlags {
+  std::string run, output, kind = "map";
+  std::vector<std::string> only;
+  std::string sequence, method, scan, crop, resolution, size, protocol, data, threads;
+  bool quiet = false;
+};
+
+const std::vector<std::string>& kinds() {
+  static const std::vector<std::string> names = {"map",   "range",  "overview",
+                                                 "pr-rr", "stages", "accuracy-time"};
+  return names;
+}
+
+bool is_chart(const std::string& kind) {
+  return kind == "pr-rr" || kind == "stages" || kind == "accuracy-time";
+}
+
+/// Options that say something about some kinds only.
+void check_options(const PictureFlags& flags) {
+  const struct {
+    const char* option;
+    bool given;
+    std::vector<std::string> kinds;
+  } rules[] = {{"--only", !flags.only.empty(), {"map"}},
+               {"--crop", !flags.crop.empty(), {"map", "overview"}},
+               {"--resolution", !flags.resolution.empty(), {"map"}},
+               {"--size", !flags.size.empty(), {"map", "range", "overview"}},
+               {"--sequence", !flags.sequence.empty(), {"range", "overview"}},
+               {"--method", !flags.method.empty(), {"range", "overview"}},
+               {"--scan", !flags.scan.empty(), {"range"}},
+               {"--data", !flags.data.empty(), {"map", "range", "overview"}},
+               {"--protocol", !flags.protocol.empty(), {"pr-rr", "accuracy-time"}}};
+  for (const auto& rule : rules) {
+    const bool fits =
+        std::find(rule.kinds.begin(), rule.kinds.end(), flags.kind) != rule.kinds.end();
+    if (!rule.given || fits) continue;
+    throw UsageError(std::string(rule.option) + " goes with --kind " + join(rule.kinds, " or ") +
+                     ", not with " + flags.kind + "." +
+                     (flags.kind == "map" ? " Choose cells with --only." : ""));
+  }
+}
+
+void check_flags(const PictureFlags& flags) {
+  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval picture RUN -o FILE`.");
+  if (std::find(kinds().begin(), kinds().end(), flags.kind) == kinds().end()) {
+    throw UsageError("--kind " + flags.kind + " is unknown." + suggestion(flags.kind, kinds()));
+  }
+  const std::vector<std::string> extensions =
+      is_chart(flags.kind) ? chart_extensions() : std::vector<std::string>{".png"};
+  if (flags.output.empty()) {
+    throw UsageError("-o FILE" + extensions.front() + " is missing: name the picture's file.");
+  }
+  const std::string extension = std::filesystem::path(flags.output).extension().string();
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    throw UsageError("-o " + flags.output + ": --kind " + flags.kind + " makes a " +
+                     join(extensions, ", ") + " file. Give the name such an ending.");
+  }
+  check_options(flags);
+  check_folder_of(flags.output);
+}
+
+WorldWindow parse_crop(const std::string& text) {
+  std::array<double, 4> values{};
+  const auto parts = split(text, ':');
+  bool good = parts.size() == 4;
+  for (std::size_t i = 0; good && i < 4; ++i) {
+    const auto value = parse_number<double>(parts[i]);
+    good = value.has_value() && std::abs(*value) < 1e6;
+    if (good) values[i] = *value;
+  }
+  if (!good || !(values[1] > values[0] && values[3] > values[2])) {
+    throw UsageError("--crop " + text +
+                     ": expected XMIN:XMAX:YMIN:YMAX in metres of the world frame, such as "
+                     "-20:60:-15:15.");
+  }
+  return {values[0], values[1], values[2], values[3]};
+}
+
+int parse_size(const std::string& text) {
+  const auto value = parse_number<int>(text);
+  if (value && *value >= 50 && *value <= 8000) return *value;
+  throw UsageError("--size " + text + ": expected a whole number of pixels from 50 to 8000.");
+}
+
+/// The only one there is, where the user did not say which.
+std::string chosen(const std::string& given, const char* option,
+                   const std::vector<std::string>& names) {
+  if (!given.empty()) return given;
+  if (names.size() == 1) return names.front();
+  throw UsageError(std::string(option) + " is missing. This run has: " + join(names) + ".");
+}
+
+const KeptCell& chosen_cell(const PictureFlags& flags, const KeptRun& run) {
+  std::vector<std::string> methods;
+  for (const KeptCell& cell : run.cells()) {
+    const bool known = std::find(methods.begin(), methods.end(), cell.name) != methods.end();
+    if (!cell.control && !known) methods.push_back(cell.name);
+  }
+  return run.cell(chosen(flags.sequence, "--sequence", run.results().sequences),
+                  chosen(flags.method, "--method", methods));
+}
+
+RgbImage drawn(const PictureFlags& flags, Progress& progress) {
+  MapPictureOptions map;
+  RangePictureOptions range;
+  OverviewOptions overview;
+  map.only = flags.only;
+  if (!flags.crop.empty()) overview.crop = map.crop = parse_crop(flags.crop);
+  if (!flags.resolution.empty()) map.resolution = parse_positive("--resolution", flags.resolution);
+  if (!flags.size.empty()) {
+    map.panel_pixels = range.width = overview.panel_pixels = parse_size(flags.size);
+  }
+  if (!flags.scan.empty()) {
+    range.frame = parse_number<long>(flags.scan);
+    if (!range.frame) {
+      throw UsageError("--scan " + flags.scan + ": expected the number of a frame, such as 30.");
+    }
+  }
+  const int given = parse_threads(flags.threads);
+  const OpenContext context{given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()};
+  const KeptRun run(flags.run, flags.data);
+  if (flags.kind == "map") return map_picture(run, map, context);
+  const KeptCell& cell = chosen_cell(flags, run);
+  return flags.kind == "range" ? range_picture(run, cell, range, context)
+                               : overview_picture(run, cell, overview, context);
+}
+
+/// The chart that was asked for, of a run that has what it shows.
+DrawChart charted(const PictureFlags& flags) {
+  const RunResults results = KeptRun(flags.run, "").results();
+  if (flags.kind == "stages") {
+    if (stage_chart(results).empty()) {
+      throw DataError(flags.run + ": no method has times; none finished a cell.");
+    }
+    return [results](ChartPlace place) { return stage_chart(results, place); };
+  }
+  RunResults checked = results;
+  if (!flags.protocol.empty()) choose_protocols(checked, {flags.protocol});
+  const auto chart = flags.kind == "pr-rr" ? pr_rr_chart : accuracy_time_chart;
+  for (const std::string& protocol : checked.protocols) {
+    if (chart(results, protocol, ChartPlace::kFile).empty()) continue;
+    return [=](ChartPlace place) { return chart(results, protocol, place); };
+  }
+  throw DataError(flags.run + ": no method has what --kind " + flags.kind +
+                  " shows; see `raymoval table " + flags.run + "`.");
+}
+
+ExitCode draw(const PictureFlags& flags) {
+  check_flags(flags);
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  try {
+    if (is_chart(flags.kind)) {
+      write_chart(flags.output, charted(flags));
+    } else {
+      write_png(flags.output, drawn(flags, progress));
+    }
+  } catch (...) {
+    progress.end();
+    throw;
+  }
+  progress.end();
+  return ExitCode::kDone;
+}
+
+void add_options(CLI::App& app, PictureFlags& flags) {
+  app.add_option("run", flags.run, "Run folder")->type_name("RUN");
+  app.add_option("-o,--output", flags.output,
+                 "The picture: .png; charts also .svg and .pdf; replaced if there")
+      ->type_name("FILE");
+  app.add_option("--kind", flags.kind,
+                 "map (default), range, overview, pr-rr, stages or accuracy-time; the last three "
+                 "are charts")
+      ->type_name("KIND");
+  app.add_option("--only", flags.only,
+                 "map: only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the "
+                 "two; default: all but the controls")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
+  app.add_option("--sequence", flags.sequence, "range, overview: which sequence")
+      ->type_name("NAME");
+  app.add_option("--method", flags.method, "range, overview: which method")->type_name("NAME");
+  app.add_option("--scan", flags.scan, "range: number of the frame (default: the middle one)")
+      ->type_name("FRAME");
+  app.add_option("--crop", flags.crop,
+                 "map, overview: XMIN:XMAX:YMIN:YMAX, metres of the world frame (default: the "
+                 "sensor's way and 30 m around)")
+      ->type_name("WINDOW");
+  app.add_option("--resolution", flags.resolution, "map: metres per pixel (default: by --size)")
+      ->type_name("METRES");
+  app.add_option("--size", flags.size,
+                 "Longer side of a panel, or width of range images, in pixels")
+      ->type_name("PIXELS");
+  app.add_option("--protocol", flags.protocol, "pr-rr, accuracy-time: by this protocol")
+      ->type_name("NAME");
+  app.add_option("--data", flags.data,
+                 "Where the sequences are, if no longer where the run found them: a sequence's "
+                 "folder, or one that holds them by name")
+      ->type_name("PATH");
+  app.add_option("--threads", flags.threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
+  app.add_flag("--quiet", flags.quiet, "No progress");
+}
+
+}  // namespace
+
+Command add_picture_command(CLI::App& program) {
+  auto flags = std::make_shared<PictureFlags>();
+  CLI::App* app = program.add_subcommand("picture", "Draws a run: maps, range images, charts");
+  app->allow_extras();
+  add_options(*app, *flags);
+  app->footer(
+      "Pictures of points need a run with --keep-removals, and its data where the run found it. "
+      "Shown are\nthe points that are evaluated. A pixel of a map shows what became of most of its "
+      "moving points, if at\nleast a tenth as many move as stand, else of most of its static ones. "
+      "Charts need the run folder only.\nExamples:\n"
+      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
+      "--keep-removals --out out/05\n"
+      "  raymoval picture out/05 -o maps.png\n"
+      "  raymoval picture out/05 -o map.png --only '05/raymoval*' --size 800\n"
+      "  raymoval picture out/05 -o detail.png --crop -20:60:-15:15 --resolution 0.1\n"
+      "  raymoval picture out/05 -o scan.png --kind range --method raymoval:offline --scan 30\n"
+      "  raymoval picture out/05 -o overview.png --kind overview --method raymoval:offline\n"
+      "  raymoval run simulated --out out/simulated\n"
+      "  raymoval picture out/simulated -o rates.pdf --kind pr-rr\n"
+      "  raymoval picture out/simulated -o stages.svg --kind stages");
+  return {app, [flags] { return draw(*flags); }};
+}
+
+}  // namespace raymoval

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/cli/commands.h"
+#include "benchmark/report/page.h"
+#include "benchmark/report/page_files.h"
+#include "benchmark/result/result_sets.h"
+#include "benchmark/result/sealed_json.h"
+#include "benchmark/run/kept_run.h"
+#include "benchmark/tables/published_columns.h"
+#include "core/files/files.h"
+#include "core/parallel.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+struct ReportFlags {
+  std::string run, output, against, data, points, threads;
+  bool no_points = false;
+  bool quiet = false;
+};
+
+std::size_t point_count(const ReportFlags& flags) {
+  if (flags.points.empty()) return 1000000;
+  const auto value = parse_number<std::size_t>(flags.points);
+  if (value && *value >= 1000 && *value <= 20000000) return *value;
+  throw UsageError("--points " + flags.points +
+                   ": expected a whole number from 1000 to 20000000, such as 300000.");
+}
+
+/// Whether the page gets a 3-D view. Whoever says where its points are, and gets none, is told.
+bool with_points(const ReportFlags& flags) {
+  const bool built_in = !page_file("view.js").empty();
+  const std::string given = !flags.data.empty()     ? "--data " + flags.data
+                            : !flags.points.empty() ? "--points " + flags.points
+                                                    : "";
+  if (!given.empty() && flags.no_points) {
+    throw UsageError(given +
+                     ": is for the 3-D view, which --no-points leaves out. Drop one of them.");
+  }
+  if (!given.empty() && !built_in) {
+    throw UsageError(given +
+                     ": is for the 3-D view, which this program was built without. Drop it, or "
+                     "build with -DRAYMOVAL_REPORT_3D=ON.");
+  }
+  return built_in && !flags.no_points;
+}
+
+/// Papers' rows, where they are shipped: a report is worth having without them.
+std::vector<OutsideColumn> papers() {
+  try {
+    return published_columns();
+  } catch (const DataError&) {
+    return {};
+  }
+}
+
+std::string size_text(std::size_t bytes) {
+  return fixed_text(static_cast<double>(bytes) / (1024.0 * 1024.0), 2) + " MiB";
+}
+
+ExitCode report(const ReportFlags& flags) {
+  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval report RUN`.");
+  if (!flags.output.empty()) {
+    const std::string extension = std::filesystem::path(flags.output).extension().string();
+    if (extension != ".html" && extension != ".htm") {
+      throw UsageError("-o " + flags.output +
+                       ": a report is a page, expected a name that ends in .html. A browser prints "
+                       "it to PDF.");
+    }
+    check_folder_of(flags.output);
+  }
+  const int threads = parse_threads(flags.threads);
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  PageRequest request;
+  request.points = point_count(flags);
+  request.with_points = with_points(flags);
+  const std::filesystem::path results = find_results(flags.run);
+  const KeptRun run(flags.run, flags.data);
+  const nlohmann::ordered_json json = read_sealed(results);
+  request.run = &run;
+  request.content = {&json, &run.results(), papers()};
+  std::optional<Comparison> comparison;
+  if (!flags.against.empty()) {
+    comparison =
+        compare_results(read_result_set(results), read_result_set(find_results(flags.against)), {});
+    request.comparison = &*comparison;
+    request.reference = flags.against;
+  }
+  request.methods = &program_methods();
+  request.points_needed = !flags.data.empty();  // Who says where the data is means it.
+  request.threads = threads > 0 ? threads : hardware_threads();
+  request.progress = &progress;
+  request.cancel = &interrupt_flag();
+  const Page page = make_page(request);
+  progress.end();
+  for (const std::string& warning : page.warnings) {
+    std::fprintf(stderr, "raymoval: left out of the 3-D view: %s\n", warning.c_str());
+  }
+  const std::filesystem::path output = flags.output.empty() ? results.parent_path() / "report.html"
+                                                            : std::filesystem::path(flags.output);
+  write_atomically(output, page.html);
+  print("wrote " + output.string() + " (" + size_text(page.html.size()) + ")\n");
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Command add_report_command(CLI::App& program) {
+  auto flags = std::make_shared<ReportFlags>();
+  CLI::App* app = program.add_subcommand("report", "Writes a run as a page with a 3-D view");
+  app->allow_extras();
+  app->add_option("run", flags->run, "Run folder")->type_name("RUN");
+  app->add_option("-o,--output", flags->output, "Page to write (default: RUN/report.html)")
+      ->type_name("FILE");
+  app->add_option("--against", flags->against, "Another run: tell what changed against it")
+      ->type_name("RUN");
+  app->add_option("--data", flags->data, "Where the sequences are, if not where the run read them")
+      ->type_name("PATH");
+  app->add_option("--points", flags->points,
+                  "At most so many points in the page (default: 1000000)")
+      ->type_name("N");
+  app->add_flag("--no-points", flags->no_points, "Without the 3-D view");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
+  app->add_flag("--quiet", flags->quiet, "No progress");
+  app->footer(
+      "The page is one file: it needs no network, opens from disk, and can be handed around. Its\n"
+      "3-D view shows the points of each cell that was run with --keep-removals.\n"
+      "Examples:\n"
+      "  raymoval run --sequence town --method raymoval --keep-removals --out out/town\n"
+      "  raymoval report out/town\n"
+      "  raymoval report out/town -o town.html --points 300000\n"
+      "  raymoval report out/new --against out/old --no-points -o changes.html");
+  return {app, [flags] { return report(*flags); }};
+}
+
+}  // namespace raymoval

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "benchmark/cli/commands.h"
+#include "benchmark/cli/suite_flags.h"
+#include "benchmark/cli/terminal_colour.h"
+#include "benchmark/process/method_process.h"
+#include "benchmark/result/results.h"
+#include "benchmark/result/sealed_json.h"
+#include "benchmark/run/runner.h"
+#include "benchmark/tables/run_summary.h"
+#include "core/files/files.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+struct RunFlags {
+  SuiteFlags what;
+  std::string out, shard, cell;
+  std::vector<std::string> only;
+  bool keep_removals = false;
+  bool explain = false;
+  bool collect = false;
+  bool in_process = false;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+std::string red(const std::string& text) {
+  return coloured(text, TerminalColour::kBad, stderr);
+}
+
+void tell_problems(const RunSummary& summary, bool collect) {
+  for (const std::string& failure : summary.failures) {
+    std::fprintf(stderr, "%s %s\n", red("raymoval: cell failed:").c_str(), failure.c_str());
+  }
+  for (const std::string& line : summary.flat_sweeps) {
+    std::fprintf(stderr, "raymoval: warning: %s\n", line.c_str());
+  }
+  for (const std::string& problem : summary.controls) {
+    std::fprintf(stderr, "%s %s\n", red("raymoval: controls are off:").c_str(), problem.c_str());
+  }
+  if (collect && !summary.missing.empty()) {
+    std::fprintf(stderr, "raymoval: cells are missing: %s\n", join(summary.missing).c_str());
+  }
+}
+
+CellSelection selection_of(const RunFlags& flags) {
+  CellSelection selection;
+  selection.only = flags.only;
+  if (!flags.shard.empty()) parse_shard(flags.shard, selection);
+  return selection;
+}
+
+/// What a user may not ask for at once.
+void check_flags(const RunFlags& flags) {
+  if (flags.out.empty()) {
+    throw UsageError("--out DIR is missing: name the folder that is to hold the results.");
+  }
+  const bool selects = !flags.only.empty() || !flags.shard.empty();
+  if (!flags.cell.empty() && (selects || flags.collect || flags.explain)) {
+    throw UsageError("--cell goes without --only, --shard, --collect and --explain.");
+  }
+  if (flags.collect && selects) {
+    throw UsageError("--collect gathers all cells: leave out --only and --shard.");
+  }
+}
+
+ExitCode explain(const Suite& suite, const RunOptions& options) {
+  std::string text;
+  std::size_t to_run = 0;
+  const SuitePlan plan = plan_suite(suite, options);
+  for (const PlannedCell& cell : plan.cells) {
+    to_run += cell.to_run ? 1 : 0;
+    text += (cell.to_run ? "run   " : "keep  ") + cell.sequence + " / " + cell.name +
+            (cell.why.empty() ? "" : ": " + cell.why) + "\n";
+  }
+  for (const FolderCell& cell : plan.earlier) {
+    text += "keep  " + cell.sequence + " / " + cell.name + ": of an earlier run\n";
+  }
+  for (const std::string& cell : plan.left_out) text += "leave out of the tables  " + cell + "\n";
+  options.progress->end();
+  text += std::to_string(to_run) + " of " + std::to_string(plan.cells.size()) +
+          " cells are to be run.\n";
+  if (!plan.refused.empty()) text += "But the run is refused: " + plan.refused + "\n";
+  print(text);
+  return ExitCode::kDone;
+}
+
+/// Runs what is asked for; on a cancel nothing.
+std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
+                                    const RunOptions& options) {
+  try {
+    return flags.cell.empty() ? run_suite(suite, options)
+                              : run_one_cell(suite, options, flags.cell);
+  } catch (const Cancelled&) {
+    options.progress->end();
+    std::fputs(
+        "raymoval: cancelled. Finished cells are kept; the same command goes on with the "
+        "rest.\n",
+        stderr);
+    return std::nullopt;
+  } catch (...) {
+    options.progress->end();
+    throw;
+  }
+}
+
+/// What stands in the run folder, in one screen.
+std::string end_of_run(const std::string& out) {
+  const std::filesystem::path file = std::filesystem::path(out) / "results.json";
+  return run_summary(parse_results(read_sealed(file), file.string()), out);
+}
+
+ExitCode run(const RunFlags& flags) {
+  if (flags.what.suite.empty() && flags.what.sequences.empty()) {
+    throw UsageError(
+        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence PATH "
+        "--method NAME --out DIR`.");
+  }
+  const Suite suite = flags.what.resolved();
+  check_flags(flags);
+  warn_of_settings_without_effect(suite);
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  RunOptions options;
+  options.out = flags.out;
+  options.keep_removals = flags.keep_removals;
+  options.progress = &progress;
+  options.cancel = &interrupt_flag();
+  options.isolate = !flags.in_process;
+  options.selection = selection_of(flags);
+  options.collect = flags.collect;
+  options.overwrite = flags.overwrite;
+  if (flags.explain) return explain(suite, options);
+  const auto summary = run_asked(flags, suite, options);
+  if (!summary) return ExitCode::kWorse;
+  progress.end();
+  if (flags.cell.empty()) print(end_of_run(flags.out));
+  tell_problems(*summary, flags.collect);
+  const bool whole = !flags.collect || summary->missing.empty();
+  return summary->good() && whole ? ExitCode::kDone : ExitCode::kWorse;
+}
+
+void add_options(CLI::App& app, RunFlags& flags) {
+  flags.what.add_to(app);
+  app.add_option("--out", flags.out, "Folder for the results")->type_name("DIR");
+  app.add_option(
+         "--only", flags.only,
+         "Run only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
+  app.add_option("--shard", flags.shard, "Run only part I of N equal parts, for several machines")
+      ->type_name("I/N");
+  app.add_option("--cell", flags.cell,
+                 "Run one cell: its key (see `raymoval plan`) or SEQUENCE/NAME; no tables")
+      ->type_name("CELL");
+  app.add_flag("--collect", flags.collect, "Run nothing, make tables of the cells that are there");
+  app.add_flag("--explain", flags.explain, "Run nothing, tell which cells would be and why");
+  app.add_flag("--keep-removals", flags.keep_removals, "Keep what each method removed, per scan");
+  app.add_flag("--in-process", flags.in_process,
+               "Run methods within this process, for a debugger: a crash ends all");
+  app.add_flag("--overwrite", flags.overwrite,
+               "Replace the results of another suite, or on other data, in the folder");
+  app.add_flag("--quiet", flags.quiet, "No progress");
+}
+
+}  // namespace
+
+Command add_run_command(CLI::App& program) {
+  auto flags = std::make_shared<RunFlags>();
+  CLI::App* app = program.add_subcommand("run", "Runs methods on sequences and scores them");
+  app->allow_extras();
+  add_options(*app, *flags);
+  app->footer(
+      "The controls noop, remove-all and oracle are added and checked. Each method runs in a "
+      "process of\nits own: one that crashes or exceeds a limit is a failed cell, and the rest "
+      "goes on. So is one whose data or program changes during the run. The folder\nof --out is "
+      "marked with .raymoval-run; nothing in it is deleted but a run's own files.\n\n"
+      "The results in one folder belong together. Cells that are there already are kept, and new "
+      "methods\nor sequences are added to the tables. If a method has other parameters or another "
+      "version than\nbefore, the cells asked for are run again, and its other cells are left out "
+      "of the tables, which is\nsaid; cells of methods that this run does not have stay as they "
+      "are. A run is refused if its suite\nhas another name than that of the folder, if it scores "
+      "by other protocols or options, or if a\nsequence of the same name has other data (frames, "
+      "poses, sensor, range, labels, scans). With\n--overwrite such a run replaces the tables: "
+      "they have the cells of this run only.\n"
+      "Examples:\n"
+      "  raymoval run --sequence street --method raymoval:online --keep-removals --out out/street\n"
+      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
+      "--keep-removals --out out/05\n"
+      "  raymoval run --sequence data/05 --method raymoval --set raymoval.tau0=0.2 --out out/tau0\n"
+      "  raymoval run --sequence street --method raymoval --protocol dynamicmap "
+      "--set protocol:dynamicmap.maximum_range=50 --out out/near\n"
+      "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"
+      "  raymoval run --sequence town:scans=60,seed=3 --method octomap --out out/town  # is added\n"
+      "  raymoval run data/05 --method all --method octomap:all --out out/all\n"
+      "  raymoval run simulated --out out/simulated\n"
+      "  raymoval run simulated --out out/simulated --explain\n"
+      "  raymoval run simulated --out out/part2 --shard 2/3\n"
+      "  raymoval run suite.json --out out/suite --threads 2 --only 'town/raymoval:*'");
+  return {app, [flags] { return run(*flags); }};
+}
+
+Command add_run_method_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand(kMethodCommand, "");
+  app->group("");  // Not shown.
+  app->allow_extras();
+  return {app, [] {
+            serve_method(program_methods());
+            return ExitCode::kDone;
+          }};
+}
+
+}  // namespace raymoval

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <memory>
+
+#include "benchmark/cli/commands.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "datasets/semantickitti/semantickitti.h"
+#include "datasets/simulation/scene/library.h"
+#include "datasets/simulation/scene/scene_text.h"
+
+namespace raymoval {
+namespace {
+
+struct SimulateFlags {
+  std::string scene, output, seed, scans, sensor, pose_noise, rolling, threads;
+  bool perfect_poses = false;
+  bool quiet = false;
+};
+
+SimulationOptions options_of(const SimulateFlags& flags) {
+  SimulationOptions options = parse_scene(flags.scene);
+  if (!flags.seed.empty()) options.seed = parse_seed("--seed", flags.seed);
+  if (!flags.scans.empty()) options.scans = parse_scan_count("--scans", flags.scans);
+  if (!flags.sensor.empty()) options.sensor = flags.sensor;
+  if (!flags.rolling.empty()) options.rolling = parse_rolling("--rolling", flags.rolling);
+  if (!flags.pose_noise.empty()) {
+    options.pose_noise = parse_pose_noise("--pose-noise", flags.pose_noise);
+  }
+  if (flags.perfect_poses) {
+    if (!flags.pose_noise.empty() && options.pose_noise > 0.0) {
+      throw UsageError("--perfect-poses and --pose-noise contradict each other; leave one out.");
+    }
+    options.pose_noise = 0.0;
+  }
+  // Unknown names show before anything is made.
+  (void)simulated::find_world(options.scene);
+  if (!options.sensor.empty()) (void)simulated::find_sensor(options.sensor);
+  return options;
+}
+
+/// How much of the written sequence moves, from its own files.
+std::string content_text(const std::string& folder) {
+  const Sequence sequence = open_semantickitti(folder, {});
+  std::uint64_t points = 0;
+  std::uint64_t moving = 0;
+  for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
+    const Scan scan = sequence.scans->load(i);
+    points += scan.size();
+    for (const std::uint32_t word : sequence.labels->labels(scan)) {
+      moving += sequence.label_rule.classify(word) == LabelClass::kMoving ? 1 : 0;
+    }
+  }
+  return counted_text(sequence.scans->size(), "scan") + ", " + counted_text(points, "point") +
+         ", " + grouped_text(moving) + " of them on moving objects";
+}
+
+ExitCode simulate(const SimulateFlags& flags) {
+  if (flags.scene.empty()) {
+    throw UsageError("simulate what? Expected `raymoval simulate SCENE -o DIR`; scenes are " +
+                     join(simulated_scene_names()) + ".");
+  }
+  if (flags.output.empty()) throw UsageError("-o DIR is missing: name the sequence's folder.");
+  const SimulationOptions options = options_of(flags);
+  const int given = parse_threads(flags.threads);
+  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  try {
+    write_simulated(options, flags.output, given > 0 ? given : hardware_threads(), &progress,
+                    &interrupt_flag());
+  } catch (...) {
+    progress.end();
+    throw;
+  }
+  print(flags.output + ": " + content_text(flags.output) + ".\n");
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Command add_simulate_command(CLI::App& program) {
+  auto flags = std::make_shared<SimulateFlags>();
+  CLI::App* app = program.add_subcommand("simulate", "Writes a simulated sequence with labels");
+  app->allow_extras();
+  app->add_option("scene", flags->scene, "Scene (see `raymoval list scenes`) or scene file, *.json")
+      ->type_name("SCENE");
+  app->add_option("-o,--output", flags->output, "New folder, in SemanticKITTI layout")
+      ->type_name("DIR");
+  app->add_option("--seed", flags->seed, "Of movers, noise and poses (default: 1)")->type_name("N");
+  app->add_option("--scans", flags->scans, "Number of scans (default: the scene's own)")
+      ->type_name("N");
+  app->add_option("--sensor", flags->sensor,
+                  "Sensor (see `raymoval list simulated-sensors`) or sensor file")
+      ->type_name("NAME");
+  app->add_flag("--perfect-poses", flags->perfect_poses, "Poses without error: --pose-noise 0");
+  app->add_option("--pose-noise", flags->pose_noise,
+                  "Severity of the error of poses; 1 (default) is a good odometry")
+      ->type_name("FACTOR");
+  app->add_option("--rolling", flags->rolling,
+                  "skewed or corrected: a scan is taken while the sensor moves (default: none)")
+      ->type_name("KIND");
+  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
+  app->add_flag("--quiet", flags->quiet, "No progress");
+  app->footer(
+      "The same options give the same bytes. Commands that take a sequence also take a scene by\n"
+      "name, such as town:scans=60,seed=3, and simulate it once into the cache folder\n"
+      "($RAYMOVAL_CACHE, else ~/.cache/raymoval). Machines and containers may share the cache.\n"
+      "A scene in it that does not fit its manifest.json is made again.\nExamples:\n"
+      "  raymoval simulate town -o data/town\n"
+      "  raymoval simulate crossing -o data/crossing --scans 60 --sensor vlp16 --seed 3\n"
+      "  raymoval simulate highway -o data/skewed --rolling skewed --perfect-poses");
+  return {app, [flags] { return simulate(*flags); }};
+}
+
+}  // namespace raymoval

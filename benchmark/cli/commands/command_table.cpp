@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/cli/commands.h"
+#include "benchmark/result/result_sets.h"
+#include "benchmark/result/sealed_json.h"
+#include "benchmark/tables/accuracy_tables.h"
+#include "benchmark/tables/column_tables.h"
+#include "benchmark/tables/published_columns.h"
+#include "benchmark/tables/tables.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+struct TableFlags {
+  std::string run, format = "md", layout = "methods";
+  std::vector<std::string> protocols, only, rates, decimals, names;
+  std::string sort;
+  bool with_published = false;
+  bool columns = false;
+  bool disagreements = false;
+};
+
+[[nodiscard]] bool is_text(const TableFlags& flags) {
+  return flags.format == "md" || flags.format == "tex";
+}
+
+void check_word(const std::string& option, const std::string& word,
+                const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  throw UsageError(option + " " + word + " is unknown." + suggestion(word, known));
+}
+
+void check_flags(const TableFlags& flags) {
+  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval table RUN`.");
+  check_word("--format", flags.format, {"md", "csv", "tex", "json"});
+  check_word("--layout", flags.layout, {"methods", "paper"});
+  const struct {
+    const char* option;
+    bool given;
+  } looks[] = {{"--with-published", flags.with_published}, {"--columns", flags.columns},
+               {"--disagreements", flags.disagreements},   {"--layout", flags.layout != "methods"},
+               {"--rates", !flags.rates.empty()},          {"--decimals", !flags.decimals.empty()},
+               {"--names", !flags.names.empty()},          {"--sort", !flags.sort.empty()}};
+  for (const auto& look : looks) {
+    if (look.given && !is_text(flags)) {
+      throw UsageError(std::string(look.option) + " goes with --format md or tex.");
+    }
+  }
+  if (flags.columns && flags.with_published) {
+    throw UsageError("--columns goes without --with-published.");
+  }
+  if (flags.format == "json" && !(flags.protocols.empty() && flags.only.empty())) {
+    throw UsageError("--protocol and --only go with --format md, csv or tex.");
+  }
+}
+
+TableOptions options_of(const TableFlags& flags, const RunResults& results) {
+  TableOptions options;
+  options.layout = flags.layout == "paper" ? TableLayout::kSequenceRows : TableLayout::kMethodRows;
+  for (const std::string& text : flags.rates) {
+    for (const std::string_view rate : split(text, ',')) options.rates.emplace_back(rate);
+  }
+  for (const std::string& text : flags.decimals) parse_decimals(text, options);
+  if (!flags.sort.empty()) options.sort = flags.sort;
+  options.disagreements = flags.disagreements;
+  if (flags.with_published) options.outside = published_columns();
+  check_rates(options, results);
+  return options;
+}
+
+/// Says which sequences no paper has numbers for: nothing stands beside those.
+void tell_unpublished(const RunResults& results, const std::vector<OutsideColumn>& outside) {
+  const std::vector<std::string> names = unpublished_sequences(results, outside);
+  if (names.empty()) return;
+  std::fprintf(stderr, "raymoval: --with-published: no paper has numbers for %s by %s.\n",
+               join(names).c_str(), join(results.protocols, " or ").c_str());
+}
+
+std::string tables_text(const TableFlags& flags, RunResults& results) {
+  TableOptions options = options_of(flags, results);
+  if (flags.with_published) tell_unpublished(results, options.outside);
+  DisplayNames names;
+  for (const std::string& text : flags.names) parse_display_names(text, results, names);
+  apply_display_names(names, results, options.outside);
+  const std::vector<TextTable> tables =
+      flags.columns ? full_column_tables(results) : make_tables(results, options);
+  return flags.format == "md" ? tables_markdown(results, tables) : tables_latex(tables);
+}
+
+ExitCode show(const TableFlags& flags) {
+  check_flags(flags);
+  const std::filesystem::path file = find_results(flags.run);
+  nlohmann::ordered_json json = read_sealed(file);
+  if (flags.format == "json") {
+    (void)parse_results(json, file.string());
+    print(json_text(json));
+    return ExitCode::kDone;
+  }
+  (void)parse_results(json, file.string());  // What is damaged is told before cells are chosen.
+  choose_cells(json, flags.only);
+  RunResults results = parse_results(json, file.string());
+  choose_protocols(results, flags.protocols);
+  print(flags.format == "csv" ? results_csv(results) : tables_text(flags, results));
+  return ExitCode::kDone;
+}
+
+void add_look_options(CLI::App& app, TableFlags& flags) {
+  app.add_option("--layout", flags.layout,
+                 "methods (default): a row for each method, a block for each sequence; paper: a "
+                 "row for each sequence, methods side by side")
+      ->type_name("LAYOUT");
+  app.add_option("--rates", flags.rates,
+                 "Only these rates, in this order, such as PR,RR,F1; ms is the time per scan "
+                 "(default: the main rates)")
+      ->type_name("RATES")
+      ->allow_extra_args(false);
+  app.add_option("--decimals", flags.decimals,
+                 "Digits behind the point: 2, or of one rate, such as F1=3")
+      ->type_name("N")
+      ->allow_extra_args(false);
+  app.add_option("--names", flags.names,
+                 "What a method or sequence is called in the tables: 'NAME=SHOWN', or a file with "
+                 "such lines")
+      ->type_name("NAMES")
+      ->allow_extra_args(false);
+  app.add_option("--sort", flags.sort,
+                 "Best first by this rate or ms, by name, or none (default): as in the run")
+      ->type_name("RATE");
+  app.add_flag("--disagreements", flags.disagreements,
+               "Also the ranks on each sequence, and which pairs of methods protocols rank "
+               "otherwise");
+}
+
+}  // namespace
+
+Command add_table_command(CLI::App& program) {
+  auto flags = std::make_shared<TableFlags>();
+  CLI::App* app = program.add_subcommand("table", "Prints the tables of a run");
+  app->allow_extras();
+  app->add_option("run", flags->run, "Run folder")->type_name("RUN");
+  app->add_option("--format", flags->format, "md (default), csv, tex or json")->type_name("FORMAT");
+  app->add_option("--protocol", flags->protocols, "Only what this protocol says (default: all)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  app->add_option("--only", flags->only,
+                  "Only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
+  add_look_options(*app, *flags);
+  app->add_flag("--columns", flags->columns,
+                "Instead of the usual tables: points by class, range and height, and intervals");
+  app->add_flag("--with-published", flags->with_published,
+                "Set papers' rows beside those of sequences that the papers have");
+  app->footer(
+      "Examples:\n"
+      "  raymoval table out/street\n"
+      "  raymoval table out/street --columns\n"
+      "  raymoval table out/street --protocol dynamicmap\n"
+      "  raymoval table out/street --only 'street/raymoval*' --rates PR,RR,F1 --sort F1\n"
+      "  raymoval table out/kitti --with-published --format tex\n"
+      "  raymoval table out/kitti --layout paper --decimals 3 --names 'raymoval:offline=Raymoval "
+      "(ours)' --format tex");
+  return {app, [flags] { return show(*flags); }};
+}
+
+}  // namespace raymoval

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/cli/description.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "benchmark/tables/text_table.h"
+#include "core/parameter_condition.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string range_text(const ParameterSpec& spec) {
+  if (!spec.choices.empty()) return join(spec.choices, ", ");
+  if (std::holds_alternative<bool>(spec.default_value)) return "true, false";
+  const bool low = std::isfinite(spec.notes.minimum);
+  const bool high = std::isfinite(spec.notes.maximum);
+  if (low && high) {
+    return number_text(spec.notes.minimum) + " to " + number_text(spec.notes.maximum);
+  }
+  if (low) return "from " + number_text(spec.notes.minimum);
+  return high ? "to " + number_text(spec.notes.maximum) : "";
+}
+
+/// What a parameter does, and when.
+std::string sentence_of(const Description& description, std::size_t i) {
+  const ParameterSpec& spec = description.parameters[i];
+  if (spec.notes.acts_when.empty()) return spec.notes.sentence;
+  std::string when = effect_text(spec);
+  if (!description.acts.empty() && !description.acts[i])
+    when = "NO EFFECT in this variant: " + when;
+  when.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(when.front())));
+  return spec.notes.sentence + (spec.notes.sentence.empty() ? "" : " ") + when + ".";
+}
+
+TextTable parameter_table(const Description& description) {
+  TextTable table{
+      "", "name", {{"", {"default", "unit", "range", "source", "what it does"}}}, {}, {}};
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    const ParameterSpec& spec = description.parameters[i];
+    const ParameterNotes& notes = spec.notes;
+    table.rows.push_back({"`" + spec.name + "`",
+                          {{parameter_text(spec.default_value)},
+                           {notes.unit},
+                           {range_text(spec)},
+                           {notes.source.empty() ? "ours" : notes.source},
+                           {sentence_of(description, i)}},
+                          false});
+  }
+  return table;
+}
+
+std::string overrides_text(const MethodVariant& variant) {
+  std::vector<std::string> parts;
+  for (const auto& [name, value] : variant.overrides) {
+    parts.push_back(name + " = " + parameter_text(value));
+  }
+  return parts.empty() ? "" : " (" + join(parts) + ")";
+}
+
+std::string parameter_lines(const Description& description) {
+  std::string text = description.parameters.empty() ? "" : "Parameters:\n";
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    const ParameterSpec& spec = description.parameters[i];
+    const std::string& unit = spec.notes.unit;
+    text += "  " + spec.name + " = " + parameter_text(spec.default_value) +
+            (unit.empty() ? "" : " " + unit);
+    const std::string range = range_text(spec);
+    text += (range.empty() ? "" : "   [" + range + "]") + "   " +
+            (spec.notes.source.empty() ? "ours" : spec.notes.source) + "\n";
+    const std::string sentence = sentence_of(description, i);
+    if (!sentence.empty()) text += "      " + sentence + "\n";
+  }
+  return text;
+}
+
+ordered_json value_json(const ParameterValue& value) {
+  return std::visit([](const auto& held) { return ordered_json(held); }, value);
+}
+
+ordered_json bound_json(double bound) {
+  return std::isfinite(bound) ? ordered_json(bound) : ordered_json(nullptr);
+}
+
+}  // namespace
+
+Description describe_method(const MethodRegistry& registry, const std::string& name_and_variant) {
+  const ConfiguredMethod method = registry.configure(name_and_variant);
+  const MethodEntry& entry = *method.entry;
+  Description description{entry.name,  entry.sentence, entry.source,    entry.version,
+                          entry.notes, entry.variants, entry.parameters};
+  if (name_and_variant.find(':') == std::string::npos) return description;
+  description.name = method.full_name();
+  description.sentence += " " + method.variant.sentence;
+  description.variants = {method.variant};
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    description.parameters[i].default_value = method.configuration[i].second;
+    description.acts.push_back(has_effect(description.parameters[i], method.configuration));
+  }
+  return description;
+}
+
+Description describe_protocol(const ProtocolEntry& entry) {
+  Description description;
+  description.name = entry.name;
+  description.sentence = entry.sentence;
+  description.parameters = entry.parameters;
+  description.version = make_protocol(entry.name, protocol_defaults(entry.name))->version();
+  return description;
+}
+
+std::string description_text(const Description& description) {
+  std::string text =
+      description.name + " (version " + description.version + ")\n" + description.sentence + "\n";
+  if (!description.source.empty()) text += "Source: " + description.source + "\n";
+  if (!description.variants.empty()) text += "Variants:\n";
+  for (const MethodVariant& variant : description.variants) {
+    text += "  " + variant.name + (variant.online ? " [online]" : " [offline]") + ": " +
+            variant.sentence + overrides_text(variant) + "\n";
+  }
+  text += parameter_lines(description);
+  if (!description.notes.empty()) text += "Notes:\n";
+  for (const std::string& note : description.notes) text += "  - " + note + "\n";
+  return text;
+}
+
+std::string description_markdown(const Description& description) {
+  std::string text = "### " + description.name + "\n\n" + description.sentence + "\n";
+  if (!description.source.empty()) text += "\nSource: " + description.source + "\n";
+  if (!description.variants.empty()) text += "\n";
+  for (const MethodVariant& variant : description.variants) {
+    text += "- `" + description.name.substr(0, description.name.find(':')) + ":" + variant.name +
+            "` (" + (variant.online ? "online" : "offline") + "): " + variant.sentence +
+            overrides_text(variant) + "\n";
+  }
+  if (!description.parameters.empty()) {
+    const std::string table = to_markdown(parameter_table(description));
+    text += "\n" + table.substr(table.find('|'));
+  }
+  if (!description.notes.empty()) text += "\n";
+  for (const std::string& note : description.notes) text += "- " + note + "\n";
+  return text;
+}
+
+ordered_json to_json(const Description& description) {
+  ordered_json json;
+  json["name"] = description.name;
+  json["sentence"] = description.sentence;
+  json["source"] = description.source;
+  json["version"] = description.version;
+  json["notes"] = description.notes;
+  json["variants"] = ordered_json::array();
+  for (const MethodVariant& variant : description.variants) {
+    json["variants"].push_back({{"name", variant.name},
+                                {"sentence", variant.sentence},
+                                {"online", variant.online},
+                                {"overrides", to_json(variant.overrides)}});
+  }
+  json["parameters"] = ordered_json::array();
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    const ParameterSpec& spec = description.parameters[i];
+    ordered_json parameter;
+    parameter["name"] = spec.name;
+    parameter["default"] = value_json(spec.default_value);
+    parameter["unit"] = spec.notes.unit;
+    parameter["minimum"] = bound_json(spec.notes.minimum);
+    parameter["maximum"] = bound_json(spec.notes.maximum);
+    parameter["choices"] = spec.choices;
+    parameter["source"] = spec.notes.source;
+    parameter["sentence"] = spec.notes.sentence;
+    parameter["acts_when"] = spec.notes.acts_when;
+    if (!description.acts.empty()) parameter["acts"] = static_cast<bool>(description.acts[i]);
+    json["parameters"].push_back(std::move(parameter));
+  }
+  return json;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/cli/suite_flags.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "benchmark/suite/amounts.h"
+#include "benchmark/suite/shipped_suites.h"
+#include "core/error.h"
+#include "datasets/clouds/frames.h"
+
+namespace raymoval {
+namespace {
+
+/// What a path is that was given where a suite may stand; empty for what may be a suite.
+std::string sequence_kind(const std::string& path) {
+  const auto shipped = shipped_suite_names();
+  const bool known = std::find(shipped.begin(), shipped.end(), path) != shipped.end();
+  if (known || is_file(path)) return "";
+  if (is_folder(path)) return "folder";
+  if (is_scene(path)) return "scene";
+  const std::size_t colon = path.rfind(':');
+  return colon != std::string::npos && is_folder(path.substr(0, colon)) ? "sequence" : "";
+}
+
+/// Whether the word without an option is a sequence and no suite. A shipped suite or a file is a
+/// suite whatever else has its name; what is nothing is what the other options make of it.
+bool means_sequence(const SuiteFlags& flags) {
+  if (flags.suite.empty()) return false;
+  if (!sequence_kind(flags.suite).empty()) return true;
+  const auto shipped = shipped_suite_names();
+  const bool known = std::find(shipped.begin(), shipped.end(), flags.suite) != shipped.end();
+  return !known && !is_file(flags.suite) && (!flags.methods.empty() || !flags.sequences.empty());
+}
+
+/// How to name the folder or scene that has the name of a suite; empty if there is none.
+std::string if_a_folder_is_meant(const std::string& suite) {
+  if (!is_folder(suite) || suite.find('/') != std::string::npos) return "";
+  return " If the folder of that name is meant, write ./" + suite + ".";
+}
+
+/// What a suite file says cannot be said on the command line as well.
+void check_suite_alone(const SuiteFlags& flags) {
+  std::string given = flags.sequence.first_given();
+  if (!flags.protocols.empty()) given = "--protocol";
+  if (!flags.methods.empty()) given = "--method";
+  if (!flags.sequences.empty()) given = "--sequence";
+  if (given.empty()) return;
+  throw UsageError(given + " cannot be given together with the suite " + flags.suite +
+                   "; write it into a suite file, or leave the suite out." +
+                   if_a_folder_is_meant(flags.suite));
+}
+
+/// The methods of the command line. One that is named and also part of "all" is taken once.
+void add_methods(const SuiteFlags& flags, const MethodRegistry& registry, Suite& suite) {
+  std::vector<std::string> named;
+  for (const std::string& method : flags.methods) {
+    if (expanded_methods(method, registry) == std::vector{method}) {
+      named.push_back(registry.configure(method).full_name());
+    }
+  }
+  for (const std::string& method : flags.methods) {
+    const std::vector<std::string> names = expanded_methods(method, registry);
+    const bool one = names == std::vector{method};
+    for (const std::string& name : names) {
+      const bool also_named = std::find(named.begin(), named.end(), name) != named.end();
+      if (one || !also_named) add_method(suite, name, "", registry);
+      if (!one) named.push_back(name);
+    }
+  }
+}
+
+Suite suite_from_flags(const SuiteFlags& flags, const MethodRegistry& registry) {
+  if (flags.sequences.empty()) {
+    throw UsageError("nothing to run on: name a suite, or a sequence with --sequence PATH.");
+  }
+  if (flags.methods.empty()) {
+    throw UsageError(
+        "nothing to run: name a method with --method NAME[:variant], or all of them with "
+        "--method all (see `raymoval list methods`).");
+  }
+  if (flags.sequences.size() > 1 && !flags.sequence.name.empty()) {
+    throw UsageError("--name names one sequence, but there are " +
+                     std::to_string(flags.sequences.size()) + "; use a suite file.");
+  }
+  Suite suite;
+  const SequenceOptions options = flags.sequence.options();
+  for (const std::string& path : flags.sequences) {
+    check_not_both(path);
+    suite.sequences.push_back({path, options});
+  }
+  add_methods(flags, registry, suite);
+  for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");
+  return suite;
+}
+
+}  // namespace
+
+Suite SuiteFlags::resolved() const {
+  SuiteFlags flags = *this;
+  const MethodRegistry& registry = program_methods();
+  std::vector<Setting> parsed;  // First: "--set KEY VALUE" leaves VALUE to be taken for a suite.
+  for (const std::string& text : flags.settings) parsed.push_back(parse_setting(text));
+  if (means_sequence(flags)) {
+    flags.sequences.insert(flags.sequences.begin(), flags.suite);
+    flags.suite.clear();
+  }
+  if (!flags.suite.empty()) check_suite_alone(flags);
+  if (flags.suite.empty() && !data.empty()) {
+    throw UsageError("--data goes with a suite file that names {data}; use --sequence.");
+  }
+  Suite made = flags.suite.empty() ? suite_from_flags(flags, registry)
+                                   : read_suite(find_suite(flags.suite), registry, data);
+  if (made.protocols.empty()) add_protocol(made, "erasor", "");
+  apply_settings(made, parsed);
+  if (made.controls) add_controls(made, registry);
+  if (const int count = parse_threads(flags.threads); count > 0) made.threads = count;
+  if (!time_limit.empty()) made.time_limit_s = parse_seconds("--time-limit", time_limit);
+  if (!memory_limit.empty()) {
+    made.memory_limit_mib = parse_memory_mib("--memory-limit", memory_limit);
+  }
+  return made;
+}
+
+void warn_of_settings_without_effect(const Suite& suite) {
+  for (const std::string& line : settings_without_effect(suite)) {
+    std::fprintf(stderr, "raymoval: warning: %s\n", line.c_str());
+  }
+}
+
+void SuiteFlags::add_to(CLI::App& app) {
+  app.add_option("suite", suite,
+                 "Suite file (JSON, comments allowed), name of a shipped suite, or a sequence as "
+                 "for --sequence")
+      ->type_name("SUITE");
+  app.add_option("--data", data, "Root of the data set that the suite calls {data}")
+      ->type_name("ROOT");
+  app.add_option("--sequence", sequences, "Sequence folder, ROOT:05, `street`, or a scene")
+      ->type_name("PATH")
+      ->allow_extra_args(false);
+  app.add_option("--method", methods,
+                 "Method to run, NAME or NAME:variant; NAME:all for all its variants, all for each "
+                 "method's default")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  app.add_option("--set", settings,
+                 "Parameter: METHOD.key=value or METHOD:variant.key=...; option of a protocol: "
+                 "protocol:NAME.key=...")
+      ->type_name("SETTING")
+      ->allow_extra_args(false);
+  app.add_option("--protocol", protocols, "Protocol to score by (default: erasor)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  sequence.add_to(app);
+  app.add_option("--threads", threads, "At most so many threads (default: all cores)")
+      ->type_name("N");
+  app.add_option("--time-limit", time_limit,
+                 "Time a cell may take, in seconds or as 5min, 2h (default: 30 s for each scan, at "
+                 "least 600 s)")
+      ->type_name("TIME");
+  app.add_option("--memory-limit", memory_limit,
+                 "Memory a method may use, in MiB or as 500MB, 2GB, 2GiB (default: nine tenths of "
+                 "the machine's)")
+      ->type_name("SIZE");
+}
+
+}  // namespace raymoval

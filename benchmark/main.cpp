@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "benchmark/command_line.h"
-
-int main(int argc, char** argv) {
-  return raymoval::run_command_line(argc, argv);
-}

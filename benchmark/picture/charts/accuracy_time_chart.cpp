@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/picture/charts/chart_parts.h"
+#include "core/text.h"
+#include "eval/averages.h"
+
+namespace raymoval {
+namespace {
+
+constexpr double kPlotWidth = 460.0;
+constexpr double kPlotHeight = 330.0;
+constexpr double kLeft = 64.0;
+constexpr double kTop = 48.0;
+constexpr double kMost = 30.0;  ///< Names in the list beside the plot before it gets longer.
+
+/// A method in the plane of time and accuracy.
+struct Spot {
+  std::string cell;
+  std::string point;  ///< What it was set to, if it is a point of a sweep.
+  SeriesLook look;
+  double ms = 0.0;
+  double accuracy = 0.0;
+  std::size_t sequences = 0;  ///< That have a value.
+};
+
+std::vector<Spot> spots_of(const RunResults& results, const std::string& protocol,
+                           const std::string& rate) {
+  std::vector<Spot> spots;
+  for (const ChartSeries& series : chart_series(results)) {
+    for (const std::string& cell : series.cells) {
+      std::vector<std::optional<double>> values;
+      for (const std::string& sequence : results.sequences) {
+        values.push_back(rate_value(results.find(sequence, cell, protocol), rate));
+      }
+      const Mean mean = mean_of(values);
+      const auto ms = results.ms_per_scan(cell);
+      if (mean.value && ms && *ms > 0.0)
+        spots.push_back(
+            {cell, sweep_label(results, cell), series.look, *ms, *mean.value, mean.segments});
+    }
+  }
+  std::stable_sort(spots.begin(), spots.end(),
+                   [](const Spot& a, const Spot& b) { return a.accuracy > b.accuracy; });
+  return spots;
+}
+
+std::string time_text(double ms) {
+  if (ms >= 1000.0) return fixed_text(ms / 1000.0, 2) + " s";
+  return fixed_text(ms, ms < 10.0 ? 2 : 1) + " ms";
+}
+
+/// Time to the right by its logarithm, accuracy upwards.
+class Plot {
+ public:
+  Plot(SvgWriter& svg, const std::vector<Spot>& spots, const RateTrio& trio)
+      : svg_(svg), spots_(spots) {
+    double least = trio.mean_unit, from = spots.front().ms, to = from;
+    for (const Spot& spot : spots) {
+      least = std::min(least, spot.accuracy);
+      from = std::min(from, spot.ms);
+      to = std::max(to, spot.ms);
+    }
+    up_ = axis_up_to(least, trio.mean_unit);
+    low_ = std::floor(std::log10(from) - 0.02);
+    high_ = std::max(low_ + 1.0, std::ceil(std::log10(to) + 0.02));
+  }
+
+  void draw_axes(const std::string& rate) {
+    for (const double mark : up_.marks()) {
+      svg_.line(kLeft, to_y(mark), kLeft + kPlotWidth, to_y(mark), "grid");
+      svg_.text(kLeft - 6.0, to_y(mark) + 4.0, length_text(mark), "soft end");
+    }
+    for (double power = low_; power <= high_; power += 1.0) {
+      const double x = to_x(std::pow(10.0, power));
+      svg_.line(x, kTop, x, kTop + kPlotHeight, "grid");
+      svg_.text(x, kTop + kPlotHeight + 16.0, length_text(std::pow(10.0, power)), "soft middle");
+    }
+    svg_.polyline(point_text(kLeft, kTop) + point_text(kLeft, kTop + kPlotHeight) +
+                      point_text(kLeft + kPlotWidth, kTop + kPlotHeight),
+                  "axis");
+    svg_.text(kLeft + kPlotWidth / 2.0, kTop + kPlotHeight + 34.0, "ms per scan (log scale)",
+              "middle");
+    svg_.text_upwards(18.0, kTop + kPlotHeight / 2.0, "mean " + rate);
+  }
+
+  /// Joins the methods than which none is both faster and more accurate.
+  void draw_front() {
+    std::vector<const Spot*> order;
+    for (const Spot& spot : spots_) order.push_back(&spot);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const Spot* a, const Spot* b) { return a->ms < b->ms; });
+    std::string points;
+    double best = -1.0;
+    for (const Spot* spot : order) {
+      if (spot->accuracy <= best) continue;
+      if (best >= 0.0) points += point_text(to_x(spot->ms), to_y(best));
+      best = spot->accuracy;
+      points += point_text(to_x(spot->ms), to_y(best));
+    }
+    svg_.polyline(points, "front");
+  }
+
+  void draw_markers(const std::string& rate) {
+    for (const Spot& spot : spots_) {
+      svg_.marker(to_x(spot.ms), to_y(spot.accuracy), spot.look,
+                  spot.cell + ": mean " + rate + " " + rate_text(rate, spot.accuracy) + ", " +
+                      time_text(spot.ms) + " per scan");
+    }
+    PointLabels labels(kLeft, kLeft + kPlotWidth + 20.0, kTop - 6.0);
+    for (const Spot& spot : spots_) {
+      labels.add_point(to_x(spot.ms), to_y(spot.accuracy));
+      labels.add_text(to_x(spot.ms), to_y(spot.accuracy), colour_text(spot.look.colour),
+                      spot.point);
+    }
+    labels.draw(svg_);
+  }
+
+ private:
+  [[nodiscard]] double to_x(double ms) const {
+    return kLeft + (std::log10(ms) - low_) / (high_ - low_) * kPlotWidth;
+  }
+  [[nodiscard]] double to_y(double value) const {
+    return kTop + kPlotHeight - up_.at(value, kPlotHeight);
+  }
+
+  SvgWriter& svg_;
+  const std::vector<Spot>& spots_;
+  LinearAxis up_;
+  double low_ = 0.0, high_ = 1.0;
+};
+
+/// The methods beside the plot, best first. @return width and height
+std::pair<double, double> draw_list(SvgWriter& svg, const std::vector<Spot>& spots,
+                                    const std::string& rate, std::size_t of) {
+  const double x = kLeft + kPlotWidth + 34.0;
+  double name_width = 60.0;
+  for (const Spot& spot : spots) name_width = std::max(name_width, text_width(spot.cell));
+  const double row = spots.size() > kMost ? 15.0 : 19.0;
+  double y = kTop + 8.0;
+  for (const Spot& spot : spots) {
+    svg.marker(x, y - 4.0, spot.look, spot.cell);
+    svg.text(x + 13.0, y, spot.cell);
+    svg.text(x + name_width + 66.0, y, rate_text(rate, spot.accuracy), "ink end");
+    svg.text(x + name_width + 138.0, y, time_text(spot.ms), "soft end");
+    if (spot.sequences < of) {
+      svg.text(x + name_width + 146.0, y,
+               "(" + std::to_string(spot.sequences) + "/" + std::to_string(of) + ")", "soft");
+    }
+    y += row;
+  }
+  return {x + name_width + 196.0, y};
+}
+
+}  // namespace
+
+std::string accuracy_time_chart(const RunResults& results, const std::string& protocol,
+                                ChartPlace place) {
+  const auto trio = rate_trio(results, protocol);
+  if (!trio) return "";
+  const std::vector<Spot> spots = spots_of(results, protocol, trio->mean);
+  if (spots.empty()) return "";
+  const std::string title = "Accuracy against time by protocol " + protocol;
+  SvgWriter svg("accuracy-time-" + protocol, title,
+                "A marker for each method: mean " + trio->mean +
+                    " over the sequences upwards, milliseconds per scan to the right. The line "
+                    "joins the methods that no other one beats in both.");
+  svg.text(16.0, 22.0, title, "bold");
+  Plot plot(svg, spots, *trio);
+  plot.draw_axes(trio->mean);
+  plot.draw_front();
+  plot.draw_markers(trio->mean);
+  const auto [width, list_end] = draw_list(svg, spots, trio->mean, results.sequences.size());
+  return svg.finish(width, std::max(kTop + kPlotHeight + 48.0, list_end + 10.0), place);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmark/picture/charts/charts.h"
+
+namespace raymoval {
+
+/// Endings of the files that a chart can be written to.
+const std::vector<std::string>& chart_extensions();
+
+/// Makes a chart for a place.
+using DrawChart = std::function<std::string(ChartPlace)>;
+
+/// Writes a chart as .svg, .pdf or .png (two pixels for each of the chart's) by the ending of
+/// `path`. The file is there whole or not at all; the same chart gives the same bytes on machines
+/// with the same fonts.
+/// @throws DataError if it cannot be drawn or written
+void write_chart(const std::filesystem::path& path, const DrawChart& draw);
+
+}  // namespace raymoval

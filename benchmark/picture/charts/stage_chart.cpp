@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "benchmark/picture/charts/chart_parts.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+constexpr double kWidth = 900.0;
+constexpr double kMargin = 16.0;
+constexpr double kTop = 44.0;
+constexpr double kTotal = 90.0;  ///< Room for "12,345.6 ms" beside the longest bar.
+constexpr double kBar = 16.0;
+constexpr double kLine = 17.0;
+
+struct Stage {
+  std::string name;
+  double ms = 0.0;  ///< Per scan.
+};
+
+struct Bar {
+  std::string method;
+  std::vector<Stage> stages;
+  double total_ms = 0.0;
+  double length_ms = 0.0;  ///< Sum of the stages: more than the total if stages overlap.
+};
+
+const Colour kOther{140, 140, 140};
+
+Bar bar_of(const MethodTimes& times) {
+  const double scans = static_cast<double>(std::max<std::size_t>(times.scans, 1));
+  Bar bar{times.cell, {}, 1000.0 * times.seconds / scans, 0.0};
+  for (const auto& [name, seconds] : times.stages) {
+    bar.stages.push_back({name, 1000.0 * seconds / scans});
+    bar.length_ms += bar.stages.back().ms;
+  }
+  if (bar.total_ms > bar.length_ms) {
+    bar.stages.push_back({"other", bar.total_ms - bar.length_ms});
+    bar.length_ms = bar.total_ms;
+  }
+  return bar;
+}
+
+std::string ms_text(double ms) {
+  return fixed_text(ms, ms < 10.0 ? 2 : 1) + " ms";
+}
+
+/// Colours run anew along each bar, since methods have stages of their own; none comes twice.
+Colour stage_colour(const Bar& bar, std::size_t stage) {
+  if (bar.stages[stage].name == "other") return kOther;
+  return distinct_colours(bar.stages.size())[stage];
+}
+
+/// The stages' names and times below a bar, in lines. @return their height
+double draw_names(SvgWriter& svg, const Bar& bar, double y) {
+  double x = kMargin, top = y;
+  for (std::size_t i = 0; i < bar.stages.size(); ++i) {
+    const std::string text = bar.stages[i].name + " " + ms_text(bar.stages[i].ms);
+    const double width = text_width(text) + 24.0;
+    if (x + width > kWidth - kMargin && x > kMargin) {
+      x = kMargin;
+      top += kLine;
+    }
+    svg.rectangle(x, top, 10.0, 10.0, stage_colour(bar, i), text);
+    svg.text(x + 14.0, top + 9.0, text, "soft");
+    x += width;
+  }
+  return top - y + kLine;
+}
+
+/// @return the height it takes
+double draw_bar(SvgWriter& svg, const Bar& bar, const LinearAxis& axis, double y) {
+  const double length = kWidth - 2.0 * kMargin - kTotal;
+  svg.text(kMargin, y + 12.0, bar.method, "bold");
+  const double top = y + 18.0;
+  double done = 0.0;
+  for (std::size_t i = 0; i < bar.stages.size(); ++i) {
+    const double from = axis.at(done, length);
+    done += bar.stages[i].ms;
+    svg.rectangle(kMargin + from, top, axis.at(done, length) - from, kBar, stage_colour(bar, i),
+                  bar.method + ", " + bar.stages[i].name + ": " + ms_text(bar.stages[i].ms));
+  }
+  svg.text(kMargin + axis.at(done, length) + 6.0, top + 12.0, ms_text(bar.total_ms));
+  return 18.0 + kBar + 8.0 + draw_names(svg, bar, top + kBar + 8.0) + 10.0;
+}
+
+}  // namespace
+
+std::string stage_chart(const RunResults& results, ChartPlace place) {
+  std::vector<Bar> bars;
+  double most = 0.0;
+  for (const MethodTimes& times : results.times) {
+    if (results.is_swept(times.cell)) continue;
+    bars.push_back(bar_of(times));
+    most = std::max(most, bars.back().length_ms);
+  }
+  if (bars.empty()) return "";
+  SvgWriter svg("stages", "Milliseconds per scan by stage",
+                "A bar for each method, made of its stages in the order in which they run.");
+  const bool overlap = std::any_of(bars.begin(), bars.end(),
+                                   [](const Bar& bar) { return bar.length_ms > bar.total_ms; });
+  svg.text(kMargin, 22.0, "Milliseconds per scan by stage, without reading files", "bold");
+  if (overlap) {
+    svg.text(kMargin, 38.0,
+             "Stages that ran on several threads at once are summed over them; the number beside a "
+             "bar is the time that passed.",
+             "soft");
+  }
+  const LinearAxis axis{0.0, most > 0.0 ? most : 1.0, 1.0};
+  double y = kTop + (overlap ? 14.0 : 0.0);
+  for (const Bar& bar : bars) y += draw_bar(svg, bar, axis, y);
+  return svg.finish(kWidth, y + 4.0, place);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/picture/charts/svg.h"
+
+#include <cmath>
+
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// Bytes of the UTF-8 sequence that starts at `at`; 0 if it is none that XML may hold.
+std::size_t sequence_length(const std::string& text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
+  const std::size_t length = first >= 0xF0 ? 4 : (first >= 0xE0 ? 3 : 2);
+  if (first < 0xC2 || first > 0xF4 || at + length > text.size()) return 0;
+  std::uint32_t code = first & (0x7FU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    const auto next = static_cast<unsigned char>(text[at + i]);
+    if ((next & 0xC0U) != 0x80U) return 0;
+    code = code << 6U | (next & 0x3FU);
+  }
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return overlong || surrogate || code > 0x10FFFF || (code & 0xFFFEU) == 0xFFFEU ? 0 : length;
+}
+
+/// A custom property of the charts' style, by its value in light and in dark.
+struct ChartColour {
+  const char* name;
+  const char* light;
+  const char* dark;
+};
+constexpr ChartColour kChartColours[] = {{"--chart-ink", "#1a1a1a", "#f0f0f0"},
+                                         {"--chart-soft", "#595959", "#b4b4b4"},
+                                         {"--chart-line", "#d4d4d4", "#4a4a4a"},
+                                         {"--chart-ground", "#ffffff", "#1c1c1c"}};
+
+/// "--chart-ink:#1a1a1a;--chart-soft:#595959" and so on.
+std::string declarations(bool dark) {
+  std::vector<std::string> all;
+  for (const ChartColour& colour : kChartColours) {
+    all.push_back(std::string(colour.name) + ":" + (dark ? colour.dark : colour.light));
+  }
+  return join(all, ";");
+}
+
+std::string rules() {
+  const std::string in = ".raymoval-chart";
+  std::string css =
+      in + "{font-family:'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;font-size:12px}\n";
+  css += in + " .ground{fill:var(--chart-ground)}\n";
+  css += in + " text{fill:var(--chart-ink)}\n";
+  css += in + " .soft{fill:var(--chart-soft)}\n";
+  css += in + " .bold{font-weight:bold}\n";
+  css += in + " .middle{text-anchor:middle}\n" + in + " .end{text-anchor:end}\n";
+  css += in + " .small{font-size:10px}\n";
+  css += in + " .axis{stroke:var(--chart-soft);fill:none}\n";
+  css += in + " .grid{stroke:var(--chart-line);fill:none}\n";
+  css += in + " .iso{stroke:var(--chart-soft);stroke-dasharray:2 3;fill:none}\n";
+  css += in + " .front{stroke:var(--chart-soft);stroke-width:1.5;fill:none}\n";
+  css += in + " .joined{stroke-width:1.5;fill:none}\n";
+  return css + in + " .mark{stroke:var(--chart-ground);stroke-width:1}\n";
+}
+
+/// The rules with the colours of the light scheme in them, for programs without custom properties.
+std::string print_style() {
+  std::string css = rules();
+  for (const ChartColour& colour : kChartColours) {
+    const std::string use = "var(" + std::string(colour.name) + ")";
+    for (std::size_t at = css.find(use); at != std::string::npos; at = css.find(use, at)) {
+      css.replace(at, use.size(), colour.light);
+    }
+  }
+  return css;
+}
+
+std::string shape_path(double x, double y, int shape) {
+  const auto at = [&](double dx, double dy) { return point_text(x + dx, y + dy); };
+  switch (shape) {
+    case 1:
+      return at(-4.4, -4.4) + at(4.4, -4.4) + at(4.4, 4.4) + at(-4.4, 4.4);
+    case 2:
+      return at(0, -6.2) + at(6.2, 0) + at(0, 6.2) + at(-6.2, 0);
+    case 3:
+      return at(0, -5.8) + at(5.6, 4.2) + at(-5.6, 4.2);
+    default:
+      return at(0, 5.8) + at(-5.6, -4.2) + at(5.6, -4.2);
+  }
+}
+
+}  // namespace
+
+std::string xml_escaped(const std::string& text) {
+  std::string escaped;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = sequence_length(text, at);
+    if (length == 0) {
+      escaped += static_cast<unsigned char>(text[at]) < 0x20 ? " " : "\xEF\xBF\xBD";
+      ++at;
+      continue;
+    }
+    switch (text[at]) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += text.substr(at, length);
+    }
+    at += length;
+  }
+  return escaped;
+}
+
+SeriesLook series_look(std::size_t index, std::size_t count) {
+  return {distinct_colours(count)[index], static_cast<int>(index % 5)};
+}
+
+std::string chart_style() {
+  return ":root{" + declarations(false) + "}\n@media (prefers-color-scheme:dark){:root{" +
+         declarations(true) + "}}\n" + rules();
+}
+
+SvgWriter::SvgWriter(const std::string& name, const std::string& title,
+                     const std::string& description)
+    : name_("chart-" + name), title_(title), description_(description) {
+  for (char& c : name_) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    if (!plain) c = '-';
+  }
+}
+
+std::string length_text(double value) {
+  const double rounded = std::round(value * 100.0) / 100.0;
+  return number_text(rounded == 0.0 ? 0.0 : rounded);  // Never "-0".
+}
+
+std::string point_text(double x, double y) {
+  return length_text(x) + "," + length_text(y) + " ";
+}
+
+double text_width(const std::string& text) {
+  std::size_t characters = 0;
+  for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1 : 0;
+  return 6.8 * static_cast<double>(characters);
+}
+
+void SvgWriter::text(double x, double y, const std::string& content, const std::string& look) {
+  body_ += "<text class=\"" + look + "\" x=\"" + length_text(x) + "\" y=\"" + length_text(y) +
+           "\">" + xml_escaped(content) + "</text>\n";
+}
+
+void SvgWriter::text_upwards(double x, double y, const std::string& content) {
+  body_ += "<text class=\"middle\" transform=\"translate(" + length_text(x) + " " + length_text(y) +
+           ") rotate(-90)\">" + xml_escaped(content) + "</text>\n";
+}
+
+void SvgWriter::line(double x0, double y0, double x1, double y1, const std::string& look) {
+  body_ += "<line class=\"" + look + "\" x1=\"" + length_text(x0) + "\" y1=\"" + length_text(y0) +
+           "\" x2=\"" + length_text(x1) + "\" y2=\"" + length_text(y1) + "\"/>\n";
+}
+
+void SvgWriter::polyline(const std::string& points, const std::string& look,
+                         const std::string& stroke) {
+  body_ += "<polyline class=\"" + look + "\"" +
+           (stroke.empty() ? "" : " stroke=\"" + stroke + "\"") + " points=\"" + points + "\"/>\n";
+}
+
+void SvgWriter::rectangle(double x, double y, double width, double height, const Colour& colour,
+                          const std::string& hint) {
+  body_ += "<rect class=\"mark\" fill=\"" + colour_text(colour) + "\" x=\"" + length_text(x) +
+           "\" y=\"" + length_text(y) + "\" width=\"" + length_text(width) + "\" height=\"" +
+           length_text(height) + "\"><title>" + xml_escaped(hint) + "</title></rect>\n";
+}
+
+void SvgWriter::marker(double x, double y, const SeriesLook& look, const std::string& hint) {
+  const std::string fill = " class=\"mark\" fill=\"" + colour_text(look.colour) + "\"";
+  const std::string title = "<title>" + xml_escaped(hint) + "</title>";
+  if (look.shape == 0) {
+    body_ += "<circle" + fill + " cx=\"" + length_text(x) + "\" cy=\"" + length_text(y) +
+             "\" r=\"5\">" + title + "</circle>\n";
+  } else {
+    body_ += "<polygon" + fill + " points=\"" + shape_path(x, y, look.shape) + "\">" + title +
+             "</polygon>\n";
+  }
+}
+
+std::string SvgWriter::finish(double width, double height, ChartPlace place) const {
+  const std::string size = length_text(width) + "\" height=\"" + length_text(height);
+  std::string svg =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"raymoval-chart\" role=\"img\"";
+  svg += " aria-labelledby=\"" + name_ + "-title " + name_ + "-desc\" width=\"" + size +
+         "\" viewBox=\"0 0 " + length_text(width) + " " + length_text(height) + "\">\n";
+  svg += "<title id=\"" + name_ + "-title\">" + xml_escaped(title_) + "</title>\n";
+  svg += "<desc id=\"" + name_ + "-desc\">" + xml_escaped(description_) + "</desc>\n";
+  if (place != ChartPlace::kPage) {
+    svg +=
+        "<style>\n" + (place == ChartPlace::kPrint ? print_style() : chart_style()) + "</style>\n";
+  }
+  svg += "<rect class=\"ground\" width=\"" + size + "\"/>\n" + body_;
+  return svg + "</svg>\n";
+}
+
+}  // namespace raymoval

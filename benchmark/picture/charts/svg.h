@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "benchmark/picture/charts/charts.h"
+#include "benchmark/picture/colours.h"
+
+namespace raymoval {
+
+/// Text for XML: markup escaped, characters that XML does not have replaced.
+std::string xml_escaped(const std::string& text);
+
+/// How a series of points looks: colour and shape change together, so that neither alone has to
+/// tell two of them apart.
+struct SeriesLook {
+  Colour colour;
+  int shape = 0;  ///< 0 .. 4: circle, square, diamond, triangle up, triangle down.
+};
+/// @param count of the series in the chart, no two of which have one colour
+SeriesLook series_look(std::size_t index, std::size_t count);
+
+/// Writes an <svg> element piece by piece. Lengths in pixels, x to the right, y down, rounded to
+/// hundredths.
+class SvgWriter {
+ public:
+  /// @param name distinguishes the chart's ids from those of other charts in a page
+  SvgWriter(const std::string& name, const std::string& title, const std::string& description);
+
+  /// @param look classes: "ink", "soft" (less important), "bold", "middle", "end" (anchors)
+  void text(double x, double y, const std::string& content, const std::string& look = "ink");
+  /// Text that reads upwards, centred on a point.
+  void text_upwards(double x, double y, const std::string& content);
+  /// @param look classes "axis", "grid", "iso" or "front"
+  void line(double x0, double y0, double x1, double y1, const std::string& look);
+  /// @param points "x,y x,y", see `point_text`
+  void polyline(const std::string& points, const std::string& look, const std::string& stroke = "");
+  void rectangle(double x, double y, double width, double height, const Colour& colour,
+                 const std::string& hint);
+  /// A marker of about 10 pixels that tells `hint`.
+  void marker(double x, double y, const SeriesLook& look, const std::string& hint);
+
+  /// The whole element. @param height,width of the chart
+  [[nodiscard]] std::string finish(double width, double height, ChartPlace place) const;
+
+ private:
+  std::string name_, title_, description_, body_;
+};
+
+/// A length with at most two decimals: "12.5".
+std::string length_text(double value);
+/// "12.5,7 ".
+std::string point_text(double x, double y);
+
+/// About how wide a text of 12 pixels is; nobody knows the viewer's font.
+double text_width(const std::string& text);
+
+}  // namespace raymoval

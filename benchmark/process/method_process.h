@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "benchmark/process/method_run.h"
+#include "core/process/child_process.h"
+
+namespace raymoval {
+
+/// Name of the command that a child process is started with; users never see it.
+inline constexpr const char* kMethodCommand = "run-method";
+
+/// Runs a method in a child process (this program with `kMethodCommand`). Whatever the method does
+/// there, crash, hang or leak, is an answer with a status, a reason and the end of what it printed.
+/// @param place where the child opens the sequence
+/// @throws Cancelled, or DataError if no process can be started
+MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& place,
+                              const ChildLimits& limits);
+
+/// The child's side: reads the task from the descriptors that `run_method_apart` gives it, and
+/// answers there. @throws UsageError if there are none, since somebody typed the command.
+void serve_method(const MethodRegistry& registry);
+
+}  // namespace raymoval

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmark/result/reasons.h"
+#include "benchmark/suite/suite.h"
+#include "core/progress.h"
+#include "core/scan/mask_store.h"
+#include "datasets/reading/loaded_data.h"
+
+namespace raymoval {
+
+/// One method on one sequence.
+struct MethodTask {
+  const Sequence* sequence = nullptr;
+  const MethodRequest* request = nullptr;
+  int threads = 1;
+  Progress* progress = nullptr;
+  const std::atomic<bool>* cancel = nullptr;
+  bool with_reasons = false;  ///< Whether the method is asked why.
+};
+
+/// What running a method costs; differs from run to run.
+struct Measurement {
+  int threads = 1;
+  double mean_seconds = 0.0;  ///< Per scan, without waiting for scans.
+  std::optional<double> median_seconds, p90_seconds;
+  /// Mean of scans 50 .. 149 and of the last 100, where the sequence has 300 scans or more: whether
+  /// a method gets slower the more it has seen.
+  std::optional<double> early_seconds, late_seconds;
+  double total_seconds = 0.0;  ///< Without waiting for scans.
+  double load_seconds = 0.0;   ///< Waiting for scans.
+  std::vector<std::pair<std::string, double>> stages;
+  std::optional<double> peak_memory_mib;
+};
+
+/// "measured" of cell.json, and back. @throws nlohmann::json::exception
+nlohmann::ordered_json to_json(const Measurement& measured);
+Measurement measurement_from(const nlohmann::ordered_json& json);
+
+/// What came of it. `masks` and `measured` stand only where `status` is "ok".
+struct MethodAnswer {
+  std::string status = "ok";  ///< As in cell.json.
+  std::string reason;
+  std::string output_tail;  ///< Of a method that ran in a process of its own and failed.
+  MaskStore masks;
+  Measurement measured;
+  Reasons reasons = {};  ///< Empty if it was not asked, or cannot say.
+  /// What was read of the sequence, if the method ran in a process of its own.
+  std::optional<LoadedData> loaded = std::nullopt;
+};
+
+/// Runs a method in this process and checks its answer. Never throws for a fault of the method or
+/// the data. @throws Cancelled
+MethodAnswer run_method(const MethodTask& task);
+
+/// The remover of `method`; one that needs the truth answers from the labels.
+/// @throws DataError if it needs labels and there are none
+std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence);
+
+}  // namespace raymoval

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "eval/columns/columns.h"
+
+namespace raymoval {
+
+/// Rates of one cell by one protocol, by name ("PR"); without a value where undefined.
+using RateValues = std::map<std::string, std::optional<double>>;
+
+/// A row of results.csv: a cell scored by a protocol.
+struct ResultRow {
+  std::string sequence;
+  std::string cell;  ///< Name of the method in the suite, "raymoval:online".
+  std::string method;
+  std::string variant;
+  std::string protocol;
+  std::string status;
+  bool control = false;
+  RateValues rates;  ///< Empty unless the status is "ok".
+  /// Low and high end by rate, where they are defined.
+  std::map<std::string, std::pair<double, double>> intervals;
+  std::optional<double> seconds_per_scan;
+  std::optional<double> peak_memory_mib;
+  std::string mask_digest = {};  ///< Of what was removed; equal masks have equal digests.
+};
+
+/// Time of a method over all sequences that it finished.
+struct MethodTimes {
+  std::string cell;
+  std::size_t scans = 0;
+  double seconds = 0.0;                                ///< Without waiting for scans.
+  double load_seconds = 0.0;                           ///< Waiting for scans.
+  std::vector<std::pair<std::string, double>> stages;  ///< Seconds, summed over threads.
+  int repeats = 1;  ///< So many runs were made; the times are those of the median one.
+  int threads = 1;  ///< Of the run that had most; what they do at once adds up in `stages`.
+};
+
+/// A cell without a result.
+struct FailedCell {
+  std::string sequence;
+  std::string cell;
+  std::string status;
+  std::string reason;
+  std::string last_output;  ///< Last line that the method printed.
+};
+
+/// A cell that is one point of a sweep.
+struct SweptCell {
+  std::string cell;
+  std::string of;  ///< What is swept, "raymoval:offline".
+  std::vector<std::pair<std::string, std::string>> values;
+
+  /// What is swept over what: "raymoval:offline over tau0, tau1". Points with the same text belong
+  /// to one sweep; a variant can have several.
+  [[nodiscard]] std::string sweep() const;
+  /// "tau0=0.2, tau1=0.1".
+  [[nodiscard]] std::string point() const;
+};
+
+/// Columns of a method, added up over all sequences that it finished.
+struct MethodColumns {
+  std::string cell;
+  bool control = false;
+  std::size_t sequences = 0;
+  std::vector<std::pair<std::string, Share>> values;
+
+  /// Nothing of nothing if there is no such column.
+  [[nodiscard]] Share find(const std::string& name) const;
+};
+
+/// What tables are made of, read from results.json.
+struct RunResults {
+  std::string name;
+  std::vector<std::string> sequences;
+  std::vector<std::string> cells;  ///< Names of the methods, in the order of the suite.
+  std::vector<std::string> protocols;
+  std::vector<ResultRow> rows;
+  std::vector<MethodColumns> columns;
+  std::vector<MethodTimes> times;  ///< Controls are left out.
+  std::vector<SweptCell> sweeps;
+  std::vector<FailedCell> failures;
+  std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.
+  std::vector<std::string> control_problems;
+
+  /// The row of a sequence, cell and protocol; null if there is none.
+  [[nodiscard]] const ResultRow* find(const std::string& sequence, const std::string& cell,
+                                      const std::string& protocol) const;
+  /// The point of a sweep that a cell is; null if it is none.
+  [[nodiscard]] const SweptCell* swept(const std::string& cell) const;
+  [[nodiscard]] bool is_swept(const std::string& cell) const { return swept(cell) != nullptr; }
+  [[nodiscard]] bool is_control(const std::string& cell) const;
+  /// Milliseconds per scan over all sequences that the cell's method finished; none for controls.
+  [[nodiscard]] std::optional<double> ms_per_scan(const std::string& cell) const;
+  /// The most memory that the cell's method took on any sequence, in MiB.
+  [[nodiscard]] std::optional<double> peak_mib(const std::string& cell) const;
+  /// Names of the rates that `protocol` gives and that are shown without being asked for, in order.
+  [[nodiscard]] std::vector<std::string> rates_of(const std::string& protocol) const;
+  /// The rate by which methods are ranked, F1 or HA; empty if `protocol` gives none.
+  [[nodiscard]] std::string headline_of(const std::string& protocol) const;
+};
+
+/// @param results content of results.json
+/// @throws DataError if a field is missing or of the wrong type, or the schema is another
+RunResults parse_results(const nlohmann::ordered_json& results, const std::string& where);
+
+/// results.csv: rates in percent with 3 decimals, F1 with 4, empty where undefined.
+std::string results_csv(const RunResults& results);
+
+/// A rate as it stands in tables: "98.123", F1 "0.9812".
+std::string rate_text(const std::string& rate, double value);
+
+/// Leaves only the cells "SEQUENCE/NAME" of a results.json that fit one of the patterns, and only
+/// the sequences and methods that still have one; all if there are none.
+/// @throws UsageError if a pattern fits no cell
+void choose_cells(nlohmann::ordered_json& results, const std::vector<std::string>& only);
+
+/// Leaves only what was scored by `protocols`; all of it if there are none.
+/// @throws UsageError if the run was not scored by one of them
+void choose_protocols(RunResults& results, const std::vector<std::string>& protocols);
+
+}  // namespace raymoval

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmark/result/results.h"
+#include "benchmark/suite/suite.h"
+#include "core/scan/mask_store.h"
+#include "datasets/sequence.h"
+
+namespace raymoval {
+
+/// A cell of a run, as far as its points can be looked at.
+struct KeptCell {
+  std::string sequence;
+  std::string name;  ///< Of the method in the suite.
+  bool control = false;
+  std::string status;              ///< As in cell.json; "not run" if there is no such cell.
+  std::string reason;              ///< Why there is no result.
+  std::string fingerprint;         ///< Of the data; empty if the data could not be read.
+  std::string digest;              ///< Of the masks; empty unless the status is "ok".
+  std::filesystem::path removals;  ///< Folder of label files.
+
+  [[nodiscard]] bool has_result() const { return status == "ok"; }
+  /// Whether `run --keep-removals` left what it removed.
+  [[nodiscard]] bool has_removals() const;
+};
+
+/// A finished run whose sequences are opened again, to look at what methods did to their points.
+class KeptRun {
+ public:
+  /// @param run its folder
+  /// @param data where the sequences are now, if not where run.json says: one sequence's folder, or
+  ///   a folder that holds them by their names; empty: as run.json says
+  /// @throws UsageError if there is no such run, or no folder `data`; DataError if its files are
+  ///   damaged
+  KeptRun(const std::string& run, const std::string& data);
+
+  [[nodiscard]] const RunResults& results() const { return results_; }
+  /// Every sequence x method of the suite in the run's order, also those without a result.
+  [[nodiscard]] const std::vector<KeptCell>& cells() const { return cells_; }
+  /// @throws UsageError suggesting the nearest name
+  [[nodiscard]] const KeptCell& cell(const std::string& sequence, const std::string& name) const;
+  [[nodiscard]] std::vector<const KeptCell*> cells_of(const std::string& sequence) const;
+
+  /// Opens a sequence as the run did, and makes sure that its data is still the same.
+  /// @throws DataError saying where it was looked for, or that the data changed; Cancelled
+  [[nodiscard]] Sequence open(const std::string& sequence, const OpenContext& context) const;
+
+  /// What a method removed of the sequence, made sure to be what it was scored by.
+  /// @throws DataError if the removals were not kept, are damaged, or are another run's
+  [[nodiscard]] MaskStore masks(const KeptCell& cell, const Sequence& sequence) const;
+
+ private:
+  /// @throws DataError if neither run.json nor --data says it
+  [[nodiscard]] SequenceRequest place_of(const std::string& sequence) const;
+
+  std::filesystem::path folder_;
+  std::string data_;
+  RunResults results_;
+  std::vector<KeptCell> cells_;
+  std::map<std::string, std::string> places_;  ///< JSON of the place by sequence.
+  std::map<std::string, std::string> frames_;  ///< Frames as used, by sequence.
+};
+
+/// What to do about a cell without kept removals.
+std::string keep_removals_remedy(const KeptCell& cell);
+
+}  // namespace raymoval

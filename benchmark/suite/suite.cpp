@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/suite/suite.h"
+
+#include <algorithm>
+
+#include "core/parameter_condition.h"
+#include "core/text.h"
+#include "eval/protocol.h"
+
+namespace raymoval {
+namespace {
+
+/// Says that a setting is for a protocol: `erasor` is the name of a method too.
+const std::string kProtocolPrefix = "protocol:";
+
+/// A name that appears in folders and tables.
+void check_cell_name(const std::string& name) {
+  const bool legal = !name.empty() && name.front() != '.' && name.size() <= 100 &&
+                     std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                       return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+                              (c >= 'a' && c <= 'z') || c == '-' || c == '_' || c == '.' ||
+                              c == ':' || c == '=' || c == ',' || c == '+';
+                     });
+  if (!legal) {
+    throw UsageError("'" + name +
+                     "' cannot name a result: use letters, digits and any of - _ . : = , +.");
+  }
+}
+
+}  // namespace
+
+Setting parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::size_t dot = equals == std::string::npos ? equals : text.rfind('.', equals);
+  if (dot == std::string::npos || dot == 0 || dot + 1 == equals) {
+    throw UsageError("--set " + text +
+                     ": expected METHOD.key=value, such as raymoval.tau0=0.2, or "
+                     "protocol:NAME.key=value, such as protocol:erasor.lift=0.");
+  }
+  return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
+}
+
+MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
+                          const MethodRegistry& registry) {
+  if (const auto names = expanded_methods(name_and_variant, registry);
+      names != std::vector{name_and_variant}) {
+    throw UsageError("method '" + name_and_variant + "' stands for " +
+                     counted_text(names.size(), "method") +
+                     ", and one is expected here: " + join(names) + ".");
+  }
+  MethodRequest request;
+  request.method = registry.configure(name_and_variant);
+  request.name = as.empty() ? request.method.full_name() : as;
+  check_cell_name(request.name);
+  for (const MethodRequest& known : suite.methods) {
+    if (folder_name(known.name) == folder_name(request.name)) {
+      throw UsageError("two methods of this run would be called '" + request.name +
+                       "'. Leave one out, or give it another name with \"as\" in a suite file.");
+    }
+  }
+  suite.methods.push_back(std::move(request));
+  return suite.methods.back();
+}
+
+std::vector<std::string> expanded_methods(const std::string& name, const MethodRegistry& registry) {
+  constexpr std::string_view kAllVariants = ":all";
+  std::vector<std::string> names;
+  if (name == "all") {
+    for (const auto& entry : registry.entries()) {
+      if (!is_control(entry->name)) {
+        names.push_back(entry->name + ":" + entry->variants.front().name);
+      }
+    }
+    return names;
+  }
+  if (name.starts_with("external:") || !name.ends_with(kAllVariants)) return {name};
+  const MethodEntry& entry = registry.find(name.substr(0, name.size() - kAllVariants.size()));
+  for (const MethodVariant& variant : entry.variants) {
+    names.push_back(entry.name + ":" + variant.name);
+  }
+  return names;
+}
+
+const std::vector<ParameterSpec>& protocol_parameters(const std::string& name) {
+  std::vector<std::string> names;
+  for (const ProtocolEntry& entry : protocol_entries()) {
+    if (entry.name == name) return entry.parameters;
+    names.push_back(entry.name);
+  }
+  throw UsageError("protocol '" + name + "' is unknown." + suggestion(name, names));
+}
+
+ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as) {
+  ProtocolRequest request{as.empty() ? protocol : as, protocol, protocol_defaults(protocol)};
+  check_cell_name(request.name);
+  for (const ProtocolRequest& known : suite.protocols) {
+    if (known.name == request.name) {
+      throw UsageError("two protocols of this run would be called '" + request.name +
+                       "'. Leave one out, or give it another name with \"as\" in a suite file.");
+    }
+  }
+  suite.protocols.push_back(std::move(request));
+  return suite.protocols.back();
+}
+
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Sets `setting` where it names `target` of a method. @return whether it did
+bool apply_setting(const Setting& setting, MethodRequest& request) {
+  const MethodEntry& entry = *request.method.entry;
+  const ParameterSpec& spec = find_parameter(entry.name, entry.parameters, setting.key);
+  for (const auto& [key, value] : request.sweep) {
+    if (key != setting.key) continue;
+    throw UsageError("--set " + setting.target + "." + key + ": the suite sweeps this parameter; " +
+                     "leave one out.");
+  }
+  set_parameter(request.method.configuration, setting.key,
+                checked_value_from_text(entry.name, spec, setting.value));
+  if (!contains(request.given, setting.key)) request.given.push_back(setting.key);
+  return true;
+}
+
+void check_given_once(const std::vector<Setting>& settings) {
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (settings[i].target == settings[j].target && settings[i].key == settings[j].key) {
+        throw UsageError("--set gives " + settings[i].target + "." + settings[i].key +
+                         " twice; leave one out.");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// What a setting may name, as far as `given` is near to it.
+[[noreturn]] void throw_no_target(const Suite& suite, const std::string& given) {
+  std::vector<std::string> names;
+  for (const MethodRequest& request : suite.methods) {
+    names.push_back(request.method.entry->name);
+    names.push_back(request.name);
+  }
+  for (const ProtocolRequest& request : suite.protocols) {
+    names.push_back(kProtocolPrefix + request.name);
+    if (request.name != given) continue;
+    throw UsageError("--set names '" + given +
+                     "', which is no method of this run but a protocol: " + "write " +
+                     names.back() + ".key=value.");
+  }
+  throw UsageError("--set names '" + given + "', which is not in this run." +
+                   suggestion(given, names));
+}
+
+}  // namespace
+
+void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
+  check_given_once(settings);
+  std::vector<bool> used(settings.size(), false);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!settings[i].target.starts_with(kProtocolPrefix)) continue;
+    set_protocol_option(suite.protocols, settings[i]);
+    used[i] = true;
+  }
+  for (MethodRequest& request : suite.methods) {
+    // The method's own settings first, so that one for a variant or a cell wins in any order.
+    for (const bool whole_method : {true, false}) {
+      for (std::size_t i = 0; i < settings.size(); ++i) {
+        const bool names_method = settings[i].target == request.method.entry->name;
+        const bool names_cell = !names_method && (settings[i].target == request.name ||
+                                                  settings[i].target == request.method.full_name());
+        if (whole_method ? names_method : names_cell) {
+          used[i] = apply_setting(settings[i], request) || used[i];
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!used[i]) throw_no_target(suite, settings[i].target);
+  }
+}
+
+std::vector<std::string> settings_without_effect(const Suite& suite) {
+  const auto lines_of = [](const MethodRequest& request, const std::string& name) {
+    return without_effect(request.sweep_of.empty() ? request.name : request.sweep_of,
+                          request.method.entry->parameters, request.method.configuration, {name});
+  };
+  std::vector<std::string> lines;
+  for (const MethodRequest& request : suite.methods) {
+    for (const std::string& name : request.given) {
+      const auto acts_at = [&](const MethodRequest& point) {
+        return point.sweep_of == request.sweep_of && contains(point.given, name) &&
+               lines_of(point, name).empty();
+      };
+      if (!request.sweep_of.empty() &&
+          std::any_of(suite.methods.begin(), suite.methods.end(), acts_at)) {
+        continue;
+      }
+      for (const std::string& line : lines_of(request, name)) {
+        if (!contains(lines, line)) lines.push_back(line);
+      }
+    }
+  }
+  return lines;
+}
+
+void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting) {
+  const bool prefixed = setting.target.starts_with(kProtocolPrefix);
+  const std::string target =
+      prefixed ? setting.target.substr(kProtocolPrefix.size()) : setting.target;
+  std::vector<std::string> names;
+  for (ProtocolRequest& request : protocols) {
+    names.push_back(request.name);
+    if (request.name != target) continue;
+    const std::string owner = "protocol " + request.protocol;
+    const ParameterSpec& spec =
+        find_parameter(owner, protocol_entry(request.protocol).parameters, setting.key);
+    set_parameter(request.options, setting.key,
+                  checked_value_from_text(owner, spec, setting.value));
+    return;
+  }
+  throw UsageError("--set names '" + setting.target + "', which is no protocol asked for." +
+                   suggestion(target, names));
+}
+
+const std::vector<std::string>& control_names() {
+  static const std::vector<std::string> names = {"noop", "remove-all", "oracle"};
+  return names;
+}
+
+bool is_control(const std::string& method) {
+  const auto& names = control_names();
+  return std::find(names.begin(), names.end(), method) != names.end();
+}
+
+void add_controls(Suite& suite, const MethodRegistry& registry) {
+  std::vector<MethodRequest> listed = std::move(suite.methods);
+  suite.methods.clear();
+  for (const std::string& control : control_names()) {
+    const bool there = std::any_of(listed.begin(), listed.end(), [&](const MethodRequest& request) {
+      return request.method.entry->name == control;
+    });
+    if (!there) add_method(suite, control, "", registry);
+  }
+  for (MethodRequest& request : listed) suite.methods.push_back(std::move(request));
+}
+
+std::string folder_name(const std::string& name) {
+  std::string folder;
+  for (const char c : name) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                       c == '-' || c == '_' || c == '.' || c == '=' || c == ',' || c == '+';
+    folder += plain ? c : (c == ':' ? '-' : '_');
+  }
+  if (folder.empty() || folder.front() == '.') folder.insert(0, "_");
+  return folder;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/tables/column_tables.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+std::string percent_text(const Share& share) {
+  const auto percent = share.percent();
+  return percent ? fixed_text(*percent, 3) : "n/a";
+}
+
+std::vector<const MethodColumns*> shown_methods(const RunResults& results, bool controls) {
+  std::vector<const MethodColumns*> shown;
+  for (const MethodColumns& method : results.columns) {
+    if (controls || !method.control) shown.push_back(&method);
+  }
+  return shown;
+}
+
+/// The class in "rejection [moving-car]"; nothing for bands, and for the bands of a class.
+std::optional<std::string> class_in(const std::string& column, const std::string& kind) {
+  const std::string start = kind + " [";
+  if (!column.starts_with(start)) return std::nullopt;
+  const std::string inner = column.substr(start.size(), column.size() - start.size() - 1);
+  const bool band = inner.starts_with("range ") || inner.starts_with("height ");
+  if (band || inner.find(',') != std::string::npos) return std::nullopt;
+  return inner;
+}
+
+/// "moving-person 63.200": the class of which the smallest share was dealt with rightly.
+std::string worst_class(const MethodColumns& method, const std::string& kind) {
+  std::string text = "-";
+  double worst = 101.0;
+  for (const auto& [column, share] : method.values) {
+    const auto name = class_in(column, kind);
+    if (!name || share.whole < kNamedClassPoints || *share.percent() >= worst) continue;
+    worst = *share.percent();
+    text = *name + " " + percent_text(share);
+  }
+  return text;
+}
+
+/// Names of the columns of all methods, in the order of the first that has them.
+std::vector<std::string> column_names(const std::vector<const MethodColumns*>& methods) {
+  std::vector<std::string> names;
+  for (const MethodColumns* method : methods) {
+    for (const auto& [name, share] : method->values) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+/// A column's name in parts: "rejection [moving-car, range 0-10 m]".
+struct ColumnName {
+  std::string kind;   ///< "rejection".
+  std::string group;  ///< "moving-car"; empty: all points.
+  std::string axis;   ///< "range" or "height"; empty: neither.
+  std::string band;   ///< "0-10 m".
+};
+
+ColumnName parts_of(const std::string& name) {
+  const std::size_t open = name.find(" [");
+  ColumnName parts{name.substr(0, open), "", "", ""};
+  if (open == std::string::npos) return parts;
+  parts.group = name.substr(open + 2, name.size() - open - 3);
+  for (const std::string axis : {"range", "height"}) {
+    // Alone, or behind the class; a class may have any name.
+    const std::size_t comma = parts.group.rfind(", " + axis + " ");
+    const bool alone = parts.group.starts_with(axis + " ");
+    if (!alone && comma == std::string::npos) continue;
+    const std::size_t at = comma == std::string::npos ? 0 : comma + 2;
+    parts.axis = axis;
+    parts.band = parts.group.substr(at + axis.size() + 1);
+    parts.group = comma == std::string::npos ? "" : parts.group.substr(0, comma);
+    break;
+  }
+  return parts;
+}
+
+/// Adds `name` unless it is there.
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+std::string column_text(const std::string& kind, const std::string& group, const std::string& axis,
+                        const std::string& band) {
+  const std::string where =
+      group + (group.empty() || axis.empty() ? "" : ", ") + (axis.empty() ? "" : axis + " " + band);
+  return where.empty() ? kind : kind + " [" + where + "]";
+}
+
+/// Rejection or preservation by range or height: in all, then by band.
+TextTable band_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
+                     const std::string& axis) {
+  std::vector<std::string> bands, groups = {""};
+  for (const std::string& name : column_names(methods)) {
+    const ColumnName parts = parts_of(name);
+    if (parts.kind != kind) continue;
+    if (parts.axis == axis) add_once(bands, parts.band);
+    add_once(groups, parts.group);
+  }
+  TextTable table{"Columns: " + kind + " by " + axis, "method", {{"", {"all"}}}, {}, {}};
+  for (const std::string& band : bands) table.groups[0].columns.push_back(band);
+  const auto add_row = [&](const std::string& label, const std::string& group, auto&& text) {
+    TableRow row{label, {{text(column_text(kind, group, "", ""))}}, label == "points", {}};
+    for (const std::string& band : bands) {
+      row.cells.push_back({text(column_text(kind, group, axis, band))});
+    }
+    row.block = group.empty() ? "all classes" : group;
+    table.rows.push_back(std::move(row));
+  };
+  for (const std::string& group : groups) {
+    for (const MethodColumns* method : methods) {
+      add_row(method->cell, group,
+              [&](const std::string& name) { return percent_text(method->find(name)); });
+    }
+    add_row("points", group, [&](const std::string& name) {
+      std::int64_t points = 0;
+      for (const MethodColumns* method : methods) {
+        points = std::max(points, method->find(name).whole);
+      }
+      return std::to_string(points);
+    });
+  }
+  table.notes.push_back("In percent of the points in the last row of each block" +
+                        std::string(kind == "rejection" ? ": moving ones that are removed."
+                                                        : ": static ones that are kept."));
+  return table;
+}
+
+/// Figures that are neither of a class nor of a band.
+TextTable whole_table(const std::vector<const MethodColumns*>& methods) {
+  TextTable table{"Columns", "method", {{"", {}}}, {}, {}};
+  for (const std::string& name : column_names(methods)) {
+    if (name.find(" [") == std::string::npos) table.groups[0].columns.push_back(name);
+  }
+  for (const MethodColumns* method : methods) {
+    TableRow row{method->cell, {}, false};
+    for (const std::string& name : table.groups[0].columns) {
+      row.cells.push_back({percent_text(method->find(name))});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string general_notes() {
+  std::string text;
+  for (const Column& column : general_columns()) {
+    if (column.name.find('[') != std::string::npos) continue;
+    text += (text.empty() ? "" : " ") + column.name + " (" +
+            (column.better == Better::kHigher ? "higher" : "lower") +
+            " is better): " + column.description;
+  }
+  return text + " Heights are those above the road under a sensor " + number_text(kHeightOffset) +
+         " m above it.";
+}
+
+TextTable interval_table(const RunResults& results, const std::string& protocol) {
+  TextTable table{"Intervals by protocol " + protocol, "method", {{"", {}}}, {}, {}};
+  std::vector<std::string>& rates = table.groups[0].columns;
+  for (const std::string& rate : results.rates_of(protocol)) {
+    const bool there = std::any_of(results.rows.begin(), results.rows.end(), [&](const auto& row) {
+      return row.protocol == protocol && row.intervals.contains(rate);
+    });
+    if (there) rates.push_back(rate);
+  }
+  for (const ResultRow& row : results.rows) {
+    if (row.protocol != protocol || row.intervals.empty()) continue;
+    table.rows.push_back({row.cell, {}, false, row.sequence});
+    for (const std::string& rate : rates) {
+      const auto found = row.intervals.find(rate);
+      const bool there = found != row.intervals.end();
+      table.rows.back().cells.push_back({there ? rate_text(rate, found->second.first) + " to " +
+                                                     rate_text(rate, found->second.second)
+                                               : "n/a"});
+    }
+  }
+  table.notes.push_back(
+      "95 % of the replicates of a circular block bootstrap over scans; map and verdicts are held "
+      "fixed, so this is how much a rate hangs on which scans were counted.");
+  return table;
+}
+
+}  // namespace
+
+std::vector<TextTable> compact_column_tables(const RunResults& results) {
+  const std::vector<const MethodColumns*> methods = shown_methods(results, false);
+  if (methods.empty()) return {};
+  TextTable table{
+      "Points removed",
+      "method",
+      {{"",
+        {"precision", "recall", "residue", "preservation", "worst mover", "worst static class"}}},
+      {},
+      {}};
+  for (const MethodColumns* method : methods) {
+    TableRow row{method->cell, {}, false};
+    for (const char* name : {"precision", "recall", "residue", "preservation"}) {
+      row.cells.push_back({percent_text(method->find(name))});
+    }
+    row.cells.push_back({worst_class(*method, "rejection")});
+    row.cells.push_back({worst_class(*method, "preservation")});
+    table.rows.push_back(std::move(row));
+  }
+  table.notes.push_back(
+      "In percent of points, all sequences together. precision: moving ones of the removed; "
+      "recall: "
+      "removed ones of the moving; residue: moving ones of the kept; preservation: kept ones of "
+      "the "
+      "static. Of the classes with " +
+      std::to_string(kNamedClassPoints) +
+      " points or more, the mover least removed and the static class least kept. `raymoval table "
+      "RUN --columns` has every class, range and height.");
+  return {table};
+}
+
+std::vector<TextTable> full_column_tables(const RunResults& results) {
+  std::vector<TextTable> tables;
+  const std::vector<const MethodColumns*> methods = shown_methods(results, true);
+  if (!methods.empty()) {
+    tables.push_back(whole_table(methods));
+    tables.back().notes.push_back(general_notes());
+    for (const char* kind : {"rejection", "preservation"}) {
+      for (const char* axis : {"range", "height"}) {
+        tables.push_back(band_table(methods, kind, axis));
+      }
+    }
+  }
+  for (const std::string& protocol : results.protocols) {
+    TextTable table = interval_table(results, protocol);
+    if (!table.rows.empty()) tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/tables/run_summary.h"
+
+#include <algorithm>
+
+#include "benchmark/tables/accuracy_tables.h"
+#include "benchmark/tables/text_table.h"
+#include "core/text.h"
+#include "eval/rate.h"
+
+namespace raymoval {
+namespace {
+
+constexpr std::size_t kMostName = 40;     ///< Characters of a method's name.
+constexpr std::size_t kMostMethods = 20;  ///< Rows of a table.
+constexpr std::size_t kMostFailures = 5;  ///< Cells that are named.
+constexpr std::size_t kScreenLines = 40;
+
+/// A rate of a protocol.
+struct SummaryColumn {
+  std::string protocol, rate;
+};
+
+std::vector<std::optional<double>> values_by_sequence(const RunResults& results,
+                                                      const std::string& cell,
+                                                      const SummaryColumn& column) {
+  std::vector<std::optional<double>> values;
+  for (const std::string& sequence : results.sequences) {
+    const ResultRow* row = results.find(sequence, cell, column.protocol);
+    const bool there = row != nullptr && row->rates.contains(column.rate);
+    values.push_back(there ? row->rates.at(column.rate) : std::nullopt);
+  }
+  return values;
+}
+
+/// The methods, best first by the first protocol; the controls if there is nothing else.
+std::vector<std::string> summary_methods(const RunResults& results) {
+  std::vector<std::string> methods;
+  for (const std::string& cell : results.cells) {
+    if (!results.is_control(cell)) methods.push_back(cell);
+  }
+  if (methods.empty()) return results.cells;
+  if (results.protocols.empty()) return methods;
+  const SummaryColumn main{results.protocols.front(),
+                           results.headline_of(results.protocols.front())};
+  const double sign = rate_spec(main.rate).higher_is_better ? 1.0 : -1.0;
+  const auto value_of = [&](const std::string& cell) {
+    const auto mean =
+        leading_number(mean_text({}, main.rate, values_by_sequence(results, cell, main)));
+    return mean ? sign * *mean : -1e9;
+  };
+  std::stable_sort(methods.begin(), methods.end(),
+                   [&](const auto& a, const auto& b) { return value_of(a) > value_of(b); });
+  return methods;
+}
+
+/// The rates of the first protocol; of the others the main one if it has another name.
+std::vector<SummaryColumn> summary_columns(const RunResults& results) {
+  std::vector<SummaryColumn> columns;
+  for (std::size_t i = 0; i < results.protocols.size(); ++i) {
+    for (const std::string& rate : results.rates_of(results.protocols[i])) {
+      const RateRole role = rate_spec(rate).role;
+      const bool shown = i == 0 ? role != RateRole::kMean : role == RateRole::kHeadline;
+      if (shown) columns.push_back({results.protocols[i], rate});
+    }
+  }
+  return columns;
+}
+
+/// The first columns of a table that are no wider than a terminal.
+std::string fitting_text(TextTable table) {
+  const auto width_of = [](const std::string& text) {
+    std::size_t width = 0;
+    for (const std::string_view line : split(text, '\n')) {
+      width = std::max(width, shown_length(std::string(line)));
+    }
+    return width;
+  };
+  std::string text = to_plain(table);
+  while (width_of(text) > kTerminalWidth && table.groups[0].columns.size() > 1) {
+    table.groups[0].columns.pop_back();
+    for (TableRow& row : table.rows) row.cells.pop_back();
+    text = to_plain(table);
+  }
+  return text;
+}
+
+void mark_column_of(TextTable& table, std::size_t place, bool higher_is_better) {
+  std::vector<TableCell*> cells;
+  for (TableRow& row : table.rows) cells.push_back(&row.cells[place]);
+  mark_best(cells, higher_is_better);
+}
+
+/// A row for each method: rates, time, memory.
+TextTable method_summary(const RunResults& results, const std::vector<std::string>& methods) {
+  const std::vector<SummaryColumn> columns = summary_columns(results);
+  const bool several = results.protocols.size() > 1;
+  TextTable table{"", "method", {{"", {}}}, {}, {}};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const bool other = several && columns[i].protocol != results.protocols.front();
+    table.groups[0].columns.push_back((other ? columns[i].protocol + " " : "") + columns[i].rate);
+  }
+  table.groups[0].columns.insert(table.groups[0].columns.end(), {"ms per scan", "peak MiB"});
+  for (const std::string& method : methods) {
+    TableRow row{shortened_middle(method, kMostName), {}, false};
+    for (const SummaryColumn& column : columns) {
+      row.cells.push_back(
+          {mean_text({}, column.rate, values_by_sequence(results, method, column))});
+    }
+    const auto ms = results.ms_per_scan(method);
+    row.cells.push_back({ms ? fixed_text(*ms, 1) : "-"});
+    const auto memory = results.peak_mib(method);
+    row.cells.push_back({memory ? fixed_text(*memory, 0) : "-"});
+    table.rows.push_back(std::move(row));
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    mark_column_of(table, i, rate_spec(columns[i].rate).higher_is_better);
+  }
+  mark_column_of(table, columns.size(), false);
+  mark_column_of(table, columns.size() + 1, false);
+  return table;
+}
+
+/// The main rate of the first protocol on each sequence.
+TextTable sequence_summary(const RunResults& results, const std::vector<std::string>& methods) {
+  const SummaryColumn main{results.protocols.front(),
+                           results.headline_of(results.protocols.front())};
+  TextTable table{"", main.rate, {{"", results.sequences}}, {}, {}};
+  for (const std::string& method : methods) {
+    TableRow row{shortened_middle(method, kMostName), {}, false};
+    for (const std::string& sequence : results.sequences) {
+      const ResultRow* found = results.find(sequence, method, main.protocol);
+      const bool scored = found != nullptr && found->rates.contains(main.rate) &&
+                          found->rates.at(main.rate).has_value();
+      row.cells.push_back({scored             ? rate_text(main.rate, *found->rates.at(main.rate))
+                           : found == nullptr ? "-"
+                           : found->status == "ok" ? "n/a"
+                                                   : found->status});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  for (std::size_t i = 0; i < results.sequences.size(); ++i) {
+    mark_column_of(table, i, rate_spec(main.rate).higher_is_better);
+  }
+  return table;
+}
+
+std::string failures_text(const RunResults& results) {
+  std::string text;
+  for (std::size_t i = 0; i < results.failures.size() && i < kMostFailures; ++i) {
+    const FailedCell& failed = results.failures[i];
+    text += shortened_end(
+                failed.status + ": " + failed.sequence + " / " + failed.cell + ": " + failed.reason,
+                kTerminalWidth) +
+            "\n";
+  }
+  if (results.failures.size() > kMostFailures) {
+    text += "... and " + std::to_string(results.failures.size() - kMostFailures) +
+            " more cells failed\n";
+  }
+  if (!results.missing.empty()) {
+    text += shortened_end("not run: " + join(results.missing), kTerminalWidth) + "\n";
+  }
+  return text.empty() ? "" : "\n" + text;
+}
+
+std::string title_of(const RunResults& results, std::size_t methods) {
+  std::string text =
+      results.name + ": " + counted_text(methods, "method") + " on " +
+      (results.sequences.size() == 1
+           ? results.sequences.front()
+           : counted_text(results.sequences.size(), "sequence") + ", means over the sequences");
+  if (!results.protocols.empty()) text += ", by protocol " + results.protocols.front();
+  return text + "; * best";
+}
+
+}  // namespace
+
+std::string run_summary(const RunResults& results, const std::string& place) {
+  std::vector<std::string> methods = summary_methods(results);
+  std::string text = wrapped(title_of(results, methods.size()), kTerminalWidth) + "\n";
+  const std::size_t left_out = methods.size() - std::min(methods.size(), kMostMethods);
+  methods.resize(methods.size() - left_out);
+  text += fitting_text(method_summary(results, methods));
+  if (left_out > 0) text += "... and " + std::to_string(left_out) + " more\n";
+  const bool ranked =
+      !results.protocols.empty() && !results.headline_of(results.protocols[0]).empty();
+  if (ranked && results.sequences.size() > 1 && 2 * methods.size() + 12 <= kScreenLines) {
+    const TextTable by_sequence = sequence_summary(results, methods);
+    const std::string shown = fitting_text(by_sequence);
+    // Half of the sequences would mislead: all or none.
+    if (shown == to_plain(by_sequence)) text += "\n" + shown;
+  }
+  text += failures_text(results);
+  const bool controls = std::any_of(results.cells.begin(), results.cells.end(),
+                                    [&](const auto& cell) { return results.is_control(cell); });
+  if (controls) text += "\n" + wrapped(controls_text(results), kTerminalWidth);
+  return text + (controls ? "" : "\n") +
+         wrapped("More: `raymoval table " + place + "`, `raymoval report " + place + "`.",
+                 kTerminalWidth);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/tables/table_options.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/text.h"
+#include "eval/rate.h"
+
+namespace raymoval {
+namespace {
+
+constexpr int kMostDecimals = 9;
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// All rates that any row has, the usual ones first.
+std::vector<std::string> known_rates(const RunResults& results) {
+  std::vector<std::string> known;
+  for (const std::string& protocol : results.protocols) {
+    for (const std::string& rate : results.rates_of(protocol)) {
+      if (!holds(known, rate)) known.push_back(rate);
+    }
+  }
+  for (const ResultRow& row : results.rows) {
+    for (const auto& [rate, value] : row.rates) {
+      if (!holds(known, rate)) known.push_back(rate);
+    }
+  }
+  return known;
+}
+
+bool gives(const RunResults& results, const std::string& protocol, const std::string& rate) {
+  return std::any_of(results.rows.begin(), results.rows.end(), [&](const ResultRow& row) {
+    return row.protocol == protocol && row.rates.contains(rate);
+  });
+}
+
+/// What a run calls its sequences and methods, and what its sweeps are of.
+std::vector<std::string> run_names(const RunResults& results) {
+  std::vector<std::string> names = results.cells;
+  names.insert(names.end(), results.sequences.begin(), results.sequences.end());
+  for (const SweptCell& swept : results.sweeps) names.push_back(swept.of);
+  return names;
+}
+
+void check_different(const std::vector<std::string>& shown) {
+  std::set<std::string> seen;
+  for (const std::string& name : shown) {
+    if (seen.insert(name).second) continue;
+    throw UsageError("--names: two rows would be called '" + name +
+                     "'. Give each a name of its own.");
+  }
+}
+
+}  // namespace
+
+const RateValues* OutsideColumn::find(const std::string& name) const {
+  const std::string prefix = protocol == "erasor" ? "kitti-" : "kth-";
+  for (const auto& [sequence, values] : sequences) {
+    if (sequence == name || prefix + sequence == name) return &values;
+  }
+  return nullptr;
+}
+
+std::string option_text(const TableOptions& options, const std::string& rate, double value,
+                        int printed) {
+  const auto own = options.decimals_of.find(rate);
+  std::optional<int> wanted = options.decimals;
+  if (own != options.decimals_of.end()) wanted = own->second;
+  if (printed > 0) return fixed_text(value, std::min(printed, wanted.value_or(printed)));
+  return wanted ? fixed_text(value, *wanted) : rate_text(rate, value);
+}
+
+std::vector<std::string> chosen_rates(const TableOptions& options, const RunResults& results,
+                                      const std::string& protocol) {
+  if (options.rates.empty()) return results.rates_of(protocol);
+  std::vector<std::string> rates;
+  for (const std::string& rate : options.rates) {
+    if (gives(results, protocol, rate)) rates.push_back(rate);
+  }
+  return rates;
+}
+
+bool shows_time(const TableOptions& options) {
+  return holds(options.rates, kTimeRate);
+}
+
+void check_rates(const TableOptions& options, const RunResults& results) {
+  std::vector<std::string> known = known_rates(results);
+  known.emplace_back(kTimeRate);
+  const auto check = [&](const std::string& option, const std::string& rate) {
+    if (holds(known, rate)) return;
+    throw UsageError(option + " " + rate + ": no protocol of this run gives such a rate." +
+                     suggestion(rate, known));
+  };
+  for (const std::string& rate : options.rates) check("--rates", rate);
+  for (const auto& [rate, decimals] : options.decimals_of) check("--decimals", rate);
+  known.insert(known.end(), {"name", "none"});
+  check("--sort", options.sort);
+}
+
+void parse_decimals(const std::string& text, TableOptions& options) {
+  const std::size_t equals = text.find('=');
+  const std::string number = equals == std::string::npos ? text : text.substr(equals + 1);
+  const auto decimals = parse_number<int>(number);
+  if (equals == 0 || !decimals || *decimals < 0 || *decimals > kMostDecimals) {
+    throw UsageError("--decimals " + text + ": expected a number of digits from 0 to " +
+                     std::to_string(kMostDecimals) + ", or one for a rate, such as F1=3.");
+  }
+  if (equals == std::string::npos) {
+    options.decimals = decimals;
+  } else {
+    options.decimals_of[text.substr(0, equals)] = *decimals;
+  }
+}
+
+void parse_display_names(const std::string& text, const RunResults& results, DisplayNames& names) {
+  // Names of sweep points have an '=' themselves: the first after a name of the run counts.
+  const std::vector<std::string> known = run_names(results);
+  const auto add = [&](const std::string& line, const std::string& where, bool must_be_known) {
+    std::size_t equals = line.find('=');
+    while (equals != std::string::npos && !holds(known, line.substr(0, equals))) {
+      equals = line.find('=', equals + 1);
+    }
+    const std::size_t first = line.find('=');
+    if (first == std::string::npos || first == 0 || first + 1 == line.size()) {
+      throw UsageError(where + ": expected NAME=SHOWN, such as 'raymoval:offline=Raymoval'.");
+    }
+    if (equals != std::string::npos && equals + 1 < line.size()) {
+      names[line.substr(0, equals)] = line.substr(equals + 1);
+    } else if (must_be_known) {
+      throw UsageError(where + ": no method or sequence of this run has this name." +
+                       suggestion(line.substr(0, first), known));
+    }
+  };
+  if (text.find('=') != std::string::npos) return add(text, "--names '" + text + "'", true);
+  std::size_t number = 0;  // A file may serve several runs: names that this one lacks are no slip.
+  const std::string content = read_text(text);
+  for (const std::string_view raw : split(content, '\n')) {
+    ++number;
+    std::string line(raw.substr(0, raw.find('\r')));
+    if (line.empty() || line.starts_with('#')) continue;
+    add(line, text + ", line " + std::to_string(number), false);
+  }
+}
+
+void apply_display_names(const DisplayNames& names, RunResults& results,
+                         std::vector<OutsideColumn>& outside) {
+  const auto rename = [&](std::string& name) {
+    const auto found = names.find(name);
+    if (found != names.end()) name = found->second;
+  };
+  for (OutsideColumn& column : outside) {
+    for (auto& [sequence, values] : column.sequences) {
+      // Found by the run's name, which is about to change.
+      for (const std::string& known : results.sequences) {
+        if (column.find(known) == &values && names.contains(known)) {
+          sequence = names.at(known);
+          break;
+        }
+      }
+    }
+    rename(column.heading);
+  }
+  for (std::string& sequence : results.sequences) rename(sequence);
+  for (std::string& cell : results.cells) rename(cell);
+  for (ResultRow& row : results.rows) {
+    rename(row.sequence);
+    rename(row.cell);
+  }
+  for (MethodColumns& columns : results.columns) rename(columns.cell);
+  for (MethodTimes& times : results.times) rename(times.cell);
+  for (SweptCell& swept : results.sweeps) {
+    rename(swept.cell);
+    rename(swept.of);
+  }
+  for (FailedCell& failed : results.failures) {
+    rename(failed.sequence);
+    rename(failed.cell);
+  }
+  for (std::string& missing : results.missing) {
+    const std::size_t bar = missing.find(" / ");
+    std::string sequence = missing.substr(0, bar), cell = missing.substr(bar + 3);
+    rename(sequence);
+    rename(cell);
+    missing = sequence + " / " + cell;
+  }
+  check_different(results.sequences);
+  check_different(results.cells);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/tables/tables.h"
+
+#include <algorithm>
+
+#include "benchmark/tables/accuracy_tables.h"
+#include "benchmark/tables/column_tables.h"
+#include "benchmark/tables/sweep_tables.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// At most so much of a text that somebody else wrote, cut between characters.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + " ...";
+}
+
+/// What became of the cells that have no result.
+TextTable failure_table(const RunResults& results) {
+  TextTable table{
+      "Cells without a result", "cell", {{"", {"status", "reason", "last line printed"}}}, {}, {}};
+  for (const FailedCell& failed : results.failures) {
+    table.rows.push_back(
+        {failed.sequence + " / " + failed.cell,
+         {{failed.status}, {shortened(failed.reason)}, {shortened(failed.last_output)}},
+         false});
+  }
+  for (const std::string& cell : results.missing) {
+    table.rows.push_back({cell, {{"not run"}, {""}, {""}}, false});
+  }
+  return table;
+}
+
+/// Time and memory of every method, the least marked.
+std::vector<TextTable> cost_tables(const RunResults& results) {
+  TextTable table{"Time of each method", "method", {{"", {"ms per scan", "peak MiB"}}}, {}, {}};
+  std::vector<std::vector<TableCell*>> columns(2);
+  for (const MethodTimes& times : results.times) {
+    if (results.is_swept(times.cell)) continue;
+    const auto ms = results.ms_per_scan(times.cell);
+    const auto memory = results.peak_mib(times.cell);
+    table.rows.push_back(
+        {times.cell,
+         {{ms ? fixed_text(*ms, 1) : "-"}, {memory ? fixed_text(*memory, 0) : "-"}},
+         false});
+  }
+  if (table.rows.size() < 2) return {};
+  for (TableRow& row : table.rows) {
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(&row.cells[i]);
+  }
+  for (const auto& column : columns) mark_best(column, false);
+  table.notes.push_back("Over all scans, without reading them; the most memory on any sequence.");
+  return {table};
+}
+
+TextTable stage_table(const MethodTimes& times) {
+  // Each thread books what it did: stages that run on several threads at once can add up to more
+  // than the time that passed, of which they then have no shares.
+  double named = 0.0;
+  for (const auto& [name, seconds] : times.stages) named += seconds;
+  const bool overlap = named > times.seconds;
+  const double whole = overlap ? named : times.seconds;
+  const double scans = static_cast<double>(std::max<std::size_t>(times.scans, 1));
+  TextTable table{"Time of " + times.cell, "stage", {{"", {"ms per scan", "share in %"}}}, {}, {}};
+  const auto add = [&](const std::string& name, double seconds, bool summary) {
+    const double share = whole > 0.0 ? 100.0 * seconds / whole : 0.0;
+    table.rows.push_back(
+        {name, {{fixed_text(1000.0 * seconds / scans, 3)}, {fixed_text(share, 1)}}, summary});
+  };
+  for (const auto& [name, seconds] : times.stages) add(name, seconds, false);
+  if (named < times.seconds) add("other", times.seconds - named, false);
+  add(overlap ? "sum over threads" : "total", whole, true);
+  if (overlap) {
+    table.rows.push_back(
+        {"time that passed", {{fixed_text(1000.0 * times.seconds / scans, 3)}, {"-"}}, true});
+  }
+  table.notes.push_back("Mean over " + grouped_text(times.scans) +
+                        " scans. Reading scans (load) took another " +
+                        fixed_text(1000.0 * times.load_seconds / scans, 3) + " ms per scan.");
+  if (times.threads > 1) {
+    table.notes.push_back("With " + std::to_string(times.threads) +
+                          " threads: a stage that runs on several at once is summed over them" +
+                          (overlap ? ", and shares are of the sum of all stages." : "."));
+  }
+  if (times.repeats > 1) {
+    table.notes.push_back("The median of " + std::to_string(times.repeats) + " runs.");
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<TextTable> make_tables(const RunResults& results, const TableOptions& options) {
+  std::vector<TextTable> tables;
+  const auto append = [&tables](std::vector<TextTable> more) {
+    for (TextTable& table : more) tables.push_back(std::move(table));
+  };
+  for (const std::string& protocol : results.protocols) {
+    append(accuracy_tables(results, protocol, options));
+  }
+  append(sweep_tables(results, options));
+  append(published_tables(results, options));
+  append(ranking_tables(results, options));
+  append(compact_column_tables(results));
+  for (const std::string& protocol : results.protocols) {
+    append(control_tables(results, protocol, options));
+  }
+  if (!results.failures.empty() || !results.missing.empty()) {
+    tables.push_back(failure_table(results));
+  }
+  append(cost_tables(results));
+  for (const MethodTimes& times : results.times) {
+    if (!results.is_swept(times.cell)) tables.push_back(stage_table(times));
+  }
+  return tables;
+}
+
+std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables) {
+  std::string text = "# " + results.name + "\n";
+  for (const TextTable& table : tables) text += "\n" + to_markdown(table);
+  return text;
+}
+
+std::string tables_latex(const std::vector<TextTable>& tables) {
+  // LaTeX holds a limited number of tables that it has not found a place for.
+  constexpr std::size_t kTablesAtOnce = 8;
+  std::string text;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (i > 0) text += i % kTablesAtOnce == 0 ? "\n\\clearpage\n" : "\n";
+    text += to_latex(tables[i]);
+  }
+  return text;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/files/descriptor.h"
+
+namespace raymoval {
+
+/// An advisory lock on a file (flock), which ends with the process however that ends: what a dead
+/// process left is taken over. The file only tells who holds the lock, and goes away with it.
+class FileLock {
+ public:
+  enum class Mode {
+    kShared,     ///< Others may hold it too, as long as all share it.
+    kExclusive,  ///< Nobody else.
+  };
+  enum class State {
+    kHeld,
+    kBusy,     ///< Somebody else holds it.
+    kNoLocks,  ///< The file system has no locks: nobody can be asked.
+  };
+
+  /// Nothing is locked, opened or made before `take`.
+  explicit FileLock(std::filesystem::path file) : path_(std::move(file)) {}
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+  /// Takes the lock if it is free; does not wait. @throws DataError if the file cannot be made
+  State take(Mode mode);
+
+  /// "process 123 on somewhere", as the holder wrote it.
+  [[nodiscard]] std::string holder() const;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  void open();
+  [[nodiscard]] bool is_still_there() const;
+  void write_holder() const;
+
+  std::filesystem::path path_;
+  Descriptor file_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "core/files/files.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/files/descriptor.h"
+#include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
+#include "core/files/strict_json.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+std::string system_reason() {
+  return std::generic_category().message(errno);
+}
+
+/// A plain file that is open for reading, and its size.
+struct OpenFile {
+  Descriptor file;
+  std::uintmax_t size = 0;
+};
+
+OpenFile open_plain(const std::filesystem::path& path) {
+  // A pipe would be waited for and a device may act, so they are not even opened; nothing is waited
+  // for either if the name becomes one of these between the two calls.
+  if (is_folder(path)) throw DataError(path.string() + ": is a folder, expected a file.");
+  OpenFile opened{Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY))};
+  struct stat status {};
+  if (!opened.file.valid() || ::fstat(opened.file.get(), &status) != 0) {
+    throw DataError(path.string() + ": cannot be read (" + system_reason() + ").");
+  }
+  if (!S_ISREG(status.st_mode)) throw DataError(path.string() + ": is no plain file.");
+  opened.size = static_cast<std::uintmax_t>(status.st_size);
+  return opened;
+}
+
+/// Fills `content` from `offset` on. @throws DataError if the file ends before
+template <class Container>
+void read_into(const OpenFile& opened, std::uintmax_t offset, Container& content,
+               const std::filesystem::path& path) {
+  std::size_t done = 0;
+  while (done < content.size()) {
+    const ssize_t got = ::pread(opened.file.get(), content.data() + done, content.size() - done,
+                                static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw DataError(path.string() + ": reading failed (" + system_reason() + ").");
+    if (got == 0) {
+      throw DataError(path.string() +
+                      ": has become shorter while it was read. Wait until whatever writes it has "
+                      "ended.");
+    }
+    done += static_cast<std::size_t>(got);
+  }
+}
+
+template <class Container>
+Container read_all(const std::filesystem::path& path) {
+  const OpenFile opened = open_plain(path);
+  Container content(static_cast<std::size_t>(opened.size), typename Container::value_type{});
+  read_into(opened, 0, content, path);
+  return content;
+}
+
+}  // namespace
+
+std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
+  return read_all<std::vector<std::byte>>(path);
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  auto text = read_all<std::string>(path);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
+
+std::string read_piece(const std::filesystem::path& path, std::uintmax_t offset, std::size_t size) {
+  const OpenFile opened = open_plain(path);
+  const std::uintmax_t left = opened.size - std::min(offset, opened.size);
+  std::string piece(static_cast<std::size_t>(std::min<std::uintmax_t>(size, left)), '\0');
+  read_into(opened, offset, piece, path);
+  return piece;
+}
+
+void write_atomically(const std::filesystem::path& path, std::string_view content) {
+  FileWriter file(path);
+  file.append(content);
+  file.commit();
+}
+
+void check_folder_of(const std::filesystem::path& path) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (is_folder(folder)) return;
+  throw UsageError(path.string() + ": there is no folder " + folder.string() + ". Make it first.");
+}
+
+nlohmann::json read_json(const std::filesystem::path& path) {
+  return parse_json(read_text(path), path.string());
+}
+
+void check_keys(const nlohmann::json& json, const std::vector<std::string>& allowed,
+                const std::string& where) {
+  if (!json.is_object()) {
+    throw ConfigurationError(where + ": expected an object { ... } with the keys " + join(allowed) +
+                             ".");
+  }
+  for (const auto& [key, value] : json.items()) {
+    if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
+      throw ConfigurationError(where + ": unknown key '" + key + "'." + suggestion(key, allowed));
+    }
+  }
+}
+
+ContentHasher::ContentHasher() : state_(XXH3_createState()) {
+  XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_));
+}
+
+ContentHasher::~ContentHasher() {
+  XXH3_freeState(static_cast<XXH3_state_t*>(state_));
+}
+
+void ContentHasher::add(const void* data, std::size_t size) {
+  XXH3_128bits_update(static_cast<XXH3_state_t*>(state_), data, size);
+}
+
+std::string ContentHasher::digest() const {
+  XXH128_canonical_t canonical;
+  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(static_cast<XXH3_state_t*>(state_)));
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : canonical.digest) {
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text;
+}
+
+std::string content_hash(std::string_view content) {
+  ContentHasher hasher;
+  hasher.add(content);
+  return hasher.digest();
+}
+
+}  // namespace raymoval

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/scan/scan.h"
+#include "core/scan/sensor_model.h"
+
+namespace raymoval {
+
+/// Scans one by one; nothing behind this interface holds all of them. Calls are thread-safe.
+class ScanSource {
+ public:
+  virtual ~ScanSource() = default;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  /// Scan `index` (< size()). @throws DataError naming the file and what is wrong with it.
+  [[nodiscard]] virtual Scan load(std::size_t index) const = 0;
+  /// `T_world_sensor` of scan `index`, without reading its points.
+  [[nodiscard]] virtual Pose pose(std::size_t index) const = 0;
+  [[nodiscard]] virtual const SensorModel& sensor() const = 0;
+};
+
+/// Label words of a scan: lower 16 bits semantic id, upper 16 bits instance id (SemanticKITTI).
+/// Kept apart from `ScanSource` so that no method can reach a label.
+class LabelSource {
+ public:
+  virtual ~LabelSource() = default;
+  /// One word per point of `scan`, in its order. Thread-safe.
+  /// @throws DataError if the file is missing or its count differs from the scan's.
+  [[nodiscard]] virtual std::vector<std::uint32_t> labels(const Scan& scan) const = 0;
+};
+
+/// Semantic id of a label word.
+constexpr std::uint16_t semantic_id(std::uint32_t word) {
+  return static_cast<std::uint16_t>(word & 0xFFFFU);
+}
+
+}  // namespace raymoval

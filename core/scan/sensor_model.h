@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scan/scan.h"
+
+namespace raymoval {
+
+/// What is known of the sensor. Angles in radians in the sensor frame (azimuth counter-clockwise
+/// from +x about +z, elevation up from the x-y plane), ranges in metres.
+struct SensorModel {
+  std::string name = "unknown";
+  double azimuth_min = -3.14159265358979323846;
+  /// Above pi where the view goes through the back of the sensor frame; never more than one turn
+  /// above `azimuth_min`.
+  double azimuth_max = 3.14159265358979323846;
+  double elevation_min = -1.57079632679489661923;
+  double elevation_max = 1.57079632679489661923;
+  double azimuth_step = 0.0;  ///< Between neighbouring directions of one beam; 0 = unknown.
+  /// Mean between neighbouring beams; 0 = unknown. A sensor without beams has the same step both
+  /// ways: the edge of the square that each direction of one scan has to itself.
+  double elevation_step = 0.0;
+  double range_min = 0.0;    ///< Nearest range the sensor reports.
+  double range_max = 120.0;  ///< Farthest range the sensor reports.
+  /// True where a direction without return means that nothing stood within range (as opposed to a
+  /// lost or filtered return).
+  bool missing_return_is_meaningful = false;
+  /// What an estimate rests on: "64 beams, 0.173 deg by 0.427 deg, view of 360 deg by 27 deg, from
+  /// 5 scans with 601,234 directions". Empty for a sensor of known values.
+  std::string basis = "";
+  int beams = 0;  ///< As an estimate found them; 0 where there are none or they are unknown.
+
+  [[nodiscard]] bool full_circle() const { return azimuth_max - azimuth_min > 6.2; }
+  [[nodiscard]] bool has_beams() const { return beams > 0; }
+  [[nodiscard]] bool is_estimated() const { return !basis.empty(); }
+  /// Whether a direction lies in the field of view. @param azimuth radians, any turn
+  [[nodiscard]] bool sees(double azimuth, double elevation) const;
+};
+
+/// Names of the sensors known to `sensor_model_named`.
+std::vector<std::string> sensor_model_names();
+
+/// The data sheet values of a known sensor.
+/// @throws ConfigurationError for an unknown name; the message lists the known ones.
+SensorModel sensor_model_named(const std::string& name);
+
+/// Field of view, steps and ranges as seen in `scans` (at least one with points), for any order of
+/// points. The field of view goes from the outermost directions to those opposite; 0.01 % of the
+/// points on either side are not counted. It may go across +-pi. How steps are found is said at
+/// `find_direction_pattern`; they stay 0 (unknown) where there are too few directions. Steps and
+/// elevations that are nearly those of a known sensor become its own, so that naming that sensor
+/// changes nothing.
+/// @throws DataError if there is no point to look at.
+SensorModel estimate_sensor_model(const std::vector<Scan>& scans);
+
+}  // namespace raymoval

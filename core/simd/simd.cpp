@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "core/simd/simd.h"
+
+#include "core/simd/instruction_sets.h"
+
+namespace raymoval {
+namespace {
+
+/// Everything up to and including a set. In Highway's bits the best target is the lowest.
+std::int64_t up_to(std::int64_t target) {
+  return ~(target - 1);
+}
+
+}  // namespace
+
+std::int64_t highway_targets(InstructionSet set) {
+  if (set == InstructionSet::kPlain) return 0;
+  static const std::int64_t here = hwy::SupportedTargets();  // Slow to find out.
+#if HWY_ARCH_X86
+  switch (set) {
+    case InstructionSet::kSse4:
+      return here & up_to(HWY_SSE4);
+    case InstructionSet::kAvx2:
+      return here & up_to(HWY_AVX2);
+    case InstructionSet::kAvx512:
+      return here & up_to(HWY_AVX3);
+    default:
+      break;
+  }
+#endif
+  return here;
+}
+
+const char* instruction_set_name(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::kPlain:
+      return "plain";
+    case InstructionSet::kSse4:
+      return "SSE4";
+    case InstructionSet::kAvx2:
+      return "AVX2";
+    case InstructionSet::kAvx512:
+      return "AVX-512";
+    default:
+      return "best";
+  }
+}
+
+std::vector<InstructionSet> supported_instruction_sets() {
+  std::vector<InstructionSet> sets = {InstructionSet::kPlain};
+#if HWY_ARCH_X86
+  const std::int64_t here = hwy::SupportedTargets();
+  if ((here & HWY_SSE4) != 0) sets.push_back(InstructionSet::kSse4);
+  if ((here & HWY_AVX2) != 0) sets.push_back(InstructionSet::kAvx2);
+  if ((here & HWY_AVX3) != 0) sets.push_back(InstructionSet::kAvx512);
+#endif
+  return sets;
+}
+
+}  // namespace raymoval

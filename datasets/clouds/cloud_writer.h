@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/files/file_writer.h"
+
+namespace raymoval {
+
+/// How a cloud file holds x, y and z.
+enum class Coordinates { kFloat, kDouble };
+
+/// Refuses a format that cannot hold `coordinates`: .bin has float32 only.
+/// @throws UsageError naming the file and the remedy
+void check_coordinates(const std::filesystem::path& path, Coordinates coordinates);
+
+/// Writes a cloud piece by piece as .pcd (binary), .ply (binary, little-endian) or .bin (float32
+/// x y z reflectance); only the piece at hand is in memory. The file appears at `commit`, whole.
+///
+/// The head of .pcd and .ply names the count of points, which is known at the end only: a comment
+/// in it gives room for the digits, so that it always has the same length.
+class CloudWriter {
+ public:
+  /// Opens the file. @throws UsageError for another extension, DataError if it cannot be written
+  explicit CloudWriter(const std::filesystem::path& path);
+
+  /// To be called before `add`.
+  /// @param with_intensity whether .pcd and .ply have a field for it; .bin always has
+  /// @param coordinates float32, or float64 for points far from the origin
+  /// @throws UsageError for float64 in a .bin file, which has none
+  void start(bool with_intensity, Coordinates coordinates = Coordinates::kFloat);
+  /// @param points metres
+  /// @param intensity as long as `points`, or empty: then it counts as 0
+  /// @throws DataError when the disk is full, or beyond 4,294,967,295 points
+  void add(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& intensity);
+  /// The same for points in double precision.
+  void add_exact(const std::vector<Eigen::Vector3d>& points, const std::vector<float>& intensity);
+  /// Ends the file and puts it on the disk, still without its name.
+  void finish();
+  /// Gives it its name, after `finish`.
+  void commit() { file_.commit(); }
+
+ private:
+  [[nodiscard]] std::string header() const;
+  template <class Point>
+  void add_points(const std::vector<Point>& points, const std::vector<float>& intensity);
+
+  FileWriter file_;
+  std::string extension_;
+  bool with_intensity_ = false;
+  Coordinates coordinates_ = Coordinates::kFloat;
+  std::uint64_t points_ = 0;
+};
+
+}  // namespace raymoval

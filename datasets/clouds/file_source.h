@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scan/scan_source.h"
+#include "datasets/reading/left_out.h"
+
+namespace raymoval {
+
+/// A scan on disk: where it is and what is known without reading it.
+struct FrameEntry {
+  std::filesystem::path path;
+  std::filesystem::path label_path;  ///< Empty if there are no labels.
+  std::string name;                  ///< "000123".
+  double time_s = 0.0;
+  Pose T_world_sensor = Pose::Identity();
+};
+
+/// A sensor model by name, or estimated from up to five evenly spaced scans when first asked for.
+class SensorChoice {
+ public:
+  using Load = std::function<Scan(std::size_t)>;
+  /// @param name a known sensor; nothing or "estimated" for an estimate
+  /// @throws ConfigurationError for an unknown name
+  explicit SensorChoice(const std::optional<std::string>& name);
+  /// Thread-safe. @throws DataError if a scan cannot be read
+  const SensorModel& get(std::size_t scan_count, const Load& load) const;
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::optional<SensorModel> model_;
+};
+
+/// Scans in files of their own (.bin, .pcd, .ply). Points that stand for a missing return (a NaN
+/// coordinate, or within 5 cm of the sensor; in the world frame also at its origin) and infinite
+/// ones are left out; `tally` counts the former.
+///
+/// `load` throws DataError for a file without any return and for one with more than 1 % infinite
+/// points (evaluation protocol, edge cases).
+class FileScanSource : public ScanSource {
+ public:
+  enum class PointFrame { kSensor, kWorld };
+  struct Traits {
+    PointFrame point_frame = PointFrame::kSensor;
+    bool has_reflectance = true;  ///< False where the files' intensity is no reflectance.
+  };
+  FileScanSource(std::vector<FrameEntry> frames, Traits traits,
+                 const std::optional<std::string>& sensor)
+      : frames_(std::move(frames)), traits_(traits), sensor_(sensor), tally_(frames_.size()) {}
+
+  [[nodiscard]] std::size_t size() const override { return frames_.size(); }
+  [[nodiscard]] Scan load(std::size_t index) const override;
+  [[nodiscard]] Pose pose(std::size_t index) const override;
+  [[nodiscard]] const SensorModel& sensor() const override;
+  [[nodiscard]] const std::vector<FrameEntry>& frames() const { return frames_; }
+  /// Missing returns of the scans read so far.
+  [[nodiscard]] const LeftOutTally& tally() const { return tally_; }
+
+ private:
+  std::vector<FrameEntry> frames_;
+  Traits traits_;
+  SensorChoice sensor_;
+  LeftOutTally tally_;
+};
+
+/// Of `stored`, a word for each stored point of `scan`, those of the points that it has.
+std::vector<std::uint32_t> of_kept_points(const Scan& scan, std::vector<std::uint32_t> stored);
+
+/// SemanticKITTI label files: one uint32 a stored point, in the order of the scan file.
+class LabelFileSource : public LabelSource {
+ public:
+  explicit LabelFileSource(std::vector<FrameEntry> frames) : frames_(std::move(frames)) {}
+  [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override;
+
+ private:
+  std::vector<FrameEntry> frames_;
+};
+
+/// Label words by value in the files' own intensity (1 or 252.0).
+class IntensityLabelSource : public LabelSource {
+ public:
+  explicit IntensityLabelSource(std::vector<FrameEntry> frames) : frames_(std::move(frames)) {}
+  /// @throws DataError if the intensity of a point of `scan` is no whole number from 0 to 2^24 - 1
+  ///   (what float32 holds exactly)
+  [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override;
+
+ private:
+  std::vector<FrameEntry> frames_;
+};
+
+/// Gives every frame the label file `folder`/NAME.label.
+/// @return false, with nothing changed, if there is no such folder
+/// @throws DataError if a frame has no label file
+bool find_label_files(const std::filesystem::path& folder, std::vector<FrameEntry>& frames);
+
+}  // namespace raymoval

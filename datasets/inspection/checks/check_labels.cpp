@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/scan/voxel_key.h"
+#include "core/text.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/inspection/checks/checks.h"
+
+namespace raymoval::inspection {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+bool in_label_files(const Samples& samples) {
+  return !samples.files().empty() && !samples.files().front().label_path.empty();
+}
+
+/// Words as stored, whether or not they fit the scan.
+Words stored_words(const Samples& samples, std::size_t scan) {
+  if (in_label_files(samples)) {
+    const auto bytes = read_bytes(samples.files()[scan].label_path);
+    Words words(bytes.size() / sizeof(std::uint32_t));
+    if (!words.empty()) std::memcpy(words.data(), bytes.data(), words.size() * sizeof words[0]);
+    return words;
+  }
+  const auto found = samples.scans().find(scan);
+  if (found != samples.scans().end()) return samples.sequence().labels->labels(found->second);
+  return samples.sequence().labels->labels(samples.sequence().scans->load(scan));
+}
+
+/// How often points close together have different labels, among those near any point whose label
+/// is not the scan's commonest; 0 = never. Labels of other points are scattered in space.
+double confusion(const Scan& scan, const Words& words) {
+  constexpr double kCell = 0.4, kFar = 25.0;
+  std::map<std::uint16_t, std::size_t> total;
+  std::vector<std::pair<VoxelKey, std::uint16_t>> points;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const std::size_t stored = scan.stored_position(i);
+    const Eigen::Vector3d p = scan.points[i].cast<double>();
+    if (stored >= words.size() || p.norm() > kFar) continue;
+    points.emplace_back(voxel_key(voxel_index(p, 1.0 / kCell)), semantic_id(words[stored]));
+    ++total[points.back().second];
+  }
+  if (total.size() < 2) return 0.0;
+  const auto by_count = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto common = std::max_element(total.begin(), total.end(), by_count)->first;
+  std::sort(points.begin(), points.end());
+  std::size_t looked_at = 0, odd = 0;
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    std::size_t most = 0, run = 0;
+    for (end = begin; end < points.size() && points[end].first == points[begin].first; ++end) {
+      run = end > begin && points[end].second == points[end - 1].second ? run + 1 : 1;
+      most = std::max(most, run);
+    }
+    if (most == end - begin && points[begin].second == common) continue;
+    looked_at += end - begin;
+    odd += end - begin - most;
+  }
+  return looked_at < 50 ? 0.0 : static_cast<double>(odd) / static_cast<double>(looked_at);
+}
+
+struct CountsSeen {
+  std::size_t frames = 0, wrong = 0, first_wrong = 0;
+  std::size_t labels = 0, points = 0;  ///< Of the first wrong one.
+  std::size_t as_next = 0, as_previous = 0;
+};
+
+/// Label counts of the scans read, and whether they are those of a neighbour.
+CountsSeen look_at_counts(const Samples& samples) {
+  CountsSeen seen;
+  std::map<std::size_t, std::size_t> points;
+  for (const auto& [index, scan] : samples.scans()) points[index] = scan.stored_point_count;
+  const auto fits = [&](std::size_t scan, std::size_t labels) {
+    const auto found = points.find(scan);
+    return found != points.end() && found->second == labels;
+  };
+  for (const auto& [index, count] : points) {
+    const std::size_t labels = stored_words(samples, index).size();
+    ++seen.frames;
+    if (labels == count) continue;
+    if (seen.wrong++ == 0) {
+      seen.first_wrong = index;
+      seen.labels = labels;
+      seen.points = count;
+    }
+    if (fits(index + 1, labels)) ++seen.as_next;
+    if (index > 0 && fits(index - 1, labels)) ++seen.as_previous;
+  }
+  return seen;
+}
+
+/// Mean confusion of the scans that are first of a pair, with the labels of another scan.
+double mean_confusion(const Samples& samples, int shift) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  std::set<std::size_t> done;
+  for (const ScanPair& pair : samples.pairs()) {
+    if (pair.to != pair.from + 1 || !done.insert(pair.from).second || done.size() > 4) continue;
+    // Of a pair of neighbours either takes the labels of the other.
+    const std::size_t scan = shift < 0 ? pair.to : pair.from;
+    const std::size_t other = shift < 0 ? pair.from : (shift > 0 ? pair.to : pair.from);
+    sum += confusion(samples.scans().at(scan), stored_words(samples, other));
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+std::string label_place(const Samples& samples, std::size_t scan) {
+  return in_label_files(samples) ? "labels/" + samples.files()[scan].label_path.filename().string()
+                                 : "labels of " + samples.scan_name(scan);
+}
+
+bool has_words(const Samples& samples) {
+  return samples.sequence().labels != nullptr && samples.sequence().layout != "dynamicmap";
+}
+
+Finding shifted_finding(const Samples& samples, bool next, const std::string& what) {
+  Finding finding;
+  finding.where = label_place(samples, 0) + " and the others";
+  finding.what = "labels of frame N are those of the scan " +
+                 std::string(next ? "after" : "before") + " it: " + what;
+  return finding;
+}
+
+std::vector<Finding> look_for_shift(Samples& samples) {
+  constexpr double kClear = 0.05, kTimes = 1.5;
+  if (!has_words(samples) || samples.size() < 2) return {};
+  const CountsSeen counts = look_at_counts(samples);
+  if (counts.wrong > 0) {
+    const std::size_t most = std::max(counts.as_next, counts.as_previous);
+    if (most < 2 || 3 * most < counts.wrong) return {};
+    return {shifted_finding(samples, counts.as_next >= counts.as_previous,
+                            "in " + grouped_text(most) + " of the " + grouped_text(counts.wrong) +
+                                " scans whose count of labels is not "
+                                "their own it is that of this neighbour (not every neighbour was "
+                                "read)")};
+  }
+  const double given = mean_confusion(samples, 0);
+  const double next = mean_confusion(samples, -1), previous = mean_confusion(samples, 1);
+  samples.measures.emplace_back("label_confusion", given);
+  samples.measures.emplace_back("label_confusion_of_scan_before", next);
+  samples.measures.emplace_back("label_confusion_of_scan_after", previous);
+  const double best = std::min(next, previous);
+  if (given < best + kClear || given < kTimes * best) return {};
+  return {shifted_finding(samples, next <= previous,
+                          "neighbouring points differ in label " + fixed_text(100.0 * given, 1) +
+                              " % of the time, and " + fixed_text(100.0 * best, 1) +
+                              " % with the labels moved by one frame")};
+}
+
+std::vector<Finding> look_for_counts(Samples& samples) {
+  if (!has_words(samples)) return {};
+  const CountsSeen counts = look_at_counts(samples);
+  if (counts.wrong == 0 || !look_for_shift(samples).empty()) return {};
+  Finding finding;
+  finding.where = label_place(samples, counts.first_wrong);
+  finding.what = grouped_text(counts.labels) + " labels for " + grouped_text(counts.points) +
+                 " points" +
+                 (counts.wrong > 1 ? "; the counts differ in " + grouped_text(counts.wrong) +
+                                         " of " + grouped_text(counts.frames) + " scans looked at"
+                                   : "");
+  return {finding};
+}
+
+/// Intensity of up to three scans as stored.
+std::vector<float> stored_intensity(const Samples& samples) {
+  std::vector<float> all;
+  const std::size_t last = samples.size() - 1;
+  for (const std::size_t scan : std::set<std::size_t>{0, last / 2, last}) {
+    std::vector<float> values;
+    if (!samples.files().empty()) {
+      values = read_cloud(samples.files()[scan].path).intensity;
+    } else if (samples.scans().count(scan) > 0) {
+      values = samples.scans().at(scan).reflectance;
+    }
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
+bool is_label_id(std::uint32_t word) {
+  static const std::set<std::uint32_t> ids = {0,  1,  10,  11,  13,  15,  16,  18,  20,  30, 31, 32,
+                                              40, 44, 48,  49,  50,  51,  52,  60,  70,  71, 72, 80,
+                                              81, 99, 252, 253, 254, 255, 256, 257, 258, 259};
+  return ids.count(word & 0xFFFFU) > 0;
+}
+
+/// A strength of return has many values; labels are few whole numbers from a known list.
+std::vector<Finding> look_for_values(Samples& samples) {
+  const bool expected_here =
+      samples.sequence().layout == "dynamicmap" && samples.sequence().labels != nullptr;
+  if (expected_here) return {};
+  std::set<std::uint32_t> values;
+  for (const float value : stored_intensity(samples)) {
+    if (!(value >= 0.0F && value < 16777216.0F) || value != std::floor(value)) return {};
+    const auto word = static_cast<std::uint32_t>(value);
+    if (!is_label_id(word)) return {};
+    values.insert(word);
+  }
+  const bool zero_or_one = values == std::set<std::uint32_t>{0, 1};
+  if (!zero_or_one && values.size() < 3) return {};
+  std::vector<std::string> seen;
+  for (const std::uint32_t value : values) {
+    if (seen.size() < 6) seen.push_back(grouped_text(value));
+  }
+  const bool in_world = samples.stored_in_world();
+  Finding finding;
+  finding.where = "intensity of the scan files";
+  finding.what = "all values are labels (" + join(seen) + (values.size() > 6 ? ", ..." : "") + ")";
+  finding.remedy =
+      in_world ? std::string("Give a label rule: \"labels\": {\"moving\": [") +
+                     (zero_or_one ? "1" : "252, 253, 254, 255, 256, 257, 258, 259") +
+                     "]} in sequence.json (or --label-rule); without one there are no labels."
+               : "Write the labels to labels/NAME.label (uint32 a point) and the strength of the "
+                 "return, or 0, in their place: methods see intensity and must not see the answer.";
+  return {finding};
+}
+
+/// The bits of a small whole number, read as a float, are a number near 1e-43.
+std::vector<Finding> look_for_bits(Samples& samples) {
+  constexpr float kTiny = 1e-30F;
+  std::size_t tiny = 0, other = 0;
+  std::map<std::uint32_t, std::size_t> words;
+  for (const float value : stored_intensity(samples)) {
+    if (value == 0.0F) continue;
+    if (std::abs(value) < kTiny) {
+      ++tiny;
+      ++words[std::bit_cast<std::uint32_t>(value)];
+    } else {
+      ++other;
+    }
+  }
+  if (tiny == 0 || 99 * other > tiny) return {};
+  const auto most = std::max_element(
+      words.begin(), words.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  Finding finding;
+  finding.where = "intensity of the scan files";
+  finding.what = "values such as " +
+                 number_text(static_cast<double>(std::bit_cast<float>(most->first))) +
+                 " are the bits of whole numbers (" + grouped_text(most->first & 0xFFFFU) +
+                 "), not their values";
+  return {finding};
+}
+
+}  // namespace
+
+std::vector<Check> label_checks() {
+  return {
+      {"labels-shifted", "labels belong to the scan before or after",
+       "labels/N.label with the labels of scan N", "Rename the label files by one frame.",
+       look_for_shift, Consequence::kUnused},
+      {"label-count", "a scan has more or fewer labels than points",
+       "one label for each stored point",
+       "Copy scan and labels again from one source, or leave the frame out with --frames.",
+       look_for_counts, Consequence::kUnused},
+      {"labels-in-intensity-by-value", "labels stand in the intensity of the points",
+       "the strength of the return", "Write the labels to labels/NAME.label.", look_for_values,
+       Consequence::kUnused},
+      {"labels-in-intensity-by-bits", "bits of labels stand in the intensity of the points",
+       "the strength of the return, or labels by value",
+       "Reinterpret the bits as uint32 and write them to labels/NAME.label, or store the value "
+       "(252.0) and give a label rule.",
+       look_for_bits, Consequence::kUnused},
+  };
+}
+
+}  // namespace raymoval::inspection

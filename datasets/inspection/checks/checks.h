@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "datasets/inspection/finding.h"
+#include "datasets/inspection/samples.h"
+
+namespace raymoval::inspection {
+
+/// A defect that is looked for.
+struct Check {
+  std::string name;
+  std::string finds;     ///< What is wrong with the data, a sentence without its full stop.
+  std::string expected;  ///< What good data has there.
+  std::string remedy;    ///< What to do, in general; a finding may say it with names and numbers.
+  /// Findings with at least `what` filled in; `where`, `expected` and `remedy` default to the
+  /// pose source and frames, and to the texts above.
+  std::function<std::vector<Finding>(Samples&)> look;
+  Consequence consequence = Consequence::kWarned;
+};
+
+/// All checks, in the order in which they are run and reported.
+const std::vector<Check>& all_checks();
+
+/// The parts of the table, each in a file of its own. Those of poses share one `pose_verdict`.
+std::vector<Check> pose_checks();
+std::vector<Check> point_checks();
+std::vector<Check> label_checks();
+std::vector<Check> time_checks();
+std::vector<Check> ego_checks();
+std::vector<Check> sensor_model_checks();
+std::vector<Check> skew_checks();
+std::vector<Check> world_checks();
+
+/// "hdl64e; the scans show 64 beams, 0.173 deg by 0.427 deg, ..."; "estimated: 64 beams, ...".
+std::string sensor_text(const Samples& samples);
+
+}  // namespace raymoval::inspection

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/reading/left_out.h"
+
+#include <tuple>
+
+#include "core/text.h"
+#include "datasets/clouds/file_source.h"
+#include "datasets/ego/ego_free_source.h"
+
+namespace raymoval {
+namespace {
+
+/// "12.3 % of the stored points", or the count where the share is tiny.
+std::string share_text(std::uint64_t part, std::uint64_t whole) {
+  const double percent = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+  if (percent >= 1.0) return fixed_text(percent, 1) + " % of the stored points";
+  if (percent >= 0.01) return fixed_text(percent, 2) + " % of the stored points";
+  return grouped_text(part) + " of " + grouped_text(whole) + " stored points";
+}
+
+std::string own_vehicle_line(const EgoFreeSource& source, const LeftOutPoints& points) {
+  const EgoRegion& region = source.region();
+  const bool estimated = source.asked().kind == EgoRegion::Kind::kEstimated;
+  if (region.kind == EgoRegion::Kind::kNone) {
+    return "--drop-ego auto: nothing goes along with the sensor, so no point is left out";
+  }
+  const std::string where =
+      (region.kind == EgoRegion::Kind::kRadius ? "nearer than " + number_text(region.radius) + " m"
+                                               : "in the box " + ego_region_text(region) + " m") +
+      (estimated ? ", as estimated" : "");
+  const std::string left = " of the own vehicle (" + where + ") and ";
+  if (points.own_vehicle == 0) return "no point is" + left + "left out";
+  return share_text(points.own_vehicle, points.looked_at) + " are" + left + "are left out";
+}
+
+}  // namespace
+
+void LeftOutTally::set(std::size_t scan, std::uint64_t stored, std::uint64_t left_out) const {
+  const std::lock_guard lock(mutex_);
+  scans_[scan] = {stored, left_out};
+}
+
+std::pair<std::uint64_t, std::uint64_t> LeftOutTally::total() const {
+  const std::lock_guard lock(mutex_);
+  std::pair<std::uint64_t, std::uint64_t> sum{0, 0};
+  for (const auto& [stored, left_out] : scans_) {
+    sum.first += stored;
+    sum.second += left_out;
+  }
+  return sum;
+}
+
+LeftOutPoints left_out_points(const Sequence& sequence) {
+  LeftOutPoints points;
+  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) {
+    std::tie(points.looked_at, points.own_vehicle) = without_ego->tally().total();
+  }
+  if (const FileScanSource* files = file_source(sequence)) {
+    std::tie(points.stored, points.no_returns) = files->tally().total();
+  }
+  return points;
+}
+
+std::vector<std::string> left_out_lines(const Sequence& sequence) {
+  const LeftOutPoints points = left_out_points(sequence);
+  std::vector<std::string> lines;
+  if (points.no_returns > 0) {
+    lines.push_back(share_text(points.no_returns, points.stored) +
+                    " are no returns (NaN or at the origin) and are left out");
+  }
+  const EgoFreeSource* without_ego = ego_free_source(sequence);
+  if (without_ego != nullptr && points.looked_at > 0) {
+    lines.push_back(own_vehicle_line(*without_ego, points));
+  }
+  return lines;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <cstdlib>
+#include <system_error>
+#include <thread>
+
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/files/file_lock.h"
+#include "core/files/files.h"
+#include "core/text.h"
+#include "datasets/simulation/scene/library.h"
+#include "datasets/simulation/scene/making_place.h"
+#include "datasets/simulation/scene/scene_folder.h"
+#include "datasets/simulation/scene/scene_writer.h"
+#include "datasets/simulation/scene/simulated.h"
+
+namespace raymoval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Raised whenever the same files would give other bytes.
+constexpr const char* kSimulatorVersion = "1";
+
+std::string identity(const SimulationOptions& options, const simulated::NamedText& world,
+                     const simulated::NamedText& sensor, std::size_t scans) {
+  ContentHasher hasher;
+  const auto add = [&](const std::string& text) {
+    hasher.add(std::to_string(text.size()) + ":");  // so that no two lists read the same
+    hasher.add(text);
+  };
+  add(kSimulatorVersion);
+  add(world.name);
+  add(world.text);
+  add(sensor.name);
+  add(sensor.text);
+  add(std::to_string(options.seed));
+  add(std::to_string(scans));
+  add(number_text(options.pose_noise));
+  add(std::to_string(static_cast<int>(options.rolling)));
+  add(options.noise_free ? "noise-free" : "noisy");
+  return hasher.digest();
+}
+
+const char* set_variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value != '\0' ? value : nullptr;
+}
+
+/// A scene that has a place in the cache.
+struct CachedScene {
+  const simulated::SceneWriting& writing;
+  fs::path folder;
+  bool check_content = true;
+
+  /// Why it has to be made again; only for a folder that is there.
+  [[nodiscard]] std::string problem() const {
+    return simulated::scene_folder_problem(folder, writing.identity, check_content,
+                                           writing.threads);
+  }
+  [[nodiscard]] bool is_whole() const { return has_folder(folder) && problem().empty(); }
+  void say(const std::string& line) const {
+    if (writing.progress != nullptr) writing.progress->say(line);
+  }
+};
+
+/// Waits until the lock is held. Without locks on the file system nobody is waited for: two may
+/// make the scene, and one takes its place.
+void wait_for_turn(const CachedScene& scene, FileLock& lock) {
+  bool told = false;
+  while (lock.take(FileLock::Mode::kExclusive) == FileLock::State::kBusy) {
+    if (scene.writing.cancel != nullptr && scene.writing.cancel->load()) throw Cancelled();
+    if (!told) {
+      scene.say("waiting for " + lock.holder() + ", which makes " + scene.folder.string());
+    }
+    told = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+/// Gives what was made its name in the cache, in place of what is damaged there.
+void take_place(const CachedScene& scene, simulated::MakingPlace& made) {
+  constexpr int kTries = 3;  // Each failure means that another process put something there.
+  for (int i = 0; i < kTries; ++i) {
+    if (made.take_place()) return;
+    if (scene.is_whole()) return;  // Another one was faster, with the same bytes.
+    if (made.replace_target()) return;
+  }
+  throw DataError(scene.folder.string() +
+                  ": cannot take its place; something else writes there again and again.");
+}
+
+void make_scene(const CachedScene& scene) {
+  const fs::path parent = scene.folder.parent_path();
+  std::error_code error;
+  fs::create_directories(parent, error);
+  if (error) {
+    throw DataError(parent.string() + ": cannot be made (" + error.message() +
+                    "). Set RAYMOVAL_CACHE to a folder you may write to.");
+  }
+  FileLock lock(scene.folder.string() + ".lock");
+  try {
+    wait_for_turn(scene, lock);
+  } catch (const DataError& unwritable) {
+    throw DataError(std::string(unwritable.what()) +
+                    " Set RAYMOVAL_CACHE to a folder you may write to.");
+  }
+  if (scene.is_whole()) return;
+  simulated::sweep_making_places(parent);
+  simulated::MakingPlace place(scene.folder);
+  simulated::write_scene(scene.writing, place.folder());
+  take_place(scene, place);
+  const std::string problem = scene.problem();
+  if (problem.empty()) return;
+  throw DataError(scene.folder.string() + ": was just made, and " + problem +
+                  ". Something else changes the cache; set RAYMOVAL_CACHE to another folder.");
+}
+
+}  // namespace
+
+fs::path default_cache_root() {
+  if (const char* own = set_variable("RAYMOVAL_CACHE")) return own;
+  if (const char* cache = set_variable("XDG_CACHE_HOME")) return fs::path(cache) / "raymoval";
+  if (const char* home = set_variable("HOME")) return fs::path(home) / ".cache" / "raymoval";
+  throw ConfigurationError(
+      "there is no place for the cache: set RAYMOVAL_CACHE to a folder (HOME is not set).");
+}
+
+fs::path cached_simulation(const SimulationOptions& options, const fs::path& cache_root,
+                           int threads, Progress* progress, const std::atomic<bool>* cancel,
+                           bool check_content) {
+  const simulated::NamedText world = simulated::find_world(options.scene);
+  const simulated::WorldFile file = simulated::parse_world(world);
+  const simulated::NamedText sensor =
+      simulated::find_sensor(options.sensor.empty() ? file.sensor : options.sensor);
+  const std::size_t scans =
+      options.scans > 0 ? options.scans : static_cast<std::size_t>(file.scans);
+  const std::string whole_identity = identity(options, world, sensor, scans);
+  const simulated::SceneWriting writing{options, whole_identity, threads, progress, cancel};
+  const CachedScene scene{
+      writing, cache_root / "simulated" / (world.name + "-" + whole_identity.substr(0, 16)),
+      check_content};
+  if (has_folder(scene.folder)) {
+    const std::string problem = scene.problem();
+    if (problem.empty()) return scene.folder;
+    scene.say(scene.folder.string() + ": is not what was written there (" + problem +
+              "); it is made again.");
+  }
+  make_scene(scene);
+  return scene.folder;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/scan/range_limits.h"
+#include "core/scan/scan_source.h"
+
+namespace raymoval {
+
+namespace simulated {
+class World;
+}  // namespace simulated
+
+/// What happens to points taken while the sensor moves.
+enum class Rolling {
+  kNone,       ///< A whole scan is taken in one instant.
+  kSkewed,     ///< Each point is in the frame the sensor had when it was taken.
+  kCorrected,  ///< Each point is brought into the frame of the scan's reference time.
+};
+
+/// What to simulate. The same options give the same bytes, on any number of threads.
+struct SimulationOptions {
+  std::string scene = "town";  ///< Name of a scene, or path of a scene file (ends in .json).
+  std::string sensor = "";     ///< Name or path; empty = the scene's own.
+  std::uint64_t seed = 1;      ///< Of movers, noise and poses.
+  std::size_t scans = 0;       ///< 0 = as many as the scene says.
+  double pose_noise = 1.0;     ///< Severity; 0 = perfect poses, 1 = a good LiDAR odometry.
+  Rolling rolling = Rolling::kNone;
+  bool noise_free = false;  ///< Perfect ranges without loss, for tests.
+};
+
+/// What one mover did, for the record and for tests.
+struct MoverTruth {
+  std::uint16_t instance = 0;  ///< Upper half of its label words.
+  std::uint16_t semantic = 0;  ///< Lower half.
+  std::string kind;
+  bool moves = false;  ///< At any time of the sequence.
+  bool present = false;
+  Pose T_world_mover = Pose::Identity();
+  double speed_mps = 0.0;
+};
+
+/// A simulated sequence, traced when a scan is asked for. Its world frame is at the sensor of scan
+/// 0 (x forward, y left), as SemanticKITTI has it, but levelled: z is up. Thread-safe.
+class SimulatedSequence : public ScanSource, public LabelSource {
+ public:
+  virtual ~SimulatedSequence() = default;
+  [[nodiscard]] virtual const std::string& name() const = 0;
+  /// The sensor's true pose, without the error that `pose` has.
+  [[nodiscard]] virtual Pose true_pose(std::size_t scan) const = 0;
+  /// All movers at `time_s`.
+  [[nodiscard]] virtual std::vector<MoverTruth> movers(double time_s) const = 0;
+  [[nodiscard]] virtual double scan_period_s() const = 0;
+  [[nodiscard]] virtual RangeLimits range_m() const = 0;
+  [[nodiscard]] virtual const std::string& sensor_name() const = 0;
+  /// The world in its own frame, and how it lies in the frame of the sequence.
+  [[nodiscard]] virtual const simulated::World& world() const = 0;
+  [[nodiscard]] virtual Pose T_sequence_world() const = 0;
+};
+
+/// @param threads used to prepare the scene
+/// @throws UsageError for an unknown scene or sensor or more scans than its route has room for;
+/// ConfigurationError for a damaged file of one; DataError for a file that cannot be read.
+std::shared_ptr<const SimulatedSequence> make_simulated(const SimulationOptions& options,
+                                                        int threads = 1);
+
+/// Names of the built-in scenes and sensors, sorted.
+std::vector<std::string> simulated_scene_names();
+std::vector<std::string> simulated_sensor_names();
+
+/// Text of a built-in scene or sensor file: a start for one's own. @throws UsageError
+std::string simulated_scene_text(const std::string& name);
+std::string simulated_sensor_text(const std::string& name);
+
+/// Writes the SemanticKITTI layout: velodyne/, labels/, poses.txt (camera convention), calib.txt,
+/// times.txt, sequence.json, movers.json (who moved when), and manifest.json (name, size and hash
+/// of each file). `folder` appears whole or not at all, also after a power failure.
+/// @param cancel checked before each scan
+/// @throws DataError if `folder` exists and is not an empty folder, or cannot be written; Cancelled
+void write_simulated(const SimulationOptions& options, const std::filesystem::path& folder,
+                     int threads, Progress* progress, const std::atomic<bool>* cancel = nullptr);
+
+/// $RAYMOVAL_CACHE, else $XDG_CACHE_HOME/raymoval, else ~/.cache/raymoval.
+/// @throws ConfigurationError if none of the variables nor HOME is set.
+std::filesystem::path default_cache_root();
+
+/// Folder of the sequence below `cache_root`, written first if it is not there. Its name holds a
+/// hash of scene file, sensor file, options and simulator version.
+///
+/// The cache may be shared by machines and containers. Who asks for a scene that another process
+/// makes waits for it (a lock in the cache; where the file system has none both make it and one
+/// takes its place). A folder of the cache counts only if it fits its manifest.json: every file is
+/// there with its size and, if `check_content`, its hash, and there is no scan too many. Otherwise
+/// it is made again, which is said.
+/// @throws as write_simulated; DataError if the cache cannot be written
+std::filesystem::path cached_simulation(const SimulationOptions& options,
+                                        const std::filesystem::path& cache_root, int threads,
+                                        Progress* progress,
+                                        const std::atomic<bool>* cancel = nullptr,
+                                        bool check_content = true);
+
+/// Sequences that are run together.
+struct SimulationSuite {
+  std::string name;
+  std::string sentence;
+  std::vector<SimulationOptions> sequences;
+};
+/// "simulated", "simulated-quick", "simulated-long".
+const std::vector<SimulationSuite>& simulation_suites();
+/// @throws UsageError suggesting the nearest name.
+const SimulationSuite& simulation_suite(const std::string& name);
+
+}  // namespace raymoval

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/simulation/shapes/bodies.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/simulation/shapes/shapes.h"
+
+namespace raymoval::simulated {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Paint of(Material material) {
+  return {material, 0};
+}
+
+Paint random_paint(Random& random) {
+  return of(random.chance(0.6) ? Material::kBrightPaint : Material::kDarkPaint);
+}
+
+void add_wheel(Mesh& mesh, double x, double y, double radius, double width) {
+  const double inner = y > 0 ? y - width : y + width;
+  add_tube(mesh, of(Material::kRubber), {x, inner, radius}, {x, y, radius}, radius, radius, 14);
+}
+
+void add_wheels(Mesh& mesh, const std::vector<double>& axles, double half_width, double radius) {
+  for (const double x : axles) {
+    add_wheel(mesh, x, half_width, radius, 0.22);
+    add_wheel(mesh, x, -half_width, radius, 0.22);
+  }
+}
+
+/// Where a cabin stands on a hull: seen from the side, its floor and roof run from back to front.
+struct Cabin {
+  double floor_back, floor_front, roof_back, roof_front, floor_z, roof_z, floor_half, roof_half;
+};
+
+void add_cabin(Mesh& mesh, const Cabin& c, Paint roof) {
+  add_frustum(mesh, of(Material::kGlass), roof,
+              {Vector3d(c.floor_back, -c.floor_half, c.floor_z),
+               Vector3d(c.floor_front, -c.floor_half, c.floor_z),
+               Vector3d(c.floor_front, c.floor_half, c.floor_z),
+               Vector3d(c.floor_back, c.floor_half, c.floor_z)},
+              {Vector3d(c.roof_back, -c.roof_half, c.roof_z),
+               Vector3d(c.roof_front, -c.roof_half, c.roof_z),
+               Vector3d(c.roof_front, c.roof_half, c.roof_z),
+               Vector3d(c.roof_back, c.roof_half, c.roof_z)});
+  // Pillars and roof edges are what a laser sees of a cabin besides its panes.
+  for (const double side : {-1.0, 1.0}) {
+    const auto bar = [&](double x0, double z0, double x1, double z1, double half0, double half1) {
+      add_tube(mesh, roof, {x0, side * half0, z0}, {x1, side * half1, z1}, 0.05, 0.05, 5);
+    };
+    bar(c.floor_back, c.floor_z, c.roof_back, c.roof_z, c.floor_half, c.roof_half);
+    bar(c.floor_front, c.floor_z, c.roof_front, c.roof_z, c.floor_half, c.roof_half);
+    bar(c.roof_back, c.roof_z, c.roof_front, c.roof_z, c.roof_half, c.roof_half);
+    const double middle = 0.5 * (c.roof_back + c.roof_front);
+    bar(middle, c.floor_z, middle, c.roof_z, c.floor_half, c.roof_half);
+  }
+}
+
+Body vehicle(std::uint16_t parked, std::uint16_t moving, double length, double width) {
+  Body body;
+  body.parts.emplace_back();
+  body.static_label = parked;
+  body.moving_label = moving;
+  body.length_m = length;
+  body.width_m = width;
+  return body;
+}
+
+Body make_car(Random& random) {
+  const double l = random.between(3.8, 4.8);
+  const double w = random.between(1.70, 1.86);
+  const double h = random.between(1.42, 1.62);
+  const bool estate = random.chance(0.4);
+  Body body = vehicle(kLabelCar, kLabelMovingCar, l, w);
+  Mesh& mesh = body.parts[0].mesh;
+  const Paint paint = random_paint(random);
+  const double f = 0.5 * l;
+  const double belt = 0.62 * h;
+  add_extrusion(
+      mesh, paint,
+      {Vector2d(-f + 0.12, 0.22), Vector2d(f - 0.15, 0.20), Vector2d(f, 0.38),
+       Vector2d(f - 0.04, 0.62), Vector2d(f - 0.95, belt), Vector2d(-f + 0.5, belt + 0.03),
+       Vector2d(-f + 0.06, belt - 0.04), Vector2d(-f, 0.42)},
+      w);
+  const double rear = estate ? -f + 0.18 : -f + 0.75;
+  add_cabin(mesh, {rear - 0.1, f - 1.0, rear + 0.35, f - 1.85, belt, h, 0.47 * w, 0.38 * w}, paint);
+  add_wheels(mesh, {-0.29 * l, 0.3 * l}, 0.5 * w + 0.01, 0.31);
+  for (const double side : {-1.0, 1.0}) {
+    add_box(mesh, paint, {f - 1.35, side * (0.5 * w + 0.08) - 0.08, belt},
+            {f - 1.25, side * (0.5 * w + 0.08) + 0.08, belt + 0.13});
+  }
+  return body;
+}
+
+Body make_van(Random& random) {
+  const double l = random.between(4.9, 6.2);
+  const double w = random.between(1.9, 2.1);
+  const double h = random.between(1.95, 2.6);
+  Body body = vehicle(kLabelCar, kLabelMovingCar, l, w);
+  Mesh& mesh = body.parts[0].mesh;
+  const Paint paint = random_paint(random);
+  const double f = 0.5 * l;
+  add_extrusion(mesh, paint,
+                {Vector2d(-f, 0.3), Vector2d(f, 0.28), Vector2d(f, 0.95), Vector2d(f - 0.6, 1.2),
+                 Vector2d(f - 1.35, h), Vector2d(-f + 0.08, h)},
+                w);
+  // Panes a hand's breadth proud of the sheet, so that they are what the laser meets.
+  add_box(mesh, of(Material::kGlass), {f - 1.75, -0.5 * w - 0.01, 1.2},
+          {f - 1.0, 0.5 * w + 0.01, h - 0.45});
+  add_wheels(mesh, {-0.3 * l, 0.34 * l}, 0.5 * w + 0.01, 0.34);
+  return body;
+}
+
+Body make_truck(Random& random) {
+  const double l = random.between(8.0, 11.5);
+  const double w = 2.5;
+  const double h = random.between(3.2, 3.9);
+  Body body = vehicle(kLabelTruck, kLabelMovingTruck, l, w);
+  Mesh& mesh = body.parts[0].mesh;
+  const double f = 0.5 * l;
+  const Paint cab = random_paint(random);
+  add_extrusion(mesh, cab,
+                {Vector2d(f - 2.0, 0.5), Vector2d(f, 0.45), Vector2d(f, 1.4),
+                 Vector2d(f - 0.2, 2.7), Vector2d(f - 2.0, 2.9)},
+                w - 0.1);
+  add_box(mesh, of(Material::kGlass), {f - 0.05, -1.05, 1.6}, {f - 0.02, 1.05, 2.4});
+  if (random.chance(0.5)) {
+    add_box(mesh, random_paint(random), {-f, -0.5 * w, 1.0}, {f - 2.3, 0.5 * w, h});
+  } else {  // tipper: an open trough
+    const Paint steel = of(Material::kMetal);
+    add_box(mesh, steel, {-f, -0.5 * w, 1.1}, {f - 2.3, 0.5 * w, 1.25});
+    add_box(mesh, steel, {-f, -0.5 * w, 1.25}, {f - 2.3, -0.5 * w + 0.1, 2.4});
+    add_box(mesh, steel, {-f, 0.5 * w - 0.1, 1.25}, {f - 2.3, 0.5 * w, 2.4});
+    add_box(mesh, steel, {f - 2.4, -0.5 * w, 1.25}, {f - 2.3, 0.5 * w, 2.7});
+  }
+  add_box(mesh, of(Material::kDarkPaint), {-f + 0.2, -0.5, 0.55}, {f - 1.0, 0.5, 1.0});
+  add_wheels(mesh, {-f + 1.4, -f + 2.7, f - 1.3}, 0.5 * w, 0.5);
+  return body;
+}
+
+Body make_bus(Random& random) {
+  const double l = random.between(11.0, 12.5);
+  Body body = vehicle(kLabelBus, kLabelMovingBus, l, 2.55);
+  Mesh& mesh = body.parts[0].mesh;
+  const double f = 0.5 * l;
+  const Paint paint = random_paint(random);
+  add_box(mesh, paint, {-f, -1.275, 0.32}, {f, 1.275, 1.25});
+  add_box(mesh, of(Material::kGlass), {-f + 0.05, -1.26, 1.25}, {f - 0.02, 1.26, 2.45});
+  add_box(mesh, paint, {-f, -1.275, 2.45}, {f, 1.275, 3.05});
+  for (double x = -f; x < f; x += 1.7) {  // window posts
+    add_box(mesh, paint, {x, -1.28, 1.25}, {x + 0.2, 1.28, 2.45});
+  }
+  add_wheels(mesh, {-f + 3.0, f - 2.7}, 1.27, 0.48);
+  return body;
+}
+
+Body make_tram(Random& random) {
+  Body body = vehicle(kLabelTram, kLabelMovingTram, 29.0, 2.4);
+  body.parts.clear();
+  const Paint paint = random_paint(random);
+  for (const double along : {-9.8, 0.0, 9.8}) {
+    BodyPart car;
+    car.joint = BodyPart::Joint::kCar;
+    car.along_m = along;
+    const double f = 4.7;
+    add_box(car.mesh, paint, {-f, -1.2, 0.25}, {f, 1.2, 1.2});
+    add_box(car.mesh, of(Material::kGlass), {-f + 0.04, -1.18, 1.2}, {f - 0.04, 1.18, 2.5});
+    add_box(car.mesh, paint, {-f, -1.2, 2.5}, {f, 1.2, 3.3});
+    for (double x = -f; x < f; x += 1.5) {
+      add_box(car.mesh, paint, {x, -1.205, 1.2}, {x + 0.25, 1.205, 2.5});
+    }
+    body.parts.push_back(std::move(car));
+  }
+  return body;
+}
+
+}  // namespace
+
+const std::vector<std::string>& body_kinds() {
+  static const std::vector<std::string> kinds = {"car",  "van",        "truck",   "bus",
+                                                 "tram", "motorcycle", "cyclist", "pedestrian"};
+  return kinds;
+}
+
+Body make_body(const std::string& kind, Random& random) {
+  if (kind == "car") return make_car(random);
+  if (kind == "van") return make_van(random);
+  if (kind == "truck") return make_truck(random);
+  if (kind == "bus") return make_bus(random);
+  if (kind == "tram") return make_tram(random);
+  if (kind == "motorcycle") return make_motorcyclist(random);
+  if (kind == "cyclist") return make_cyclist(random);
+  if (kind == "pedestrian") return make_person(random);
+  throw ConfigurationError("unknown kind of mover '" + kind + "'." +
+                           suggestion(kind, body_kinds()));
+}
+
+Mesh resting_mesh(const Body& body, std::uint32_t label) {
+  Mesh mesh;
+  for (const BodyPart& part : body.parts) {
+    mesh.append(part.mesh, placed(part.along_m, 0.0, 0.0));
+  }
+  for (Paint& paint : mesh.paints) paint.label = label;
+  return mesh;
+}
+
+}  // namespace raymoval::simulated

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "datasets/simulation/shapes/bodies.h"
+#include "datasets/simulation/shapes/path.h"
+#include "datasets/simulation/world/ground.h"
+#include "datasets/simulation/world/world_file.h"
+
+namespace raymoval::simulated {
+
+/// A rigid mesh of the world at one instant.
+struct PlacedPart {
+  const Mesh* mesh = nullptr;
+  Eigen::Isometry3d T_world_part = Eigen::Isometry3d::Identity();
+  std::uint32_t label = 0;  ///< Word of all its triangles; 0 = each its own.
+};
+
+/// A route made ready: knows where one is at a time and how one stands on the ground there.
+class Track {
+ public:
+  /// @throws ConfigurationError if the route's road does not exist.
+  Track(const Route& route, const Ground& ground);
+  [[nodiscard]] double along(double time) const { return start_ + speed_.distance(time); }
+  [[nodiscard]] double speed(double time) const { return speed_.speed(time); }
+  [[nodiscard]] const SpeedProfile& profile() const { return speed_; }
+  [[nodiscard]] double length() const { return path_.length(); }
+  [[nodiscard]] bool closed() const { return path_.closed(); }
+  /// Does the route exist at distance `s`? An open one ends; a standing start before it does not.
+  [[nodiscard]] bool reaches(double s) const;
+  /// Frame on the ground at distance `s`: x along the way, z up, tilted as wheels `wheelbase` and
+  /// `gauge` metres apart stand.
+  [[nodiscard]] Eigen::Isometry3d frame(double s, double left, double wheelbase,
+                                        double gauge) const;
+
+ private:
+  Path path_;
+  const Ground* ground_;
+  double lane_;
+  bool reverse_;
+  double start_;
+  SpeedProfile speed_;
+};
+
+/// Something that follows a track.
+class Mover {
+ public:
+  Mover(std::string kind, Body body, Track track, double left, std::uint16_t instance);
+
+  /// False before a route begins and after it ends: the mover is not in the world then.
+  [[nodiscard]] bool present(double time) const;
+  [[nodiscard]] Eigen::Isometry3d pose(double time) const;
+  /// Its parts at `time`, present or not.
+  void place(double time, std::vector<PlacedPart>& parts) const;
+  /// Decides the label: an object that moves at any time from 0 to `duration` moves throughout.
+  void judge(double duration);
+
+  [[nodiscard]] bool moves() const { return moves_; }
+  [[nodiscard]] std::uint32_t label() const { return label_; }
+  [[nodiscard]] std::uint16_t instance() const { return instance_; }
+  [[nodiscard]] const std::string& kind() const { return kind_; }
+  [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const Track& track() const { return track_; }
+
+ private:
+  [[nodiscard]] Eigen::Isometry3d part_motion(const BodyPart& part, double time) const;
+  std::string kind_;
+  Body body_;
+  Track track_;
+  double left_;
+  std::uint16_t instance_;
+  std::uint32_t label_ = 0;
+  bool moves_ = false;
+};
+
+}  // namespace raymoval::simulated

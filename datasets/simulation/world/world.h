@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "datasets/simulation/shapes/mesh.h"
+#include "datasets/simulation/world/ego.h"
+#include "datasets/simulation/world/ground.h"
+#include "datasets/simulation/world/mover.h"
+#include "datasets/simulation/world/world_file.h"
+
+namespace raymoval::simulated {
+
+/// A square of the standing world. Its mesh is relative to `origin`, so that single precision
+/// stays finer than 0.01 mm kilometres from the origin of the world.
+struct Tile {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Mesh mesh;
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(),
+                  high = Eigen::Vector3d::Zero();  ///< Bounds in the world.
+};
+
+/// Everything that can be hit, and when it is where.
+class World {
+ public:
+  World() = default;
+  /// Builds what `file` says. The standing parts follow from the file alone, the individuals that
+  /// move also from `seed`; `duration` (seconds) decides what counts as moving.
+  /// @throws ConfigurationError naming what does not fit.
+  World(const WorldFile& file, std::uint64_t seed, double duration);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Puts a standing mesh into the tile of its origin.
+  void add_standing(const Mesh& mesh, const Eigen::Isometry3d& T_world_mesh);
+  void add_mover(Mover mover) { movers_.push_back(std::make_unique<Mover>(std::move(mover))); }
+  /// Fixes the tiles' bounds; call it once, after the last `add_standing`.
+  void finish();
+
+  [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
+  [[nodiscard]] const std::vector<std::unique_ptr<Mover>>& movers() const { return movers_; }
+  [[nodiscard]] const std::optional<Ego>& ego() const { return ego_; }
+  [[nodiscard]] const Ground* ground() const { return ground_.get(); }
+  /// All parts that do not stand, once for each of `times` and each time in the same order: those
+  /// of movers that are present at `reference` within `reach` metres of `around`, and of the ego.
+  [[nodiscard]] std::vector<std::vector<PlacedPart>> parts(const std::vector<double>& times,
+                                                           double reference,
+                                                           const Eigen::Vector3d& around,
+                                                           double reach) const;
+
+ private:
+  void add_row(const RowSpec& row, std::uint64_t seed, std::uint64_t number);
+  void add_place(const PlaceSpec& place, std::uint64_t seed, std::uint64_t number);
+  void add_movers(const MoverSpec& spec, std::uint64_t seed, std::uint64_t number);
+  void add_flow(const FlowSpec& flow, std::uint64_t seed, std::uint64_t number, double duration);
+  std::uint16_t next_instance();
+
+  std::unique_ptr<Ground> ground_;
+  std::vector<Tile> tiles_;
+  std::vector<std::unique_ptr<Mover>> movers_;
+  std::optional<Ego> ego_;
+  std::uint16_t instances_ = 0;
+};
+
+}  // namespace raymoval::simulated

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "core/scan/mask_store.h"
+#include "eval/protocol.h"
+
+namespace raymoval {
+
+/// Points, and how many of them a method removed.
+struct PointTally {
+  std::int64_t points = 0;
+  std::int64_t removed = 0;
+
+  PointTally& operator+=(const PointTally& other);
+  [[nodiscard]] std::int64_t kept() const { return points - removed; }
+};
+
+inline constexpr std::size_t kRangeBands = 6;
+inline constexpr std::size_t kHeightBands = 5;
+
+/// Lower edges in metres of 3-D distance from the sensor; the first band has the rest below.
+inline constexpr std::array<double, kRangeBands> kRangeEdges = {0, 10, 20, 30, 40, 50};
+/// Lower edges in metres of height, which is z in the sensor frame plus `kHeightOffset`.
+inline constexpr std::array<double, kHeightBands> kHeightEdges = {
+    -std::numeric_limits<double>::infinity(), 0.3, 1, 2, 4};
+/// The ERASOR protocol's lift, the height of its sensor above the road.
+inline constexpr double kHeightOffset = 1.73;
+/// Its crop: points nearer to the sensor's z axis are not counted.
+inline constexpr double kMinimumHorizontalRange = 2.7;
+
+/// "0-10 m", "50 m and more", "below 0.3 m".
+std::string range_band_name(std::size_t band);
+std::string height_band_name(std::size_t band);
+
+/// A semantic class of the truth: by range and by height the same points once each.
+struct ClassTally {
+  bool moving = false;
+  std::array<PointTally, kRangeBands> by_range;
+  std::array<PointTally, kHeightBands> by_height;
+
+  [[nodiscard]] PointTally all() const;
+};
+
+/// Points of each semantic id that occurs, in the order of ids.
+struct RemovalTally {
+  std::string label_rule;  ///< Name of the rule; says what the ids mean.
+  std::map<std::uint16_t, ClassTally> classes;
+};
+
+/// Counts the points that the `erasor` protocol evaluates by default (in range, not ignored, not
+/// cropped), by index.
+/// @throws MethodError, DataError as `load_checked`
+RemovalTally tally_removals(const EvaluationInput& input, const MaskStore& masks);
+
+/// SemanticKITTI's name of a semantic id ("moving-car"); "label-1" for ids that it does not have,
+/// and for the two classes of DynamicMap files.
+std::string class_name(const std::string& label_rule, std::uint16_t id);
+
+}  // namespace raymoval

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "eval/comparison/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "core/text.h"
+#include "eval/comparison/score_judgement.h"
+
+namespace raymoval {
+namespace {
+
+const ComparedCell* find_cell(const ResultSet& set, const ComparedCell& wanted) {
+  for (const ComparedCell& cell : set.cells) {
+    if (cell.sequence == wanted.sequence && cell.name == wanted.name) return &cell;
+  }
+  return nullptr;
+}
+
+const ComparedScore* find_score(const ComparedCell& cell, const std::string& protocol) {
+  for (const ComparedScore& score : cell.scores) {
+    if (score.protocol == protocol) return &score;
+  }
+  return nullptr;
+}
+
+std::string title(const ComparedCell& cell) {
+  return cell.sequence + " / " + cell.name;
+}
+
+/// What of `run` and `reference` differs, as name and text; with `common_only`, facts that one
+/// lacks are passed over.
+std::vector<std::pair<std::string, std::string>> fact_differences(const Facts& run,
+                                                                  const Facts& reference,
+                                                                  bool common_only) {
+  std::vector<std::pair<std::string, std::string>> differences;
+  for (const auto& [name, value] : reference) {
+    const auto found = run.find(name);
+    if (found == run.end()) {
+      if (common_only) continue;
+      differences.emplace_back(name, name + " is missing, the reference has " + value);
+    } else if (found->second != value) {
+      differences.emplace_back(name,
+                               name + " is " + found->second + ", the reference has " + value);
+    }
+  }
+  for (const auto& [name, value] : run) {
+    if (common_only || reference.contains(name)) continue;
+    differences.emplace_back(name, name + " is " + value + ", the reference has none");
+  }
+  return differences;
+}
+
+bool is_parameter(std::string_view fact) {
+  return fact.starts_with("parameter ");
+}
+
+/// Compares cell after cell and collects what it finds.
+class Comparer {
+ public:
+  explicit Comparer(const ComparisonOptions& options) : options_(options) {}
+
+  Comparison compare(const ResultSet& run, const ResultSet& reference) {
+    result_.cells = reference.cells.size();
+    if (reference.cells.empty()) tell(Change::kIncomparable, {}, "the reference has no cell");
+    check_times(reference);
+    for (const std::string& problem : reference.control_problems) {
+      tell(Change::kIncomparable, {}, "the reference is unsound: " + problem);
+    }
+    for (const std::string& problem : run.control_problems) tell(Change::kWorse, {}, problem);
+    for (const ComparedCell& cell : reference.cells) {
+      const ComparedCell* found = find_cell(run, cell);
+      if (found == nullptr) {
+        tell_cell(Change::kIncomparable, cell, cell, "missing in the run");
+      } else {
+        compare_cell(*found, cell);
+      }
+    }
+    for (const ComparedCell& cell : run.cells) {
+      if (find_cell(reference, cell) != nullptr) continue;
+      tell_cell(Change::kMoved, cell, cell, "not in the reference, not compared");
+    }
+    if (!result_.times.empty() && run.machine != reference.machine) {
+      result_.times.push_back("the times are of different machines: " + run.machine +
+                              "; the reference: " + reference.machine);
+    }
+    result_.parameters_only = parameters_differ_ && !more_differs_;
+    return std::move(result_);
+  }
+
+ private:
+  void check_times(const ResultSet& reference) {
+    if (!options_.time_band || reference.cells.empty()) return;
+    timeless_ = std::none_of(reference.cells.begin(), reference.cells.end(),
+                             [](const auto& cell) { return cell.seconds_per_scan.has_value(); });
+    if (!timeless_) return;
+    tell(Change::kIncomparable, {},
+         "the reference has no times to judge by --time-band; make it again with --update "
+         "--with-times, or leave --time-band out");
+  }
+
+  /// Adds a sentence to its list; `of` says which cell and protocol it is about, if any.
+  void tell(Change change, const ScoreComparison& of, const std::string& text) {
+    std::vector<std::string>& list = change == Change::kIncomparable ? result_.incomparable
+                                     : change == Change::kWorse      ? result_.worse
+                                     : change == Change::kBetter     ? result_.better
+                                                                     : result_.moved;
+    std::string where = of.sequence.empty() ? "" : of.sequence + " / " + of.name;
+    if (!of.protocol.empty()) where += ", " + of.protocol;
+    list.push_back(where.empty() ? text : where + ": " + text);
+    result_.lines.push_back({change, of.sequence, of.name, of.protocol, text});
+    if (change == Change::kIncomparable && !telling_parameters_) more_differs_ = true;
+  }
+
+  /// Says the same of a cell as a whole, and of each score that `scored` has of it.
+  void tell_cell(Change change, const ComparedCell& cell, const ComparedCell& scored,
+                 const std::string& text) {
+    tell(change, {cell.sequence, cell.name, "", change, {}, {}, {}, {}}, text);
+    if (scored.scores.empty()) {
+      result_.scores.push_back({cell.sequence, cell.name, "", change, {text}, {}, {}, {}});
+    }
+    for (const ComparedScore& score : scored.scores) {
+      result_.scores.push_back(
+          {cell.sequence, cell.name, score.protocol, change, {text}, {}, {}, {}});
+    }
+  }
+
+  void compare_cell(const ComparedCell& run, const ComparedCell& reference) {
+    const bool both_ok = run.status == "ok" && reference.status == "ok";
+    std::vector<std::string> across;
+    if (!may_be_compared(run, reference, !both_ok, across)) return;
+    if (!both_ok) {
+      compare_status(run, reference);
+      return;
+    }
+    bool same = true;
+    for (const ComparedScore& score : reference.scores) {
+      same = compare_score(run, find_score(run, score.protocol), score, across) && same;
+    }
+    for (const ComparedScore& score : run.scores) {
+      if (find_score(reference, score.protocol) != nullptr) continue;
+      const std::string text = "not in the reference, not compared";
+      result_.scores.push_back(
+          {run.sequence, run.name, score.protocol, Change::kMoved, {text}, {}, {}, {}});
+      tell(Change::kMoved, result_.scores.back(), text);
+    }
+    if (same) ++result_.same_cells;
+    compare_time(run, reference);
+  }
+
+  /// Whether two cells are of the same data and, unless they may differ, of the same parameters.
+  /// @param across gets what differs and may
+  bool may_be_compared(const ComparedCell& run, const ComparedCell& reference, bool common_only,
+                       std::vector<std::string>& across) {
+    std::vector<std::string> wrong;
+    bool parameters = true;
+    for (const auto& [name, text] :
+         fact_differences(run.identity, reference.identity, common_only)) {
+      const bool may = is_parameter(name) && options_.across_parameters;
+      (may ? across : wrong).push_back(text);
+      parameters &= is_parameter(name);
+    }
+    if (!wrong.empty()) {
+      parameters_differ_ |= telling_parameters_ = parameters;
+      tell_cell(Change::kIncomparable, run, reference, join(wrong, "; "));
+      telling_parameters_ = false;
+      return false;
+    }
+    const ScoreComparison cell{run.sequence, run.name, "", Change::kMoved, {}, {}, {}, {}};
+    if (run.method_version != reference.method_version) {
+      const std::string text =
+          "method version " + reference.method_version + " -> " + run.method_version;
+      if (options_.across_version) across.push_back(text);
+      tell(Change::kMoved, cell, text);
+    }
+    for (const std::string& text : across) {
+      if (is_parameter(text)) tell(Change::kMoved, cell, text);
+    }
+    return true;
+  }
+
+  void compare_status(const ComparedCell& run, const ComparedCell& reference) {
+    const std::string change =
+        reference.status + " -> " + run.status +
+        (run.reason.empty() || run.status == "ok" ? "" : " (" + run.reason + ")");
+    const ComparedCell& scored = reference.scores.empty() ? run : reference;
+    if (run.status == "ok") {
+      tell_cell(Change::kBetter, run, scored, change);
+    } else if (reference.status == "ok") {
+      tell_cell(Change::kWorse, run, scored, change);
+    } else {
+      tell_cell(Change::kMoved, run, scored, "failed in both (" + run.reason + ")");
+    }
+  }
+
+  /// @return whether nothing moved
+  bool compare_score(const ComparedCell& cell, const ComparedScore* run,
+                     const ComparedScore& reference, const std::vector<std::string>& across) {
+    ScoreComparison score{
+        cell.sequence, cell.name, reference.protocol, Change::kSame, {}, across, {}, {}};
+    if (run == nullptr) {
+      score.reasons.push_back("not scored in the run");
+    } else {
+      for (const auto& [name, text] : fact_differences(run->identity, reference.identity, false)) {
+        score.reasons.push_back(text);
+      }
+    }
+    if (score.reasons.empty()) {
+      const std::string changes = judge_score(cell, *run, reference, options_, score);
+      if (!changes.empty()) tell(score.change, score, changes);
+    } else {
+      score.change = Change::kIncomparable;
+      tell(score.change, score, join(score.reasons, "; "));
+    }
+    result_.scores.push_back(std::move(score));
+    return result_.scores.back().change == Change::kSame;
+  }
+
+  void compare_time(const ComparedCell& run, const ComparedCell& reference) {
+    if (run.control || timeless_) return;
+    TimeChange time{run.sequence, run.name, reference.seconds_per_scan, run.seconds_per_scan,
+                    Change::kSame};
+    const bool both = time.before && time.after && *time.before > 0.0;
+    if (!both && !options_.time_band) return;
+    if (!both) {
+      time.change = Change::kIncomparable;
+    } else if (options_.time_band && time.ratio() > *options_.time_band) {
+      time.change = Change::kWorse;
+    }
+    const std::string text = change_text(time);
+    if (both) result_.times.push_back(title(run) + ": " + text);
+    result_.time_changes.push_back(time);
+    if (time.change == Change::kSame) return;
+    tell(time.change, {run.sequence, run.name, "", {}, {}, {}, {}, {}},
+         both ? text + ", more than " + number_text(*options_.time_band) + " times" : text);
+  }
+
+  const ComparisonOptions& options_;
+  Comparison result_;
+  bool timeless_ = false;            ///< The reference has no time at all.
+  bool parameters_differ_ = false;   ///< Somewhere nothing but parameters stood in the way.
+  bool more_differs_ = false;        ///< Somewhere something else did.
+  bool telling_parameters_ = false;  ///< What is being told is about parameters only.
+};
+
+void check_tolerances(const ResultSet& reference, const ComparisonOptions& options) {
+  std::set<std::string> known;
+  for (const ComparedCell& cell : reference.cells) {
+    for (const ComparedScore& score : cell.scores) {
+      for (const Rate& rate : score.rates) known.insert(rate.name);
+    }
+  }
+  for (const auto& [name, tolerance] : options.tolerances) {
+    if (!known.contains(name)) {
+      throw UsageError("--tolerance " + name + ": the reference has no such metric." +
+                       suggestion(name, {known.begin(), known.end()}));
+    }
+    if (!higher_is_better(name)) {
+      throw UsageError("--tolerance " + name +
+                       ": it is not known whether more of this rate is better, so it is told and "
+                       "not judged; leave it out.");
+    }
+  }
+}
+
+}  // namespace
+
+const char* change_name(Change change) {
+  switch (change) {
+    case Change::kSame:
+      return "same";
+    case Change::kBetter:
+      return "better";
+    case Change::kMoved:
+      return "moved";
+    case Change::kWorse:
+      return "worse";
+    default:
+      return "not comparable";
+  }
+}
+
+ExitCode Comparison::verdict() const {
+  if (!incomparable.empty()) return ExitCode::kCannotDo;
+  return worse.empty() ? ExitCode::kDone : ExitCode::kWorse;
+}
+
+std::string Comparison::verdict_words() const {
+  if (verdict() == ExitCode::kCannotDo) return "not comparable";
+  if (verdict() == ExitCode::kWorse) return "worse";
+  return better.empty() ? "no regression" : "better, no regression";
+}
+
+Comparison compare_results(const ResultSet& run, const ResultSet& reference,
+                           const ComparisonOptions& options) {
+  check_tolerances(reference, options);
+  return Comparer(options).compare(run, reference);
+}
+
+}  // namespace raymoval

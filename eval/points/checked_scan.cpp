@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "eval/points/checked_scan.h"
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+Mask checked_mask(const MaskStore& masks, const Scan& scan, std::size_t index) {
+  if (index >= masks.size() || !masks.has(index)) {
+    throw MethodError("scan " + std::to_string(index) + " (" + scan.name +
+                      ") has no mask: expected one per scan. The method must answer for every "
+                      "scan, also for an empty one.");
+  }
+  Mask mask = masks.get(index);
+  if (mask.size() != scan.size()) {
+    throw MethodError("scan " + std::to_string(index) + " (" + scan.name + "): its mask has " +
+                      grouped_text(mask.size()) + " values and the scan " +
+                      grouped_text(scan.size()) +
+                      " points; expected as many. Were the masks made from the same data?");
+  }
+  return mask;
+}
+
+std::vector<std::uint32_t> checked_labels(const LabelSource& source, const Scan& scan,
+                                          std::size_t index) {
+  std::vector<std::uint32_t> labels = source.labels(scan);
+  if (labels.size() != scan.size()) {
+    throw DataError("scan " + std::to_string(index) + " (" + scan.name + "): " +
+                    grouped_text(labels.size()) + " labels for " + grouped_text(scan.size()) +
+                    " points; expected as many. Check that labels and scans belong together.");
+  }
+  return labels;
+}
+
+}  // namespace
+
+CheckedScan load_checked(const EvaluationInput& input, const MaskStore* masks, std::size_t index) {
+  CheckedScan loaded;
+  loaded.scan = input.scans->load(index);
+  loaded.labels = checked_labels(*input.labels, loaded.scan, index);
+  if (masks != nullptr) loaded.mask = checked_mask(*masks, loaded.scan, index);
+  return loaded;
+}
+
+void check_input(const EvaluationInput& input, const std::string& protocol) {
+  if (input.scans == nullptr) throw InternalError("protocol " + protocol + " was given no scans");
+  if (input.labels == nullptr) {
+    throw DataError("protocol " + protocol +
+                    " needs a label for each point and the sequence has none: expected label "
+                    "files. Choose labelled data.");
+  }
+}
+
+void check_mask_count(const EvaluationInput& input, const MaskStore& masks) {
+  if (masks.size() == input.scans->size()) return;
+  throw MethodError(std::to_string(masks.size()) + " masks for " +
+                    std::to_string(input.scans->size()) + " scans; expected one per scan.");
+}
+
+}  // namespace raymoval

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scan/mask_store.h"
+#include "eval/protocol.h"
+
+namespace raymoval {
+
+/// A scan with its label words and, if masks are scored, its mask; all of one length.
+struct CheckedScan {
+  Scan scan;
+  std::vector<std::uint32_t> labels;
+  Mask mask;  ///< Empty without masks.
+
+  [[nodiscard]] bool removed(std::size_t point) const { return !mask.empty() && mask[point] != 0; }
+};
+
+/// Loads scan `index` with what belongs to it.
+/// @param masks null: none are looked at
+/// @throws MethodError if the mask is missing or has the wrong length
+/// @throws DataError if the labels do not fit the scan
+CheckedScan load_checked(const EvaluationInput& input, const MaskStore* masks, std::size_t index);
+
+/// @throws DataError if `input` has no labels
+void check_input(const EvaluationInput& input, const std::string& protocol);
+
+/// @throws MethodError unless there is a mask for each scan
+void check_mask_count(const EvaluationInput& input, const MaskStore& masks);
+
+}  // namespace raymoval

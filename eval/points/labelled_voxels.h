@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/scan/label_rule.h"
+#include "core/scan/voxel_key.h"
+
+namespace raymoval {
+
+/// Distances that differ by at most this many metres are equal when a label is handed on; the
+/// lowest input index then decides.
+inline constexpr double kLabelTieMargin = 1e-9;
+
+/// Points of the world frame (metres), each with its label word.
+struct LabelledCloud {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::uint32_t> labels;
+
+  [[nodiscard]] std::size_t size() const { return points.size(); }
+  void append(const LabelledCloud& other);
+};
+
+/// Occupied cells of a lattice anchored at the world origin, in the order of their keys (x runs
+/// fastest, then y, then z).
+struct LabelledVoxels {
+  std::vector<VoxelKey> keys;
+  LabelledCloud cloud;  ///< Centroid and label of each cell.
+  /// Input point that gave each cell its label.
+  std::vector<std::uint32_t> label_points;
+  /// Cells whose label was decided by input order between a moving and a static point.
+  std::int64_t mixed_label_ties = 0;
+
+  [[nodiscard]] std::size_t size() const { return keys.size(); }
+};
+
+/// Class of a semantic id by table: a label rule made fast.
+class LabelClasses {
+ public:
+  explicit LabelClasses(const LabelRule& rule);
+  [[nodiscard]] LabelClass of(std::uint32_t word) const { return table_[word & 0xFFFFU]; }
+  [[nodiscard]] bool moving(std::uint32_t word) const { return of(word) == LabelClass::kMoving; }
+
+ private:
+  std::vector<LabelClass> table_;
+};
+
+/// Label-preserving voxelisation: one point per occupied cell, the centroid of the cell's points
+/// (first point plus the mean offset from it, in double), which takes the label of its nearest
+/// point in the whole of `cloud`. Among points within `kLabelTieMargin` of the nearest the one with
+/// the lowest index gives the label.
+/// @param voxel_size edge of a cell in metres
+/// @param classes says which ties are mixed; changes nothing else
+/// @throws DataError if a point lies beyond the lattice or there are 2^32 points or more
+/// Source: ERASOR's public evaluation, which uses a voxel grid filter and a 1-NN search.
+LabelledVoxels voxelise(const LabelledCloud& cloud, double voxel_size, const LabelClasses& classes,
+                        int threads);
+
+}  // namespace raymoval

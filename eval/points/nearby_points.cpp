@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "eval/points/nearby_points.h"
+
+#include <cstdint>
+#include <limits>
+#include <nanoflann.hpp>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// Points as nanoflann wants to see them.
+template <class Point>
+struct PointView {
+  const std::vector<Point>& points;
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+  [[nodiscard]] double kdtree_get_pt(std::size_t point, std::size_t axis) const {
+    return static_cast<double>(points[point][static_cast<Eigen::Index>(axis)]);
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box& /*box*/) const {
+    return false;
+  }
+};
+
+/// Stops the search at the first point in reach. The search prunes a little beyond it, so that
+/// rounding loses none.
+struct FirstInReach {
+  using DistanceType = double;
+  double squared_reach;
+  bool found = false;
+  [[nodiscard]] std::size_t size() const { return 0; }
+  [[nodiscard]] bool full() const { return true; }
+  bool addPoint(double squared_distance, std::uint32_t /*point*/) {
+    found = squared_distance <= squared_reach;
+    return !found;
+  }
+  [[nodiscard]] double worstDist() const { return 1.000001 * squared_reach + 1e-18; }
+};
+
+}  // namespace
+
+template <class Point>
+struct NearbyPoints<Point>::Tree {
+  using View = PointView<Point>;
+  explicit Tree(const std::vector<Point>& points) : view{points}, index(3, view) {}
+  View view;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, View>, View, 3,
+                                      std::uint32_t>
+      index;
+};
+
+template <class Point>
+NearbyPoints<Point>::NearbyPoints(const std::vector<Point>& points, double reach)
+    : squared_reach_(reach * reach) {
+  if (points.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    throw DataError("a map of " + grouped_text(points.size()) +
+                    " points is too large to search: expected fewer than 4,294,967,295. Use fewer "
+                    "scans.");
+  }
+  if (!points.empty()) tree_ = std::make_unique<Tree>(points);
+}
+
+template <class Point>
+NearbyPoints<Point>::~NearbyPoints() = default;
+
+template <class Point>
+bool NearbyPoints<Point>::has_near(const Eigen::Vector3d& query) const {
+  if (tree_ == nullptr) return false;
+  FirstInReach result{squared_reach_};
+  tree_->index.findNeighbors(result, query.data(), nanoflann::SearchParams());
+  return result.found;
+}
+
+template class NearbyPoints<Eigen::Vector3d>;
+template class NearbyPoints<Eigen::Vector3f>;
+
+}  // namespace raymoval

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "methods/common/range_adaptive_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/scan/voxel_key.h"
+#include "methods/common/disjoint_sets.h"
+
+namespace raymoval {
+namespace {
+
+/// Points of one cell; `first` and `last` index the points in order of cells.
+template <class Scalar>
+struct Cell {
+  int z;
+  std::uint32_t first, last;
+  Eigen::Array<Scalar, 3, 1> low, high;
+  Scalar farthest;  ///< Largest range of its points.
+};
+
+/// Cells above each other.
+template <class Scalar>
+struct Column {
+  int x, y;
+  std::uint32_t first, last;
+  Scalar reach;        ///< The longest of its cells, in cell edges.
+  std::uint32_t root;  ///< Of all of its cells, or `kMixed`.
+};
+constexpr std::uint32_t kMixed = 0xFFFFFFFFU;
+
+/// Cells whose diagonal is the smallest reach save nearly all comparisons: what is in one is
+/// joined, and of two cells only the first pair near enough has to be found.
+template <class Scalar>
+class Clustering {
+  using Vector = Eigen::Matrix<Scalar, 3, 1>;
+  using Array = Eigen::Array<Scalar, 3, 1>;
+
+ public:
+  Clustering(const std::vector<Vector>& points, const std::vector<Scalar>& ranges, Scalar gap,
+             Scalar growth)
+      : points_(points),
+        ranges_(ranges),
+        gap_(gap),
+        growth_(growth),
+        // A rounding less, where the precision has room for it.
+        edge_(gap / std::sqrt(Scalar(3)) * static_cast<Scalar>(1.0 - 1e-9)) {
+    sort_into_cells();
+  }
+
+  std::vector<int> run() {
+    DisjointSets sets(cells_.size());
+    // Cells beside each other first: what hangs together mostly does so by them, and whole columns
+    // of one set need no second look.
+    join_all(Pass::kBeside, sets);
+    note_roots(sets);
+    join_all(Pass::kInReach, sets);
+    return numbered(sets);
+  }
+
+ private:
+  [[nodiscard]] Scalar reach_at(Scalar range) const { return gap_ + growth_ * range; }
+  /// In cell edges, and a little more: cells are found in other roundings than distances.
+  [[nodiscard]] Scalar reach_in_cells(Scalar range) const {
+    return reach_at(range) / edge_ * static_cast<Scalar>(1.0 + 1e-4);
+  }
+
+  /// Cells, columns and rows in order of y, x and z.
+  void sort_into_cells() {
+    std::vector<std::pair<VoxelKey, std::uint32_t>> keys;  // Key and number of each cell.
+    const std::vector<std::uint32_t> cell_of = numbered_cells(keys);
+    std::sort(keys.begin(), keys.end());
+    // Points of a cell stay in order.
+    std::vector<std::uint32_t> rank(keys.size()), next(keys.size() + 1, 0);
+    for (std::uint32_t c = 0; c < keys.size(); ++c) rank[keys[c].second] = c;
+    for (const std::uint32_t cell : cell_of) ++next[rank[cell] + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    order_.resize(points_.size());
+    const std::vector<std::uint32_t> first = next;
+    for (std::uint32_t i = 0; i < order_.size(); ++i) order_[next[rank[cell_of[i]]]++] = i;
+    for (std::size_t c = 0; c < keys.size(); ++c) {
+      begin_cell(keys[c].first, first[c]);
+      for (std::uint32_t i = first[c]; i < first[c + 1]; ++i) add_to_cell(order_[i], cells_.back());
+    }
+    for (Column<Scalar>& column : columns_) {
+      for (std::uint32_t c = column.first; c < column.last; ++c) {
+        column.reach = std::max(column.reach, reach_in_cells(cells_[c].farthest));
+      }
+    }
+    rows_.push_back(static_cast<std::uint32_t>(columns_.size()));
+  }
+
+  /// The cell of each point, cells numbered as they are found.
+  std::vector<std::uint32_t> numbered_cells(
+      std::vector<std::pair<VoxelKey, std::uint32_t>>& keys) const {
+    const double scale = 1.0 / edge_;
+    VoxelMap<std::uint32_t> numbers;
+    numbers.reserve(points_.size() / 2);
+    std::vector<std::uint32_t> cell_of(points_.size());
+    VoxelKey last = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const VoxelIndex cell = voxel_index(points_[i].template cast<double>(), scale);
+      const VoxelKey key = voxel_key(cell.z(), cell.x(), cell.y());  // Sorted keys run up a column.
+      if (i > 0 && key == last) {
+        cell_of[i] = cell_of[i - 1];
+        continue;
+      }
+      last = key;
+      const auto [found, fresh] = numbers.emplace(key, static_cast<std::uint32_t>(keys.size()));
+      if (fresh) keys.emplace_back(key, found->second);
+      cell_of[i] = found->second;
+    }
+    return cell_of;
+  }
+
+  void begin_cell(VoxelKey key, std::uint32_t first) {
+    const VoxelIndex turned = voxel_index(key);
+    const int x = turned.y(), y = turned.z();
+    const auto number = static_cast<std::uint32_t>(cells_.size());
+    const bool new_row = columns_.empty() || columns_.back().y != y;
+    if (new_row) rows_.push_back(static_cast<std::uint32_t>(columns_.size()));
+    if (new_row || columns_.back().x != x)
+      columns_.push_back({x, y, number, number, Scalar(0), kMixed});
+    columns_.back().last = number + 1;
+    const std::uint32_t point = order_[first];
+    cells_.push_back(
+        {turned.x(), first, first, points_[point].array(), points_[point].array(), ranges_[point]});
+  }
+
+  void add_to_cell(std::uint32_t point, Cell<Scalar>& cell) const {
+    ++cell.last;
+    cell.low = cell.low.min(points_[point].array());
+    cell.high = cell.high.max(points_[point].array());
+    cell.farthest = std::max(cell.farthest, ranges_[point]);
+  }
+
+  enum class Pass { kBeside, kInReach };
+
+  void join_all(Pass pass, DisjointSets& sets) const {
+    const Scalar widest =
+        std::max_element(columns_.begin(), columns_.end(), [](const auto& a, const auto& b) {
+          return a.reach < b.reach;
+        })->reach;
+    const Scalar apart = pass == Pass::kBeside ? Scalar(0) : widest;
+    for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
+      const int y = columns_[rows_[row]].y;
+      for (std::size_t other = row; other + 1 < rows_.size(); ++other) {
+        if (static_cast<Scalar>(columns_[rows_[other]].y - y - 1) > apart) break;
+        join_rows(row, other, pass, sets);
+      }
+    }
+  }
+
+  void note_roots(DisjointSets& sets) {
+    for (Column<Scalar>& column : columns_) {
+      column.root = sets.root(column.first);
+      for (std::uint32_t c = column.first; c < column.last; ++c) {
+        if (sets.root(c) != column.root) column.root = kMixed;
+      }
+    }
+  }
+
+  /// Every pair of columns once.
+  void join_rows(std::size_t row, std::size_t other, Pass pass, DisjointSets& sets) const {
+    const auto begin = columns_.begin() + rows_[other], end = columns_.begin() + rows_[other + 1];
+    for (std::uint32_t c = rows_[row]; c < rows_[row + 1]; ++c) {
+      const Column<Scalar>& column = columns_[c];
+      // The reach is that of the nearer point of a pair, so at most this column's own.
+      const auto gap = [](int cells) { return static_cast<Scalar>(std::max(cells - 1, 0)); };
+      const Scalar across = gap(begin->y - column.y);
+      const Scalar left = column.reach * column.reach - across * across;
+      if (left < 0) continue;
+      const int aside = pass == Pass::kBeside ? 1 : static_cast<int>(std::sqrt(left)) + 2;
+      auto near = std::lower_bound(begin, end, column.x - aside,
+                                   [](const Column<Scalar>& at, int x) { return at.x < x; });
+      if (other == row) near = columns_.begin() + c;
+      for (; near != end && near->x <= column.x + aside; ++near) {
+        if (pass == Pass::kInReach && column.root == near->root && column.root != kMixed) continue;
+        const Scalar along = gap(std::abs(near->x - column.x));
+        const int reach = pass == Pass::kBeside ? 1 : static_cast<int>(column.reach) + 1;
+        if (along * along <= left) join_columns(column, *near, reach, sets);
+      }
+    }
+  }
+
+  /// Joins cells at most `reach` cells above or below each other.
+  void join_columns(const Column<Scalar>& one, const Column<Scalar>& other, int reach,
+                    DisjointSets& sets) const {
+    std::uint32_t lowest = other.first;
+    for (std::uint32_t a = one.first; a < one.last; ++a) {
+      while (lowest < other.last && cells_[lowest].z < cells_[a].z - reach) ++lowest;
+      for (std::uint32_t b = &one == &other ? a + 1 : lowest; b < other.last; ++b) {
+        if (cells_[b].z > cells_[a].z + reach) break;
+        const std::uint32_t root_a = sets.root(a), root_b = sets.root(b);
+        if (root_a != root_b && touch(cells_[a], cells_[b])) sets.join(root_a, root_b);
+      }
+    }
+  }
+
+  [[nodiscard]] bool touch(const Cell<Scalar>& a, const Cell<Scalar>& b) const {
+    const Scalar widest = reach_at(std::min(a.farthest, b.farthest));
+    const Array apart = (a.low - b.high).max(b.low - a.high).max(Scalar(0));
+    if (apart.matrix().squaredNorm() > widest * widest) return false;
+    for (std::uint32_t i = a.first; i < a.last; ++i) {
+      const std::uint32_t p = order_[i];
+      for (std::uint32_t j = b.first; j < b.last; ++j) {
+        const std::uint32_t q = order_[j];
+        const Scalar near_enough = reach_at(std::min(ranges_[p], ranges_[q]));
+        if ((points_[p] - points_[q]).squaredNorm() <= near_enough * near_enough) return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<int> numbered(DisjointSets& sets) {
+    std::vector<std::uint32_t> root(points_.size());
+    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+      const std::uint32_t of_cell = sets.root(c);
+      for (std::uint32_t i = cells_[c].first; i < cells_[c].last; ++i) root[order_[i]] = of_cell;
+    }
+    std::vector<int> number_of(cells_.size(), -1), numbers(points_.size());
+    int next = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      int& number = number_of[root[i]];
+      if (number < 0) number = next++;
+      numbers[i] = number;
+    }
+    return numbers;
+  }
+
+  const std::vector<Vector>& points_;
+  const std::vector<Scalar>& ranges_;
+  Scalar gap_, growth_, edge_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Cell<Scalar>> cells_;
+  std::vector<Column<Scalar>> columns_;
+  std::vector<std::uint32_t> rows_;  ///< First column of each row, and the end.
+};
+
+}  // namespace
+
+std::vector<int> range_adaptive_clusters(const std::vector<Eigen::Vector3d>& points,
+                                         const std::vector<double>& ranges, double gap,
+                                         double growth) {
+  if (points.empty()) return {};
+  return Clustering<double>(points, ranges, gap, growth).run();
+}
+
+std::vector<int> range_adaptive_clusters(const std::vector<Eigen::Vector3f>& points,
+                                         const std::vector<float>& ranges, float gap,
+                                         float growth) {
+  if (points.empty()) return {};
+  return Clustering<float>(points, ranges, gap, growth).run();
+}
+
+}  // namespace raymoval

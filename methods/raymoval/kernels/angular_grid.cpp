@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/kernels/angular_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.h"
+#include "methods/raymoval/kernels/scan_kernels.h"
+
+namespace raymoval {
+
+using std::numbers::pi;
+
+Spherical to_spherical(const Eigen::Vector3d& point) {
+  const double range = point.norm();
+  if (range == 0.0) return {0.0, 0.0, 0.0};
+  return {range, std::atan2(point.y(), point.x()),
+          std::asin(std::clamp(point.z() / range, -1.0, 1.0))};
+}
+
+double AngularGrid::azimuth_step() const {
+  return 2.0 * pi / azimuth_bins;
+}
+
+double AngularGrid::elevation_step() const {
+  return (elevation_max - elevation_min) / elevation_bins;
+}
+
+std::optional<int> AngularGrid::bin_of(double azimuth, double elevation) const {
+  const double j = std::floor((elevation - elevation_min) / elevation_step());
+  if (!(j >= 0.0 && j < elevation_bins)) return std::nullopt;
+  // The azimuth pi is the azimuth -pi.
+  const int i = static_cast<int>(std::floor((azimuth + pi) / azimuth_step()));
+  return static_cast<int>(j) * azimuth_bins + (i >= azimuth_bins ? 0 : std::max(i, 0));
+}
+
+double AngularGrid::azimuth_centre(int i) const {
+  return -pi + (i + 0.5) * azimuth_step();
+}
+
+double AngularGrid::elevation_centre(int j) const {
+  return elevation_min + (j + 0.5) * elevation_step();
+}
+
+Eigen::Vector3d AngularGrid::direction(int bin) const {
+  const double azimuth = azimuth_centre(azimuth_of(bin));
+  const double elevation = elevation_centre(elevation_of(bin));
+  return {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+          std::sin(elevation)};
+}
+
+DirectionTable::DirectionTable(const AngularGrid& grid) {
+  for (int i = 0; i < grid.azimuth_bins; ++i) {
+    const double azimuth = grid.azimuth_centre(i);
+    azimuth_.emplace_back(std::cos(azimuth), std::sin(azimuth));
+  }
+  for (int j = 0; j < grid.elevation_bins; ++j) {
+    const double elevation = grid.elevation_centre(j);
+    elevation_.emplace_back(std::cos(elevation), std::sin(elevation));
+  }
+}
+
+namespace {
+
+constexpr std::size_t kPointGrain = 8192;
+
+/// Eqs 1-3 for one point, as the formulas say.
+std::int32_t bin_of_point(const Eigen::Vector3f& point, const AngularGrid& grid,
+                          double minimum_range) {
+  const Spherical at = to_spherical(point.cast<double>());
+  if (at.range < minimum_range) return kernels::kNoBin;
+  return grid.bin_of(at.azimuth, at.elevation).value_or(kernels::kNoBin);
+}
+
+/// Calls `vectors(begin, middle)` for whole vectors of points and `single(k)` for the rest.
+template <class Vectors, class Single>
+void for_points(int threads, std::size_t count, std::size_t lanes, Vectors&& vectors,
+                Single&& single) {
+  parallel_chunks(threads, count, kPointGrain, [&](std::size_t begin, std::size_t end) {
+    const std::size_t middle = begin + (end - begin) / lanes * lanes;
+    if (middle > begin) vectors(begin, middle);
+    for (std::size_t k = middle; k < end; ++k) single(k);
+  });
+}
+
+const float* coordinates(const Scan& scan) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  return scan.points.empty() ? nullptr : scan.points.front().data();
+}
+
+}  // namespace
+
+void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
+             ProjectedScan& projected, InstructionSet set) {
+  const kernels::Kernels kernel = kernels::kernels_for(set);
+  projected.range.resize(scan.size());
+  projected.bin.resize(scan.size());
+  kernels::Projection job;
+  job.points = coordinates(scan);
+  job.minimum_range = minimum_range;
+  job.elevation_min = grid.elevation_min;
+  job.azimuth_bins_per_radian = 1.0 / grid.azimuth_step();
+  job.elevation_bins_per_radian = 1.0 / grid.elevation_step();
+  job.azimuth_bins = grid.azimuth_bins;
+  job.elevation_bins = grid.elevation_bins;
+  job.range = projected.range.data();
+  job.bin = projected.bin.data();
+  const auto single = [&](std::size_t k) {
+    job.range[k] = static_cast<float>(scan.points[k].cast<double>().norm());
+    job.bin[k] = bin_of_point(scan.points[k], grid, minimum_range);
+  };
+  const auto vectors = [&](std::size_t begin, std::size_t end) {
+    kernel.project(job, begin, end);
+    for (std::size_t k = begin; k < end; ++k) {
+      if (job.bin[k] == kernels::kCloseCall) single(k);
+    }
+  };
+  for_points(threads, scan.size(), kernel.lanes, vectors, single);
+  projected.minimum_range.assign(static_cast<std::size_t>(grid.size()), kNoRange);
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    if (job.bin[k] < 0) continue;
+    float& nearest = projected.minimum_range[static_cast<std::size_t>(job.bin[k])];
+    nearest = std::min(nearest, job.range[k]);
+  }
+}
+
+void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
+                 std::vector<VoxelIndex>& voxels, InstructionSet set) {
+  static_assert(sizeof(VoxelIndex) == 3 * sizeof(std::int32_t));
+  const kernels::Kernels kernel = kernels::kernels_for(set);
+  voxels.resize(scan.size());
+  kernels::Voxelisation job;
+  job.points = coordinates(scan);
+  for (int row = 0; row < 3; ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    job.translation[at] = scan.T_world_sensor.translation()[row];
+    for (int column = 0; column < 3; ++column) {
+      job.rotation[3 * at + static_cast<std::size_t>(column)] =
+          scan.T_world_sensor.linear()(row, column);
+    }
+  }
+  job.inverse_voxel_size = inverse_voxel_size;
+  job.limit = kVoxelLimit;
+  job.voxels = voxels.empty() ? nullptr : voxels.front().data();
+  const auto single = [&](std::size_t k) {
+    voxels[k] =
+        voxel_index(scan.T_world_sensor * scan.points[k].cast<double>(), inverse_voxel_size);
+  };
+  const auto vectors = [&](std::size_t begin, std::size_t end) {
+    if (kernel.voxelise(job, begin, end)) return;
+    for (std::size_t k = begin; k < end; ++k) single(k);  // One of them is beyond the lattice.
+  };
+  for_points(threads, scan.size(), kernel.lanes, vectors, single);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/scan/scan.h"
+#include "core/scan/voxel_key.h"
+#include "core/simd/simd.h"
+
+namespace raymoval {
+
+inline constexpr float kNoRange = std::numeric_limits<float>::infinity();
+
+/// Direction of a point in the sensor frame (eq. 1).
+struct Spherical {
+  double range;      ///< r = |p|, metres.
+  double azimuth;    ///< atan2(y, x), in (-pi, pi].
+  double elevation;  ///< asin(z / r), in [-pi/2, pi/2].
+};
+/// Eq. 1. A point at the origin has direction (0, 0).
+Spherical to_spherical(const Eigen::Vector3d& point);
+
+/// Azimuth-elevation grid of directions around the sensor (eqs 2-5). The azimuth covers the full
+/// circle, the elevation [elevation_min, elevation_max); bins are numbered row by row,
+/// `bin = j * azimuth_bins + i`.
+struct AngularGrid {
+  int azimuth_bins = 720;
+  int elevation_bins = 450;
+  double elevation_min = 0.0;  ///< Radians.
+  double elevation_max = 0.0;
+
+  [[nodiscard]] int size() const { return azimuth_bins * elevation_bins; }
+  [[nodiscard]] double azimuth_step() const;    ///< Delta_az, eq. 2.
+  [[nodiscard]] double elevation_step() const;  ///< Delta_el, eq. 2.
+  [[nodiscard]] int azimuth_of(int bin) const { return bin % azimuth_bins; }
+  [[nodiscard]] int elevation_of(int bin) const { return bin / azimuth_bins; }
+
+  /// Eq. 3. Nothing outside the vertical field of view: such a point is never clamped into the
+  /// border row.
+  [[nodiscard]] std::optional<int> bin_of(double azimuth, double elevation) const;
+  [[nodiscard]] double azimuth_centre(int i) const;    ///< Eq. 4.
+  [[nodiscard]] double elevation_centre(int j) const;  ///< Eq. 4.
+  /// Eq. 5: unit vector of the bin's centre in the sensor frame.
+  [[nodiscard]] Eigen::Vector3d direction(int bin) const;
+};
+
+/// Eq. 5 for all bins from one sine and cosine per column and row.
+class DirectionTable {
+ public:
+  explicit DirectionTable(const AngularGrid& grid);
+  /// Unit vector of column `i`, row `j` in the sensor frame.
+  [[nodiscard]] Eigen::Vector3d at(std::size_t i, std::size_t j) const {
+    return {azimuth_[i].x() * elevation_[j].x(), azimuth_[i].y() * elevation_[j].x(),
+            elevation_[j].y()};
+  }
+
+ private:
+  std::vector<Eigen::Vector2d> azimuth_, elevation_;  ///< Cosine and sine of each centre.
+};
+
+/// A scan sorted into the bins of a grid.
+struct ProjectedScan {
+  std::vector<float> range;          ///< Of each point, metres.
+  std::vector<std::int32_t> bin;     ///< Of each point; -1 = in no bin.
+  std::vector<float> minimum_range;  ///< Of each bin (d_scan, eq. 10); infinite if empty.
+};
+
+/// Eqs 1-3 and 10. Points nearer than `minimum_range` (the ego vehicle) go to no bin.
+/// @param projected replaced; its memory is used again
+/// @param set which kernels to use; the answer is the same for all
+void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
+             ProjectedScan& projected, InstructionSet set = InstructionSet::kBest);
+
+/// Voxel of each point in the world lattice. @throws DataError as `voxel_index`
+void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
+                 std::vector<VoxelIndex>& voxels, InstructionSet set = InstructionSet::kBest);
+
+/// Columns `i + offset` of a full circle.
+inline int wrap_azimuth(int i, int azimuth_bins) {
+  return i < 0 ? i + azimuth_bins : (i >= azimuth_bins ? i - azimuth_bins : i);
+}
+
+}  // namespace raymoval

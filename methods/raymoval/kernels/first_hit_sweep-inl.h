@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+// The kernels of the brick-column sweep (see first_hit.h), written once for any vector width.
+// Included once for each instruction set.
+#if defined(RAYMOVAL_FIRST_HIT_SWEEP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAYMOVAL_FIRST_HIT_SWEEP_INL
+#undef RAYMOVAL_FIRST_HIT_SWEEP_INL
+#else
+#define RAYMOVAL_FIRST_HIT_SWEEP_INL
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "hwy/highway.h"
+#include "methods/raymoval/kernels/first_hit_boxes-inl.h"
+#include "methods/raymoval/kernels/first_hit_bricks-inl.h"
+#include "methods/raymoval/kernels/first_hit_sweep.h"
+#include "methods/raymoval/kernels/first_hit_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace raymoval::sweep {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// One column's directions and ranges; kept small enough for the nearest cache.
+struct Column {
+  F inverse_a, inverse_b;  ///< 1 / the column's horizontal direction, along the two level axes.
+  std::array<const float*, 3> inverse;  ///< 1 / direction of each row.
+  float* depth;
+};
+
+float away_from_zero(double value) {
+  constexpr double kTiny = 1e-12;
+  return static_cast<float>(std::abs(value) < kTiny ? (value < 0.0 ? -kTiny : kTiny) : value);
+}
+
+/// Eqs 4-6 for column `i`: in double, so that nearly level rays keep their exact inclination.
+Column start_column(const Frame& frame, int i, Scratch& scratch, float* depth) {
+  const GridTables& grid = *frame.grid;
+  const hn::CappedTag<double, kGroup / 2> wide;
+  const hn::Rebind<float, decltype(wide)> narrow;
+  const Floats d;
+  const auto rows = static_cast<std::size_t>(grid.padded_rows);
+  const double cosine = grid.azimuth_cosine[static_cast<std::size_t>(i)];
+  const double sine = grid.azimuth_sine[static_cast<std::size_t>(i)];
+  Column column;
+  column.depth = depth;
+  std::array<double, 3> level;
+  for (std::size_t k = 0; k < 3; ++k) {
+    level[k] = cosine * frame.x_axis[k] + sine * frame.y_axis[k];
+    float* out = scratch.directions.data() + k * rows;
+    column.inverse[k] = out;
+    const auto a = hn::Set(wide, level[k]), b = hn::Set(wide, frame.up[k]);
+    for (std::size_t j = 0; j < rows; j += hn::Lanes(wide)) {
+      const auto part = hn::Mul(hn::LoadU(wide, grid.elevation_cosine.data() + j), a);
+      const auto rest = hn::Mul(hn::LoadU(wide, grid.elevation_sine.data() + j), b);
+      hn::Store(hn::DemoteTo(narrow, hn::Add(part, rest)), narrow, out + j);
+    }
+    const F tiny = number(1e-12);
+    for (std::size_t j = 0; j < rows; j += hn::Lanes(d)) {
+      const F value = hn::Load(d, out + j);
+      const F safe = hn::IfThenElse(hn::Lt(hn::Abs(value), tiny), hn::CopySign(tiny, value), value);
+      hn::Store(hn::Div(number(1.0), safe), d, out + j);
+    }
+  }
+  column.inverse_a =
+      number(1.0 / away_from_zero(level[static_cast<std::size_t>(frame.level_axes[0])]));
+  column.inverse_b =
+      number(1.0 / away_from_zero(level[static_cast<std::size_t>(frame.level_axes[1])]));
+  const float farthest =
+      std::nextafter(frame.maximum_range, std::numeric_limits<float>::infinity());
+  std::fill(depth, depth + grid.rows, farthest);
+  std::fill(depth + grid.rows, depth + grid.padded_rows, -1.0F);  // Never open.
+  return column;
+}
+
+/// For each box: whether the column's half plane crosses it, and the distances from the axis that
+/// belong to its lowest and its highest elevation.
+void bound_boxes(const Column& column, const float* group, float* rho, std::uint32_t* crossing) {
+  const Floats d;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < kGroup; i += hn::Lanes(d)) {
+    const auto field = [&](std::size_t number) { return hn::Load(d, group + number * kGroup + i); };
+    const F a0 = hn::Mul(field(kLowA), column.inverse_a);
+    const F a1 = hn::Mul(field(kHighA), column.inverse_a);
+    const F b0 = hn::Mul(field(kLowB), column.inverse_b);
+    const F b1 = hn::Mul(field(kHighB), column.inverse_b);
+    const F in = hn::Max(hn::Max(hn::Min(a0, a1), hn::Min(b0, b1)), number(1e-6));
+    const F out = hn::Min(hn::Max(a0, a1), hn::Max(b0, b1));
+    const auto below = hn::Lt(field(kHeightLow), hn::Zero(d));
+    const auto top_below = hn::Lt(field(kHeightHigh), hn::Zero(d));
+    hn::Store(hn::IfThenElse(below, in, out), d, rho + i);
+    hn::Store(hn::IfThenElse(top_below, out, in), d, rho + kGroup + i);
+    bits |= mask_bits(hn::Le(in, out)) << i;
+  }
+  *crossing = bits;
+}
+
+/// Boxes of a group between two tangents of elevation.
+std::uint32_t boxes_between(const float* group, const float* rho, float below, float above) {
+  const Floats d;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < kGroup; i += hn::Lanes(d)) {
+    const auto low = hn::Le(hn::Load(d, group + kHeightLow * kGroup + i),
+                            hn::Mul(hn::Set(d, above), hn::Load(d, rho + i)));
+    const auto high = hn::Ge(hn::Load(d, group + kHeightHigh * kGroup + i),
+                             hn::Mul(hn::Set(d, below), hn::Load(d, rho + kGroup + i)));
+    bits |= mask_bits(hn::And(low, high)) << i;
+  }
+  return bits;
+}
+
+/// Rays of consecutive rows.
+struct Rays {
+  std::array<F, 3> inverse;  ///< 1 / direction along each axis.
+};
+
+/// Where rays enter and leave a box.
+struct Crossing {
+  F enter, leave;
+};
+
+/// Exact slab test of one box with a vector of rays. Only products and comparisons: every
+/// instruction set rounds alike.
+HWY_INLINE Crossing cross_box(const float* box, const Rays& rays) {
+  const Floats d;
+  const auto at = [&](std::size_t field, std::size_t axis) {
+    return hn::Mul(hn::Set(d, box[(field + axis) * kGroup]), rays.inverse[axis]);
+  };
+  return {hn::Max(hn::Max(at(kNear, 0), at(kNear, 1)), at(kNear, 2)),
+          hn::Min(hn::Min(at(kFar, 0), at(kFar, 1)), at(kFar, 2))};
+}
+
+HWY_INLINE F nearer_hit(const float* box, const Rays& rays, F depth) {
+  const Crossing crossing = cross_box(box, rays);
+  const auto hit = hn::And(hn::Le(crossing.enter, crossing.leave), hn::Lt(crossing.enter, depth));
+  return hn::IfThenElse(hit, crossing.enter, depth);
+}
+
+/// The same for the voxels of a box one by one, if entered after the minimum range.
+HWY_NOINLINE F nearer_voxel(const Frame& frame, std::size_t brick, std::uint32_t packed,
+                            const Rays& rays, F depth) {
+  const Floats d;
+  const F minimum = hn::Set(d, frame.minimum_range);
+  const BrickBox box{packed};
+  const auto slab = [&](std::size_t axis, int at) {
+    const float* wall = frame.planes[axis] + frame.bricks->plane[axis][brick] + at;
+    const F a = hn::Mul(hn::Set(d, wall[0]), rays.inverse[axis]);
+    const F b = hn::Mul(hn::Set(d, wall[1]), rays.inverse[axis]);
+    return Crossing{hn::Min(a, b), hn::Max(a, b)};
+  };
+  for (int x = box.first(0); x <= box.last(0); ++x) {
+    const Crossing in_x = slab(0, x);
+    for (int y = box.first(1); y <= box.last(1); ++y) {
+      const Crossing in_y = slab(1, y);
+      const F enter_xy = hn::Max(in_x.enter, in_y.enter);
+      const F leave_xy = hn::Min(in_x.leave, in_y.leave);
+      for (int z = box.first(2); z <= box.last(2); ++z) {
+        const Crossing in_z = slab(2, z);
+        const F enter = hn::Max(enter_xy, in_z.enter);
+        const auto crossed = hn::Le(enter, hn::Min(leave_xy, in_z.leave));
+        const auto hit = hn::And(crossed, hn::And(hn::Ge(enter, minimum), hn::Lt(enter, depth)));
+        depth = hn::IfThenElse(hit, enter, depth);
+      }
+    }
+  }
+  return depth;
+}
+
+/// For a box that reaches into the minimum range. Rays that are inside it there may enter its next
+/// voxel later.
+HWY_INLINE F nearer_hit_after_minimum(const Frame& frame, std::size_t brick, const float* box,
+                                      const Rays& rays, F depth) {
+  const Floats d;
+  const F minimum = hn::Set(d, frame.minimum_range);
+  const Crossing crossing = cross_box(box, rays);
+  const auto crossed = hn::Le(crossing.enter, crossing.leave);
+  const auto early = hn::Lt(crossing.enter, minimum);
+  const auto inside = hn::And(crossed, hn::And(early, hn::Ge(crossing.leave, minimum)));
+  const auto hit = hn::And(crossed, hn::Lt(crossing.enter, depth));
+  depth = hn::IfThenElse(hn::AndNot(early, hit), crossing.enter, depth);
+  if (hn::AllFalse(d, inside)) return depth;
+  return nearer_voxel(frame, brick, std::bit_cast<std::uint32_t>(box[kPacked * kGroup]), rays,
+                      depth);
+}
+
+template <bool kAtMinimum>
+void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& entry,
+                 Scratch& scratch) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  const F nearest = hn::Set(d, entry.nearest);
+  const float* boxes = nullptr;
+  std::size_t groups = 0;
+  for (std::size_t row = entry.first_row / lanes * lanes; row <= entry.last_row; row += lanes) {
+    F depth = hn::Load(d, column.depth + row);
+    if (hn::AllFalse(d, hn::Gt(depth, nearest))) continue;
+    if (boxes == nullptr) {
+      if (!scratch.expanded[entry.brick].done) expand(frame, entry.brick, scratch);
+      const Scratch::Expanded& expanded = scratch.expanded[entry.brick];
+      boxes = scratch.boxes.data() + expanded.begin;
+      groups = (expanded.boxes + kGroup - 1) / kGroup;
+      for (std::size_t g = 0; g < groups; ++g) {
+        bound_boxes(column, boxes + g * kGroupFloats, scratch.bounds.data() + g * 2 * kGroup,
+                    &scratch.crossing[g]);
+      }
+      // The last group's padding misses.
+      scratch.crossing[groups - 1] &= (1U << ((expanded.boxes - 1) % kGroup + 1)) - 1U;
+    }
+    const std::size_t last = std::min(row + lanes, static_cast<std::size_t>(frame.grid->rows)) - 1;
+    const float below = frame.grid->tangent_below[row], above = frame.grid->tangent_above[last];
+    const Rays rays{{hn::Load(d, column.inverse[0] + row), hn::Load(d, column.inverse[1] + row),
+                     hn::Load(d, column.inverse[2] + row)}};
+    for (std::size_t g = 0; g < groups; ++g) {
+      if (scratch.crossing[g] == 0) continue;
+      const float* group = boxes + g * kGroupFloats;
+      std::uint32_t left =
+          scratch.crossing[g] &
+          boxes_between(group, scratch.bounds.data() + g * 2 * kGroup, below, above);
+      for (; left != 0; left &= left - 1) {
+        const float* box = group + std::countr_zero(left);
+        if constexpr (kAtMinimum) {
+          depth = nearer_hit_after_minimum(frame, entry.brick, box, rays, depth);
+        } else {
+          depth = nearer_hit(box, rays, depth);
+        }
+      }
+    }
+    hn::Store(depth, d, column.depth + row);
+  }
+}
+
+/// Turns columns first .. first + count - 1 into rows of the image.
+void write_rows(const Frame& frame, int first, int count, const float* depth, float* range) {
+  const GridTables& grid = *frame.grid;
+  for (int j = 0; j < grid.rows; ++j) {
+    float* out = range + static_cast<std::ptrdiff_t>(j) * grid.columns + first;
+    for (int i = 0; i < count; ++i) {
+      const float value = depth[i * grid.padded_rows + j];
+      out[i] = value > frame.maximum_range ? std::numeric_limits<float>::infinity() : value;
+    }
+  }
+}
+
+void prepare_scratch(const Frame& frame, Scratch& scratch) {
+  const auto rows = static_cast<std::size_t>(frame.grid->padded_rows);
+  scratch.pieces.require(7 * kMostPieces);
+  scratch.bounds.require(2 * kMostPieces);
+  scratch.crossing.resize(kMostPieces / kGroup);
+  scratch.directions.require(3 * rows);
+  scratch.depth.require(kGroup * rows);
+  scratch.expanded.assign(frame.bricks->count, {});
+  scratch.boxes_used = 0;
+  scratch.boxes.require(frame.most_groups * kGroupFloats);
+  scratch.frame = frame.number;
+}
+
+void sweep_columns(const Frame& frame, const ColumnLists& lists, int begin, int end,
+                   Scratch& scratch, float* range) {
+  if (scratch.frame != frame.number) prepare_scratch(frame, scratch);
+  constexpr int kBlock = static_cast<int>(kGroup);
+  for (int first = begin; first < end; first += kBlock) {
+    const int count = std::min(kBlock, end - first);
+    for (int i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(first + i - lists.begin);
+      const Column column = start_column(frame, first + i, scratch,
+                                         scratch.depth.data() + i * frame.grid->padded_rows);
+      for (std::uint32_t e = lists.starts[at]; e < lists.starts[at + 1]; ++e) {
+        const ColumnEntry& entry = lists.entries[e];
+        if (reaches_minimum(frame, entry.nearest)) {
+          sweep_brick<true>(frame, column, entry, scratch);
+        } else {
+          sweep_brick<false>(frame, column, entry, scratch);
+        }
+      }
+    }
+    write_rows(frame, first, count, scratch.depth.data(), range);
+  }
+}
+
+}  // namespace
+
+Kernels kernels() {
+  return {&measure_bricks, &list_columns, &sweep_columns};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace raymoval::sweep
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/simd/simd.h"
+#include "methods/raymoval/kernels/occupancy_map.h"
+
+namespace raymoval::sweep {
+
+/// Boxes are expanded in groups of this many, whatever the vector width.
+inline constexpr std::size_t kGroup = 16;
+
+/// What depends on the grid of directions only. Rows are padded to a multiple of kGroup.
+struct GridTables {
+  int columns = 0, rows = 0, padded_rows = 0;
+  float elevation_min = 0.0F, inverse_elevation_step = 0.0F, inverse_azimuth_step = 0.0F;
+  std::vector<double> azimuth_cosine, azimuth_sine;      ///< Of the columns' centres.
+  std::vector<double> elevation_cosine, elevation_sine;  ///< Of the rows' centres.
+  /// Tangents a little below and above each row's centre; infinite beyond the vertical.
+  std::vector<float> tangent_below, tangent_above;
+};
+
+/// Bricks within reach of the sensor, one array a property, padded to a multiple of kGroup.
+struct BrickList {
+  std::size_t count = 0;
+  std::array<AlignedArray<float>, 3> low, high;  ///< Tight box from the sensor, world axes, metres.
+  std::array<AlignedArray<std::int32_t>, 3> plane;  ///< Where the brick's walls are in the tables.
+  AlignedArray<OccupancyMap::Slot> slot;
+  // Found by measure_bricks; a brick in no column has first_column > last_column.
+  AlignedArray<float> nearest;                           ///< No ray enters it nearer than this.
+  AlignedArray<std::int32_t> first_column, last_column;  ///< From below 0 or to beyond the last.
+  AlignedArray<std::int32_t> first_row, last_row;
+
+  void require(std::size_t bricks);
+};
+
+/// One image's inputs.
+struct Frame {
+  const OccupancyMap* map = nullptr;
+  const GridTables* grid = nullptr;
+  BrickList* bricks = nullptr;
+  std::vector<std::uint32_t>* order = nullptr;  ///< Of the bricks that are seen, nearest first.
+  /// World coordinates of the sensor's axes.
+  std::array<double, 3> x_axis{}, y_axis{}, up{};
+  std::array<int, 2> level_axes{};       ///< The two world axes that are the least upright.
+  std::array<const float*, 3> planes{};  ///< Voxel walls along each axis from the sensor, metres.
+  float minimum_range = 0.0F, maximum_range = 0.0F;
+  float slack = 0.0F;           ///< Bounds are widened by this, metres.
+  std::uint64_t number = 0;     ///< Another one for each image of a caster, from 1.
+  std::size_t most_groups = 0;  ///< Of boxes, if all bricks were expanded.
+};
+
+/// A brick in the list of a column.
+struct ColumnEntry {
+  std::uint32_t brick;
+  std::uint16_t first_row, last_row;
+  float nearest;
+};
+
+/// Bricks seen in the columns begin .. end - 1, nearest first.
+struct ColumnLists {
+  int begin = 0, end = 0;
+  std::vector<std::uint32_t> starts;  ///< Of each column's entries, and the end of the last.
+  std::vector<ColumnEntry> entries;
+};
+
+/// Memory of one thread's sweep, kept between images.
+struct Scratch {
+  std::uint64_t frame = 0;  ///< The image it is prepared for.
+  /// Of each brick: where its boxes were expanded to, and how many.
+  struct Expanded {
+    std::uint32_t begin = 0;
+    std::uint32_t boxes = 0;
+    bool done = false;
+  };
+  std::vector<Expanded> expanded;
+  AlignedArray<float> boxes;
+  std::size_t boxes_used = 0;
+  AlignedArray<float> pieces;  ///< Boxes of one brick, cut at the sensor's planes.
+  AlignedArray<float> bounds;  ///< Of one brick's boxes in one column.
+  std::vector<std::uint32_t> crossing;
+  AlignedArray<float> directions;  ///< Inverse directions of one column.
+  AlignedArray<float> depth;       ///< Ranges of kGroup columns.
+};
+
+/// The kernels of one instruction set.
+struct Kernels {
+  /// Fills what `BrickList` says it finds for bricks begin .. end - 1; `begin` is a multiple of
+  /// kGroup, and so is `end` or it is the end of the list.
+  void (*measure_bricks)(const Frame& frame, std::size_t begin, std::size_t end);
+  /// Fills the lists of the columns begin .. end - 1.
+  void (*list_columns)(const Frame& frame, int begin, int end, ColumnLists& lists);
+  /// First hits of columns begin .. end - 1, which are all in `lists`, into `range` (row by row,
+  /// all columns).
+  void (*sweep_columns)(const Frame& frame, const ColumnLists& lists, int begin, int end,
+                        Scratch& scratch, float* range);
+};
+
+Kernels kernels_for(InstructionSet set);
+
+}  // namespace raymoval::sweep

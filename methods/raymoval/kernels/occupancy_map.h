@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scan/voxel_key.h"
+#include "methods/raymoval/kernels/box_cover.h"
+
+namespace raymoval {
+
+/// Voxels of a brick that lie within a box of the lattice.
+struct BrickPart {
+  int first_word, last_word;
+  std::uint64_t mask;  ///< Of each of the words.
+
+  /// @param brick brick coordinates; the box `low` .. `high` (inclusive) reaches into it
+  static BrickPart within(const Eigen::Vector3i& brick, const VoxelIndex& low,
+                          const VoxelIndex& high) {
+    const Eigen::Vector3i from = (low - brick * Brick::kSide).cwiseMax(0);
+    const Eigen::Vector3i to = (high - brick * Brick::kSide).cwiseMin(Brick::kMask);
+    const auto ones = [](int count) { return ~std::uint64_t{0} >> (64 - count); };
+    const std::uint64_t column = ones(to.z() - from.z() + 1) << from.z();
+    const std::uint64_t rows = ones(Brick::kSide * (to.y() - from.y() + 1))
+                               << (Brick::kSide * from.y());
+    return {from.x(), to.x(), (0x0101010101010101ULL * column) & rows};
+  }
+};
+
+/// Occupied voxels in sparse bricks of 8 x 8 x 8, one bit each. Insert, erase and look-up take
+/// constant time; memory grows with the occupied part only (`memory_bytes`).
+///
+/// For the raycasting each brick also keeps boxes that cover its voxels (see box_cover.h), and each
+/// tile of 8 x 8 bricks seen from above knows its bricks. The boxes of changed bricks are made anew
+/// by `update_boxes`, at a cost that depends on what changed and not on the map.
+class OccupancyMap {
+ public:
+  static constexpr int kBrickBits = Brick::kBits;
+  static constexpr int kBrickSide = Brick::kSide;
+  static constexpr int kTileBits = 3;  ///< A tile is 8 x 8 bricks.
+  using Slot = std::uint32_t;          ///< Number of a brick, in order of creation.
+  static constexpr Slot kNoBrick = ~Slot{0};
+
+  /// What the raycasting looks at before it looks into a brick.
+  struct BrickHead {
+    std::array<std::int32_t, 3> at{};  ///< Brick coordinates: voxel coordinates / 8, rounded down.
+    Slot slot = 0;
+    BrickBox bounds;       ///< Tight box of its voxels.
+    bool is_empty = true;  ///< No voxel is left in it.
+  };
+
+  explicit OccupancyMap(double voxel_size)
+      : voxel_size_(voxel_size), inverse_voxel_size_(1.0 / voxel_size) {}
+
+  [[nodiscard]] double voxel_size() const { return voxel_size_; }
+  [[nodiscard]] double inverse_voxel_size() const { return inverse_voxel_size_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t brick_count() const { return bricks_.size(); }
+  /// Voxel of a world point in metres.
+  [[nodiscard]] VoxelIndex voxel_of(const Eigen::Vector3d& world) const {
+    return voxel_index(world, inverse_voxel_size_);
+  }
+
+  /// True if the voxel was empty.
+  bool insert(const VoxelIndex& voxel) { return insert(make_brick(brick_of(voxel)), voxel); }
+  /// The same for a voxel of the brick `slot`.
+  bool insert(Slot slot, const VoxelIndex& voxel) {
+    std::uint64_t& word = word_of(slot, voxel);
+    const std::uint64_t bit = Brick::bit(voxel.y(), voxel.z());
+    if ((word & bit) != 0) return false;
+    word |= bit;
+    ++size_;
+    mark_changed(slot, Change::kGrown);
+    return true;
+  }
+  /// True if the voxel was occupied.
+  bool erase(const VoxelIndex& voxel);
+  [[nodiscard]] bool contains(const VoxelIndex& voxel) const {
+    const Brick* brick = find_brick(brick_of(voxel));
+    return brick != nullptr && brick->contains(voxel.x(), voxel.y(), voxel.z());
+  }
+  /// The same for a voxel of the brick `slot`, which may be kNoBrick.
+  [[nodiscard]] bool contains(Slot slot, const VoxelIndex& voxel) const {
+    return slot != kNoBrick && bricks_[slot].contains(voxel.x(), voxel.y(), voxel.z());
+  }
+  /// True if any voxel within `dilation` cells (Chebyshev) is occupied.
+  [[nodiscard]] bool contains_near(const VoxelIndex& voxel, int dilation) const;
+
+  [[nodiscard]] static Eigen::Vector3i brick_of(const VoxelIndex& voxel) {
+    return {voxel.x() >> kBrickBits, voxel.y() >> kBrickBits, voxel.z() >> kBrickBits};
+  }
+  /// The brick with these brick coordinates, or null.
+  [[nodiscard]] const Brick* find_brick(const Eigen::Vector3i& brick) const {
+    const Slot slot = find_slot(brick);
+    return slot == kNoBrick ? nullptr : &bricks_[slot];
+  }
+  [[nodiscard]] Slot find_slot(const Eigen::Vector3i& brick) const {
+    const auto found = index_.find(voxel_key(brick));
+    return found == index_.end() ? kNoBrick : found->second;
+  }
+  /// The brick's number; it is made if it is not there.
+  Slot make_brick(const Eigen::Vector3i& brick);
+  [[nodiscard]] const Brick& brick(Slot slot) const { return bricks_[slot]; }
+
+  /// Brings boxes and heads of the bricks changed since the last call up to date; writes nothing if
+  /// there are none.
+  void update_boxes(int threads);
+  [[nodiscard]] bool boxes_are_current() const { return changed_.empty(); }
+  /// Boxes that cover the brick's voxels, as of the last `update_boxes`.
+  [[nodiscard]] std::span<const BrickBox> boxes(Slot slot) const {
+    return {boxes_.data() + covers_[slot].begin, covers_[slot].count};
+  }
+
+  [[nodiscard]] static Eigen::Vector2i tile_of(const Eigen::Vector3i& brick) {
+    return {brick.x() >> kTileBits, brick.y() >> kTileBits};
+  }
+  [[nodiscard]] std::size_t tile_count() const { return tiles_.size(); }
+  /// Heads of the tile's bricks; empty where there is no tile.
+  [[nodiscard]] std::span<const BrickHead> tile(int x, int y) const {
+    const auto found = tile_index_.find(voxel_key(x, y, 0));
+    return found == tile_index_.end() ? std::span<const BrickHead>() : tiles_[found->second];
+  }
+  [[nodiscard]] std::span<const BrickHead> tile(std::size_t number) const { return tiles_[number]; }
+
+  /// Everything the map holds, spare capacity included.
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  /// A brick's part of `boxes_` and its place among the tiles.
+  struct Cover {
+    std::uint32_t begin = 0;
+    std::uint16_t count = 0;
+    std::uint16_t capacity = 0;
+    std::uint16_t fresh_count = 0;  ///< When the brick was last covered from scratch.
+    std::uint32_t tile = 0;
+    std::uint32_t head = 0;
+  };
+
+  std::uint64_t& word_of(Slot slot, const VoxelIndex& voxel) {
+    return bricks_[slot].occupied[static_cast<std::size_t>(voxel.x() & Brick::kMask)];
+  }
+  void mark_changed(Slot slot, Change change) {
+    std::uint8_t& mark = is_changed_[slot];
+    if (mark == 0) changed_.push_back(slot);
+    mark = std::max<std::uint8_t>(mark, change == Change::kShrunk ? 2 : 1);
+  }
+  /// New boxes of a changed brick. @return whether they were found from scratch
+  bool cover_again(Slot slot, std::vector<BrickBox>& boxes) const;
+  void store_boxes(Slot slot, const BrickBox* boxes, std::size_t count);
+
+  double voxel_size_;
+  double inverse_voxel_size_;
+  std::size_t size_ = 0;
+  VoxelMap<Slot> index_;
+  std::vector<Brick> bricks_;
+  std::vector<Cover> covers_;
+  std::vector<std::uint8_t> is_changed_;  ///< 0 = no, 1 = it has grown, 2 = it lost voxels.
+  std::vector<Slot> changed_;
+  VoxelMap<std::uint32_t> tile_index_;
+  std::vector<std::vector<BrickHead>> tiles_;
+  std::vector<BrickBox> boxes_;
+  /// Unused parts of `boxes_` by capacity / kBoxGrain.
+  std::vector<std::vector<std::uint32_t>> free_boxes_;
+};
+
+}  // namespace raymoval
