@@ -2,6 +2,8 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
+# Messages: fmt::format, by <fmt/format.h>.
+find_package(fmt 9 REQUIRED)
 find_package(TBB REQUIRED)
 # Deflates the points of a report.
 find_package(ZLIB REQUIRED)
