@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "methods/registry.h"
+#include "methods/method_entry.h"
 
 namespace raymoval {
 
