@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: MIT
-#include "methods/raymoval_plus/verdicts.h"
+#include "methods/raymoval_plus/evidence/vote.h"
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "core/parallel.h"
-#include "methods/raymoval_plus/evidence.h"
+#include "methods/raymoval_plus/evidence/evidence.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_plus_method {
 namespace {
 
 constexpr int kSide = EvidenceMap::Blocks::kSideXY;
-constexpr int kMaximumRadius = 2 * kSide;  // Two blocks to either side are looked at.
+/// Blocks that a thread takes at a time: with fewer it would allocate its sums more often.
+constexpr std::size_t kBlocksATask = 256;
 
-/// Dynamic votes in the upper half, all decided ones in the lower.
-std::uint32_t vote_of(Evidence evidence) {
-  if (evidence == Evidence::kUndecided) return 0;
-  return evidence == Evidence::kDynamic ? 0x10001U : 1U;
+/// A sum of votes has the number of dynamic voxels in its upper 16 bits and the number of all
+/// decided voxels in the lower ones. A cube of the largest radius has 17^3 = 4,913 cells, which
+/// fits.
+std::uint32_t vote_of(Verdict decision) {
+  if (decision == Verdict::kUndecided) return 0;
+  return decision == Verdict::kDynamic ? 0x10001U : 1U;
 }
 
-/// Votes in a cube of cells: a block, and `radius` cells to either side of it.
+/// The votes in a cube of cells that holds a block and `radius` cells to either side of it.
 class Ballot {
  public:
   explicit Ballot(int radius) : radius_(radius), side_(kSide + 2 * radius) {
@@ -28,20 +32,22 @@ class Ballot {
     rows_.resize(static_cast<std::size_t>(side_ * kSide * kSide));
   }
   void clear() { std::fill(votes_.begin(), votes_.end(), 0U); }
-  /// Adds the votes of a block that lies `corner` cells from this one, where they are in the cube.
-  void add(const VoxelIndex& corner, const Evidence* decisions) {
+  /// Adds those votes of another block that lie in the cube.
+  /// @param corner cells from this block's lowest corner to that of the other one
+  void add(const VoxelIndex& corner, const Verdict* decisions) {
     const VoxelIndex low = (corner.array() + radius_).max(0);
     const VoxelIndex high = (corner.array() + radius_ + kSide).min(side_);
     for (int z = low.z(); z < high.z(); ++z) {
       for (int y = low.y(); y < high.y(); ++y) {
-        const Evidence* const row =
+        const Verdict* const row =
             decisions + ((z - corner.z() - radius_) * kSide + y - corner.y() - radius_) * kSide;
         std::uint32_t* const votes = votes_.data() + (z * side_ + y) * side_;
         for (int x = low.x(); x < high.x(); ++x) votes[x] = vote_of(row[x - corner.x() - radius_]);
       }
     }
   }
-  /// Sums the cube around each of the block's cells: planes first, then their rows, then cells.
+  /// Sums the votes around each of the block's cells: over planes, then over their rows, then over
+  /// the cells of a row.
   void count() {
     sum_windows(votes_.data(), side_ * side_, planes_.data());
     for (int z = 0; z < kSide; ++z) {
@@ -51,12 +57,12 @@ class Ballot {
       sum_windows(rows_.data() + line * side_, 1, sums_.data() + line * kSide);
     }
   }
-  /// @param cell its place in the block
+  /// The votes within `radius` cells of one of the block's cells, given its place in the block.
   [[nodiscard]] std::uint32_t around(std::size_t cell) const { return sums_[cell]; }
 
  private:
-  /// Of `side_` slices of `size` votes each the sums of 2 `radius_` + 1 neighbours, `kSide` of
-  /// them. Votes stay in their halves.
+  /// There are `side_` slices of `size` votes each. `sums` becomes `kSide` slices, each the sum of
+  /// 2 `radius_` + 1 slices in a row: the next is the last one, less what leaves, plus what enters.
   void sum_windows(const std::uint32_t* slices, int size, std::uint32_t* sums) const {
     std::copy_n(slices, size, sums);
     for (int s = 1; s <= 2 * radius_; ++s) {
@@ -91,7 +97,7 @@ void find_around(const EvidenceMap& map, std::uint32_t block, int reach,
   }
 }
 
-/// Calls `visit(voxel, cell)` for each voxel of a block.
+/// Calls `visit(voxel, cell)` for each voxel of a block; `cell` is its place in the block.
 template <class Visit>
 void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
   const std::uint32_t* const cells = map.blocks().cells(block);
@@ -100,19 +106,17 @@ void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
   }
 }
 
-/// What a voxel's own decision becomes among its neighbours.
-Evidence outvoted(Evidence decision, std::uint32_t votes,
-                  const RaymovalPlusParameters& parameters) {
+/// The verdict on a voxel, from its own decision and the votes around it.
+Verdict verdict_by_votes(Verdict decision, std::uint32_t votes, const Parameters& parameters) {
   const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
-  if (decided == 0) return Evidence::kUndecided;
-  const double share =
-      decision == Evidence::kDynamic ? parameters.vote_keep : parameters.vote_share;
-  return dynamic >= share * decided ? Evidence::kDynamic : Evidence::kStatic;
+  if (decided == 0) return Verdict::kUndecided;
+  const double share = decision == Verdict::kDynamic ? parameters.vote_keep : parameters.vote_share;
+  return dynamic >= share * decided ? Verdict::kDynamic : Verdict::kStatic;
 }
 
-void vote_in_block(std::uint32_t block, const RaymovalPlusParameters& parameters, int radius,
-                   Ballot& ballot, std::vector<std::uint32_t>& around, EvidenceMap& map) {
-  find_around(map, block, (radius + kSide - 1) / kSide, around);
+void vote_in_block(std::uint32_t block, const Parameters& parameters, Ballot& ballot,
+                   std::vector<std::uint32_t>& around, EvidenceMap& map) {
+  find_around(map, block, (parameters.vote_radius + kSide - 1) / kSide, around);
   if (std::none_of(around.begin(), around.end(),
                    [&](std::uint32_t other) { return map.dynamic_in(other) > 0; })) {
     for_voxels(map, block,
@@ -126,25 +130,44 @@ void vote_in_block(std::uint32_t block, const RaymovalPlusParameters& parameters
   }
   ballot.count();
   for_voxels(map, block, [&](std::uint32_t v, std::size_t cell) {
-    const Evidence decision = map.decision(v);
+    const Verdict decision = map.decision(v);
     map.set_verdict(v, was_always_there(map.evidence(v), parameters)
                            ? decision
-                           : outvoted(decision, ballot.around(cell), parameters));
+                           : verdict_by_votes(decision, ballot.around(cell), parameters));
   });
 }
 
 }  // namespace
 
-void vote(const std::vector<std::uint32_t>& blocks, const RaymovalPlusParameters& parameters,
-          int threads, EvidenceMap& map) {
-  const int radius = std::min(parameters.vote_radius, kMaximumRadius);
-  parallel_chunks(threads, blocks.size(), 256, [&](std::size_t begin, std::size_t end) {
-    Ballot ballot(radius);
+void vote(const std::vector<std::uint32_t>& blocks, const Parameters& parameters,
+          const RunContext& context, EvidenceMap& map) {
+  const StageScope timed(context.times, "vote");
+  const auto vote_in_blocks = [&](std::size_t begin, std::size_t end) {
+    Ballot ballot(parameters.vote_radius);
     std::vector<std::uint32_t> around;
     for (std::size_t i = begin; i < end; ++i) {
-      vote_in_block(blocks[i], parameters, radius, ballot, around, map);
+      vote_in_block(blocks[i], parameters, ballot, around, map);
     }
-  });
+  };
+  parallel_chunks(context.threads, blocks.size(), kBlocksATask, vote_in_blocks);
 }
 
-}  // namespace raymoval
+void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& map) {
+  std::vector<std::uint32_t> blocks(map.blocks().block_count());
+  std::iota(blocks.begin(), blocks.end(), 0U);
+  vote(blocks, parameters, context, map);
+}
+
+std::vector<std::uint32_t> blocks_of(const LocatedScan& scan, const EvidenceMap& map) {
+  std::vector<std::uint32_t> blocks;
+  for (const std::uint32_t voxel : scan.voxel) {
+    if (voxel == EvidenceMap::kNone) continue;
+    const std::uint32_t block = map.block_of(voxel);
+    if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
+  }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  return blocks;
+}
+
+}  // namespace raymoval::raymoval_plus_method

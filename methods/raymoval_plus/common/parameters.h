@@ -3,10 +3,11 @@
 
 #include "core/parameters.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_plus_method {
 
-/// Values of raymoval_plus; units, ranges and meanings are in `raymoval_plus_parameters()`.
-struct RaymovalPlusParameters {
+/// The parameters of raymoval_plus. Their units, ranges and meanings are in
+/// `parameter_table()`.
+struct Parameters {
   // When to answer.
   bool at_once = false;
   bool one_pass = false;
@@ -37,12 +38,12 @@ struct RaymovalPlusParameters {
   double free_constant = 1.0;
   double free_per_agree = 0.3;
   int static_agree = 2;
+  int run_scans = 4;
+  double run_range = 20.0;
   // Vote.
   int vote_radius = 3;
   double vote_share = 0.5;
   double vote_keep = 0.3;
-  int run_scans = 4;
-  double run_range = 20.0;
   // Objects.
   bool objects = true;
   double object_height = 0.3;
@@ -63,6 +64,6 @@ struct RaymovalPlusParameters {
   bool low_points = true;
 };
 
-const ParameterTable<RaymovalPlusParameters>& raymoval_plus_parameters();
+const ParameterTable<Parameters>& parameter_table();
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_plus_method

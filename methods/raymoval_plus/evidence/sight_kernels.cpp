@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/raymoval_plus/sight_kernels.h"
+#include "methods/raymoval_plus/evidence/sight_kernels.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,19 +7,19 @@
 #include "core/simd/compiled_sets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "methods/raymoval_plus/sight_kernels.cpp"
+#define HWY_TARGET_INCLUDE "methods/raymoval_plus/evidence/sight_kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 //
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace raymoval::kernels {
+namespace raymoval::raymoval_plus_method::kernels {
 namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Reals = hn::CappedTag<float, 16>;
+using Reals = hn::CappedTag<float, kMostLanes>;
 using Whole = hn::Rebind<std::int32_t, Reals>;
 using R = hn::Vec<Reals>;
 using W = hn::Vec<Whole>;
@@ -30,14 +30,15 @@ HWY_INLINE R real(float value) {
   return hn::Set(Reals(), value);
 }
 
-/// Angle of (x, y) from the x axis, radians in [-pi, pi], off by less than 4e-7. An odd polynomial
-/// for 0 .. 45 degrees (smallest largest error), turned and mirrored; (0, 0) gives 0. Highway's own
-/// atan would round differently where multiplication and addition are one instruction.
+/// The angle of (x, y) from the x axis, radians in [-pi, pi], with an error below 4e-7; 0 for (0,
+/// 0). The terms are those of the odd polynomial with the smallest largest error from 0 to 45
+/// degrees, which is turned and mirrored for other angles. Highway's own atan would round
+/// differently where multiplication and addition are one instruction.
 HWY_INLINE R angle_of(R y, R x) {
   constexpr float kTerms[] = {-0.00405456219F, 0.0218629390F, -0.0559123009F, 0.0964219570F,
                               -0.139086291F,   0.199465662F,  -0.333298594F,  0.999999344F};
   const R across = hn::Abs(x), up = hn::Abs(y);
-  const R longer = hn::Max(hn::Max(across, up), real(1e-30F));
+  const R longer = hn::Max(hn::Max(across, up), real(1e-30F));  // Not 0: it divides.
   const R ratio = hn::Div(hn::Min(across, up), longer);
   const R square = hn::Mul(ratio, ratio);
   R sum = real(kTerms[0]);
@@ -72,7 +73,7 @@ HWY_INLINE Sight sight_of(const SightGrid& grid, const SightPlaces& places, R px
   return {range, hn::Min(column, hn::Set(whole, grid.columns - 1)), row};
 }
 
-/// Calls `visit(first, sight)` for each vector of places; the last may have some beyond the end.
+/// Calls `visit(first, sight)` for each vector of places. The last one may go beyond the end.
 template <class Visit>
 HWY_INLINE void for_sights(const SightGrid& grid, const SightPlaces& places, Visit&& visit) {
   const Reals d;
@@ -84,7 +85,7 @@ HWY_INLINE void for_sights(const SightGrid& grid, const SightPlaces& places, Vis
     visit(k, sight_of(grid, places, x, y, z));
   }
   if (k == places.count) return;
-  float rest[3 * 16] = {};
+  float rest[3 * kMostLanes] = {};
   std::copy(places.places + 3 * k, places.places + 3 * places.count, rest);
   hn::LoadInterleaved3(d, rest, x, y, z);
   visit(k, sight_of(grid, places, x, y, z));
@@ -101,8 +102,9 @@ void locate(const SightGrid& grid, const SightPlaces& places, const Sights& sigh
              [&](std::size_t first, const Sight& sight) { store(sight, first, sights); });
 }
 
-/// Lanes whose least window does not tell all there is to know.
-HWY_INLINE hn::Mask<Reals> is_open(const Sight& sight, const SightWindows& windows) {
+/// The lanes whose window has to be looked at: it is larger than the least one, or the nearest and
+/// the farthest return of that do not say enough.
+HWY_INLINE hn::Mask<Reals> needs_a_look(const Sight& sight, const SightWindows& windows) {
   const Reals d;
   const Whole whole;
   const auto in_rows = hn::And(hn::Gt(sight.row, hn::Set(whole, -1)),
@@ -128,7 +130,7 @@ std::size_t choose(const SightGrid& grid, const SightPlaces& places, const Sight
     const auto asked = hn::And(hn::Ge(sight.range, real(windows.range_min)),
                                hn::Le(sight.range, real(windows.range_max)));
     std::uint64_t bits = 0;
-    hn::StoreMaskBits(Reals(), hn::And(asked, is_open(sight, windows)),
+    hn::StoreMaskBits(Reals(), hn::And(asked, needs_a_look(sight, windows)),
                       reinterpret_cast<std::uint8_t*>(&bits));
     for (; bits != 0; bits &= bits - 1) {
       const std::size_t k = first + static_cast<std::size_t>(__builtin_ctzll(bits));
@@ -145,13 +147,13 @@ SightKernels sight_kernels() {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace raymoval::kernels
+}  // namespace raymoval::raymoval_plus_method::kernels
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "core/simd/instruction_sets.h"
 
-namespace raymoval::kernels {
+namespace raymoval::raymoval_plus_method::kernels {
 
 HWY_EXPORT(sight_kernels);
 
@@ -159,5 +161,5 @@ SightKernels sight_kernels_for(InstructionSet set) {
   return RAYMOVAL_KERNEL_FOR(sight_kernels, set)();
 }
 
-}  // namespace raymoval::kernels
+}  // namespace raymoval::raymoval_plus_method::kernels
 #endif

@@ -9,13 +9,14 @@
 
 #include "core/scan/voxel_key.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_plus_method {
 
-/// A grid without bounds, stored as dense blocks of 2^`kBitsXY` x 2^`kBitsXY` x 2^`kBitsZ` cells
-/// behind a hash. Cells of a new block hold `empty`.
+/// A grid without bounds. It consists of dense blocks of 2^`kBitsXY` x 2^`kBitsXY` x 2^`kBitsZ`
+/// cells, which are found by a hash. The cells of a new block hold `empty`.
 ///
-/// A `Cursor` remembers the block that was used last: the points of a scan come ring by ring, so
-/// the next one mostly lies in the same block and costs no hash. One cursor for each thread.
+/// A `Cursor` remembers the block that was used last. The points of a scan come ring by ring, so
+/// the next one mostly lies in the same block and needs no hash. Each thread has a cursor of its
+/// own.
 template <class Value, int kBitsXY, int kBitsZ>
 class DenseBlocks {
  public:
@@ -33,14 +34,14 @@ class DenseBlocks {
   static VoxelIndex block_of(const VoxelIndex& cell) {
     return {cell.x() >> kBitsXY, cell.y() >> kBitsXY, cell.z() >> kBitsZ};
   }
-  /// Place of a cell within its block: x fastest, then y, then z.
+  /// The place of a cell within its block: x runs fastest, then y, then z.
   static std::size_t offset(const VoxelIndex& cell) {
     constexpr int kMaskXY = kSideXY - 1, kMaskZ = kSideZ - 1;
     return static_cast<std::size_t>(((cell.z() & kMaskZ) << (2 * kBitsXY)) |
                                     ((cell.y() & kMaskXY) << kBitsXY) | (cell.x() & kMaskXY));
   }
 
-  /// Number of the block at these block indices, or `kNone`.
+  /// The number of the block at these block indices, or `kNone` if there is none.
   [[nodiscard]] std::uint32_t block(const VoxelIndex& index) const {
     const auto found = numbers_.find(voxel_key(index));
     return found == numbers_.end() ? kNone : found->second;
@@ -63,7 +64,8 @@ class DenseBlocks {
     }
     return values_[cursor.block * kCells + offset(cell)];
   }
-  /// The cell, made if need be. Moves what earlier calls returned.
+  /// The cell, which is made if it does not exist. References that earlier calls returned may then
+  /// no longer be valid.
   Value& make(const VoxelIndex& cell, Cursor& cursor) {
     const VoxelIndex index = block_of(cell);
     const VoxelKey key = voxel_key(index);
@@ -85,4 +87,4 @@ class DenseBlocks {
   std::vector<Value> values_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_plus_method
