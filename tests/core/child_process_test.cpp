@@ -139,9 +139,15 @@ TEST_CASE("all that a forking child has started is gone after a limit") {
 }
 
 TEST_CASE("a double fork does not get away, whether the child ends or is ended") {
-  const std::string daemon = "(setsid sh -c 'setsid sleep 600 & wait' >/dev/null 2>&1 &); ";
+  const test::TemporaryFolder folder;
+  const std::string ready = "'" + folder.text() + "/ready'";
+  // The script goes on when the daemon has left its session.
+  const std::string daemon = "(setsid sh -c 'setsid sleep 600 & echo > \"$0\"; wait' " + ready +
+                             " >/dev/null 2>&1 &); while [ ! -e " + ready +
+                             " ]; do sleep 0.01; done; ";
   CHECK(run_child(limited(daemon + "sleep 600", 0.3)).kind == Kind::kTimeout);
   CHECK(descendants() == 0);
+  std::filesystem::remove(folder / "ready");
   CHECK(run_child(shell(daemon + "exit 4")).code == 4);
   CHECK(descendants() == 0);
   // It counts as the child's memory, too: 150 MB of zeros in a program that holds them.
