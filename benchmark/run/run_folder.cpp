@@ -10,7 +10,7 @@
 #include "benchmark/result/results.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/cell_store.h"
-#include "benchmark/suite/sequence_place.h"
+#include "benchmark/suite/suite_json.h"
 #include "benchmark/tables/tables.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
@@ -160,7 +160,7 @@ ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequenc
   record["machine"] = machine_record();
   record["machine"]["threads"] = threads;
   for (const SequenceRequest& request : suite.sequences) {
-    record["places"].push_back(place_record(absolute_place(request)));
+    record["places"].push_back(to_json(absolute_place(request)));
   }
   return record;
 }
