@@ -10,6 +10,7 @@
 #include "benchmark/tables/text_table.h"
 #include "core/parameter_condition.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {

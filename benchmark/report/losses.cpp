@@ -41,7 +41,7 @@ TextTable loss_table(const std::vector<const MethodColumns*>& methods, const std
         *part_of(column, kind), {{grouped_text(static_cast<std::uint64_t>(points))}}, false};
     for (const MethodColumns* method : methods) {
       const auto kept = method->find(column).percent();
-      row.cells.push_back({kept ? fixed_text(100.0 - *kept, 2) : "n/a"});
+      row.cells.push_back(kept ? number_cell(100.0 - *kept, 2) : TableCell{"n/a"});
     }
     table.rows.push_back(std::move(row));
   }

@@ -16,7 +16,7 @@
 #include "core/files/files.h"
 #include "core/files/part_name.h"
 #include "core/text.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/parameter_condition.h"
 #include "core/text.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {

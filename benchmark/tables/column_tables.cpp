@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -49,9 +50,7 @@ std::string worst_class(const MethodColumns& method, const std::string& kind) {
 std::vector<std::string> column_names(const std::vector<const MethodColumns*>& methods) {
   std::vector<std::string> names;
   for (const MethodColumns* method : methods) {
-    for (const auto& [name, share] : method->values) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
+    for (const auto& [name, share] : method->values) add_once(names, name);
   }
   return names;
 }
@@ -81,11 +80,6 @@ ColumnName parts_of(const std::string& name) {
     break;
   }
   return parts;
-}
-
-/// Adds `name` unless it is there.
-void add_once(std::vector<std::string>& names, const std::string& name) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
 std::string column_text(const std::string& kind, const std::string& group, const std::string& axis,

@@ -88,31 +88,40 @@ std::string rule_text(const std::vector<std::size_t>& widths) {
 
 }  // namespace
 
-std::optional<double> leading_number(const std::string& text) {
-  std::string number = text.substr(0, text.find(' '));
-  std::erase(number, ',');
-  return parse_number<double>(number);
+TableCell number_cell(double number, int decimals, const std::string& more) {
+  const std::string text = fixed_text(number, decimals);
+  // Rounded in the same way as the text.
+  return {text + more, Mark::kNone, parse_number<double>(text)};
+}
+
+std::vector<TableCell*> column_cells(TextTable& table, std::size_t place) {
+  return column_cells(table, place, {0, table.rows.size()});
+}
+
+std::vector<TableCell*> column_cells(TextTable& table, std::size_t place, const RowRange& rows) {
+  std::vector<TableCell*> cells;
+  for (std::size_t i = rows.first; i < rows.end; ++i) {
+    if (!table.rows[i].summary) cells.push_back(&table.rows[i].cells[place]);
+  }
+  return cells;
 }
 
 void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better) {
   std::set<double, std::greater<>> ranks;  // The largest is the best.
-  std::size_t numbers = 0;
   const auto rank_of = [&](const TableCell& cell) {
-    const auto value = leading_number(cell.text);
-    return value && !higher_is_better ? std::optional(-*value) : value;
+    return higher_is_better ? *cell.value : -*cell.value;
   };
+  std::size_t numbers = 0;
   for (const TableCell* cell : cells) {
-    const auto rank = rank_of(*cell);
-    if (!rank) continue;
-    ranks.insert(*rank);
+    if (!cell->value) continue;
+    ranks.insert(rank_of(*cell));
     ++numbers;
   }
   if (numbers < 2) return;
   for (TableCell* cell : cells) {
-    const auto rank = rank_of(*cell);
-    if (!rank) continue;
-    if (*rank == *ranks.begin()) cell->mark = Mark::kBest;
-    if (ranks.size() > 1 && *rank == *std::next(ranks.begin())) cell->mark = Mark::kSecond;
+    if (!cell->value) continue;
+    if (rank_of(*cell) == *ranks.begin()) cell->mark = Mark::kBest;
+    if (ranks.size() > 1 && rank_of(*cell) == *std::next(ranks.begin())) cell->mark = Mark::kSecond;
   }
 }
 

@@ -18,7 +18,7 @@ struct Share {
   std::int64_t part = 0;
   std::int64_t whole = 0;
 
-  /// Percent; none of nothing.
+  /// The share in percent. It has no value if `whole` is 0.
   [[nodiscard]] std::optional<double> percent() const;
 };
 

@@ -7,6 +7,7 @@
 #include "benchmark/cli/description.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
