@@ -71,38 +71,53 @@ class Scorer {
   [[nodiscard]] virtual ProtocolResult score_cloud(const CloudEstimate& cloud) const;
 };
 
-/// (scans, labels, masks) -> counts -> rates. The same input gives the same counts, for any number
-/// of threads.
-class Protocol {
- public:
-  virtual ~Protocol() = default;
-  [[nodiscard]] virtual std::string name() const = 0;
-  [[nodiscard]] virtual std::string version() const = 0;  ///< Raised when counts may change.
-  [[nodiscard]] virtual Configuration options() const = 0;
-  /// Whether counts depend on `EvaluationInput::T_camera_lidar` too.
-  [[nodiscard]] virtual bool reads_calibration() const { return false; }
-  /// Checks, without reading a scan, that the sequence has what the protocol needs.
-  /// @throws DataError if it has no labels, or lacks what the options ask for
-  virtual void check(const EvaluationInput& input) const { check_input(input, name()); }
-  /// @param input its scans, labels and progress must outlive the scorer
-  /// @throws DataError as `check`, or if there is nothing to score against (no point is left after
-  /// cropping)
-  [[nodiscard]] virtual std::unique_ptr<Scorer> open(const EvaluationInput& input) const = 0;
-};
-
-/// What is known of a protocol before it is made. `eval/protocol_registry.h` holds all entries.
+/// What a protocol is: all that the program needs to know of it.
 struct ProtocolEntry {
   std::string name;
+  std::string version;  ///< Raised when counts may change.
   std::string sentence;
   std::vector<ParameterSpec> parameters;
   std::vector<RateSpec> rates;    ///< All that its results may have, in the order of tables.
   std::vector<CountSpec> counts;  ///< All that its results may have.
-  std::function<std::unique_ptr<Protocol>(const Configuration& options)> make;
+  /// Opens the protocol for a sequence. The input's scans, labels and progress outlive the scorer.
+  /// @throws DataError if there is nothing to score against (no point is left after cropping)
+  std::function<std::unique_ptr<Scorer>(const EvaluationInput&, const Configuration& options)> open;
   /// Options with which a cleaned cloud is scored, where they differ from the defaults.
   Configuration cloud_options = {};
+  /// Whether counts depend on `EvaluationInput::T_camera_lidar` with these options. Null: they
+  /// never do.
+  std::function<bool(const Configuration& options)> reads_calibration = nullptr;
   /// Whether these options let a point pass for another, so that the rates of an answer that
   /// removes exactly the moving points depend on the data. Null: no options do.
   std::function<bool(const Configuration& options)> oracle_is_uncertain = nullptr;
 };
+
+/// A protocol with its options: (scans, labels, masks) -> counts -> rates. The same input gives the
+/// same counts, for any number of threads.
+class Protocol {
+ public:
+  /// @param entry must outlive this object
+  /// @param options those that are not given have their defaults
+  /// @throws ConfigurationError for an unknown option
+  Protocol(const ProtocolEntry& entry, const Configuration& options);
+
+  [[nodiscard]] const std::string& name() const { return entry_.name; }
+  [[nodiscard]] const std::string& version() const { return entry_.version; }
+  [[nodiscard]] const Configuration& options() const { return options_; }
+  [[nodiscard]] bool reads_calibration() const;
+  /// Checks, without reading a scan, that the sequence has what the protocol needs.
+  /// @throws DataError if it has no labels, or no calibration although counts depend on it
+  void check(const EvaluationInput& input) const;
+  /// @param input its scans, labels and progress must outlive the scorer
+  /// @throws DataError as `check`, or if there is nothing to score against
+  [[nodiscard]] std::unique_ptr<Scorer> open(const EvaluationInput& input) const;
+
+ private:
+  const ProtocolEntry& entry_;
+  Configuration options_;
+};
+
+/// Options of a protocol at their defaults.
+Configuration default_options(const ProtocolEntry& entry);
 
 }  // namespace raymoval

@@ -104,19 +104,11 @@ const std::string& default_protocol() {
 }
 
 Configuration protocol_defaults(const std::string& name) {
-  Configuration options;
-  for (const ParameterSpec& spec : protocol_entry(name).parameters) {
-    options.emplace_back(spec.name, spec.default_value);
-  }
-  return options;
+  return default_options(protocol_entry(name));
 }
 
 std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configuration& options) {
-  const ProtocolEntry& entry = protocol_entry(name);
-  for (const auto& [key, value] : options) {
-    find_parameter("protocol " + name, entry.parameters, key);
-  }
-  return entry.make(options);
+  return std::make_unique<Protocol>(protocol_entry(name), options);
 }
 
 void register_protocol(ProtocolEntry entry) {

@@ -24,7 +24,7 @@ const std::string& default_protocol();
 /// Options of the protocol called `name` at their defaults. @throws UsageError as `protocol_entry`
 Configuration protocol_defaults(const std::string& name);
 
-/// @throws UsageError as `protocol_entry`, ConfigurationError for an unknown option or a bad value
+/// @throws UsageError as `protocol_entry`, ConfigurationError for an unknown option
 std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configuration& options);
 
 /// Adds a protocol of a program's own, for instance at the beginning of its main function.

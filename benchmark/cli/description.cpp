@@ -10,7 +10,6 @@
 #include "benchmark/tables/text_table.h"
 #include "core/parameter_condition.h"
 #include "core/text.h"
-#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -112,7 +111,7 @@ Description describe_protocol(const ProtocolEntry& entry) {
   description.name = entry.name;
   description.sentence = entry.sentence;
   description.parameters = entry.parameters;
-  description.version = make_protocol(entry.name, protocol_defaults(entry.name))->version();
+  description.version = entry.version;
   return description;
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string_view>
 
-#include "benchmark/picture/charts/svg.h"
 #include "core/text.h"
 
 namespace raymoval {

@@ -75,6 +75,9 @@ std::string shortened_end(const std::string& text, std::size_t most);
 /// Lines of at most `most` characters, broken between words, each with its end of line.
 std::string wrapped(const std::string& text, std::size_t most);
 
+/// Text for XML: markup is escaped, and characters that XML does not have are replaced.
+std::string xml_escaped(const std::string& text);
+
 /// How wide text for a terminal is at most.
 inline constexpr std::size_t kTerminalWidth = 100;
 

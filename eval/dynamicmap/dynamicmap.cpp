@@ -69,27 +69,14 @@ class DynamicMapScorer : public Scorer {
   TruthPoints truth_;
 };
 
-class DynamicMapProtocol : public Protocol {
- public:
-  explicit DynamicMapProtocol(const Options& options) : options_(options) {}
-  [[nodiscard]] std::string name() const override { return "dynamicmap"; }
-  [[nodiscard]] std::string version() const override { return "1"; }
-  [[nodiscard]] Configuration options() const override { return option_table().write(options_); }
-  [[nodiscard]] std::unique_ptr<Scorer> open(const EvaluationInput& input) const override {
-    check(input);
-    return std::make_unique<DynamicMapScorer>(input, options_);
-  }
-
- private:
-  Options options_;
-};
-
 }  // namespace
 
 ProtocolEntry dynamicmap_protocol_entry() {
   return {.name = "dynamicmap",
+          .version = "1",
           .sentence =
-              "Static and dynamic accuracy over points (KTH DynamicMap benchmark): SA, DA, AA, HA.",
+              "Static and dynamic accuracy over points (KTH DynamicMap benchmark): SA, DA, "
+              "AA, HA.",
           .parameters = option_table().specs(),
           .rates = accuracy_rate_list(),
           .counts = {{"static_points", true},
@@ -101,8 +88,9 @@ ProtocolEntry dynamicmap_protocol_entry() {
                      {"ego_points", true},
                      {"out_of_range_points", true},
                      {"ignored_points", true}},
-          .make = [](const Configuration& options) -> std::unique_ptr<Protocol> {
-            return std::make_unique<DynamicMapProtocol>(option_table().read(options));
+          .open = [](const EvaluationInput& input,
+                     const Configuration& options) -> std::unique_ptr<Scorer> {
+            return std::make_unique<DynamicMapScorer>(input, option_table().read(options));
           }};
 }
 

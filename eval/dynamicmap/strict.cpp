@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "eval/dynamicmap/accuracy.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/truth_points.h"
 #include "eval/points/cloud_masks.h"
+#include "eval/points/scan_loops.h"
 
 namespace raymoval {
 namespace {
@@ -27,16 +28,17 @@ class StrictScorer : public Scorer {
         voxel_size_(options.voxel_size),
         points_(input_, options.maximum_range, options.ego_range) {
     for (const PointCounts& scan : points_.count("ground truth points")) point_counts_ += scan;
-    if (input_.progress != nullptr) {
-      input_.progress->begin("ground truth cells", input_.scans->size());
-    }
-    for (std::size_t i = 0; i < input_.scans->size(); ++i) {
+    using Part = std::vector<std::pair<VoxelKey, bool>>;  // Cell, and whether the point moves.
+    const auto read = [&](std::size_t i) {
+      Part part;
       (void)points_.read(i, nullptr, [&](std::size_t p, const Scan& scan, Kind kind, bool) {
-        if (is_truth(kind)) add_cell(key_of(scan, p), kind == Kind::kDynamic);
+        if (is_truth(kind)) part.emplace_back(key_of(scan, p), kind == Kind::kDynamic);
       });
-      if (input_.progress != nullptr) input_.progress->advance();
-    }
-    if (input_.progress != nullptr) input_.progress->end();
+      return part;
+    };
+    in_scan_order<Part>(input_, "ground truth cells", read, [&](const Part& part) {
+      for (const auto& [key, moving] : part) add_cell(key, moving);
+    });
   }
 
   [[nodiscard]] ProtocolResult score(const MaskStore& masks) const override {
@@ -69,8 +71,7 @@ class StrictScorer : public Scorer {
   /// For each cell of the truth the classes of its kept points.
   [[nodiscard]] std::vector<std::uint8_t> kept_cells(const MaskStore& masks) const {
     std::vector<std::uint8_t> kept(classes_.size(), 0);
-    if (input_.progress != nullptr) input_.progress->begin("kept cells", input_.scans->size());
-    parallel_for(input_.threads, input_.scans->size(), 1, [&](std::size_t i) {
+    for_each_scan(input_, "kept cells", [&](std::size_t i) {
       const auto visit = [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
         if (removed || !is_truth(kind)) return;
         std::uint8_t& cell = kept[positions_.at(key_of(scan, p))];
@@ -78,9 +79,7 @@ class StrictScorer : public Scorer {
                                                      std::memory_order_relaxed);
       };
       (void)points_.read(i, &masks, visit);
-      if (input_.progress != nullptr) input_.progress->advance();
     });
-    if (input_.progress != nullptr) input_.progress->end();
     return kept;
   }
 
@@ -120,27 +119,11 @@ class StrictScorer : public Scorer {
   std::vector<std::uint8_t> classes_;  ///< kStatic, kDynamic or both.
 };
 
-class StrictProtocol : public Protocol {
- public:
-  explicit StrictProtocol(const StrictOptions& options) : options_(options) {}
-  [[nodiscard]] std::string name() const override { return "dynamicmap-strict"; }
-  [[nodiscard]] std::string version() const override { return "1"; }
-  [[nodiscard]] Configuration options() const override {
-    return strict_option_table().write(options_);
-  }
-  [[nodiscard]] std::unique_ptr<Scorer> open(const EvaluationInput& input) const override {
-    check(input);
-    return std::make_unique<StrictScorer>(input, options_);
-  }
-
- private:
-  StrictOptions options_;
-};
-
 }  // namespace
 
 ProtocolEntry strict_protocol_entry() {
   return {.name = "dynamicmap-strict",
+          .version = "1",
           .sentence =
               "Static and dynamic accuracy over sets of cells, by index, without any search: SA, "
               "DA, AA, HA.",
@@ -154,8 +137,9 @@ ProtocolEntry strict_protocol_entry() {
                      {"ego_points", true},
                      {"out_of_range_points", true},
                      {"ignored_points", true}},
-          .make = [](const Configuration& options) -> std::unique_ptr<Protocol> {
-            return std::make_unique<StrictProtocol>(strict_option_table().read(options));
+          .open = [](const EvaluationInput& input,
+                     const Configuration& options) -> std::unique_ptr<Scorer> {
+            return std::make_unique<StrictScorer>(input, strict_option_table().read(options));
           }};
 }
 

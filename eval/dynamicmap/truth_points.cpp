@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/parallel.h"
+#include "eval/points/scan_loops.h"
 
 namespace raymoval::dynamicmap {
 
@@ -49,12 +49,9 @@ Kind TruthPoints::kind_of(const Eigen::Vector3f& point, std::uint32_t word,
 
 std::vector<PointCounts> TruthPoints::count(const std::string& task) const {
   std::vector<PointCounts> counts(input_.scans->size());
-  if (input_.progress != nullptr) input_.progress->begin(task, counts.size());
-  parallel_for(input_.threads, counts.size(), 1, [&](std::size_t i) {
+  for_each_scan(input_, task, [&](std::size_t i) {
     counts[i] = read(i, nullptr, [](std::size_t, const Scan&, Kind, bool) {});
-    if (input_.progress != nullptr) input_.progress->advance();
   });
-  if (input_.progress != nullptr) input_.progress->end();
   PointCounts all;
   for (const PointCounts& scan : counts) all += scan;
   if (all.static_points + all.dynamic_points > 0) return counts;

@@ -47,52 +47,43 @@ class ToyScorer : public Scorer {
   EvaluationInput input_;
 };
 
-class ToyProtocol : public Protocol {
- public:
-  [[nodiscard]] std::string name() const override { return "toy"; }
-  [[nodiscard]] std::string version() const override { return "1"; }
-  [[nodiscard]] Configuration options() const override { return {}; }
-  [[nodiscard]] std::unique_ptr<Scorer> open(const EvaluationInput& input) const override {
-    check(input);
-    return std::make_unique<ToyScorer>(input);
-  }
-};
-
 inline ProtocolEntry toy_protocol_entry() {
-  return {.name = "toy",
-          .sentence = "Mistakes over points.",
-          .parameters = {},
-          .rates = {{.name = "lost",
-                     .unit = RateUnit::kFraction,
-                     .decimals = 5,
-                     .higher_is_better = false,
-                     .role = RateRole::kKept,
-                     .nothing_removed = 0.0,
-                     .everything_removed = 1.0,
-                     .moving_points_removed = 0.0},
-                    {.name = "left",
-                     .unit = RateUnit::kFraction,
-                     .decimals = 3,
-                     .higher_is_better = false,
-                     .role = RateRole::kRemoved,
-                     .nothing_removed = 1.0,
-                     .everything_removed = 0.0,
-                     .moving_points_removed = 0.0},
-                    {.name = "mistakes",
-                     .unit = RateUnit::kFraction,
-                     .decimals = 5,
-                     .higher_is_better = false,
-                     .role = RateRole::kHeadline,
-                     .moving_points_removed = 0.0,
-                     .note = "mistakes counts left and lost points together."},
-                    {.name = "lost_of_all",
-                     .unit = RateUnit::kFraction,
-                     .decimals = 5,
-                     .higher_is_better = false}},
-          .counts = {{"toy_moving", true}, {"toy_static", true}, {"toy_left"}, {"toy_lost"}},
-          .make = [](const Configuration&) -> std::unique_ptr<Protocol> {
-            return std::make_unique<ToyProtocol>();
-          }};
+  return {
+      .name = "toy",
+      .version = "1",
+      .sentence = "Mistakes over points.",
+      .parameters = {},
+      .rates = {{.name = "lost",
+                 .unit = RateUnit::kFraction,
+                 .decimals = 5,
+                 .higher_is_better = false,
+                 .role = RateRole::kKept,
+                 .nothing_removed = 0.0,
+                 .everything_removed = 1.0,
+                 .moving_points_removed = 0.0},
+                {.name = "left",
+                 .unit = RateUnit::kFraction,
+                 .decimals = 3,
+                 .higher_is_better = false,
+                 .role = RateRole::kRemoved,
+                 .nothing_removed = 1.0,
+                 .everything_removed = 0.0,
+                 .moving_points_removed = 0.0},
+                {.name = "mistakes",
+                 .unit = RateUnit::kFraction,
+                 .decimals = 5,
+                 .higher_is_better = false,
+                 .role = RateRole::kHeadline,
+                 .moving_points_removed = 0.0,
+                 .note = "mistakes counts left and lost points together."},
+                {.name = "lost_of_all",
+                 .unit = RateUnit::kFraction,
+                 .decimals = 5,
+                 .higher_is_better = false}},
+      .counts = {{"toy_moving", true}, {"toy_static", true}, {"toy_left"}, {"toy_lost"}},
+      .open = [](const EvaluationInput& input, const Configuration&) -> std::unique_ptr<Scorer> {
+        return std::make_unique<ToyScorer>(input);
+      }};
 }
 
 /// The toy protocol is registered as long as this object lives.

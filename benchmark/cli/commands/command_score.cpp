@@ -57,10 +57,7 @@ std::string result_text(const std::string& name, const ProtocolResult& result) {
 std::string columns_text(const std::vector<ColumnValue>& columns) {
   std::string text = "points\n";
   for (const ColumnValue& column : columns) {
-    if (column.name.find("range ") != std::string::npos ||
-        column.name.find("height ") != std::string::npos) {
-      continue;
-    }
+    if (!parse_column_name(column.name).axis.empty()) continue;
     const auto percent = column.share.percent();
     text += "  " + column.name + " " +
             (percent ? fixed_text(*percent, 3) + " (" + std::to_string(column.share.part) + " of " +
