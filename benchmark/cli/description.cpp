@@ -99,7 +99,7 @@ Description describe_protocol(const ProtocolEntry& entry) {
   description.name = entry.name;
   description.sentence = entry.sentence;
   description.parameters = entry.parameters;
-  description.version = make_protocol(entry.name, protocol_defaults(entry.name))->version();
+  description.version = entry.version;
   return description;
 }
 

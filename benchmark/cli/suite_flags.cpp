@@ -10,6 +10,7 @@
 #include "benchmark/suite/shipped_suites.h"
 #include "core/error.h"
 #include "datasets/clouds/frames.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -105,7 +106,7 @@ Suite SuiteFlags::resolved() const {
   }
   Suite made = flags.suite.empty() ? suite_from_flags(flags, registry)
                                    : read_suite(find_suite(flags.suite), registry, data);
-  if (made.protocols.empty()) add_protocol(made, "erasor", "");
+  if (made.protocols.empty()) add_protocol(made, default_protocol(), "");
   apply_settings(made, parsed);
   if (made.controls) add_controls(made, registry);
   if (const int count = parse_threads(flags.threads); count > 0) made.threads = count;

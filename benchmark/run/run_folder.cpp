@@ -16,7 +16,7 @@
 #include "core/files/files.h"
 #include "core/files/part_name.h"
 #include "core/text.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -123,7 +123,7 @@ ordered_json suite_record(const Suite& suite, const std::vector<Sequence>& seque
     ordered_json protocol;
     protocol["name"] = request.name;
     protocol["protocol"] = request.protocol;
-    protocol["version"] = make_protocol(request.protocol, request.options)->version();
+    protocol["version"] = protocol_entry(request.protocol).version;
     protocol["options"] = to_json(request.options);
     record["protocols"].push_back(std::move(protocol));
   }

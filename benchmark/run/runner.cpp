@@ -22,6 +22,7 @@
 #include "core/parallel.h"
 #include "core/process/proc_files.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 #include "datasets/reading/left_out.h"
 
 namespace raymoval {

@@ -7,7 +7,7 @@
 #include "core/parameter_condition.h"
 #include "core/text.h"
 #include "datasets/simulation/scene/simulated.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "benchmark/picture/charts/svg.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/tables/comparison_json.h"
+#include "benchmark/tables/text_table.h"
 #include "core/error.h"
 #include "core/text.h"
 

@@ -7,6 +7,7 @@
 #include "benchmark/cli/commands/output_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
