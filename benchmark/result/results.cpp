@@ -6,7 +6,7 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/suite/cell_selection.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -115,6 +115,26 @@ std::string csv_text(const std::string& text) {
 
 }  // namespace
 
+std::optional<double> ResultRow::rate(const std::string& name) const {
+  const auto found = rates.find(name);
+  return status != "ok" || found == rates.end() ? std::nullopt : found->second;
+}
+
+const std::string& RunResults::kind_of(const std::string& protocol) const {
+  const auto found = protocol_kinds.find(protocol);
+  return found == protocol_kinds.end() ? protocol : found->second;
+}
+
+SegmentValues RunResults::values(const std::string& cell, const std::string& protocol,
+                                 const std::string& rate) const {
+  SegmentValues list;
+  for (const std::string& sequence : sequences) {
+    const ResultRow* row = find(sequence, cell, protocol);
+    list.push_back(row == nullptr ? std::nullopt : row->rate(rate));
+  }
+  return list;
+}
+
 const ResultRow* RunResults::find(const std::string& sequence, const std::string& cell,
                                   const std::string& protocol) const {
   for (const ResultRow& row : rows) {
@@ -155,6 +175,7 @@ std::optional<double> RunResults::peak_mib(const std::string& cell) const {
 std::vector<std::string> RunResults::rates_of(const std::string& protocol) const {
   std::vector<std::string> rates;
   for (const RateSpec& spec : rate_specs()) {
+    if (spec.role == RateRole::kSecondary) continue;
     const bool there = std::any_of(rows.begin(), rows.end(), [&](const ResultRow& row) {
       return row.protocol == protocol && row.rates.contains(spec.name);
     });
@@ -195,6 +216,9 @@ RunResults shown_results(const ResultsRecord& results) {
   shown.sequences = names_of(results.run.sequences);
   shown.cells = names_of(results.run.methods);
   shown.protocols = names_of(results.run.protocols);
+  for (const ProtocolRecord& protocol : results.run.protocols) {
+    shown.protocol_kinds[protocol.name] = protocol.protocol;
+  }
   for (const SuiteMethodRecord& method : results.run.methods) {
     if (method.sweep.empty()) continue;
     SweptCell swept{method.name, method.sweep_of, {}};
@@ -217,13 +241,11 @@ RunResults shown_results(const ResultsRecord& results) {
   return shown;
 }
 
-std::string rate_text(const std::string& rate, double value) {
-  return fixed_text(value, rate_spec(rate).decimals);
-}
-
 std::string results_csv(const RunResults& results) {
   std::vector<std::string> rates;
-  for (const RateSpec& spec : rate_specs()) rates.push_back(spec.name);
+  for (const RateSpec& spec : rate_specs()) {
+    if (spec.role != RateRole::kSecondary) rates.push_back(spec.name);
+  }
   std::string csv = "sequence,method,variant,protocol,status," + join(rates, ",") +
                     ",seconds_per_scan,peak_memory_mib,name\n";
   for (const ResultRow& row : results.rows) {

@@ -9,13 +9,13 @@
 #include "benchmark/result/results.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/cell_store.h"
-#include "benchmark/suite/sequence_place.h"
+#include "benchmark/suite/suite_json.h"
 #include "benchmark/tables/tables.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
 #include "core/text.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -122,7 +122,7 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
   }
   for (const ProtocolRequest& request : suite.protocols) {
     run.protocols.push_back({request.name, request.protocol,
-                             make_protocol(request.protocol, request.options)->version(),
+                             protocol_entry(request.protocol).version,
                              request.options});
   }
   run.controls = suite.controls;

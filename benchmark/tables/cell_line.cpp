@@ -6,7 +6,7 @@
 #include "benchmark/result/results.h"
 #include "benchmark/tables/text_table.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -23,7 +23,7 @@ std::size_t widest(const std::vector<std::string>& names, std::size_t most) {
 
 /// "F1 0.9443", in the width of a perfect rate.
 std::string rate_piece(const RateSpec& spec, const std::optional<double>& value) {
-  const std::string full = fixed_text(spec.full(), spec.decimals);
+  const std::string full = fixed_text(spec.largest(), spec.decimals);
   const std::string text = value ? rate_text(spec.name, *value) : "n/a";
   return spec.name + " " + padded_left(text, full.size());
 }
