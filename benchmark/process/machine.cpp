@@ -2,7 +2,6 @@
 #include "benchmark/process/machine.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "benchmark/process/build_commit.h"
@@ -31,24 +30,16 @@ std::optional<double> kibibytes(const std::string& field) {
 
 }  // namespace
 
-nlohmann::ordered_json build_record() {
-  nlohmann::ordered_json record;
-  record["version"] = RAYMOVAL_VERSION;
-  record["commit"] = build_commit();
-  record["source_tree"] = build_tree();
-  record["compiler"] = RAYMOVAL_COMPILER;
-  record["build_type"] = RAYMOVAL_BUILD_TYPE;
-  return record;
+BuildRecord build_record() {
+  return {RAYMOVAL_VERSION, build_commit(), build_tree(), RAYMOVAL_COMPILER, RAYMOVAL_BUILD_TYPE};
 }
 
-nlohmann::ordered_json machine_record() {
-  nlohmann::ordered_json record;
-  record["processor"] = proc_field("/proc/cpuinfo", "model name");
-  record["cores"] = hardware_threads();
+MachineRecord machine_record(int threads) {
+  MachineRecord machine{proc_field("/proc/cpuinfo", "model name"), hardware_threads()};
   const auto memory = kibibytes(proc_field("/proc/meminfo", "MemTotal"));
-  record["memory_gib"] =
-      memory ? nlohmann::ordered_json(static_cast<long>(*memory / 1048576.0 + 0.5)) : nullptr;
-  return record;
+  if (memory) machine.memory_gib = static_cast<std::int64_t>(*memory / 1048576.0 + 0.5);
+  machine.threads = threads;
+  return machine;
 }
 
 bool reset_peak_memory() {

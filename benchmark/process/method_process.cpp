@@ -13,7 +13,8 @@
 #include <system_error>
 
 #include "benchmark/process/checked_sink.h"
-#include "benchmark/result/sealed_json.h"
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/json_fields.h"
 #include "benchmark/suite/sequence_place.h"
 #include "core/files/descriptor.h"
 #include "core/text.h"
@@ -174,7 +175,7 @@ MethodAnswer read_answer(int file) {
   MethodAnswer answer;
   answer.status = json.at("status").get<std::string>();
   answer.reason = json.at("reason").get<std::string>();
-  answer.measured = measurement_from(json.at("measured"));
+  answer.measured = measurement_from({json.at("measured"), "the answer"});
   if (json.contains("loaded")) answer.loaded = loaded_from(json.at("loaded"));
   const auto points = json.at("points").get<std::vector<std::size_t>>();
   answer.masks = MaskStore(points.size());

@@ -4,7 +4,7 @@
 
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/suite_flags.h"
-#include "benchmark/run/runner.h"
+#include "benchmark/run/plan.h"
 
 namespace raymoval {
 namespace {
@@ -17,11 +17,11 @@ struct PlanFlags {
 
 std::string json_line(const PlannedCell& cell, bool looked) {
   nlohmann::ordered_json json;
-  json["cell"] = cell.sequence + "/" + cell.name;
+  json["cell"] = cell.cell.sequence + "/" + cell.cell.name;
   json["key"] = nullptr;
   if (!cell.key.empty()) json["key"] = cell.key;
-  json["sequence"] = cell.sequence;
-  json["name"] = cell.name;
+  json["sequence"] = cell.cell.sequence;
+  json["name"] = cell.cell.name;
   json["method"] = cell.method;
   json["scans"] = cell.scans;
   json["folder"] = cell.folder.generic_string();

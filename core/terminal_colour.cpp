@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/terminal_colour.h"
+#include "core/terminal_colour.h"
 
 #include <unistd.h>
 
