@@ -8,7 +8,7 @@
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
 #include "datasets/simulation/scene/simulated.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {

@@ -8,7 +8,7 @@
 #include "benchmark/result/score_json.h"
 #include "benchmark/suite/cell_selection.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -128,6 +128,7 @@ RunResults parse(const ordered_json& json) {
   }
   for (const ordered_json& item : suite.at("protocols")) {
     results.protocols.push_back(item.at("name").get<std::string>());
+    results.protocol_kinds[results.protocols.back()] = item.at("protocol").get<std::string>();
   }
   for (const ordered_json& cell : json.at("cells")) {
     add_rows(cell, results);
@@ -151,6 +152,26 @@ std::string csv_text(const std::string& text) {
 }
 
 }  // namespace
+
+std::optional<double> ResultRow::rate(const std::string& name) const {
+  const auto found = rates.find(name);
+  return status != "ok" || found == rates.end() ? std::nullopt : found->second;
+}
+
+const std::string& RunResults::kind_of(const std::string& protocol) const {
+  const auto found = protocol_kinds.find(protocol);
+  return found == protocol_kinds.end() ? protocol : found->second;
+}
+
+SegmentValues RunResults::values(const std::string& cell, const std::string& protocol,
+                                 const std::string& rate) const {
+  SegmentValues list;
+  for (const std::string& sequence : sequences) {
+    const ResultRow* row = find(sequence, cell, protocol);
+    list.push_back(row == nullptr ? std::nullopt : row->rate(rate));
+  }
+  return list;
+}
 
 const ResultRow* RunResults::find(const std::string& sequence, const std::string& cell,
                                   const std::string& protocol) const {
@@ -192,6 +213,7 @@ std::optional<double> RunResults::peak_mib(const std::string& cell) const {
 std::vector<std::string> RunResults::rates_of(const std::string& protocol) const {
   std::vector<std::string> rates;
   for (const RateSpec& spec : rate_specs()) {
+    if (spec.role == RateRole::kSecondary) continue;
     const bool there = std::any_of(rows.begin(), rows.end(), [&](const ResultRow& row) {
       return row.protocol == protocol && row.rates.contains(spec.name);
     });
@@ -233,13 +255,11 @@ RunResults parse_results(const ordered_json& results, const std::string& where) 
   }
 }
 
-std::string rate_text(const std::string& rate, double value) {
-  return fixed_text(value, rate_spec(rate).decimals);
-}
-
 std::string results_csv(const RunResults& results) {
   std::vector<std::string> rates;
-  for (const RateSpec& spec : rate_specs()) rates.push_back(spec.name);
+  for (const RateSpec& spec : rate_specs()) {
+    if (spec.role != RateRole::kSecondary) rates.push_back(spec.name);
+  }
   std::string csv = "sequence,method,variant,protocol,status," + join(rates, ",") +
                     ",seconds_per_scan,peak_memory_mib,name\n";
   for (const ResultRow& row : results.rows) {

@@ -8,7 +8,7 @@
 #include "benchmark/result/removal_files.h"
 #include "benchmark/result/result_sets.h"
 #include "benchmark/result/sealed_json.h"
-#include "benchmark/suite/sequence_place.h"
+#include "benchmark/suite/suite_json.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"

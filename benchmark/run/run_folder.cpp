@@ -10,13 +10,13 @@
 #include "benchmark/result/results.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/cell_store.h"
-#include "benchmark/suite/sequence_place.h"
+#include "benchmark/suite/suite_json.h"
 #include "benchmark/tables/tables.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
 #include "core/text.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -123,7 +123,7 @@ ordered_json suite_record(const Suite& suite, const std::vector<Sequence>& seque
     ordered_json protocol;
     protocol["name"] = request.name;
     protocol["protocol"] = request.protocol;
-    protocol["version"] = make_protocol(request.protocol, request.options)->version();
+    protocol["version"] = protocol_entry(request.protocol).version;
     protocol["options"] = to_json(request.options);
     record["protocols"].push_back(std::move(protocol));
   }
@@ -160,7 +160,7 @@ ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequenc
   record["machine"] = machine_record();
   record["machine"]["threads"] = threads;
   for (const SequenceRequest& request : suite.sequences) {
-    record["places"].push_back(place_record(absolute_place(request)));
+    record["places"].push_back(to_json(absolute_place(request)));
   }
   return record;
 }

@@ -20,7 +20,9 @@
 #include "benchmark/tables/cell_line.h"
 #include "core/files/file_kind.h"
 #include "core/parallel.h"
+#include "core/process/proc_files.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 #include "datasets/reading/left_out.h"
 
 namespace raymoval {

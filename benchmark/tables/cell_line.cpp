@@ -7,7 +7,7 @@
 #include "benchmark/result/results.h"
 #include "benchmark/tables/text_table.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -26,7 +26,7 @@ std::size_t widest(const std::vector<std::string>& names, std::size_t most) {
 
 /// "F1 0.9443", in the width of a perfect rate.
 std::string rate_piece(const RateSpec& spec, const ordered_json& value) {
-  const std::string full = fixed_text(spec.full(), spec.decimals);
+  const std::string full = fixed_text(spec.largest(), spec.decimals);
   const std::string text = value.is_null() ? "n/a" : rate_text(spec.name, value.get<double>());
   return spec.name + " " + padded_left(text, full.size());
 }

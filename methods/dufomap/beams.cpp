@@ -9,7 +9,7 @@
 #include "methods/dufomap/cell_walk.h"
 #include "methods/dufomap/free_walk.h"
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 namespace {
 
 /// Grows with the azimuth of (x, y) from 0 to 4; stands in for an arc tangent.
@@ -127,4 +127,4 @@ void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends,
   }
 }
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

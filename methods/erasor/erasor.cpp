@@ -7,12 +7,15 @@
 
 #include "core/parallel.h"
 #include "core/text.h"
+#include "methods/common/remover_from.h"
+#include "methods/common/scan_passes.h"
 #include "methods/erasor/ground_fit.h"
 #include "methods/erasor/naive_map.h"
 #include "methods/erasor/polar_bins.h"
 #include "methods/erasor/scan_ratio_test.h"
 
 namespace raymoval {
+namespace erasor_method {
 namespace {
 
 /// The points of a query by bin, after thinning.
@@ -50,16 +53,11 @@ class ErasorRun {
   /// The map of all scans.
   NaiveMap collect_naive_map() {
     NaiveMapBuilder builder;
-    context_.begin_pass("erasor, naive map", scans_.size());
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(i);
-      const ScanScope of_scan(context_.times, i);
+    for_each_scan("erasor, naive map", scans_, context_, [&](const Scan& scan) {
       const StageScope timed(context_.times, "naive map");
       locate(scan, parameters_.minimum_range);
       builder.add(keys_, world_);
-      context_.advance();
-    }
+    });
     const StageScope timed(context_.times, "naive map");
     return builder.finish();
   }
@@ -69,37 +67,22 @@ class ErasorRun {
     const auto interval = static_cast<std::size_t>(parameters_.removal_interval);
     const std::size_t first =
         parameters_.phase < 0 ? interval - 1 : static_cast<std::size_t>(parameters_.phase);
-    const std::size_t queries =
-        scans_.size() > first ? (scans_.size() - first - 1) / interval + 1 : 0;
-    context_.begin_pass("erasor, queries", queries);
-    for (std::size_t i = first; i < scans_.size(); i += interval) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(i);
-      const ScanScope of_scan(context_.times, i);
-      process(scan, map);
-      context_.advance();
-    }
+    for_each_scan("erasor, queries", scans_, every_nth_scan(first, scans_.size(), interval),
+                  context_, [&](const Scan& scan) { process(scan, map); });
   }
 
   /// A point is dynamic iff its voxel is out of the map.
   void answer(const NaiveMap& map, RemovalSink& sink) {
-    context_.begin_pass("erasor, answers", scans_.size());
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(i);
+    for_each_scan("erasor, answers", scans_, context_, [&](const Scan& scan) {
+      const StageScope timed(context_.times, "answer");
       Mask removed(scan.size(), 0);
-      {
-        const ScanScope of_scan(context_.times, i);
-        const StageScope timed(context_.times, "answer");
-        const double inverse = 1.0 / parameters_.map_voxel_size;
-        parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
-          const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
-          removed[k] = map.is_out(voxel_key(voxel_index(world, inverse))) ? 1 : 0;
-        });
-      }
-      sink.accept(i, removed);
-      context_.advance();
-    }
+      const double inverse = 1.0 / parameters_.map_voxel_size;
+      parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
+        const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
+        removed[k] = map.is_out(voxel_key(voxel_index(world, inverse))) ? 1 : 0;
+      });
+      sink.accept(scan.index, removed);
+    });
   }
 
  private:
@@ -271,22 +254,16 @@ class ErasorRun {
   std::vector<Eigen::Vector3d> world_;  ///< Of the scan at hand.
 };
 
-class ErasorRemover : public Remover {
- public:
-  explicit ErasorRemover(const ErasorParameters& parameters) : parameters_(parameters) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    ErasorRun run(parameters_, scans, context);
-    NaiveMap map = run.collect_naive_map();
-    run.process_queries(map);
-    run.answer(map, sink);
-  }
-
- private:
-  ErasorParameters parameters_;
-};
+void run(const ErasorParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  ErasorRun erasor(parameters, scans, context);
+  NaiveMap map = erasor.collect_naive_map();
+  erasor.process_queries(map);
+  erasor.answer(map, sink);
+}
 
 }  // namespace
+}  // namespace erasor_method
 
 std::unique_ptr<Remover> make_erasor(const ErasorParameters& parameters) {
   if (!(parameters.minimum_height < parameters.maximum_height)) {
@@ -301,7 +278,7 @@ std::unique_ptr<Remover> make_erasor(const ErasorParameters& parameters) {
         " is not below erasor.max_range = " + number_text(parameters.maximum_range) +
         ", so no point would be tested; raise max_range.");
   }
-  return std::make_unique<ErasorRemover>(parameters);
+  return remover_from(parameters, erasor_method::run);
 }
 
 }  // namespace raymoval

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 
 /// Morton code of a leaf of a tree of depth 16: the bits of the three 16-bit keys interleaved, x
 /// lowest. Its highest three bits are the root's child, its lowest three the leaf among its
@@ -121,4 +121,4 @@ class CellBlocks {
   std::vector<CellBlock> blocks_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "methods/octomap/point_filters.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 namespace {
 
 struct PointTable {
@@ -58,4 +58,4 @@ Mask find_noise(const std::vector<octomap::point3d>& points, const OctomapParame
   return noise;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "methods/method_entry.h"
 #include "methods/octomap/parameters.h"
-#include "methods/registry.h"
 
 namespace raymoval {
 

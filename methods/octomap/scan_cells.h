@@ -7,7 +7,7 @@
 #include "methods/octomap/beam_tracer.h"
 #include "methods/octomap/parameters.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 
 /// What a point of a scan says about its cell and its beam.
 enum class PointRole : std::uint8_t {
@@ -53,4 +53,4 @@ class ScanCells {
   std::vector<CellBlocks> parts_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 namespace {
 
 /// Grows with the azimuth of (x, y) from 0 to 4, a quarter turn each; needs no arc tangent.
@@ -80,4 +80,4 @@ DirectionIndex::Window DirectionIndex::window_around(const Eigen::Vector3d& u, d
   return window;
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -4,7 +4,7 @@
 #include "core/scan/scan.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// What a map knows of a voxel.
 enum class VoxelState : std::uint8_t {
@@ -86,4 +86,4 @@ class StaticMap {
   std::vector<Brick> erased_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "methods/method_entry.h"
 #include "methods/raymoval_plus/common/parameters.h"
-#include "methods/registry.h"
 
 namespace raymoval {
 namespace raymoval_plus_method {

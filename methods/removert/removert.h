@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "methods/registry.h"
+#include "methods/method_entry.h"
 #include "methods/removert/parameters.h"
 
 namespace raymoval {

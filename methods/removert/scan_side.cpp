@@ -5,7 +5,7 @@
 
 #include "methods/removert/answer.h"
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 namespace {
 
 /// Points in the shape nanoflann reads.
@@ -94,4 +94,4 @@ std::unique_ptr<Answer> answer_by_neighbours(const MapPoints& kept,
   return std::make_unique<NeighbourAnswer>(kept, parameters);
 }
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

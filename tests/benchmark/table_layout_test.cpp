@@ -2,14 +2,14 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/tables/accuracy_tables.h"
 #include "benchmark/tables/cell_line.h"
+#include "benchmark/tables/rate_tables.h"
 #include "benchmark/tables/run_summary.h"
 #include "benchmark/tables/tables.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -12,7 +13,7 @@
 #include "benchmark/result/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/parallel.h"
-#include "core/process/child_process.h"
+#include "core/process/proc_files.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/reading/left_out.h"
@@ -117,6 +118,14 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
   return sequence;
 }
 
+/// The words of this command with the option that makes the child do the work itself.
+std::vector<std::string> arguments_of_child() {
+  std::vector<std::string> arguments = program_arguments();
+  const auto command = std::find(arguments.begin(), arguments.end(), "clean");
+  arguments.insert(command == arguments.end() ? command : command + 1, "--in-process");
+  return arguments;
+}
+
 /// What was done, a line each.
 std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& method,
                              const Sequence& sequence, const MaskSpool& masks,
@@ -139,7 +148,7 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   const Sequence sequence = opened(flags, paths, method, progress);
   const std::string turned = up_line(sequence.up());
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
-  check_data(sequence, flags.path, flags.force, progress);
+  check_data(sequence, flags.path, flags.force, progress, interrupt_flag());
   progress.set_context(method.full_name() + " on " + sequence.name);
   const MapPrecision precision = map_precision(*sequence.scans);
   CleanOutputs outputs(paths, voxel, precision);
@@ -166,7 +175,9 @@ ExitCode clean(const CleanFlags& flags) {
   const double limit = flags.memory_limit.empty()
                            ? usual_memory_limit_mib()
                            : parse_memory_mib("--memory-limit", flags.memory_limit);
-  if (!flags.in_process) return clean_apart(paths, limit);
+  if (!flags.in_process) {
+    return clean_apart(arguments_of_child(), paths, limit, interrupt_flag());
+  }
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   try {
     return clean_here(flags, paths, progress);

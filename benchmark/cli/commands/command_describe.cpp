@@ -4,9 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/cli/description.h"
+#include "benchmark/cli/commands/output_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
+#include "benchmark/cli/commands/output_json.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "datasets/inspection/inspect.h"
 
 namespace raymoval {
 namespace {
@@ -16,10 +16,6 @@ struct InspectFlags {
   SequenceFlags reading;
   bool json = false, list = false, quiet = false;
 };
-
-const char* severity_name(Severity severity) {
-  return severity == Severity::kNote ? "note" : "finding";
-}
 
 std::string finding_line(const Finding& finding) {
   return std::string(severity_name(finding.severity)) + " " + finding.sentence() + "\n";
@@ -38,27 +34,6 @@ std::string report_text(const InspectionReport& report) {
   if (report.scans == 0) return text + "; the sequence cannot be opened.\n";
   return text + " (" + report.layout + ", " + grouped_text(report.scans_read) + " of " +
          counted_text(report.scans, "scan") + " read).\n";
-}
-
-std::string report_json(const InspectionReport& report) {
-  nlohmann::ordered_json json;
-  json["sequence"] = report.sequence;
-  json["layout"] = report.layout;
-  json["scans"] = report.scans;
-  json["scans_read"] = report.scans_read;
-  json["sensor"] = report.sensor;
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const Finding& finding : report.findings) {
-    json["findings"].push_back({{"check", finding.check},
-                                {"severity", severity_name(finding.severity)},
-                                {"where", finding.where},
-                                {"what", finding.what},
-                                {"expected", finding.expected},
-                                {"remedy", finding.remedy}});
-  }
-  json["measures"] = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : report.measures) json["measures"][name] = value;
-  return json.dump(2) + "\n";
 }
 
 const char* consequence_text(Consequence consequence) {
@@ -96,7 +71,7 @@ ExitCode inspect_command(const InspectFlags& flags) {
   const InspectionReport report =
       inspect_path(flags.path, flags.reading.options(),
                    {given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()});
-  print(flags.json ? report_json(report) : report_text(report));
+  print(flags.json ? to_json(report).dump(2) + "\n" : report_text(report));
   return report.has_findings() ? ExitCode::kWorse : ExitCode::kDone;
 }
 

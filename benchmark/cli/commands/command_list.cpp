@@ -10,7 +10,7 @@
 #include "datasets/simulation/scene/library.h"
 #include "datasets/simulation/scene/scene_text.h"
 #include "eval/columns/columns.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {

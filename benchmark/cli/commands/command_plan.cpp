@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
+#include "benchmark/cli/commands/output_json.h"
 #include "benchmark/cli/suite_flags.h"
-#include "benchmark/run/runner.h"
 
 namespace raymoval {
 namespace {
@@ -15,20 +15,8 @@ struct PlanFlags {
   bool quiet = false;
 };
 
-std::string json_line(const PlannedCell& cell, bool looked) {
-  nlohmann::ordered_json json;
-  json["cell"] = cell.sequence + "/" + cell.name;
-  json["key"] = nullptr;
-  if (!cell.key.empty()) json["key"] = cell.key;
-  json["sequence"] = cell.sequence;
-  json["name"] = cell.name;
-  json["method"] = cell.method;
-  json["scans"] = cell.scans;
-  json["folder"] = cell.folder.generic_string();
-  if (looked) {
-    json["to_run"] = cell.to_run;
-    json["why"] = cell.why;
-  }
+/// A JSON value on a line of its own.
+std::string line_of(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -43,7 +31,7 @@ ExitCode plan(const PlanFlags& flags) {
   const std::vector<PlannedCell> cells = plan_suite(suite, options).cells;
   progress.end();
   std::string text;
-  for (const PlannedCell& cell : cells) text += json_line(cell, !flags.out.empty());
+  for (const PlannedCell& cell : cells) text += line_of(to_json(cell, !flags.out.empty()));
   print(text);
   return ExitCode::kDone;
 }

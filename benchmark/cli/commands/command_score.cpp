@@ -15,7 +15,7 @@
 #include "core/parallel.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -57,10 +57,7 @@ std::string result_text(const std::string& name, const ProtocolResult& result) {
 std::string columns_text(const std::vector<ColumnValue>& columns) {
   std::string text = "points\n";
   for (const ColumnValue& column : columns) {
-    if (column.name.find("range ") != std::string::npos ||
-        column.name.find("height ") != std::string::npos) {
-      continue;
-    }
+    if (!parse_column_name(column.name).axis.empty()) continue;
     const auto percent = column.share.percent();
     text += "  " + column.name + " " +
             (percent ? fixed_text(*percent, 3) + " (" + std::to_string(column.share.part) + " of " +
@@ -211,11 +208,12 @@ void check_flags(const ScoreFlags& flags) {
 std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
   Suite suite;
   for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");
-  if (suite.protocols.empty()) add_protocol(suite, "erasor", "");
+  if (suite.protocols.empty()) add_protocol(suite, default_protocol(), "");
   for (ProtocolRequest& request : suite.protocols) {
-    if (flags.cloud.empty() || request.protocol != "erasor") continue;
-    set_parameter(request.options, "label_mode", std::string("nearest"));
-    set_parameter(request.options, "lift", 0.0);
+    if (flags.cloud.empty()) continue;
+    for (const auto& [key, value] : protocol_entry(request.protocol).cloud_options) {
+      set_parameter(request.options, key, value);
+    }
   }
   for (const std::string& text : flags.settings) {
     set_protocol_option(suite.protocols, parse_setting(text));

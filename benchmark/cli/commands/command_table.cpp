@@ -7,9 +7,9 @@
 #include "benchmark/cli/commands.h"
 #include "benchmark/result/result_sets.h"
 #include "benchmark/result/sealed_json.h"
-#include "benchmark/tables/accuracy_tables.h"
 #include "benchmark/tables/column_tables.h"
 #include "benchmark/tables/published_columns.h"
+#include "benchmark/tables/rate_tables.h"
 #include "benchmark/tables/tables.h"
 #include "core/text.h"
 

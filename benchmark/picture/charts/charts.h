@@ -23,9 +23,9 @@ std::string chart_style();
 // assistive programs read; a marker or bar tells its values in a <title> of its own. The same
 // results give the same bytes. Controls are left out.
 
-/// One rate against the other for each sequence, with lines of equal F1: PR upwards and RR to the
-/// right, or SA and DA with lines of equal HA where the protocol has those. A panel per sequence;
-/// the points of a sweep are joined. Empty text if no cell has both rates.
+/// What is kept (upwards) against what is removed (to the right), a panel for each sequence. There
+/// are lines of equal headline rate if that is the harmonic mean of both. The points of a sweep are
+/// joined. Empty text if no cell has both rates.
 /// @param protocol its name in the run
 std::string pr_rr_chart(const RunResults& results, const std::string& protocol,
                         ChartPlace place = ChartPlace::kFile);
@@ -33,8 +33,8 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol,
 /// Milliseconds per scan of each method by stage, as stacked bars. Empty text without times.
 std::string stage_chart(const RunResults& results, ChartPlace place = ChartPlace::kFile);
 
-/// Mean F1 (or HA) over the sequences against milliseconds per scan (logarithmic), with the line of
-/// methods that no other one beats in both. Empty text if no method has both.
+/// The mean of the headline rate over the sequences against milliseconds per scan (logarithmic),
+/// with the line of methods that no other one beats in both. Empty text if no method has both.
 /// @param protocol its name in the run
 std::string accuracy_time_chart(const RunResults& results, const std::string& protocol,
                                 ChartPlace place = ChartPlace::kFile);

@@ -3,27 +3,11 @@
 
 #include <cmath>
 
+#include "benchmark/tables/text_table.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
-
-/// Bytes of the UTF-8 sequence that starts at `at`; 0 if it is none that XML may hold.
-std::size_t sequence_length(const std::string& text, std::size_t at) {
-  const auto first = static_cast<unsigned char>(text[at]);
-  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
-  const std::size_t length = first >= 0xF0 ? 4 : (first >= 0xE0 ? 3 : 2);
-  if (first < 0xC2 || first > 0xF4 || at + length > text.size()) return 0;
-  std::uint32_t code = first & (0x7FU >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto next = static_cast<unsigned char>(text[at + i]);
-    if ((next & 0xC0U) != 0x80U) return 0;
-    code = code << 6U | (next & 0x3FU);
-  }
-  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  return overlong || surrogate || code > 0x10FFFF || (code & 0xFFFEU) == 0xFFFEU ? 0 : length;
-}
 
 /// A custom property of the charts' style, by its value in light and in dark.
 struct ChartColour {
@@ -90,36 +74,6 @@ std::string shape_path(double x, double y, int shape) {
 }
 
 }  // namespace
-
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = sequence_length(text, at);
-    if (length == 0) {
-      escaped += static_cast<unsigned char>(text[at]) < 0x20 ? " " : "\xEF\xBF\xBD";
-      ++at;
-      continue;
-    }
-    switch (text[at]) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += text.substr(at, length);
-    }
-    at += length;
-  }
-  return escaped;
-}
 
 SeriesLook series_look(std::size_t index, std::size_t count) {
   return {distinct_colours(count)[index], static_cast<int>(index % 5)};

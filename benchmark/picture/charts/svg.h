@@ -9,9 +9,6 @@
 
 namespace raymoval {
 
-/// Text for XML: markup escaped, characters that XML does not have replaced.
-std::string xml_escaped(const std::string& text);
-
 /// How a series of points looks: colour and shape change together, so that neither alone has to
 /// tell two of them apart.
 struct SeriesLook {

@@ -10,7 +10,7 @@
 #include "core/scan/voxel_key.h"
 #include "methods/raymoval/kernels/box_cover.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// Voxels of a brick that lie within a box of the lattice.
 struct BrickPart {
@@ -166,4 +166,4 @@ class OccupancyMap {
   std::vector<std::vector<std::uint32_t>> free_boxes_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -16,7 +16,7 @@ namespace raymoval {
 std::vector<TextTable> accuracy_tables(const RunResults& results, const std::string& protocol,
                                        const TableOptions& options);
 
-/// The same of the controls, without marks and means, and whether they are as they must be.
+/// The same for the controls, without marks and means, and whether they are as they must be.
 std::vector<TextTable> control_tables(const RunResults& results, const std::string& protocol,
                                       const TableOptions& options);
 
@@ -30,8 +30,16 @@ std::vector<std::string> unpublished_sequences(const RunResults& results,
 /// Whether the controls are as they must be, in words.
 std::string controls_text(const RunResults& results);
 
-/// "98.123", or "98.123 (4/5)" where sequences without a value are left out; "n/a" without any.
-std::string mean_text(const TableOptions& options, const std::string& rate,
-                      const std::vector<std::optional<double>>& values, int printed = 0);
+/// The curve of each sweep by each protocol, of what is kept against what is removed: a row for
+/// each point, named by its parameters, a block for each sequence and one of the means. The best
+/// values of the headline rate are marked.
+std::vector<TextTable> sweep_tables(const RunResults& results, const TableOptions& options = {});
+
+/// Where the order of the methods depends on the protocol: the rank of each method by the headline
+/// rate of each protocol, and how far it moves from the first protocol to the one where it moves
+/// most. Methods whose values are displayed alike have the same rank. Ranks are by the mean over
+/// the sequences; with `options.disagreements` also by each sequence, and each pair that changes
+/// places is named. None for fewer than two protocols or methods.
+std::vector<TextTable> ranking_tables(const RunResults& results, const TableOptions& options = {});
 
 }  // namespace raymoval
