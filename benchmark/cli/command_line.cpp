@@ -9,7 +9,7 @@
 #include <new>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/cli/terminal_colour.h"
+#include "core/terminal_colour.h"
 #include "benchmark/suite/amounts.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"

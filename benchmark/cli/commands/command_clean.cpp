@@ -9,7 +9,7 @@
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/mask_spool.h"
-#include "benchmark/result/cell.h"
+#include "benchmark/process/method_run.h"
 #include "benchmark/result/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/parallel.h"

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/cli/terminal_colour.h"
+#include "core/terminal_colour.h"
 #include "benchmark/result/result_sets.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/files.h"

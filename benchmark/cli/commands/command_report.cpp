@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
 #include "benchmark/report/page.h"
 #include "benchmark/report/page_files.h"
 #include "benchmark/result/result_sets.h"
-#include "benchmark/result/sealed_json.h"
 #include "benchmark/run/kept_run.h"
 #include "benchmark/tables/published_columns.h"
 #include "core/files/files.h"
@@ -79,9 +77,8 @@ ExitCode report(const ReportFlags& flags) {
   request.with_points = with_points(flags);
   const std::filesystem::path results = find_results(flags.run);
   const KeptRun run(flags.run, flags.data);
-  const nlohmann::ordered_json json = read_sealed(results);
   request.run = &run;
-  request.content = {&json, &run.results(), papers()};
+  request.content = {&run.record(), &run.results(), papers()};
   std::optional<Comparison> comparison;
   if (!flags.against.empty()) {
     comparison =

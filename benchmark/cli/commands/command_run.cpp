@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/suite_flags.h"
-#include "benchmark/cli/terminal_colour.h"
 #include "benchmark/process/method_process.h"
 #include "benchmark/result/results.h"
-#include "benchmark/result/sealed_json.h"
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/run/plan.h"
 #include "benchmark/run/runner.h"
 #include "benchmark/tables/run_summary.h"
 #include "core/files/files.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -75,11 +75,11 @@ ExitCode explain(const Suite& suite, const RunOptions& options) {
   const SuitePlan plan = plan_suite(suite, options);
   for (const PlannedCell& cell : plan.cells) {
     to_run += cell.to_run ? 1 : 0;
-    text += (cell.to_run ? "run   " : "keep  ") + cell.sequence + " / " + cell.name +
+    text += (cell.to_run ? "run   " : "keep  ") + cell.cell.title() +
             (cell.why.empty() ? "" : ": " + cell.why) + "\n";
   }
-  for (const FolderCell& cell : plan.earlier) {
-    text += "keep  " + cell.sequence + " / " + cell.name + ": of an earlier run\n";
+  for (const CellName& cell : plan.earlier) {
+    text += "keep  " + cell.title() + ": of an earlier run\n";
   }
   for (const std::string& cell : plan.left_out) text += "leave out of the tables  " + cell + "\n";
   options.progress->end();
@@ -112,7 +112,7 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
 /// What stands in the run folder, in one screen.
 std::string end_of_run(const std::string& out) {
   const std::filesystem::path file = std::filesystem::path(out) / "results.json";
-  return run_summary(parse_results(read_sealed(file), file.string()), out);
+  return run_summary(shown_results(read_results(file)), out);
 }
 
 ExitCode run(const RunFlags& flags) {

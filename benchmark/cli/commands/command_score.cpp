@@ -5,10 +5,9 @@
 
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/commands.h"
-#include "benchmark/result/cell.h"
+#include "benchmark/result/cell_json.h"
 #include "benchmark/result/removal_files.h"
 #include "benchmark/result/results.h"
-#include "benchmark/result/score_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/sequence_bench.h"
 #include "core/files/files.h"
@@ -99,17 +98,16 @@ class Scoring {
   Scoring(SequenceBench& bench, const ScoreFlags& flags, Progress& progress)
       : bench_(bench), flags_(flags), progress_(progress) {
     record_["schema_version"] = kSchemaVersion;
-    record_["data"] = bench.sequence().record();
-    record_["data"]["scans"] = bench.sequence().scans->size();
+    record_["data"] = to_json(bench.sequence().record());
   }
 
   ordered_json run() {
     record_["labels"] = flags_.cloud.empty() ? "index" : "nearest";
     record_["protocols"] = ordered_json::array();
     const MaskStore masks = flags_.cloud.empty() ? score_predictions() : score_cloud();
-    const std::vector<ColumnValue> columns = bench_.columns(masks);
-    record_["columns"] = columns_record(columns);
-    text_ += columns_text(columns);
+    const ColumnRecord columns{kColumnsVersion, bench_.columns(masks)};
+    record_["columns"] = to_json(columns);
+    text_ += columns_text(columns.values);
     progress_.end();
     print(text_);
     return std::move(record_);
@@ -165,11 +163,9 @@ class Scoring {
 
   /// @param oracle what the oracle's cloud scored; null where labels go by index
   void add_result(std::size_t i, const ProtocolResult& result, const ProtocolResult* oracle) {
-    ordered_json scored;
-    scored["name"] = bench_.protocol_name(i);
-    scored["protocol"] = bench_.protocol(i).name();
-    scored["version"] = bench_.protocol(i).version();
-    scored["options"] = to_json(bench_.protocol(i).options());
+    ordered_json scored =
+        to_json(ProtocolRecord{bench_.protocol_name(i), bench_.protocol(i).name(),
+                               bench_.protocol(i).version(), bench_.protocol(i).options()});
     scored.update(to_json(result));
     text_ += result_text(bench_.protocol_name(i), result);
     if (oracle != nullptr) {

@@ -2,11 +2,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
 #include "benchmark/result/result_sets.h"
-#include "benchmark/result/sealed_json.h"
+#include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/column_tables.h"
 #include "benchmark/tables/published_columns.h"
 #include "benchmark/tables/rate_tables.h"
@@ -95,15 +94,13 @@ std::string tables_text(const TableFlags& flags, RunResults& results) {
 ExitCode show(const TableFlags& flags) {
   check_flags(flags);
   const std::filesystem::path file = find_results(flags.run);
-  nlohmann::ordered_json json = read_sealed(file);
   if (flags.format == "json") {
-    (void)parse_results(json, file.string());
-    print(json_text(json));
+    print(read_results_text(file));
     return ExitCode::kDone;
   }
-  (void)parse_results(json, file.string());  // What is damaged is told before cells are chosen.
-  choose_cells(json, flags.only);
-  RunResults results = parse_results(json, file.string());
+  ResultsRecord record = read_results(file);
+  choose_cells(record, flags.only);
+  RunResults results = shown_results(record);
   choose_protocols(results, flags.protocols);
   print(flags.format == "csv" ? results_csv(results) : tables_text(flags, results));
   return ExitCode::kDone;

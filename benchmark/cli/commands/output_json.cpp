@@ -65,10 +65,10 @@ ordered_json to_json(const Description& description) {
 }
 
 ordered_json to_json(const PlannedCell& cell, bool looked) {
-  ordered_json json = {{"cell", cell.sequence + "/" + cell.name},
+  ordered_json json = {{"cell", cell.cell.sequence + "/" + cell.cell.name},
                        {"key", cell.key.empty() ? ordered_json(nullptr) : ordered_json(cell.key)},
-                       {"sequence", cell.sequence},
-                       {"name", cell.name},
+                       {"sequence", cell.cell.sequence},
+                       {"name", cell.cell.name},
                        {"method", cell.method},
                        {"scans", cell.scans},
                        {"folder", cell.folder.generic_string()}};

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "benchmark/cli/description.h"
-#include "benchmark/run/runner.h"
+#include "benchmark/run/plan.h"
 #include "datasets/inspection/inspect.h"
 
 namespace raymoval {
