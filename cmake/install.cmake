@@ -1,13 +1,15 @@
-# find_package(raymoval) gives raymoval::core, raymoval::datasets, raymoval::methods, raymoval::eval.
+# find_package(raymoval) gives raymoval::core, raymoval::datasets, raymoval::methods, raymoval::eval,
+# and raymoval::harness: the whole program as a function.
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/raymoval)
 
-install(TARGETS raymoval_core raymoval_datasets raymoval_methods raymoval_eval
+install(TARGETS raymoval_core raymoval_datasets raymoval_methods raymoval_eval raymoval_benchmark
         EXPORT raymovalTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS raymoval_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(room core datasets methods eval)
-  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raymoval
-          FILES_MATCHING PATTERN "*.h")
+include(cmake/public_headers.cmake)
+foreach(header ${raymoval_public_headers})
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raymoval/${folder})
 endforeach()
 install(DIRECTORY benchmark/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
         FILES_MATCHING PATTERN "*.json")
