@@ -1,29 +1,31 @@
-# The headers that are installed, and that Doxygen reads: what a method in C++, or a program that
-# reads data and scores answers, needs. tests/consumer/installed_test.sh compiles each of them alone.
-# None of them includes CLI11, PCL, Highway or the whole of nlohmann/json.
-set(raymoval_public_headers
+# `raymoval_public_headers`: the headers that are installed, and that Doxygen reads. They are those
+# below, which a method in C++, or a program that reads data and scores answers, starts with, and
+# what these include. tests/consumer/consumer_test.sh compiles each of them alone.
+set(first_headers
   benchmark/harness.h
-  core/error.h
   core/parallel.h
-  core/parameters.h
-  core/progress.h
-  core/scan/label_rule.h
+  core/scan/local_frame.h
   core/scan/mask_store.h
-  core/scan/range_limits.h
-  core/scan/scan.h
-  core/scan/scan_source.h
-  core/scan/sensor_model.h
   core/scan/voxel_key.h
-  core/stage_timer.h
-  datasets/ego/ego_region.h
   datasets/sequence.h
-  datasets/sequence_record.h
-  datasets/world_axes/up_direction.h
-  eval/bootstrap.h
   eval/protocol.h
   eval/protocol_registry.h
-  eval/rate.h
   methods/common/scan_passes.h
-  methods/method_entry.h
   methods/registry.h
   methods/remover.h)
+
+set(raymoval_public_headers "")
+while(first_headers)
+  list(POP_FRONT first_headers header)
+  if(header IN_LIST raymoval_public_headers)
+    continue()
+  endif()
+  list(APPEND raymoval_public_headers ${header})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+  file(STRINGS ${PROJECT_SOURCE_DIR}/${header} lines REGEX "^#include \"[^\"]+\"")
+  foreach(line ${lines})
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included "${line}")
+    list(APPEND first_headers ${included})
+  endforeach()
+endwhile()
+list(SORT raymoval_public_headers)
