@@ -11,7 +11,7 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "core/scan/local_frame.h"
 #include "methods/controls/controls.h"
 

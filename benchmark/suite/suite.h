@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/parameters.h"
 #include "datasets/sequence.h"
+#include "eval/rate.h"
 #include "methods/registry.h"
 
 namespace raymoval {
@@ -107,5 +109,8 @@ bool is_control(const std::string& method);
 
 /// Folder name of a cell: ':' becomes '-', and what a file system may not like becomes '_'.
 std::string folder_name(const std::string& name);
+
+/// What a control answers; nothing if `method` is no control.
+std::optional<KnownAnswer> known_answer(const std::string& method);
 
 }  // namespace raymoval
