@@ -11,7 +11,6 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
-#include "benchmark/run/scored_sequence.h"
 #include "core/scan/local_frame.h"
 #include "methods/controls/controls.h"
 
@@ -116,6 +115,13 @@ MethodAnswer run_method(const MethodTask& task) {
     fail("failed", "the method threw something that is no std::exception");
   }
   return answer;
+}
+
+void check_has_labels(const Sequence& sequence) {
+  if (sequence.labels != nullptr) return;
+  throw DataError("sequence '" + sequence.name +
+                  "' has no labels, so nothing can be scored on it; expected a folder labels/ "
+                  "beside the scans. To clean a map without labels use `raymoval clean`.");
 }
 
 std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence) {

@@ -41,6 +41,9 @@ struct MethodAnswer {
 /// the data. @throws Cancelled
 MethodAnswer run_method(const MethodTask& task);
 
+/// @throws DataError that points to `raymoval clean` if `sequence` has no labels
+void check_has_labels(const Sequence& sequence);
+
 /// The remover of `method`; one that needs the truth answers from the labels.
 /// @throws DataError if it needs labels and there are none
 std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence);

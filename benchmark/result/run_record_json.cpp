@@ -5,7 +5,7 @@
 
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/json_fields.h"
-#include "benchmark/suite/sequence_place.h"
+#include "benchmark/suite/suite_json.h"
 
 namespace raymoval {
 namespace {
@@ -139,7 +139,7 @@ ordered_json to_json(const RunRecord& run) {
   }
   ordered_json json = run_json(run, std::move(cells));
   for (const SequenceRecord& sequence : run.sequences) {
-    json["places"].push_back(sequence.place ? place_record(*sequence.place) : nullptr);
+    json["places"].push_back(sequence.place ? to_json(*sequence.place) : nullptr);
   }
   return json;
 }

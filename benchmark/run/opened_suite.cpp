@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "benchmark/process/method_run.h"
 #include "benchmark/run/cell_run.h"
 #include "benchmark/run/run_folder.h"
 #include "core/files/file_kind.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {

@@ -9,7 +9,7 @@
 #include "benchmark/result/results.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/cell_store.h"
-#include "benchmark/suite/sequence_place.h"
+#include "benchmark/suite/suite_json.h"
 #include "benchmark/tables/tables.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"

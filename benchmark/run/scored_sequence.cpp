@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "benchmark/process/method_run.h"
 #include "core/files/files.h"
 
 namespace raymoval {
@@ -36,13 +37,6 @@ ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
 }
 
 }  // namespace
-
-void check_has_labels(const Sequence& sequence) {
-  if (sequence.labels != nullptr) return;
-  throw DataError("sequence '" + sequence.name +
-                  "' has no labels, so nothing can be scored on it; expected a folder labels/ "
-                  "beside the scans. To clean a map without labels use `raymoval clean`.");
-}
 
 ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests,
                                int threads, Progress* progress)

@@ -70,7 +70,4 @@ class ScoredSequence {
   std::vector<OpenedProtocol> protocols_;
 };
 
-/// @throws DataError pointing to `raymoval clean` if `sequence` has no labels.
-void check_has_labels(const Sequence& sequence);
-
 }  // namespace raymoval

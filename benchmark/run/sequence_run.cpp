@@ -7,6 +7,7 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/run_record_json.h"
+#include "core/process/proc_files.h"
 #include "core/terminal_colour.h"
 #include "datasets/reading/left_out.h"
 

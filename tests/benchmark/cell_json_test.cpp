@@ -90,7 +90,7 @@ class Draw {
     data.fingerprint = text();
     return data;
   }
-  ProtocolRecord protocol(std::size_t i) { return {name(i), text(), text(), configuration()}; }
+  ProtocolRecord protocol(std::size_t i) { return {name(i), text(), name(i), configuration()}; }
   Score score(std::size_t i) {
     Score score{protocol(i)};
     score.counts =
