@@ -9,7 +9,7 @@
 #include "benchmark/result/removal_files.h"
 #include "benchmark/result/results.h"
 #include "benchmark/result/sealed_json.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "core/files/files.h"
 #include "core/parallel.h"
 #include "core/scan/local_frame.h"
@@ -95,17 +95,17 @@ std::string above_oracle_text(const ProtocolResult& result, const ProtocolResult
 /// What is scored, and what it is scored by.
 class Scoring {
  public:
-  Scoring(SequenceBench& bench, const ScoreFlags& flags, Progress& progress)
-      : bench_(bench), flags_(flags), progress_(progress) {
+  Scoring(ScoredSequence& scored, const ScoreFlags& flags, Progress& progress)
+      : scored_(scored), flags_(flags), progress_(progress) {
     record_["schema_version"] = kSchemaVersion;
-    record_["data"] = to_json(bench.sequence().record());
+    record_["data"] = to_json(scored.sequence().record());
   }
 
   ordered_json run() {
     record_["labels"] = flags_.cloud.empty() ? "index" : "nearest";
     record_["protocols"] = ordered_json::array();
     const MaskStore masks = flags_.cloud.empty() ? score_predictions() : score_cloud();
-    const ColumnRecord columns{kColumnsVersion, bench_.columns(masks)};
+    const ColumnRecord columns{kColumnsVersion, scored_.columns(masks)};
     record_["columns"] = to_json(columns);
     text_ += columns_text(columns.values);
     progress_.end();
@@ -115,15 +115,15 @@ class Scoring {
 
  private:
   MaskStore score_predictions() {
-    const ScanSource& scans = *bench_.sequence().scans;
+    const ScanSource& scans = *scored_.sequence().scans;
     progress_.begin("reading predictions", scans.size());
     const std::atomic<bool>& cancelled = interrupt_flag();
     MaskStore masks = read_removals(flags_.predictions, scans, [&] {
       progress_.advance();
       if (cancelled) throw Cancelled();
     });
-    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
-      add_result(i, bench_.score(i, masks), nullptr);
+    for (std::size_t i = 0; i < scored_.protocol_count(); ++i) {
+      add_result(i, scored_.score(i, masks), nullptr);
     }
     return masks;
   }
@@ -131,7 +131,7 @@ class Scoring {
   MaskStore score_cloud() {
     const double voxel = flags_.voxel.empty() ? 0.0 : parse_positive("--voxel", flags_.voxel);
     const CleanedCloud cloud =
-        read_cleaned_cloud(flags_.cloud, lattice_origin(*bench_.sequence().scans));
+        read_cleaned_cloud(flags_.cloud, lattice_origin(*scored_.sequence().scans));
     record_["cloud"]["points"] = cloud.stored;
     record_["cloud"]["non_finite"] = cloud.non_finite;
     record_["cloud"]["oracle_voxel_m"] = voxel;
@@ -142,21 +142,21 @@ class Scoring {
     for (const std::string& warning : cloud.warnings()) text_ += "  warning: " + warning + "\n";
     const std::vector<ProtocolResult> oracles = oracle_results(voxel);
     const CloudEstimate estimate(cloud.points);
-    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
+    for (std::size_t i = 0; i < scored_.protocol_count(); ++i) {
       if (interrupt_flag()) throw Cancelled();
-      add_result(i, bench_.score_cloud(i, estimate), &oracles[i]);
+      add_result(i, scored_.score_cloud(i, estimate), &oracles[i]);
     }
-    return bench_.cloud_masks(estimate);
+    return scored_.cloud_masks(estimate);
   }
 
   /// What the oracle's cloud scores by each protocol.
   std::vector<ProtocolResult> oracle_results(double voxel) {
-    const CleanedCloud oracle = oracle_cloud(bench_.sequence(), voxel, &progress_);
+    const CleanedCloud oracle = oracle_cloud(scored_.sequence(), voxel, &progress_);
     const CloudEstimate estimate(oracle.points);
     std::vector<ProtocolResult> results;
-    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
+    for (std::size_t i = 0; i < scored_.protocol_count(); ++i) {
       if (interrupt_flag()) throw Cancelled();
-      results.push_back(bench_.score_cloud(i, estimate));
+      results.push_back(scored_.score_cloud(i, estimate));
     }
     return results;
   }
@@ -164,10 +164,10 @@ class Scoring {
   /// @param oracle what the oracle's cloud scored; null where labels go by index
   void add_result(std::size_t i, const ProtocolResult& result, const ProtocolResult* oracle) {
     ordered_json scored =
-        to_json(ProtocolRecord{bench_.protocol_name(i), bench_.protocol(i).name(),
-                               bench_.protocol(i).version(), bench_.protocol(i).options()});
+        to_json(ProtocolRecord{scored_.protocol_name(i), scored_.protocol(i).name(),
+                               scored_.protocol(i).version(), scored_.protocol(i).options()});
     scored.update(to_json(result));
-    text_ += result_text(bench_.protocol_name(i), result);
+    text_ += result_text(scored_.protocol_name(i), result);
     if (oracle != nullptr) {
       scored["oracle"] = to_json(*oracle)["rates"];
       text_ += oracle_text(*oracle) + above_oracle_text(result, *oracle);
@@ -175,7 +175,7 @@ class Scoring {
     record_["protocols"].push_back(std::move(scored));
   }
 
-  SequenceBench& bench_;
+  ScoredSequence& scored_;
   const ScoreFlags& flags_;
   Progress& progress_;
   ordered_json record_;
@@ -223,10 +223,10 @@ ExitCode score(const ScoreFlags& flags) {
   const int given = parse_threads(flags.threads);
   const int threads = given > 0 ? given : hardware_threads();
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
-  SequenceBench bench(open_sequence(flags.sequence, flags.reading.options(),
-                                    {threads, &progress, &interrupt_flag()}),
-                      protocols, threads, &progress);
-  const ordered_json record = Scoring(bench, flags, progress).run();
+  ScoredSequence scored(open_sequence(flags.sequence, flags.reading.options(),
+                                      {threads, &progress, &interrupt_flag()}),
+                        protocols, threads, &progress);
+  const ordered_json record = Scoring(scored, flags, progress).run();
   if (!flags.json.empty()) write_atomically(flags.json, json_text(record));
   return ExitCode::kDone;
 }
