@@ -233,33 +233,24 @@ ExitCode score(const ScoreFlags& flags) {
 
 }  // namespace
 
-Command add_score_command(CLI::App& program) {
+Command add_score_command(CommandParser& program) {
   auto flags = std::make_shared<ScoreFlags>();
-  CLI::App* app =
-      program.add_subcommand("score", "Scores label files or a cleaned map made by any program");
-  app->allow_extras();
-  SequenceFlags::add_place_to(*app, flags->sequence);
-  app->add_option("--predictions", flags->predictions,
-                  "Folder of NNNNNN.label files: 251 to 259 = removed, others kept")
-      ->type_name("DIR");
-  app->add_option("--cloud", flags->cloud,
-                  "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses")
-      ->type_name("FILE");
-  app->add_option("--voxel", flags->voxel,
-                  "Voxel to which the cloud was thinned; thins the oracle's likewise")
-      ->type_name("METRES");
-  app->add_option("--protocol", flags->protocols, "Protocol to score by (default: erasor)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  app->add_option("--set", flags->settings, "Option of a protocol: protocol:NAME.key=value")
-      ->type_name("SETTING")
-      ->allow_extra_args(false);
-  flags->reading.add_to(*app);
-  app->add_option("--json", flags->json, "Write counts and rates to this file")->type_name("FILE");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options =
+      program.add_command("score", "Scores label files or a cleaned map made by any program");
+  SequenceFlags::add_place_to(options, flags->sequence);
+  options.add("--predictions", "DIR", flags->predictions,
+              "Folder of NNNNNN.label files: 251 to 259 = removed, others kept");
+  options.add("--cloud", "FILE", flags->cloud,
+              "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
+  options.add("--voxel", "METRES", flags->voxel,
+              "Voxel to which the cloud was thinned; thins the oracle's likewise");
+  options.add("--protocol", "NAME", flags->protocols, "Protocol to score by (default: erasor)");
+  options.add("--set", "SETTING", flags->settings, "Option of a protocol: protocol:NAME.key=value");
+  flags->reading.add_to(options);
+  options.add("--json", "FILE", flags->json, "Write counts and rates to this file");
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "
       "perfect\ncleaner below 100. What the oracle's cloud scores in the same way is shown beside "
       "it. That is a\nyardstick and no upper limit: whoever also removes static points beside "
@@ -272,7 +263,7 @@ Command add_score_command(CLI::App& program) {
       "--set protocol:dynamicmap.distance=0.1\n"
       "  raymoval score --sequence street --predictions "
       "out/street/cells/street/raymoval-online/removals --json score.json");
-  return {app, [flags] { return score(*flags); }};
+  return {options.name(), [flags] { return score(*flags); }};
 }
 
 }  // namespace raymoval
