@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/picture/canvas.h"
+#include "benchmark/picture/canvas/canvas.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/scan/voxel_key.h"

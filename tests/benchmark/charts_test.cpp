@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/picture/charts/chart_file.h"
 #include "benchmark/picture/charts/chart_parts.h"
-#include "benchmark/picture/png_file.h"
 #include "core/files/files.h"
 #include "tests/benchmark/small_world.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/map_picture.h"
+#include "benchmark/picture/maps/map_picture.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <fstream>
 
-#include "benchmark/picture/overview_picture.h"
-#include "benchmark/picture/range_picture.h"
+#include "benchmark/picture/maps/overview_picture.h"
+#include "benchmark/picture/maps/range_picture.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
 #include "core/files/files.h"

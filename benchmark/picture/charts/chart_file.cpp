@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "benchmark/picture/png_file.h"
+#include "benchmark/picture/canvas/png_file.h"
 #include "core/error.h"
 #include "core/files/files.h"
 

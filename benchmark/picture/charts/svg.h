@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "benchmark/picture/canvas/colours.h"
 #include "benchmark/picture/charts/charts.h"
-#include "benchmark/picture/colours.h"
 
 namespace raymoval {
 

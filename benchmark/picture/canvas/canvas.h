@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "benchmark/picture/colours.h"
-#include "benchmark/picture/font.h"
-#include "benchmark/picture/png_file.h"
+#include "benchmark/picture/canvas/colours.h"
+#include "benchmark/picture/canvas/font.h"
+#include "benchmark/picture/canvas/png_file.h"
 
 namespace raymoval {
 

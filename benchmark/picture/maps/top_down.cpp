@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/top_down.h"
+#include "benchmark/picture/maps/top_down.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/png_file.h"
+#include "benchmark/picture/canvas/png_file.h"
 
 #include <png.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/point_outcome.h"
+#include "benchmark/picture/maps/point_outcome.h"
 
 #include "eval/columns/removal_tally.h"
 

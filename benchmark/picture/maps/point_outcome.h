@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "benchmark/picture/colours.h"
+#include "benchmark/picture/canvas/colours.h"
 #include "datasets/sequence.h"
 #include "eval/points/labelled_voxels.h"
 

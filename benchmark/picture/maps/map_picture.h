@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/picture/png_file.h"
-#include "benchmark/picture/top_down.h"
+#include "benchmark/picture/canvas/png_file.h"
+#include "benchmark/picture/maps/top_down.h"
 #include "benchmark/run/kept_run.h"
 
 namespace raymoval {

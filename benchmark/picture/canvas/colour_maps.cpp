@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/colour_maps.h"
+#include "benchmark/picture/canvas/colour_maps.h"
 
 #include <algorithm>
 #include <array>

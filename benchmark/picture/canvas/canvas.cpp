@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/canvas.h"
+#include "benchmark/picture/canvas/canvas.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/overview_picture.h"
+#include "benchmark/picture/maps/overview_picture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 
-#include "benchmark/picture/colour_maps.h"
-#include "benchmark/picture/oblique_view.h"
+#include "benchmark/picture/canvas/colour_maps.h"
+#include "benchmark/picture/maps/oblique_view.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"

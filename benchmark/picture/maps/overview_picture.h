@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "benchmark/picture/png_file.h"
-#include "benchmark/picture/top_down.h"
+#include "benchmark/picture/canvas/png_file.h"
+#include "benchmark/picture/maps/top_down.h"
 #include "benchmark/run/kept_run.h"
 
 namespace raymoval {

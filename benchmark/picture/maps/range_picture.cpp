@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/range_picture.h"
+#include "benchmark/picture/maps/range_picture.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/picture/canvas.h"
-#include "benchmark/picture/colour_maps.h"
-#include "benchmark/picture/point_outcome.h"
-#include "benchmark/picture/top_down.h"
+#include "benchmark/picture/canvas/canvas.h"
+#include "benchmark/picture/canvas/colour_maps.h"
+#include "benchmark/picture/maps/point_outcome.h"
+#include "benchmark/picture/maps/top_down.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"

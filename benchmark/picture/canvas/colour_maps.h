@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "benchmark/picture/colours.h"
+#include "benchmark/picture/canvas/colours.h"
 
 namespace raymoval {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/colours.h"
+#include "benchmark/picture/canvas/colours.h"
 
 #include <algorithm>
 #include <cmath>

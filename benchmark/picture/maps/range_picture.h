@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "benchmark/picture/png_file.h"
+#include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/run/kept_run.h"
 
 namespace raymoval {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/oblique_view.h"
+#include "benchmark/picture/maps/oblique_view.h"
 
 #include <algorithm>
 #include <cmath>

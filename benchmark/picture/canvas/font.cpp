@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/font.h"
+#include "benchmark/picture/canvas/font.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H

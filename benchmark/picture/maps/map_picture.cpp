@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/map_picture.h"
+#include "benchmark/picture/maps/map_picture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "benchmark/picture/canvas.h"
-#include "benchmark/picture/point_outcome.h"
+#include "benchmark/picture/canvas/canvas.h"
+#include "benchmark/picture/maps/point_outcome.h"
 
 namespace raymoval {
 

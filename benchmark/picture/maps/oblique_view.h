@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "benchmark/picture/canvas.h"
-#include "benchmark/picture/top_down.h"
+#include "benchmark/picture/canvas/canvas.h"
+#include "benchmark/picture/maps/top_down.h"
 
 namespace raymoval {
 
