@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/picture/canvas/canvas.h"
+#include "benchmark/picture/canvas/png_file.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/scan/voxel_key.h"
@@ -229,8 +229,8 @@ void draw(const Cloud& cloud, const std::string& prefix) {
   for (const std::size_t i : order) {
     const auto& p = cloud.points[i];
     const bool moving = (cloud.labels[i] & 0xFFFFU) >= 252;
-    top.set(static_cast<int>(500 - 10 * p.y()), static_cast<int>(500 - 10 * p.x()),
-            colour((p.z() + 2.0) / 5.0, moving));
+    top.fill(static_cast<int>(500 - 10 * p.y()), static_cast<int>(500 - 10 * p.x()), 1, 1,
+             colour((p.z() + 2.0) / 5.0, moving));
   }
   const auto starts = ring_starts(cloud);
   for (std::size_t r = 0; r + 1 < starts.size(); ++r) {
@@ -238,14 +238,12 @@ void draw(const Cloud& cloud, const std::string& prefix) {
       const auto& p = cloud.points[i];
       const double turn = 0.5 - std::atan2(p.y(), p.x()) / (2 * 3.14159265358979);
       const bool moving = (cloud.labels[i] & 0xFFFFU) >= 252;
-      for (int y = 0; y < 4; ++y) {
-        range.set(static_cast<int>(turn * 2083), 4 * static_cast<int>(r) + y,
-                  colour(std::sqrt(p.norm() / 60.0), moving));
-      }
+      range.fill(static_cast<int>(turn * 2083), 4 * static_cast<int>(r), 1, 4,
+                 colour(std::sqrt(p.norm() / 60.0), moving));
     }
   }
-  raymoval::write_png(prefix + "_top.png", top.image());
-  raymoval::write_png(prefix + "_range.png", range.image());
+  raymoval::write_png(prefix + "_top.png", top);
+  raymoval::write_png(prefix + "_range.png", range);
 }
 
 int run(const std::vector<std::string>& arguments) {

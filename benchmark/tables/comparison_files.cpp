@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "benchmark/picture/charts/svg.h"
 #include "benchmark/result/cell.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
