@@ -8,6 +8,7 @@
 #include "benchmark/kernels/ray_designs.h"
 #include "benchmark/kernels/registration.h"
 #include "benchmark/kernels/workloads.h"
+#include "core/simd/instruction_set_scope.h"
 
 namespace raymoval::kernels_bench {
 namespace {
@@ -102,9 +103,11 @@ void add_rivals(Workload& workload) {
 }
 
 Design sweep_with(InstructionSet set, int threads) {
-  const auto caster = std::make_shared<FirstHitCaster>(paper_grid(), kPaperLimits, set);
+  const InstructionSetScope scope(set);
+  const auto caster = std::make_shared<FirstHitCaster>(paper_grid(), kPaperLimits);
   const auto image = std::make_shared<FirstHitImage>();
-  return [caster, image, threads](Workload& workload, const ImageJob& job) {
+  return [caster, image, threads, set](Workload& workload, const ImageJob& job) {
+    const InstructionSetScope scope_of_cast(set);
     caster->cast(workload.map, job.frame->T_world_sensor, threads, *image);
     std::swap(image->range, *job.range);
     return std::int64_t{0};

@@ -15,6 +15,8 @@ class OcTree;
 
 namespace raymoval::kernels_bench {
 
+using namespace raymoval_method;
+
 /// All rays of an image, and where their ranges go.
 struct ImageJob {
   const FirstHitImage* frame = nullptr;  ///< Grid, pose, limits and directions.

@@ -15,12 +15,19 @@
 namespace raymoval {
 namespace {
 
+/// Whether a text begins with a number: "98.123 (4/5)", "1,234".
+bool begins_with_number(const std::string& text) {
+  std::string number = text.substr(0, text.find(' '));
+  std::erase(number, ',');
+  return parse_number<double>(number).has_value();
+}
+
 /// Whether column `place` holds numbers and, maybe, words for their lack.
 bool holds_numbers(const TextTable& table, std::size_t place) {
   bool any = false;
   for (const TableRow& row : table.rows) {
     const std::string& text = row.cells[place].text;
-    if (leading_number(text)) {
+    if (begins_with_number(text)) {
       any = true;
     } else if (text.find(' ') != std::string::npos || text.size() > 13) {
       return false;
@@ -88,9 +95,8 @@ std::string marked(const TableCell& cell) {
 
 /// The ground of a cell by its percents, so that 1 % can be seen and 50 % is not all.
 std::string heat_of(const TableCell& cell) {
-  const auto percent = leading_number(cell.text);
-  if (!percent) return "";
-  const double share = std::clamp(std::sqrt(*percent / 100.0), 0.0, 1.0) * 0.75;
+  if (!cell.value) return "";
+  const double share = std::clamp(std::sqrt(*cell.value / 100.0), 0.0, 1.0) * 0.75;
   return " style=\"--share:" + fixed_text(share, 2) + "\"";
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,9 +14,9 @@ namespace raymoval {
 
 /// What the sections of a report are made of.
 struct ReportContent {
-  const nlohmann::ordered_json* json = nullptr;  ///< Content of results.json.
-  const RunResults* results = nullptr;           ///< The same, parsed.
-  std::vector<OutsideColumn> published;          ///< Papers' rows; may be empty.
+  const ResultsRecord* record = nullptr;  ///< Content of results.json.
+  const RunResults* results = nullptr;    ///< The same as tables show it.
+  std::vector<OutsideColumn> published;   ///< Papers' rows; may be empty.
 };
 
 // Each function returns the HTML below the heading of a section, or an empty text if there is
@@ -32,7 +31,8 @@ std::string accuracy_html(const ReportContent& content);
 std::string cells_html(const ReportContent& content);
 /// The charts: PR against RR, accuracy against time, time of stages.
 std::string charts_html(const ReportContent& content);
-/// Moving points that stay and static points that go, by range, height and class.
+/// The shares of moving points that stay and of static points that are removed, by range, height
+/// and class.
 std::string losses_html(const ReportContent& content);
 /// The cells without a result, each with the reason and the end of what it printed.
 std::string failures_html(const ReportContent& content);

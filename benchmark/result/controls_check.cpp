@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/result/controls_check.h"
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
-
-using nlohmann::ordered_json;
 
 struct Expected {
   const char* control;
@@ -27,39 +25,39 @@ constexpr Expected kExpected[] = {{"noop", "PR", 100.0},     {"noop", "RR", 0.0}
 
 /// Whether the protocol's options take away the oracle's certainty: labels found again by nearest
 /// neighbour, or not looked at, let a static point stand in for a removed one.
-bool oracle_is_uncertain(const ordered_json& options) {
-  return options.value("label_mode", "") == "nearest" ||
-         options.value("label_rule", "") == "geometry";
+bool oracle_is_uncertain(const ProtocolRecord& protocol) {
+  const auto is = [&](const char* option, const char* value) {
+    return std::find(protocol.options.begin(), protocol.options.end(),
+                     std::pair<std::string, ParameterValue>(option, std::string(value))) !=
+           protocol.options.end();
+  };
+  return is("label_mode", "nearest") || is("label_rule", "geometry");
 }
 
-void check_protocol(const std::string& control, const std::string& sequence,
-                    const ordered_json& protocol, std::vector<std::string>& problems) {
-  if (control == "oracle" && oracle_is_uncertain(protocol["options"])) return;
+void check_score(const Cell& cell, const Score& score, std::vector<std::string>& problems) {
+  const std::string& control = cell.method.name;
+  if (control == "oracle" && oracle_is_uncertain(score.protocol)) return;
   for (const Expected& expected : kExpected) {
-    if (control != expected.control || !protocol["rates"].contains(expected.rate)) continue;
-    const ordered_json& rate = protocol["rates"][expected.rate];
-    if (rate.is_null() || std::abs(rate.get<double>() - expected.percent) < 1e-9) continue;
-    problems.push_back("control '" + control + "' on " + sequence + ", protocol " +
-                       protocol["name"].get<std::string>() + ": " + expected.rate + " is " +
-                       number_text(rate.get<double>()) + ", must be " +
-                       number_text(expected.percent));
+    if (control != expected.control) continue;
+    const std::optional<double> rate = score.rate(expected.rate);
+    if (!rate || std::abs(*rate - expected.percent) < 1e-9) continue;
+    problems.push_back("control '" + control + "' on " + cell.sequence + ", protocol " +
+                       score.protocol.name + ": " + expected.rate + " is " + number_text(*rate) +
+                       ", must be " + number_text(expected.percent));
   }
 }
 
 }  // namespace
 
-std::vector<std::string> check_controls(const std::vector<ordered_json>& cells) {
+std::vector<std::string> check_controls(const std::vector<Cell>& cells) {
   std::vector<std::string> problems;
-  for (const ordered_json& cell : cells) {
-    if (!cell["method"]["control"].get<bool>()) continue;
-    const auto control = cell["method"]["name"].get<std::string>();
-    const auto sequence = cell["sequence"].get<std::string>();
-    if (cell["status"] != "ok") {
-      problems.push_back("control '" + control + "' on " + sequence + " did not finish");
+  for (const Cell& cell : cells) {
+    if (!cell.method.control) continue;
+    if (!cell.ok()) {
+      problems.push_back("control '" + cell.method.name + "' on " + cell.sequence +
+                         " did not finish");
     }
-    for (const ordered_json& protocol : cell["protocols"]) {
-      check_protocol(control, sequence, protocol, problems);
-    }
+    for (const Score& score : cell.scores) check_score(cell, score, problems);
   }
   return problems;
 }

@@ -4,27 +4,39 @@
 #include <algorithm>
 #include <utility>
 
+#include "benchmark/process/method_run.h"
 #include "core/files/files.h"
 
 namespace raymoval {
 namespace {
 
-void check_has_calibration(const Protocol& protocol, const Sequence& sequence) {
-  if (!protocol.reads_calibration() || sequence.T_camera_lidar) return;
-  throw DataError("protocol " + protocol.name() + " as asked for (frame = erasor) needs the " +
-                  "calibration of a camera (calib.txt, row Tr) and its poses; sequence '" +
-                  sequence.name +
-                  "' has those of the LiDAR. Leave the option at frame = sequence.");
+/// What a result holds must be listed by its protocol, or nobody could say what it is.
+void check_is_listed(const ProtocolResult& result, const ProtocolEntry& entry) {
+  const auto check = [&](const std::string& name, const auto& specs) {
+    for (const auto& spec : specs) {
+      if (spec.name == name) return;
+    }
+    throw InternalError("protocol " + entry.name + " gave '" + name + "', which it does not list");
+  };
+  for (const auto& [name, count] : result.counts) check(name, entry.counts);
+  for (const Rate& rate : result.rates) check(rate.name, entry.rates);
+}
+
+void check_has_what_is_needed(const Protocol& protocol, const EvaluationInput& input,
+                              const std::string& sequence) {
+  try {
+    protocol.check(input);
+  } catch (const DataError& error) {
+    throw DataError("sequence '" + sequence + "': " + error.what());
+  }
+}
+
+ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
+  check_is_listed(result, protocol_entry(protocol.name()));
+  return result;
 }
 
 }  // namespace
-
-void check_has_labels(const Sequence& sequence) {
-  if (sequence.labels != nullptr) return;
-  throw DataError("sequence '" + sequence.name +
-                  "' has no labels, so nothing can be scored on it; expected a folder labels/ "
-                  "beside the scans. To clean a map without labels use `raymoval clean`.");
-}
 
 SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolRequest>& requests,
                              int threads, Progress* progress)
@@ -37,8 +49,8 @@ SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolReques
   }
   scored_scans_ = std::make_unique<LocalFrameSource>(*opened.scans, lattice_frame(*opened.scans));
   for (const ProtocolRequest& request : requests) {
-    scorers_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
-    check_has_calibration(*scorers_.back().protocol, opened);
+    protocols_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
+    check_has_what_is_needed(*protocols_.back().protocol, input(), opened.name);
   }
 }
 
@@ -46,9 +58,9 @@ const std::string& SequenceBench::data_fingerprint() {
   if (!fingerprint_.empty()) return fingerprint_;
   fingerprint_ = fingerprint(sequence(), threads_);
   loaded_ = watched_.loaded();
-  const bool calibrated = std::any_of(scorers_.begin(), scorers_.end(), [](const Scorer& scorer) {
-    return scorer.protocol->reads_calibration();
-  });
+  const bool calibrated =
+      std::any_of(protocols_.begin(), protocols_.end(),
+                  [](const OpenedProtocol& one) { return one.protocol->reads_calibration(); });
   if (calibrated && sequence().T_camera_lidar) {
     const Eigen::Matrix4d calibration = sequence().T_camera_lidar->matrix();
     ContentHasher hasher;
@@ -82,20 +94,18 @@ std::vector<ColumnValue> SequenceBench::columns(const MaskStore& masks) const {
   return column_values(tally_removals(input(), masks));
 }
 
-const SequenceBench::Scorer& SequenceBench::prepared(std::size_t i) {
-  Scorer& scorer = scorers_[i];
-  if (scorer.truth == nullptr) scorer.truth = scorer.protocol->prepare(input());
-  return scorer;
+const Scorer& SequenceBench::scorer(std::size_t i) {
+  OpenedProtocol& opened = protocols_[i];
+  if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
+  return *opened.scorer;
 }
 
 ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
-  const Scorer& scorer = prepared(i);
-  return scorer.protocol->score(input(), *scorer.truth, masks);
+  return checked(scorer(i).score(masks), protocol(i));
 }
 
 ProtocolResult SequenceBench::score_cloud(std::size_t i, const CloudEstimate& cloud) {
-  const Scorer& scorer = prepared(i);
-  return scorer.protocol->score_cloud(input(), *scorer.truth, cloud);
+  return checked(scorer(i).score_cloud(cloud), protocol(i));
 }
 
 const MaskStore& SequenceBench::cloud_masks(const CloudEstimate& cloud) const {

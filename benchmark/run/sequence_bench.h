@@ -11,7 +11,7 @@
 #include "datasets/reading/loaded_data.h"
 #include "eval/columns/columns.h"
 #include "eval/points/cloud_masks.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 
@@ -27,9 +27,9 @@ class SequenceBench {
   [[nodiscard]] const Sequence& sequence() const { return watched_.sequence; }
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] Progress* progress() const { return progress_; }
-  [[nodiscard]] std::size_t protocol_count() const { return scorers_.size(); }
-  [[nodiscard]] const std::string& protocol_name(std::size_t i) const { return scorers_[i].name; }
-  [[nodiscard]] const Protocol& protocol(std::size_t i) const { return *scorers_[i].protocol; }
+  [[nodiscard]] std::size_t protocol_count() const { return protocols_.size(); }
+  [[nodiscard]] const std::string& protocol_name(std::size_t i) const { return protocols_[i].name; }
+  [[nodiscard]] const Protocol& protocol(std::size_t i) const { return *protocols_[i].protocol; }
 
   /// Hash of all that methods and protocols read; computed once. @throws DataError
   const std::string& data_fingerprint();
@@ -52,13 +52,13 @@ class SequenceBench {
   [[nodiscard]] std::vector<ColumnValue> columns(const MaskStore& masks) const;
 
  private:
-  struct Scorer {
+  struct OpenedProtocol {
     std::string name;
     std::unique_ptr<Protocol> protocol;
-    std::unique_ptr<TruthMap> truth;
+    std::unique_ptr<Scorer> scorer;  ///< Null until it is first needed.
   };
   [[nodiscard]] EvaluationInput input() const;
-  const Scorer& prepared(std::size_t i);
+  const Scorer& scorer(std::size_t i);
 
   WatchedSequence watched_;
   /// The scans as protocols get them: from `lattice_origin`.
@@ -67,10 +67,7 @@ class SequenceBench {
   Progress* progress_;
   std::string fingerprint_;
   LoadedData loaded_;  ///< What the fingerprint is of.
-  std::vector<Scorer> scorers_;
+  std::vector<OpenedProtocol> protocols_;
 };
-
-/// @throws DataError pointing to `raymoval clean` if `sequence` has no labels.
-void check_has_labels(const Sequence& sequence);
 
 }  // namespace raymoval

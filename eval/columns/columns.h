@@ -18,9 +18,21 @@ struct Share {
   std::int64_t part = 0;
   std::int64_t whole = 0;
 
-  /// Percent; none of nothing.
+  /// The share in percent. It has no value if `whole` is 0.
   [[nodiscard]] std::optional<double> percent() const;
 };
+
+/// The parts of a column's name, "rejection [moving-car, range 0-10 m]".
+struct ColumnName {
+  std::string kind;        ///< "rejection".
+  std::string group = {};  ///< Class of points, "moving-car"; empty: all points.
+  std::string axis = {};   ///< "range" or "height"; empty: the column is of no band.
+  std::string band = {};   ///< "0-10 m".
+
+  [[nodiscard]] std::string text() const;
+};
+
+ColumnName parse_column_name(const std::string& name);
 
 /// A figure beside the protocols' rates: a share of points, by what a method removed.
 struct Column {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -20,6 +18,5 @@ namespace raymoval {
 /// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic, mixed_voxels (in
 /// both sets); ego_points, out_of_range_points, ignored_points.
 ProtocolEntry strict_protocol_entry();
-std::unique_ptr<Protocol> make_strict_protocol(const Configuration& options);
 
 }  // namespace raymoval

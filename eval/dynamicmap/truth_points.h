@@ -55,16 +55,10 @@ class TruthPoints {
  private:
   Kind kind_of(const Eigen::Vector3f& point, std::uint32_t word, PointCounts& counts) const;
 
-  const EvaluationInput& input_;
+  const EvaluationInput& input_;  ///< Outlives this object.
   LabelClasses classes_;
   double maximum_range_;
   double ego_range_;
 };
-
-/// SA, DA, AA and HA in percent, SA and DA first; undefined where a class is empty.
-/// SA = present / static, DA = gone / dynamic, AA = sqrt(SA DA), HA = 2 SA DA / (SA + DA).
-std::vector<Rate> accuracy_rates(std::int64_t present_static, std::int64_t static_count,
-                                 std::int64_t removed_dynamic, std::int64_t dynamic_count,
-                                 const std::string& unit);
 
 }  // namespace raymoval::dynamicmap

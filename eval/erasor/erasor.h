@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -34,6 +32,5 @@ namespace raymoval {
 /// away. Static voxels beside removed objects so become dynamic and RR has a ceiling below 100:
 /// score the cloud of an oracle to see it. `cloud_points` then stands for `removed_points`.
 ProtocolEntry erasor_protocol_entry();
-std::unique_ptr<Protocol> make_erasor_protocol(const Configuration& options);
 
 }  // namespace raymoval

@@ -26,9 +26,6 @@ struct CheckedScan {
 /// @throws DataError if the labels do not fit the scan
 CheckedScan load_checked(const EvaluationInput& input, const MaskStore* masks, std::size_t index);
 
-/// @throws DataError if `input` has no labels
-void check_input(const EvaluationInput& input, const std::string& protocol);
-
 /// @throws MethodError unless there is a mask for each scan
 void check_mask_count(const EvaluationInput& input, const MaskStore& masks);
 

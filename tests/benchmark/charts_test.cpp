@@ -243,9 +243,19 @@ TEST_CASE("A chart is written as PDF and PNG too") {
 }
 
 TEST_CASE("Axes begin and end at round numbers") {
-  const LinearAxis percent = axis_up_to(97.2, 100.0);
+  RateSpec rate{.name = "PR"};
+  const LinearAxis percent = axis_to_best(rate, 97.2);
   CHECK(percent.low == Approx(97.0));  // A point at 97.2 is above the axis.
-  CHECK(axis_up_to(0.0, 100.0).low == 0.0);
-  CHECK(axis_up_to(100.0, 100.0).low < 100.0);  // All at the upper end: still an axis.
-  CHECK(axis_up_to(0.0, 100.0).marks() == std::vector<double>{0, 20, 40, 60, 80, 100});
+  CHECK(axis_to_best(rate, 0.0).low == 0.0);
+  CHECK(axis_to_best(rate, 100.0).low < 100.0);  // All at the upper end: still an axis.
+  CHECK(axis_to_best(rate, 0.0).marks() == std::vector<double>{0, 20, 40, 60, 80, 100});
+  // Where lower is better the axis runs from a round number above the worst value to 0.
+  rate.unit = RateUnit::kFraction;
+  rate.higher_is_better = false;
+  const LinearAxis mistakes = axis_to_best(rate, 0.083);
+  CHECK(mistakes.high == Approx(0.1));
+  CHECK(mistakes.at(0.0, 200.0) == 200.0);
+  CHECK(mistakes.at(0.1, 200.0) == Approx(0.0).margin(1e-9));
+  CHECK(axis_to_best(rate, 0.0).high > 0.0);
+  CHECK(axis_to_best(rate, 1.0).high == 1.0);
 }

@@ -5,17 +5,16 @@
 
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/commands.h"
-#include "benchmark/result/cell.h"
+#include "benchmark/result/cell_json.h"
 #include "benchmark/result/removal_files.h"
 #include "benchmark/result/results.h"
-#include "benchmark/result/score_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/sequence_bench.h"
 #include "core/files/files.h"
 #include "core/parallel.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -57,10 +56,7 @@ std::string result_text(const std::string& name, const ProtocolResult& result) {
 std::string columns_text(const std::vector<ColumnValue>& columns) {
   std::string text = "points\n";
   for (const ColumnValue& column : columns) {
-    if (column.name.find("range ") != std::string::npos ||
-        column.name.find("height ") != std::string::npos) {
-      continue;
-    }
+    if (!parse_column_name(column.name).axis.empty()) continue;
     const auto percent = column.share.percent();
     text += "  " + column.name + " " +
             (percent ? fixed_text(*percent, 3) + " (" + std::to_string(column.share.part) + " of " +
@@ -102,17 +98,16 @@ class Scoring {
   Scoring(SequenceBench& bench, const ScoreFlags& flags, Progress& progress)
       : bench_(bench), flags_(flags), progress_(progress) {
     record_["schema_version"] = kSchemaVersion;
-    record_["data"] = bench.sequence().record();
-    record_["data"]["scans"] = bench.sequence().scans->size();
+    record_["data"] = to_json(bench.sequence().record());
   }
 
   ordered_json run() {
     record_["labels"] = flags_.cloud.empty() ? "index" : "nearest";
     record_["protocols"] = ordered_json::array();
     const MaskStore masks = flags_.cloud.empty() ? score_predictions() : score_cloud();
-    const std::vector<ColumnValue> columns = bench_.columns(masks);
-    record_["columns"] = columns_record(columns);
-    text_ += columns_text(columns);
+    const ColumnRecord columns{kColumnsVersion, bench_.columns(masks)};
+    record_["columns"] = to_json(columns);
+    text_ += columns_text(columns.values);
     progress_.end();
     print(text_);
     return std::move(record_);
@@ -168,11 +163,9 @@ class Scoring {
 
   /// @param oracle what the oracle's cloud scored; null where labels go by index
   void add_result(std::size_t i, const ProtocolResult& result, const ProtocolResult* oracle) {
-    ordered_json scored;
-    scored["name"] = bench_.protocol_name(i);
-    scored["protocol"] = bench_.protocol(i).name();
-    scored["version"] = bench_.protocol(i).version();
-    scored["options"] = to_json(bench_.protocol(i).options());
+    ordered_json scored =
+        to_json(ProtocolRecord{bench_.protocol_name(i), bench_.protocol(i).name(),
+                               bench_.protocol(i).version(), bench_.protocol(i).options()});
     scored.update(to_json(result));
     text_ += result_text(bench_.protocol_name(i), result);
     if (oracle != nullptr) {
@@ -211,11 +204,12 @@ void check_flags(const ScoreFlags& flags) {
 std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
   Suite suite;
   for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");
-  if (suite.protocols.empty()) add_protocol(suite, "erasor", "");
+  if (suite.protocols.empty()) add_protocol(suite, default_protocol(), "");
   for (ProtocolRequest& request : suite.protocols) {
-    if (flags.cloud.empty() || request.protocol != "erasor") continue;
-    set_parameter(request.options, "label_mode", std::string("nearest"));
-    set_parameter(request.options, "lift", 0.0);
+    if (flags.cloud.empty()) continue;
+    for (const auto& [key, value] : protocol_entry(request.protocol).cloud_options) {
+      set_parameter(request.options, key, value);
+    }
   }
   for (const std::string& text : flags.settings) {
     set_protocol_option(suite.protocols, parse_setting(text));
@@ -239,33 +233,24 @@ ExitCode score(const ScoreFlags& flags) {
 
 }  // namespace
 
-Command add_score_command(CLI::App& program) {
+Command add_score_command(CommandParser& program) {
   auto flags = std::make_shared<ScoreFlags>();
-  CLI::App* app =
-      program.add_subcommand("score", "Scores label files or a cleaned map made by any program");
-  app->allow_extras();
-  SequenceFlags::add_place_to(*app, flags->sequence);
-  app->add_option("--predictions", flags->predictions,
-                  "Folder of NNNNNN.label files: 251 to 259 = removed, others kept")
-      ->type_name("DIR");
-  app->add_option("--cloud", flags->cloud,
-                  "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses")
-      ->type_name("FILE");
-  app->add_option("--voxel", flags->voxel,
-                  "Voxel to which the cloud was thinned; thins the oracle's likewise")
-      ->type_name("METRES");
-  app->add_option("--protocol", flags->protocols, "Protocol to score by (default: erasor)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  app->add_option("--set", flags->settings, "Option of a protocol: protocol:NAME.key=value")
-      ->type_name("SETTING")
-      ->allow_extra_args(false);
-  flags->reading.add_to(*app);
-  app->add_option("--json", flags->json, "Write counts and rates to this file")->type_name("FILE");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options =
+      program.add_command("score", "Scores label files or a cleaned map made by any program");
+  SequenceFlags::add_place_to(options, flags->sequence);
+  options.add("--predictions", "DIR", flags->predictions,
+              "Folder of NNNNNN.label files: 251 to 259 = removed, others kept");
+  options.add("--cloud", "FILE", flags->cloud,
+              "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
+  options.add("--voxel", "METRES", flags->voxel,
+              "Voxel to which the cloud was thinned; thins the oracle's likewise");
+  options.add("--protocol", "NAME", flags->protocols, "Protocol to score by (default: erasor)");
+  options.add("--set", "SETTING", flags->settings, "Option of a protocol: protocol:NAME.key=value");
+  flags->reading.add_to(options);
+  options.add("--json", "FILE", flags->json, "Write counts and rates to this file");
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "
       "perfect\ncleaner below 100. What the oracle's cloud scores in the same way is shown beside "
       "it. That is a\nyardstick and no upper limit: whoever also removes static points beside "
@@ -278,7 +263,7 @@ Command add_score_command(CLI::App& program) {
       "--set protocol:dynamicmap.distance=0.1\n"
       "  raymoval score --sequence street --predictions "
       "out/street/cells/street/raymoval-online/removals --json score.json");
-  return {app, [flags] { return score(*flags); }};
+  return {options.name(), [flags] { return score(*flags); }};
 }
 
 }  // namespace raymoval

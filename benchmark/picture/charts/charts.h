@@ -23,9 +23,9 @@ std::string chart_style();
 // <desc> for assistive programs; each marker or bar has a <title> with its values. The same results
 // give the same bytes. Controls are left out.
 
-/// Shows one rate against the other: PR upwards and RR to the right, with lines of equal F1, or SA
-/// and DA with lines of equal HA if the protocol has those. Each sequence has a panel, and a line
-/// joins the points of a sweep. The text is empty if no cell has both rates.
+/// Shows what is kept (upwards) against what is removed (to the right). Each sequence has a panel.
+/// There are lines of equal headline rate if that is the harmonic mean of both, and a line joins the
+/// points of a sweep. The text is empty if no cell has both rates.
 /// @param protocol its name in the run
 std::string pr_rr_chart(const RunResults& results, const std::string& protocol,
                         ChartPlace place = ChartPlace::kFile);
@@ -34,8 +34,9 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol,
 /// there are no times.
 std::string stage_chart(const RunResults& results, ChartPlace place = ChartPlace::kFile);
 
-/// Shows the mean F1 (or HA) over the sequences against milliseconds per scan (logarithmic). A line
-/// joins the methods that no other one beats in both. The text is empty if no method has both.
+/// Shows the mean of the headline rate over the sequences against milliseconds per scan
+/// (logarithmic). A line joins the methods that no other one beats in both. The text is empty if no
+/// method has both.
 /// @param protocol its name in the run
 std::string accuracy_time_chart(const RunResults& results, const std::string& protocol,
                                 ChartPlace place = ChartPlace::kFile);

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -74,8 +74,9 @@ std::string caption_of(const RunResults& results, const KeptCell& cell) {
   std::string text;
   if (row == nullptr) return text;
   for (const RateSpec& spec : rate_specs()) {
+    if (spec.role == RateRole::kMean || spec.role == RateRole::kSecondary) continue;
     const auto found = row->rates.find(spec.name);
-    if (spec.role == RateRole::kMean || found == row->rates.end() || !found->second) continue;
+    if (found == row->rates.end() || !found->second) continue;
     text += (text.empty() ? "" : "   ") + spec.name + " " +
             fixed_text(*found->second, spec.unit == RateUnit::kFraction ? 3 : 1);
   }

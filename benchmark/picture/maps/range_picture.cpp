@@ -16,6 +16,8 @@
 namespace raymoval {
 namespace {
 
+using namespace raymoval_method;
+
 constexpr int kMargin = 20;
 constexpr int kHeading = 28;
 constexpr int kGap = 12;

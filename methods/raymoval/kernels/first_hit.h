@@ -5,11 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/simd/simd.h"
 #include "methods/raymoval/kernels/angular_grid.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// A ray in the world frame (eq. 6): origin o = t, unit direction d = R u.
 struct Ray {
@@ -88,8 +87,7 @@ struct FirstHitImage {
 /// takes the same time).
 class FirstHitCaster {
  public:
-  FirstHitCaster(const AngularGrid& grid, const RayLimits& limits,
-                 InstructionSet set = InstructionSet::kBest);
+  FirstHitCaster(const AngularGrid& grid, const RayLimits& limits);
   ~FirstHitCaster();
   FirstHitCaster(FirstHitCaster&&) noexcept;
   FirstHitCaster& operator=(FirstHitCaster&&) noexcept;
@@ -105,7 +103,6 @@ class FirstHitCaster {
 
 /// One image with a caster of its own.
 FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
-                              const AngularGrid& grid, const RayLimits& limits, int threads,
-                              InstructionSet set = InstructionSet::kBest);
+                              const AngularGrid& grid, const RayLimits& limits, int threads);
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method
