@@ -129,7 +129,7 @@ MethodOrder read_order(int file, const MethodRegistry& registry) {
 }
 
 void write_answer(int file, const MethodAnswer& answer) {
-  AnswerHead head{answer.status,
+  AnswerHead head{status_name(answer.status),
                   answer.reason,
                   to_json(answer.measured),
                   {},
@@ -154,7 +154,9 @@ MethodAnswer read_answer(int file) {
   MessageReader reader(file);
   const auto head = reader.take_json().get<AnswerHead>();
   MethodAnswer answer;
-  answer.status = head.status;
+  const auto status = status_called(head.status);
+  if (!status) throw MethodError("the answer is damaged");
+  answer.status = *status;
   answer.reason = head.reason;
   const nlohmann::ordered_json measured = head.measured;
   const std::string place = "the answer";
