@@ -12,8 +12,8 @@ namespace raymoval {
 
 /// The region of the own vehicle whose points are left out, as texts of `ego_region_text`.
 struct EgoRecord {
-  std::string asked;     ///< What the user asked for, "auto".
-  std::string left_out;  ///< What is left out for it.
+  std::string asked = {};     ///< What the user asked for, "auto".
+  std::string left_out = {};  ///< What is left out for it.
 };
 
 /// What was read of a sequence and how. It has no path, because it is stored with results.

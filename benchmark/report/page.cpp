@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/picture/canvas/colours.h"
 #include "benchmark/picture/charts/charts.h"
-#include "benchmark/picture/colours.h"
 #include "benchmark/report/page_files.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/result/reasons.h"

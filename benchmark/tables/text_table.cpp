@@ -6,13 +6,10 @@
 #include <set>
 
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
-
-bool begins_character(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-}
 
 /// Where character `number` of a UTF-8 text begins, from 0.
 std::size_t character_at(const std::string& text, std::size_t number) {

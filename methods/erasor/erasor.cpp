@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
+#include "methods/common/thinned_points.h"
 #include "methods/erasor/ground_fit.h"
 #include "methods/erasor/naive_map.h"
 #include "methods/erasor/polar_bins.h"
@@ -33,12 +34,6 @@ struct MapBins {
   };
   std::vector<BinExtent> extents;
   std::vector<std::vector<Member>> members;  ///< Chunk by chunk, in order.
-};
-
-/// Points of one voxel of a scan that is thinned.
-struct ThinnedPoint {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int points = 0;
 };
 
 class ErasorRun {
@@ -124,42 +119,23 @@ class ErasorRun {
     QueryBins query;
     query.extents.resize(bins_.size());
     query.bin_of_point.assign(scan.size(), -1);
-    std::vector<int> slot_of_point;
-    const std::vector<ThinnedPoint> thinned = thin(scan, slot_of_point);
+    ThinnedPoints thinned(parameters_.query_voxel_size);
+    std::vector<int> slot_of_point(scan.size(), -1);  // -1: a point of the own car.
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      if (is_own_car(scan.points[k], parameters_.minimum_range)) continue;
+      slot_of_point[k] = static_cast<int>(thinned.add(scan.points[k].cast<double>()));
+    }
     std::vector<int> bin_of_slot(thinned.size());
     for (std::size_t s = 0; s < thinned.size(); ++s) {
-      const Eigen::Vector3d body = body_of(thinned[s].sum / thinned[s].points);
-      bin_of_slot[s] = bins_.bin_of(body);
-      if (bin_of_slot[s] >= 0)
-        query.extents[static_cast<std::size_t>(bin_of_slot[s])].add(body.z());
+      const Eigen::Vector3d body = body_of(thinned.centroid(s));
+      const int bin = bin_of_slot[s] = bins_.bin_of(body);
+      if (bin >= 0) query.extents[static_cast<std::size_t>(bin)].add(body.z());
     }
     for (std::size_t k = 0; k < scan.size(); ++k) {
       if (slot_of_point[k] < 0) continue;
       query.bin_of_point[k] = bin_of_slot[static_cast<std::size_t>(slot_of_point[k])];
     }
     return query;
-  }
-
-  /// One point a voxel of the sensor frame, the own car's left out.
-  /// @param slot_of_point which thinned point stands for each raw one; -1 = none
-  std::vector<ThinnedPoint> thin(const Scan& scan, std::vector<int>& slot_of_point) const {
-    slot_of_point.assign(scan.size(), -1);
-    std::vector<ThinnedPoint> thinned;
-    VoxelMap<int> slots;
-    slots.reserve(scan.size() / 2);
-    const double inverse = 1.0 / parameters_.query_voxel_size;
-    for (std::size_t k = 0; k < scan.size(); ++k) {
-      if (is_own_car(scan.points[k], parameters_.minimum_range)) continue;
-      const Eigen::Vector3d point = scan.points[k].cast<double>();
-      const auto found = slots.try_emplace(voxel_key(voxel_index(point, inverse)),
-                                           static_cast<int>(thinned.size()));
-      if (found.second) thinned.emplace_back();
-      slot_of_point[k] = found.first->second;
-      ThinnedPoint& slot = thinned[static_cast<std::size_t>(slot_of_point[k])];
-      slot.sum += point;
-      ++slot.points;
-    }
-    return thinned;
   }
 
   /// Sorts the voxels that are in the map within the disc around the sensor into bins.

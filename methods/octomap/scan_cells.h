@@ -44,7 +44,6 @@ class ScanCells {
                      const std::vector<PointRole>& roles, const octomap::point3d& origin);
   void add_beam(const octomap::point3d& end, CellCode last, PointRole role,
                 const octomap::point3d& origin);
-  void discretise(const octomap::point3d& origin);
 
   const OctomapParameters& parameters_;
   CellLattice lattice_;

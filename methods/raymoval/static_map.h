@@ -40,9 +40,6 @@ class StaticMap {
 
   [[nodiscard]] const OccupancyMap& occupied() const { return occupied_; }
   [[nodiscard]] OccupancyMap& occupied() { return occupied_; }
-  [[nodiscard]] VoxelIndex voxel_of(const Eigen::Vector3d& world) const {
-    return occupied_.voxel_of(world);
-  }
   [[nodiscard]] bool was_erased(const VoxelIndex& voxel) const {
     return was_erased(occupied_.find_slot(OccupancyMap::brick_of(voxel)), voxel);
   }

@@ -7,6 +7,7 @@
 
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
+#include "methods/common/thinned_points.h"
 #include "methods/removert/answer.h"
 #include "methods/removert/map_points.h"
 #include "methods/removert/scan_image.h"
@@ -20,22 +21,11 @@ namespace {
 /// appearance; the points themselves for 0.
 std::vector<Eigen::Vector3f> thinned(std::vector<Eigen::Vector3f> points, double voxel) {
   if (voxel <= 0.0) return points;
-  VoxelMap<std::size_t> place_of;
-  std::vector<Eigen::Vector3d> sums;
-  std::vector<double> counts;
-  for (const Eigen::Vector3f& point : points) {
-    const VoxelKey key = voxel_key(voxel_index(point.cast<double>(), 1.0 / voxel));
-    const auto [found, is_new] = place_of.try_emplace(key, sums.size());
-    if (is_new) {
-      sums.emplace_back(Eigen::Vector3d::Zero());
-      counts.push_back(0.0);
-    }
-    sums[found->second] += point.cast<double>();
-    counts[found->second] += 1.0;
-  }
+  ThinnedPoints centroids(voxel);
+  for (const Eigen::Vector3f& point : points) centroids.add(point.cast<double>());
   points.clear();
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    points.emplace_back((sums[i] / counts[i]).cast<float>());
+  for (std::size_t i = 0; i < centroids.size(); ++i) {
+    points.emplace_back(centroids.centroid(i).cast<float>());
   }
   return points;
 }
@@ -82,9 +72,7 @@ class RemovertBatch {
 
   /// One pass per resolution, fine to coarse. @return what was taken out of `map`
   MapPoints remove(MapPoints& map) {
-    const bool needs_all = parameters_.difference == DifferenceRule::kAbsolute ||
-                           parameters_.decision == DecisionRule::kScore;
-    const Candidates candidates = needs_all ? Candidates::kAll : Candidates::kInFront;
+    const Candidates candidates = candidates_for(false);
     MapPoints removed;
     std::vector<std::uint8_t> flagged(map.size(), 0);
     for (const double resolution : parameters_.remove_resolutions()) {
@@ -99,10 +87,7 @@ class RemovertBatch {
 
   /// Compares the removed points alone with all scans; those not flagged go back to `map`.
   void revert(MapPoints& map, MapPoints& removed) {
-    const bool needs_all = parameters_.revert_needs_view ||
-                           parameters_.decision == DecisionRule::kScore ||
-                           parameters_.difference == DifferenceRule::kAbsolute;
-    const Candidates candidates = needs_all ? Candidates::kAll : Candidates::kInFront;
+    const Candidates candidates = candidates_for(parameters_.revert_needs_view);
     for (const double resolution : parameters_.revert_resolutions()) {
       const Votes votes = compare(removed, resolution, candidates);
       std::vector<std::uint8_t> restored(removed.size(), 0);
@@ -112,6 +97,13 @@ class RemovertBatch {
       }
       map = united(map, take_points(removed, restored));
     }
+  }
+
+  /// Which points of a map a pass has to look at.
+  [[nodiscard]] Candidates candidates_for(bool needs_view) const {
+    const bool needs_all = needs_view || parameters_.difference == DifferenceRule::kAbsolute ||
+                           parameters_.decision == DecisionRule::kScore;
+    return needs_all ? Candidates::kAll : Candidates::kInFront;
   }
 
   void flag_dynamic(const MapPoints& map, double resolution, Candidates candidates,
