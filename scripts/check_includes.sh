@@ -20,6 +20,8 @@ methods    registry
 methods/raymoval       kernels .
 eval       . points columns|erasor|dynamicmap comparison published
 benchmark  harness suite result process tables run clean picture report cli
+benchmark/result       . removals|checks
+benchmark/run          folder .
 benchmark  kernels
 "
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "benchmark/result/differences.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/differences.h"
+#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/files/files.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/harness.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/runner.h"
 #include "methods/controls/controls.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>

@@ -4,11 +4,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/process/checked_sink.h"
 #include "benchmark/report/html.h"
 #include "benchmark/report/pack.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/report/thinned_points.h"
-#include "benchmark/result/reasons.h"
+#include "benchmark/result/removals/reasons.h"
 #include "core/error.h"
 #include "core/utf8.h"
 #include "tests/benchmark/small_world.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run/run_folder.h"
+#include "benchmark/run/folder/run_folder.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "benchmark/result/flat_sweeps.h"
+#include "benchmark/result/checks/flat_sweeps.h"
 #include "benchmark/suite/suite.h"
 #include "benchmark/tables/tables.h"
 #include "core/error.h"

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "benchmark/harness.h"
-#include "benchmark/result/controls_check.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/controls_check.h"
+#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/runner.h"
 #include "benchmark/tables/cell_line.h"

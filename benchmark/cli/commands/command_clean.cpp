@@ -10,7 +10,7 @@
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/mask_spool.h"
 #include "benchmark/process/method_run.h"
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/parallel.h"
 #include "core/process/proc_files.h"

@@ -5,7 +5,7 @@
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/commands/output_json.h"
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/scored_sequence.h"
 #include "core/files/files.h"

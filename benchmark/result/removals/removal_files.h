@@ -30,8 +30,9 @@ void write_removal(const std::filesystem::path& folder, const Scan& scan, const 
 void write_removals(const std::filesystem::path& folder, const ScanSource& scans,
                     const MaskStore& masks, const std::function<void()>& after_scan);
 
-/// Removes a folder of removals (and of reasons, see benchmark/result/reasons.h) with all files
-/// that a run writes there. A link to such a folder goes alone; one that is not there is no error.
+/// Removes a folder of removals (and of reasons, see benchmark/result/removals/reasons.h) with all
+/// files that a run writes there. A link to such a folder goes alone; one that is not there is no
+/// error.
 /// @return false if it holds anything else, which stays
 bool remove_removals(const std::filesystem::path& folder);
 

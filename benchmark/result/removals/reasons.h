@@ -3,12 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <string>
 #include <vector>
 
-#include "benchmark/process/timed_source.h"
-#include "methods/remover.h"
+#include "core/scan/scan_source.h"
 
 namespace raymoval {
 
@@ -18,27 +16,6 @@ struct Reasons {
   std::vector<std::vector<std::uint8_t>> codes;  ///< By scan; empty for a scan without reasons.
 
   [[nodiscard]] bool empty() const { return sentences.empty(); }
-};
-
-/// Keeps a method's reasons and holds it to the contract of `ReasonSink`.
-class ReasonStore : public ReasonSink {
- public:
-  /// @param method name for messages
-  ReasonStore(std::string method, const TimedSource& scans)
-      : method_(std::move(method)), scans_(scans) {}
-
-  /// @throws MethodError for no or more than 127 sentences, or a second call
-  void explain(const std::vector<std::string>& sentences) override;
-  /// @throws MethodError before `explain`, and for an unknown scan, a wrong size or an unknown code
-  void accept(std::size_t scan, const std::vector<std::uint8_t>& codes) override;
-  /// What was given; scans without reasons have none.
-  [[nodiscard]] Reasons finish();
-
- private:
-  std::string method_;
-  const TimedSource& scans_;
-  std::mutex mutex_;
-  Reasons reasons_;
 };
 
 /// Writes `reasons.json` (the sentences) and `<scan name>.reason` (a byte for each point of the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/result/differences.h"
+#include "benchmark/result/checks/differences.h"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run/cell_store.h"
+#include "benchmark/run/folder/cell_store.h"
 
 #include <system_error>
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/cell_json.h"
-#include "benchmark/result/differences.h"
-#include "benchmark/result/removal_files.h"
-#include "benchmark/run/cell_run.h"
+#include "benchmark/result/checks/differences.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
@@ -75,15 +74,13 @@ path CellStore::new_removals(const CellName& cell) const {
   return new_part_name(folder(cell) / kRemovals);
 }
 
-StoredCell CellStore::find(ScoredSequence& scored, const MethodRequest& request,
-                           bool with_removals) const {
+StoredCell CellStore::find(const CellName& name, const CellIdentity& wanted,
+                           const ScanSource* scans) const {
   using State = StoredCell::State;
-  const path place = folder({scored.sequence().name, request.name});
-  const path file = place / "cell.json";
+  const path file = folder(name) / "cell.json";
   if (!has_file(file)) return {State::kMissing, "is not there yet", {}};
   try {
     Cell cell = read_cell(file);
-    const CellIdentity wanted = cell_identity(scored, request);
     const bool same = cell.key == cell_key(wanted);
     if (!cell.ok()) {
       const std::string why = "failed last time: " + cell.reason;
@@ -91,7 +88,7 @@ StoredCell CellStore::find(ScoredSequence& scored, const MethodRequest& request,
       return {State::kFailed, why, std::move(cell)};
     }
     if (!same) return {State::kStale, identity_difference(cell, wanted), {}};
-    if (with_removals && !has_removals(place, cell, *scored.sequence().scans)) {
+    if (scans != nullptr && !has_removals(folder(name), cell, *scans)) {
       return {State::kStale, "its removals are asked for and not there, or not whole", {}};
     }
     return {State::kFresh, "", std::move(cell)};

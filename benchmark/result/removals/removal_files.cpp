@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 
 #include <bit>
 #include <cstring>
 #include <vector>
 
-#include "benchmark/result/reasons.h"
+#include "benchmark/result/removals/reasons.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run/folder_lock.h"
+#include "benchmark/run/folder/folder_lock.h"
 
 #include "core/error.h"
 

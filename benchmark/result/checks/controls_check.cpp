@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/result/controls_check.h"
+#include "benchmark/result/checks/controls_check.h"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run/kept_run.h"
+#include "benchmark/run/folder/kept_run.h"
 
 #include <algorithm>
 
 #include "benchmark/process/checked_sink.h"
-#include "benchmark/result/removal_files.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/result_sets.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "benchmark/result/run_record_json.h"
-#include "benchmark/run/cell_store.h"
+#include "benchmark/run/folder/cell_store.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run/run_folder.h"
+#include "benchmark/run/folder/run_folder.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/results.h"
 #include "benchmark/result/run_record_json.h"
-#include "benchmark/run/cell_store.h"
+#include "benchmark/run/folder/cell_store.h"
 #include "benchmark/suite/suite_json.h"
 #include "benchmark/tables/tables.h"
 #include "core/files/file_kind.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run/folder_content.h"
+#include "benchmark/run/folder/folder_content.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "benchmark/result/cell_json.h"
-#include "benchmark/result/differences.h"
+#include "benchmark/result/checks/differences.h"
 #include "benchmark/result/run_record_json.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/result/flat_sweeps.h"
+#include "benchmark/result/checks/flat_sweeps.h"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/result/reasons.h"
+#include "benchmark/result/removals/reasons.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -12,8 +12,6 @@
 
 namespace raymoval {
 namespace {
-
-constexpr std::size_t kMostSentences = 127;
 
 std::filesystem::path sentences_file(const std::filesystem::path& folder) {
   return folder / "reasons.json";
@@ -28,40 +26,6 @@ bool any_from(const std::vector<std::uint8_t>& codes, std::size_t end) {
 }
 
 }  // namespace
-
-void ReasonStore::explain(const std::vector<std::string>& sentences) {
-  const std::lock_guard lock(mutex_);
-  if (!reasons_.sentences.empty()) {
-    throw MethodError("method '" + method_ + "' named its reasons twice, expected once.");
-  }
-  if (sentences.empty() || sentences.size() > kMostSentences) {
-    throw MethodError("method '" + method_ + "' has " + std::to_string(sentences.size()) +
-                      " reasons, expected 1 to 127.");
-  }
-  reasons_.sentences = sentences;
-  reasons_.codes.resize(scans_.size());
-}
-
-void ReasonStore::accept(std::size_t scan, const std::vector<std::uint8_t>& codes) {
-  const std::lock_guard lock(mutex_);
-  const std::string who = "method '" + method_ + "', reasons of scan " + std::to_string(scan);
-  if (scan >= reasons_.codes.size()) {
-    throw MethodError(who + ": there is no such scan, or they came before their sentences.");
-  }
-  if (codes.size() != scans_.point_count(scan)) {
-    throw MethodError(who + ": there are " + grouped_text(codes.size()) +
-                      ", expected one for each of the scan's " +
-                      grouped_text(scans_.point_count(scan)) + " points.");
-  }
-  if (any_from(codes, reasons_.sentences.size())) {
-    throw MethodError(who + ": a code has no sentence.");
-  }
-  reasons_.codes[scan] = codes;
-}
-
-Reasons ReasonStore::finish() {
-  return std::move(reasons_);
-}
 
 void write_reasons(const std::filesystem::path& folder, const ScanSource& scans,
                    const Reasons& reasons) {

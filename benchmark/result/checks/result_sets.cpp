@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/result_sets.h"
 
 #include <fmt/format.h>
 
-#include "benchmark/result/differences.h"
+#include "benchmark/result/checks/differences.h"
 #include "benchmark/result/run_record_json.h"
 #include "core/files/file_kind.h"
 

@@ -7,8 +7,7 @@
 
 #include "benchmark/result/cell.h"
 #include "benchmark/result/run_record.h"
-#include "benchmark/run/scored_sequence.h"
-#include "benchmark/suite/suite.h"
+#include "core/scan/scan_source.h"
 
 namespace raymoval {
 
@@ -35,9 +34,9 @@ class CellStore {
   /// A new name in the cell's folder, where removals are written before `keep`.
   [[nodiscard]] std::filesystem::path new_removals(const CellName& cell) const;
 
-  /// @param with_removals whether the cell's removals have to be there too
-  [[nodiscard]] StoredCell find(ScoredSequence& scored, const MethodRequest& request,
-                                bool with_removals) const;
+  /// @param scans if they are given, the cell's removals of them have to be there too
+  [[nodiscard]] StoredCell find(const CellName& name, const CellIdentity& wanted,
+                                const ScanSource* scans) const;
   /// Repeat `number` (2, 3 ...) of the cell with `key`; no value if it is not there.
   [[nodiscard]] std::optional<RepeatRecord> find_repeat(const CellName& cell, int number,
                                                         const std::string& key) const;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/run/cell_store.h"
+#include "benchmark/run/folder/cell_store.h"
 
 namespace raymoval {
 
