@@ -122,8 +122,7 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
   }
   for (const ProtocolRequest& request : suite.protocols) {
     run.protocols.push_back({request.name, request.protocol,
-                             protocol_entry(request.protocol).version,
-                             request.options});
+                             protocol_entry(request.protocol).version, request.options});
   }
   run.controls = suite.controls;
   run.cells = run.all_cells();

@@ -7,7 +7,7 @@
 #include "benchmark/cli/commands/output_json.h"
 #include "benchmark/result/removal_files.h"
 #include "benchmark/result/sealed_json.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "core/files/files.h"
 #include "core/parallel.h"
 #include "core/scan/local_frame.h"
@@ -24,57 +24,57 @@ struct ScoreFlags {
   bool quiet = false;
 };
 
-std::vector<ProtocolRecord> protocol_records(const SequenceBench& bench) {
+std::vector<ProtocolRecord> protocol_records(const ScoredSequence& scored) {
   std::vector<ProtocolRecord> records;
-  for (std::size_t i = 0; i < bench.protocol_count(); ++i) {
-    const Protocol& protocol = bench.protocol(i);
+  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
+    const Protocol& protocol = scored.protocol(i);
     records.push_back(
-        {bench.protocol_name(i), protocol.name(), protocol.version(), protocol.options()});
+        {scored.protocol_name(i), protocol.name(), protocol.version(), protocol.options()});
   }
   return records;
 }
 
-void score_predictions(SequenceBench& bench, const std::string& folder, Progress& progress,
+void score_predictions(ScoredSequence& scored, const std::string& folder, Progress& progress,
                        ScoreRecord& record) {
-  const ScanSource& scans = *bench.sequence().scans;
+  const ScanSource& scans = *scored.sequence().scans;
   progress.begin("reading predictions", scans.size());
   const std::atomic<bool>& cancelled = interrupt_flag();
   const MaskStore masks = read_removals(folder, scans, [&] {
     progress.advance();
     if (cancelled) throw Cancelled();
   });
-  for (const ProtocolRecord& protocol : protocol_records(bench)) {
-    record.protocols.push_back({protocol, bench.score(record.protocols.size(), masks)});
+  for (const ProtocolRecord& protocol : protocol_records(scored)) {
+    record.protocols.push_back({protocol, scored.score(record.protocols.size(), masks)});
   }
-  record.columns = {kColumnsVersion, bench.columns(masks)};
+  record.columns = {kColumnsVersion, scored.columns(masks)};
 }
 
-std::vector<ProtocolResult> score_cloud(SequenceBench& bench, const CloudEstimate& cloud) {
+std::vector<ProtocolResult> score_cloud(ScoredSequence& scored, const CloudEstimate& cloud) {
   std::vector<ProtocolResult> results;
-  for (std::size_t i = 0; i < bench.protocol_count(); ++i) {
+  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
     if (interrupt_flag()) throw Cancelled();
-    results.push_back(bench.score_cloud(i, cloud));
+    results.push_back(scored.score_cloud(i, cloud));
   }
   return results;
 }
 
 /// @param voxel_m to which the cloud was thinned; 0 if it was not
-void score_cloud(SequenceBench& bench, const std::string& file, double voxel_m, Progress& progress,
-                 ScoreRecord& record) {
-  const CleanedCloud cloud = read_cleaned_cloud(file, lattice_origin(*bench.sequence().scans));
+void score_cloud(ScoredSequence& scored, const std::string& file, double voxel_m,
+                 Progress& progress, ScoreRecord& record) {
+  const CleanedCloud cloud = read_cleaned_cloud(file, lattice_origin(*scored.sequence().scans));
   record.cloud = {cloud.stored, cloud.non_finite, voxel_m, cloud.warnings()};
   std::vector<ProtocolResult> oracle;
   {
-    const CleanedCloud best = oracle_cloud(bench.sequence(), voxel_m, &progress);
-    oracle = score_cloud(bench, CloudEstimate(best.points));
+    const CleanedCloud best = oracle_cloud(scored.sequence(), voxel_m, &progress);
+    oracle = score_cloud(scored, CloudEstimate(best.points));
   }
   const CloudEstimate estimate(cloud.points);
-  const std::vector<ProtocolResult> results = score_cloud(bench, estimate);
-  for (const ProtocolRecord& protocol : protocol_records(bench)) {
+  const std::vector<ProtocolResult> results = score_cloud(scored, estimate);
+  for (const ProtocolRecord& protocol : protocol_records(scored)) {
     const std::size_t i = record.protocols.size();
     record.protocols.push_back({protocol, results[i], oracle[i]});
   }
-  record.columns = {kColumnsVersion, bench.columns(bench.cloud_masks(estimate))};
+  record.columns = {kColumnsVersion, scored.columns(scored.cloud_masks(estimate))};
 }
 
 void check_flags(const ScoreFlags& flags) {
@@ -118,16 +118,16 @@ ExitCode score(const ScoreFlags& flags) {
   const int given = parse_threads(flags.threads);
   const int threads = given > 0 ? given : hardware_threads();
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
-  SequenceBench bench(open_sequence(flags.sequence, flags.reading.options(),
-                                    {threads, &progress, &interrupt_flag()}),
-                      protocols, threads, &progress);
+  ScoredSequence scored(open_sequence(flags.sequence, flags.reading.options(),
+                                      {threads, &progress, &interrupt_flag()}),
+                        protocols, threads, &progress);
   ScoreRecord record;
-  record.data = bench.sequence().record();
+  record.data = scored.sequence().record();
   if (flags.cloud.empty()) {
-    score_predictions(bench, flags.predictions, progress, record);
+    score_predictions(scored, flags.predictions, progress, record);
   } else {
     const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
-    score_cloud(bench, flags.cloud, voxel, progress, record);
+    score_cloud(scored, flags.cloud, voxel, progress, record);
   }
   progress.end();
   print(score_text(record));
