@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "core/scan/range_limits.h"
 #include "core/scan/scan_source.h"
 #include "datasets/ego/ego_region.h"
+#include "datasets/sequence_record.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
@@ -71,9 +71,9 @@ struct Sequence {
   [[nodiscard]] Pose method_frame() const;
   /// The turn of the world that brings up to z, about its origin. @throws DataError as `up`
   [[nodiscard]] Pose upright_frame() const;
-  /// Path-free record for results: name, layout, frames, poses, sensor, up, label
-  /// rule, range, and the region that is left out if there is one.
-  [[nodiscard]] nlohmann::ordered_json record() const;
+  /// What is stored of the sequence with results. The fingerprint is left empty, because it takes
+  /// reading all data. @throws DataError as `up`
+  [[nodiscard]] DataRecord record() const;
 };
 
 /// With what a simulated scene is generated that is not in the cache yet.

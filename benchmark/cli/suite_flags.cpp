@@ -123,40 +123,27 @@ void warn_of_settings_without_effect(const Suite& suite) {
   }
 }
 
-void SuiteFlags::add_to(CLI::App& app) {
-  app.add_option("suite", suite,
-                 "Suite file (JSON, comments allowed), name of a shipped suite, or a sequence as "
-                 "for --sequence")
-      ->type_name("SUITE");
-  app.add_option("--data", data, "Root of the data set that the suite calls {data}")
-      ->type_name("ROOT");
-  app.add_option("--sequence", sequences, "Sequence folder, ROOT:05, `street`, or a scene")
-      ->type_name("PATH")
-      ->allow_extra_args(false);
-  app.add_option("--method", methods,
-                 "Method to run, NAME or NAME:variant; NAME:all for all its variants, all for each "
-                 "method's default")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  app.add_option("--set", settings,
-                 "Parameter: METHOD.key=value or METHOD:variant.key=...; option of a protocol: "
-                 "protocol:NAME.key=...")
-      ->type_name("SETTING")
-      ->allow_extra_args(false);
-  app.add_option("--protocol", protocols, "Protocol to score by (default: erasor)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  sequence.add_to(app);
-  app.add_option("--threads", threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app.add_option("--time-limit", time_limit,
-                 "Time a cell may take, in seconds or as 5min, 2h (default: 30 s for each scan, at "
-                 "least 600 s)")
-      ->type_name("TIME");
-  app.add_option("--memory-limit", memory_limit,
-                 "Memory a method may use, in MiB or as 500MB, 2GB, 2GiB (default: nine tenths of "
-                 "the machine's)")
-      ->type_name("SIZE");
+void SuiteFlags::add_to(CommandOptions& options) {
+  options.add("suite", "SUITE", suite,
+              "Suite file (JSON, comments allowed), name of a shipped suite, or a sequence as "
+              "for --sequence");
+  options.add("--data", "ROOT", data, "Root of the data set that the suite calls {data}");
+  options.add("--sequence", "PATH", sequences, "Sequence folder, ROOT:05, `street`, or a scene");
+  options.add("--method", "NAME", methods,
+              "Method to run, NAME or NAME:variant; NAME:all for all its variants, all for each "
+              "method's default");
+  options.add("--set", "SETTING", settings,
+              "Parameter: METHOD.key=value or METHOD:variant.key=...; option of a protocol: "
+              "protocol:NAME.key=...");
+  options.add("--protocol", "NAME", protocols, "Protocol to score by (default: erasor)");
+  sequence.add_to(options);
+  options.add("--threads", "N", threads, "At most so many threads (default: all cores)");
+  options.add("--time-limit", "TIME", time_limit,
+              "Time a cell may take, in seconds or as 5min, 2h (default: 30 s for each scan, at "
+              "least 600 s)");
+  options.add("--memory-limit", "SIZE", memory_limit,
+              "Memory a method may use, in MiB or as 500MB, 2GB, 2GiB (default: nine tenths of "
+              "the machine's)");
 }
 
 }  // namespace raymoval

@@ -15,7 +15,7 @@ struct SuiteFlags {
   std::vector<std::string> sequences, methods, settings, protocols;
   SequenceFlags sequence;
 
-  void add_to(CLI::App& app);
+  void add_to(CommandOptions& options);
   /// The suite with its controls. @throws UsageError or ConfigurationError
   [[nodiscard]] Suite resolved() const;
 };

@@ -2,27 +2,22 @@
 #include "benchmark/process/machine.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/process/build_commit.h"
 #include "core/parallel.h"
 #include "core/process/proc_files.h"
 
 namespace raymoval {
-nlohmann::ordered_json build_record() {
-  return {{"version", RAYMOVAL_VERSION},
-          {"commit", build_commit()},
-          {"source_tree", build_tree()},
-          {"compiler", RAYMOVAL_COMPILER},
-          {"build_type", RAYMOVAL_BUILD_TYPE}};
+BuildRecord build_record() {
+  return {RAYMOVAL_VERSION, build_commit(), build_tree(), RAYMOVAL_COMPILER, RAYMOVAL_BUILD_TYPE};
 }
 
-nlohmann::ordered_json machine_record() {
+MachineRecord machine_record(int threads) {
+  MachineRecord machine{proc_field("/proc/cpuinfo", "model name"), hardware_threads()};
   const auto memory = proc_mib("/proc/meminfo", "MemTotal");
-  return {{"processor", proc_field("/proc/cpuinfo", "model name")},
-          {"cores", hardware_threads()},
-          {"memory_gib",
-           memory ? nlohmann::ordered_json(static_cast<long>(*memory / 1024.0 + 0.5)) : nullptr}};
+  if (memory) machine.memory_gib = static_cast<std::int64_t>(*memory / 1024.0 + 0.5);
+  machine.threads = threads;
+  return machine;
 }
 
 bool reset_peak_memory() {

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
+
+#include "benchmark/result/run_record.h"
 
 namespace raymoval {
 
 /// Version, compiler and build type of this program.
-nlohmann::ordered_json build_record();
+BuildRecord build_record();
 
 /// Processor, cores and memory, but nothing that names the machine or its user.
-nlohmann::ordered_json machine_record();
+/// @param threads that the run uses
+MachineRecord machine_record(int threads);
 
 /// Forgets the largest memory so far, so that `peak_memory_mib` gives the largest from now on.
 /// @return false if the system does not allow it

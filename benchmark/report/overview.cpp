@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a report says of methods and cells as a whole.
+// The parts of a report about methods and cells as a whole.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/picture/charts/charts.h"
 #include "benchmark/report/sections.h"
@@ -59,18 +58,18 @@ std::string facts_html(const ReportContent& content) {
   if (!best.empty()) html += fact("Most accurate", best, why);
   html += fact("Methods", std::to_string(results.cells.size()), "controls included");
   std::size_t scans = 0;
-  for (const auto& sequence : content.json->at("run").at("suite").at("sequences")) {
-    scans += sequence.value("scans", std::size_t{0});
+  for (const SequenceRecord& sequence : content.record->run.sequences) {
+    scans += sequence.data.scans;
   }
   html +=
       fact("Sequences", std::to_string(results.sequences.size()), grouped_text(scans) + " scans");
-  const std::size_t cells = content.json->at("cells").size();
+  const std::size_t cells = content.record->cells.size();
   html += fact("Cells", std::to_string(cells),
                results.missing.empty() ? "" : std::to_string(results.missing.size()) + " not run");
   const std::size_t failed = results.failures.size();
   html += fact("Failed cells", std::to_string(failed), failed == 0 ? "" : "see below",
                failed == 0 ? "good" : "bad");
-  const bool checked = content.json->at("controls").value("checked", true);
+  const bool checked = content.record->controls_checked;
   const bool off = !results.control_problems.empty();
   html += fact("Controls",
                !checked ? "not checked"

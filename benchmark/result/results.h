@@ -2,14 +2,13 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmark/result/run_record.h"
 #include "eval/averages.h"
-#include "eval/columns/columns.h"
 
 namespace raymoval {
 
@@ -80,7 +79,7 @@ struct MethodColumns {
   [[nodiscard]] Share find(const std::string& name) const;
 };
 
-/// What tables are made of, read from results.json.
+/// What tables are made of: results.json by rows, and added up over sequences.
 struct RunResults {
   std::string name;
   std::vector<std::string> sequences;
@@ -118,17 +117,16 @@ struct RunResults {
   [[nodiscard]] std::string headline_of(const std::string& protocol) const;
 };
 
-/// @param results content of results.json
-/// @throws DataError if a field is missing or of the wrong type, or the schema is another
-RunResults parse_results(const nlohmann::ordered_json& results, const std::string& where);
+/// What tables show of a run.
+RunResults shown_results(const ResultsRecord& results);
 
 /// results.csv: rates in percent with 3 decimals, F1 with 4, empty where undefined.
 std::string results_csv(const RunResults& results);
 
-/// Leaves only the cells "SEQUENCE/NAME" of a results.json that fit one of the patterns, and only
+/// Leaves only the cells "SEQUENCE/NAME" that fit one of the patterns, and only
 /// the sequences and methods that still have one; all if there are none.
 /// @throws UsageError if a pattern fits no cell
-void choose_cells(nlohmann::ordered_json& results, const std::vector<std::string>& only);
+void choose_cells(ResultsRecord& results, const std::vector<std::string>& only);
 
 /// Leaves only what was scored by `protocols`; all of it if there are none.
 /// @throws UsageError if the run was not scored by one of them

@@ -12,7 +12,7 @@
 #include "core/text.h"
 #include "datasets/settings.h"
 #include "datasets/simulation/scene/scene_text.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 #include "methods/external/external.h"
 
 namespace raymoval {

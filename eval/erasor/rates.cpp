@@ -19,9 +19,7 @@ std::vector<RateSpec> rate_list() {
        .unit = RateUnit::kFraction,
        .decimals = 4,
        .role = RateRole::kHeadline,
-       .formula = f1,
-       .note = "mean_F1 is the mean of the F1 values; F1_of_means is the F1 of mean PR and mean "
-               "RR."}};
+       .formula = f1}};
   for (std::size_t i = 0; i < 3; ++i) {
     rates.push_back(
         {.name = rates[i].name + kNoTruck, .unit = rates[i].unit, .decimals = rates[i].decimals});

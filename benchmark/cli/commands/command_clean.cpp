@@ -9,7 +9,7 @@
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/mask_spool.h"
-#include "benchmark/result/cell.h"
+#include "benchmark/process/method_run.h"
 #include "benchmark/result/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/parallel.h"
@@ -189,40 +189,34 @@ ExitCode clean(const CleanFlags& flags) {
 
 }  // namespace
 
-Command add_clean_command(CLI::App& program) {
+Command add_clean_command(CommandParser& program) {
   auto flags = std::make_shared<CleanFlags>();
-  CLI::App* app = program.add_subcommand("clean", "Writes a map without moving objects");
-  app->allow_extras();
-  SequenceFlags::add_place_to(*app, flags->path);
-  app->add_option("-o,--output", flags->output, "Cleaned map in the world frame: .pcd, .ply, .bin")
-      ->type_name("FILE");
-  app->add_option("--dynamic", flags->dynamic, "What was removed, as a map")->type_name("FILE");
-  app->add_option("--labels", flags->labels,
-                  "Folder for a label file per scan (251 = removed, 9 = kept, 0 = left out)")
-      ->type_name("DIR");
-  app->add_option("--voxel", flags->voxel, "One point per cell of this size")->type_name("METRES");
-  app->add_option("--method", flags->method,
-                  "Method (default: raymoval_plus:offline, the best of them)")
-      ->type_name("NAME");
-  app->add_option("--set", flags->settings, "Parameter: METHOD.key=value")
-      ->type_name("SETTING")
-      ->allow_extra_args(false);
-  flags->reading.add_to(*app);
-  app->get_option("--range")->description(
+  CommandOptions options = program.add_command("clean", "Writes a map without moving objects");
+  SequenceFlags::add_place_to(options, flags->path);
+  options.add("-o,--output", "FILE", flags->output,
+              "Cleaned map in the world frame: .pcd, .ply, .bin");
+  options.add("--dynamic", "FILE", flags->dynamic, "What was removed, as a map");
+  options.add("--labels", "DIR", flags->labels,
+              "Folder for a label file per scan (251 = removed, 9 = kept, 0 = left out)");
+  options.add("--voxel", "METRES", flags->voxel, "One point per cell of this size");
+  options.add("--method", "NAME", flags->method,
+              "Method (default: raymoval_plus:offline, the best of them)");
+  options.add("--set", "SETTING", flags->settings, "Parameter: METHOD.key=value");
+  flags->reading.add_to(options);
+  options.set_sentence(
+      "--range",
       "Metres from the sensor; points beyond are in no output, but the method sees them");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_option("--memory-limit", flags->memory_limit,
-                  "Memory it may use: MiB, or with a unit such as 2GB (default: nine tenths of the "
-                  "machine's)")
-      ->type_name("SIZE");
-  app->add_flag("--force", flags->force,
-                "Clean also where the data has mistakes that make the map wrong");
-  app->add_flag("--in-process", flags->in_process,
-                "Stay in one process, for a debugger: without a limit on memory");
-  app->add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add("--memory-limit", "SIZE", flags->memory_limit,
+              "Memory it may use: MiB, or with a unit such as 2GB (default: nine tenths of the "
+              "machine's)");
+  options.add_flag("--force", flags->force,
+                   "Clean also where the data has mistakes that make the map wrong");
+  options.add_flag("--in-process", flags->in_process,
+                   "Stay in one process, for a debugger: without a limit on memory");
+  options.add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "Examples:\n"
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 "
@@ -234,7 +228,7 @@ Command add_clean_command(CLI::App& program) {
       "in label files.\n"
       "Memory does not grow with the number of scans, and every point is kept without --voxel. "
       "Outputs\nappear when all is done; until then they stand in files *.part beside them.");
-  return {app, [flags] { return clean(*flags); }};
+  return {options.name(), [flags] { return clean(*flags); }};
 }
 
 }  // namespace raymoval

@@ -77,18 +77,17 @@ ExitCode inspect_command(const InspectFlags& flags) {
 
 }  // namespace
 
-Command add_inspect_command(CLI::App& program) {
+Command add_inspect_command(CommandParser& program) {
   auto flags = std::make_shared<InspectFlags>();
-  CLI::App* app = program.add_subcommand("inspect", "Finds mistakes in the data of a sequence");
-  app->allow_extras();
-  SequenceFlags::add_place_to(*app, flags->path);
-  flags->reading.add_to(*app);
-  app->add_flag("--json", flags->json, "Print findings and measured numbers as JSON");
-  app->add_flag("--list", flags->list, "Say what is looked for, and what to do about each");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options =
+      program.add_command("inspect", "Finds mistakes in the data of a sequence");
+  SequenceFlags::add_place_to(options, flags->path);
+  flags->reading.add_to(options);
+  options.add_flag("--json", flags->json, "Print findings and measured numbers as JSON");
+  options.add_flag("--list", flags->list, "Say what is looked for, and what to do about each");
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "One line per finding: what is wrong, where, what was expected, what to do; then the sensor\n"
       "as it is named and as the scans show it. About thirty scans are read, and the poses, times\n"
       "and file sizes of all.\n"
@@ -98,7 +97,7 @@ Command add_inspect_command(CLI::App& program) {
       "  raymoval inspect KITTI:kitti-05 --json\n"
       "  raymoval inspect scans/ --poses odometry.txt\n"
       "  raymoval inspect --list");
-  return {app, [flags] { return inspect_command(*flags); }};
+  return {options.name(), [flags] { return inspect_command(*flags); }};
 }
 
 }  // namespace raymoval

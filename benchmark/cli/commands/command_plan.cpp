@@ -38,21 +38,21 @@ ExitCode plan(const PlanFlags& flags) {
 
 }  // namespace
 
-Command add_plan_command(CLI::App& program) {
+Command add_plan_command(CommandParser& program) {
   auto flags = std::make_shared<PlanFlags>();
-  CLI::App* app = program.add_subcommand("plan", "Prints the cells of a suite, a JSON line each");
-  app->allow_extras();
-  flags->what.add_to(*app);
-  app->add_option("--out", flags->out, "Run folder: also tell which cells are to be run, and why")
-      ->type_name("DIR");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options =
+      program.add_command("plan", "Prints the cells of a suite, a JSON line each");
+  flags->what.add_to(options);
+  options.add("--out", "DIR", flags->out,
+              "Run folder: also tell which cells are to be run, and why");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "Each cell may be run on a machine of its own: raymoval run SUITE --out DIR --cell KEY.\n"
       "Then raymoval run SUITE --out DIR --collect makes the tables.\n"
       "Examples:\n"
       "  raymoval plan simulated-quick\n"
       "  raymoval plan suite.json --out out/suite");
-  return {app, [flags] { return plan(*flags); }};
+  return {options.name(), [flags] { return plan(*flags); }};
 }
 
 }  // namespace raymoval

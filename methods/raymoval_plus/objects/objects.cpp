@@ -17,7 +17,7 @@ constexpr float kHighest = 1.0F;
 /// others, and the other way round. Between, they stay what their voxels are.
 constexpr int kMajority = 2;
 
-/// The numbers of scans that agree with a point's voxel; 0 for ground.
+/// The number of scans that agree with a point's voxel; 0 for ground.
 int agreeing_scans(const EvidenceMap& map, std::uint32_t voxel) {
   return voxel == EvidenceMap::kNone ? 0 : map.evidence(voxel).agree_scans;
 }
@@ -35,12 +35,11 @@ std::vector<int> clusters_of(const Scan& scan, const std::vector<std::size_t>& c
                                  static_cast<float>(parameters.cluster_growth));
 }
 
-/// Clusters those of `scan.high_points` that `choose(point, cluster)` says, among themselves, and
-/// calls `visit(i, group)` with the place of each in `high_points` and the number of its new
-/// cluster.
-template <class Choose, class Visit>
-void cluster_again(const SegmentedScan& scan, const Parameters& parameters, Choose&& choose,
-                   Visit&& visit) {
+/// Clusters some of the `high_points` among themselves. The result is the number of each one's new
+/// cluster, or -1 if `choose(point, cluster)` does not want it.
+template <class Choose>
+std::vector<int> clusters_among(const SegmentedScan& scan, const Parameters& parameters,
+                                Choose&& choose) {
   std::vector<std::size_t> places, chosen;
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     const std::size_t k = scan.high_points[i];
@@ -48,8 +47,10 @@ void cluster_again(const SegmentedScan& scan, const Parameters& parameters, Choo
     places.push_back(i);
     chosen.push_back(k);
   }
-  const std::vector<int> groups = clusters_of(scan.scan, chosen, parameters);
-  for (std::size_t n = 0; n < places.size(); ++n) visit(places[n], groups[n]);
+  const std::vector<int> clusters = clusters_of(scan.scan, chosen, parameters);
+  std::vector<int> among(scan.high_points.size(), -1);
+  for (std::size_t n = 0; n < places.size(); ++n) among[places[n]] = clusters[n];
+  return among;
 }
 
 void count_points(SegmentedScan& scan) {
@@ -75,15 +76,17 @@ void divide_mixed_clusters(const EvidenceMap& map, const Parameters& parameters,
     return scan.verdict[k] == Verdict::kDynamic ||
            agreeing_scans(map, scan.voxel[k]) < parameters.settled_scans;
   };
-  const auto whole_clusters = static_cast<int>(scan.clusters.size());
-  cluster_again(scan, parameters, is_left_over, [&](std::size_t i, int part) {
-    const auto number = static_cast<std::size_t>(whole_clusters + part);
+  const std::vector<int> parts = clusters_among(scan, parameters, is_left_over);
+  const std::size_t whole_clusters = scan.clusters.size();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i] < 0) continue;
+    const std::size_t number = whole_clusters + static_cast<std::size_t>(parts[i]);
     if (number >= scan.clusters.size()) scan.clusters.resize(number + 1);
     scan.clusters[number].is_part = true;
     scan.clusters[number].is_hardly_dynamic =
         scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])].is_hardly_dynamic;
     scan.cluster_of[i] = static_cast<int>(number);
-  });
+  }
   count_points(scan);
 }
 
@@ -93,15 +96,15 @@ std::vector<std::uint8_t> spared_groups(const SegmentedScan& scan, const Paramet
   const auto may_be_spared = [&](std::size_t k, const Cluster& cluster) {
     return scan.verdict[k] == Verdict::kDynamic && cluster.is_hardly_dynamic;
   };
-  std::vector<int> group_of(scan.high_points.size(), -1), size(scan.high_points.size(), 0);
-  cluster_again(scan, parameters, may_be_spared, [&](std::size_t i, int group) {
-    group_of[i] = group;
-    ++size[static_cast<std::size_t>(group)];
-  });
-  std::vector<std::uint8_t> spared(group_of.size(), 0);
+  const std::vector<int> groups = clusters_among(scan, parameters, may_be_spared);
+  std::vector<int> size(groups.size(), 0);
+  for (const int group : groups) {
+    if (group >= 0) ++size[static_cast<std::size_t>(group)];
+  }
+  std::vector<std::uint8_t> spared(groups.size(), 0);
   for (std::size_t i = 0; i < spared.size(); ++i) {
-    if (group_of[i] < 0) continue;
-    spared[i] = size[static_cast<std::size_t>(group_of[i])] >= parameters.group_points ? 1 : 0;
+    if (groups[i] < 0) continue;
+    spared[i] = size[static_cast<std::size_t>(groups[i])] >= parameters.group_points ? 1 : 0;
   }
   return spared;
 }

@@ -29,7 +29,7 @@ Terrain::Terrain(const Parameters& parameters)
     : parameters_(parameters),
       inverse_cell_(1.0 / parameters.terrain_cell),
       reach_(static_cast<int>(std::floor(parameters.terrain_reach * inverse_cell_ + kRounding))),
-      margin_(2 * kNeighbours + reach_),
+      margin_(kPitRounds * kNeighbours + reach_),
       side_(kTile + 2 * margin_),
       counts_(0),
       ground_(-kNoGround) {}

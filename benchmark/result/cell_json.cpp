@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/result/cell_json.h"
+
+#include <cmath>
+#include <tuple>
+
+#include "benchmark/result/cell_fields.h"
+#include "core/files/files.h"
+
+namespace raymoval {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+/// Why a rate is undefined. Such a rate is null, and its reason stands in an object of its own.
+std::string reason_of(const Named<std::string>& reasons, const std::string& name) {
+  for (const auto& [known, reason] : reasons) {
+    if (known == name) return reason;
+  }
+  return "";
+}
+
+}  // namespace
+
+void describe_rates(RecordWriter& writer, const std::vector<Rate>& rates) {
+  Named<std::optional<double>> values;
+  Named<std::string> reasons;
+  for (const Rate& rate : rates) {
+    const bool defined = rate.value && std::isfinite(*rate.value);
+    values.emplace_back(rate.name, defined ? rate.value : std::nullopt);
+    if (!defined) reasons.emplace_back(rate.name, rate.undefined_reason);
+  }
+  writer.field("rates", values);
+  writer.field("undefined", reasons);
+}
+
+void describe_rates(RecordReader& reader, std::vector<Rate>& rates) {
+  Named<std::optional<double>> values;
+  Named<std::string> reasons;
+  reader.field("rates", values);
+  reader.field("undefined", reasons);
+  for (const auto& [name, value] : values) {
+    rates.push_back({name, value, reason_of(reasons, name)});
+  }
+}
+
+void describe_rates(RecordWriter& writer, const std::vector<Interval>& rates) {
+  Named<std::optional<std::pair<double, double>>> ends;
+  Named<std::string> reasons;
+  for (const Interval& rate : rates) {
+    auto& both = ends.emplace_back(rate.name, std::nullopt).second;
+    if (rate.low && rate.high) both.emplace(*rate.low, *rate.high);
+    if (!both) reasons.emplace_back(rate.name, rate.undefined_reason);
+  }
+  writer.field("rates", ends);
+  writer.field("undefined", reasons);
+}
+
+void describe_rates(RecordReader& reader, std::vector<Interval>& rates) {
+  Named<std::optional<std::pair<double, double>>> ends;
+  Named<std::string> reasons;
+  reader.field("rates", ends);
+  reader.field("undefined", reasons);
+  for (const auto& [name, both] : ends) {
+    Interval& rate = rates.emplace_back();
+    rate.name = name;
+    if (both) std::tie(rate.low, rate.high) = *both;
+    rate.undefined_reason = reason_of(reasons, name);
+  }
+}
+
+void describe(RecordWriter& writer, const ColumnRecord& columns) {
+  Named<ColumnValue> values;
+  for (const ColumnValue& column : columns.values) values.emplace_back(column.name, column);
+  writer.field("version", columns.version);
+  writer.field("values", values);
+}
+
+void describe(RecordReader& reader, ColumnRecord& columns) {
+  Named<ColumnValue> values;
+  reader.field("version", columns.version);
+  reader.field("values", values);
+  for (auto& [name, column] : values) {
+    columns.values.push_back(std::move(column));
+    columns.values.back().name = name;
+  }
+}
+
+ordered_json to_json(const Cell& cell) {
+  return written(cell);
+}
+
+Cell cell_from(const ordered_json& json, const std::string& file) {
+  return read_as<Cell>(json, file);
+}
+
+Cell read_cell(const std::filesystem::path& file) {
+  return read_sealed_with(file, cell_from);
+}
+
+void write_cell(const std::filesystem::path& file, const Cell& cell) {
+  write_sealed(file, written(cell));
+}
+
+RepeatRecord read_repeat(const std::filesystem::path& file) {
+  return read_sealed_with(file, read_as<RepeatRecord>);
+}
+
+void write_repeat(const std::filesystem::path& file, const RepeatRecord& repeat) {
+  write_sealed(file, written(repeat));
+}
+
+std::string cell_key(const CellIdentity& identity) {
+  return content_hash(json_text(written(identity)));
+}
+
+ordered_json to_json(const DataRecord& data) {
+  return written(data);
+}
+
+ordered_json to_json(const MethodRecord& method) {
+  return written(method);
+}
+
+ordered_json to_json(const ProtocolRecord& protocol) {
+  return written(protocol);
+}
+
+ordered_json to_json(const ProtocolResult& result) {
+  return written(result);
+}
+
+ordered_json to_json(const ColumnRecord& columns) {
+  return written(columns);
+}
+
+ordered_json to_json(const Measurement& measured) {
+  return written(measured);
+}
+
+Measurement measurement_from(const ordered_json& json, const std::string& place) {
+  return read_as<Measurement>(json, place);
+}
+
+std::string value_text(const ParameterValue& value) {
+  const auto text_of = [](const auto& held) {
+    return ordered_json(held).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  };
+  return std::visit(text_of, value);
+}
+
+}  // namespace raymoval
