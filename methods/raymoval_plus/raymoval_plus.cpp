@@ -3,6 +3,7 @@
 #include "methods/raymoval_plus/raymoval_plus.h"
 
 #include "core/scan/mask_store.h"
+#include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
 #include "methods/raymoval_plus/evidence/vote.h"
@@ -151,30 +152,23 @@ class Run {
   EarlierScans earlier_scans_;
 };
 
-class RaymovalPlusRemover : public Remover {
- public:
-  explicit RaymovalPlusRemover(const Parameters& parameters) : parameters_(parameters) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
-    Run steps(parameters_, scans, sink, context);
-    if (parameters_.at_once) {
-      steps.online();
-    } else if (parameters_.one_pass) {
-      steps.online_map();
-    } else {
-      steps.offline();
-    }
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
+  Run steps(parameters, scans, sink, context);
+  if (parameters.at_once) {
+    steps.online();
+  } else if (parameters.one_pass) {
+    steps.online_map();
+  } else {
+    steps.offline();
   }
-
- private:
-  Parameters parameters_;
-};
+}
 
 }  // namespace
 
 std::unique_ptr<Remover> make_raymoval_plus(const Parameters& parameters) {
-  return std::make_unique<RaymovalPlusRemover>(parameters);
+  return remover_from(parameters, run);
 }
 
 }  // namespace raymoval_plus_method
@@ -187,7 +181,6 @@ MethodEntry raymoval_plus_entry() {
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
   entry.source = "this project";
   entry.version = "4";
-  entry.parameters = parameter_table().specs();
   entry.variants = {
       {"offline", "Every point answered from all scans.", false, {}},
       {"online", "Each scan answered when it comes.", true, {{"at_once", true}}},
@@ -196,9 +189,7 @@ MethodEntry raymoval_plus_entry() {
        false,
        {{"one_pass", true}}},
   };
-  entry.make = [](const Configuration& configuration) {
-    return make_raymoval_plus(parameter_table().read(configuration));
-  };
+  entry.bind(parameter_table(), make_raymoval_plus);
   return entry;
 }
 

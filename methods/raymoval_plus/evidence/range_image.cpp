@@ -62,9 +62,9 @@ kernels::SightPlaces in_sensor_frame(const float* places, std::size_t count, con
 
 }  // namespace
 
-RangeImage::RangeImage(const SensorModel& sensor, const Parameters& parameters, InstructionSet set)
+RangeImage::RangeImage(const SensorModel& sensor, const Parameters& parameters)
     : parameters_(parameters),
-      kernels_(kernels::sight_kernels_for(set)),
+      kernels_(kernels::best_sight_kernels()),
       half_voxel_(static_cast<float>(0.5 * parameters.voxel_size)),
       agree_{static_cast<float>(parameters.agree_constant),
              static_cast<float>(parameters.agree_slope)},

@@ -58,6 +58,7 @@ struct SightKernels {
                         const SightWindows& windows, const Sights& sights, std::uint32_t* chosen);
 };
 
-SightKernels sight_kernels_for(InstructionSet set);
+/// Those of the best instruction set that this processor has.
+SightKernels best_sight_kernels();
 
 }  // namespace raymoval::raymoval_plus_method::kernels
