@@ -69,7 +69,7 @@ class RangeImage {
   [[nodiscard]] Observation observe_window(float range, int column, int row) const;
 
   Parameters parameters_;
-  kernels::SightKernels kernels_;
+  kernels::SightKernels kernels_ = kernels::best_sight_kernels();
   kernels::SightGrid grid_;
   float azimuth_step_ = 0.0F, elevation_step_ = 0.0F;  ///< Size of a bin, radians.
   int rows_ = 0;
