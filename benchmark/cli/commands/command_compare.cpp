@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
-#include "core/terminal_colour.h"
 #include "benchmark/result/result_sets.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/files.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -140,18 +140,22 @@ ExitCode compare(const CompareFlags& flags) {
 
 Command add_compare_command(CommandParser& program) {
   auto flags = std::make_shared<CompareFlags>();
-  CommandOptions options = program.add_command("compare", "Tells whether a run got worse");
+  CommandOptions options = program.add_command("compare", "Says whether a run got worse");
   options.add("run", "RUN", flags->run, "Run folder, or its results.json");
-  options.add("reference", "REFERENCE", flags->reference, "What it is compared with: the same");
-  options.add("--tolerance", "TOLERANCE", flags->tolerances,
-              "METRIC=NUMBER: judge this rate, which may fall by at most NUMBER, instead of the "
-              "counts (F1 is a fraction, other rates are in percent)");
-  options.add("--across", "WHAT", flags->across,
-              "What may differ, parameters or version of methods or both "
-              "(parameters,version): such cells are judged by their rates");
-  options.add("--time-band", "FACTOR", flags->time_band,
-              "Slower than the reference by more than this factor is worse (default: times are "
-              "shown, never judged)");
+  options.add("reference", "REFERENCE", flags->reference,
+              "The run folder, or results.json, to compare with");
+  options.add(
+      "--tolerance", "TOLERANCE", flags->tolerances,
+      "METRIC=NUMBER: allow this rate to get worse by at most NUMBER, instead of comparing the "
+      "counts (F1 is a fraction, other rates are in percent)");
+  options.add(
+      "--across", "WHAT", flags->across,
+      "What may differ: parameters or version of methods, or both (parameters,version). Cells "
+      "that differ in it are compared by their rates");
+  options.add(
+      "--time-band", "FACTOR", flags->time_band,
+      "A method that is slower than the reference by more than this factor is worse (default: "
+      "times are shown and not compared)");
   options.add("--format", "FORMAT", flags->format, "text, md, junit or json (default: text)");
   options.add("-o,--output", "FILE", flags->output,
               "Write the comparison to this file, and print it as text");
@@ -160,15 +164,16 @@ Command add_compare_command(CommandParser& program) {
   options.add_flag("--with-times", flags->with_times,
                    "With --update: keep times and machine, for --time-band");
   options.set_footer(
-      "Counts must be equal; other data, protocols or parameters are not comparable. With "
-      "--tolerance\nthe rates named are judged, in the protocols that have them.\n"
-      "--across parameters judges a changed default: cells whose parameters differ are compared "
+      "Counts must be equal. Runs with other data, protocols or parameters cannot be compared. "
+      "With "
+      "--tolerance\nonly the named rates are compared, in the protocols that have them.\n"
+      "--across parameters is for a changed default: cells whose parameters differ are compared "
       "by\n"
-      "their rates, which may not fall by more than their tolerance (none, if the protocol has no "
-      "rate\nwith one). What differs is told.\n"
-      "--format junit is XML for a CI server: a test suite for each sequence, a test case for "
-      "each\n"
-      "method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
+      "their rates, which may get worse by at most their tolerance; if no rate of a protocol has a "
+      "tolerance,\nnone may get worse. The differences are shown.\n"
+      "--format junit writes XML for a CI server: a test suite for each sequence, and a test case "
+      "for each\nmethod and protocol. The keys of json are in "
+      "results/schema/comparison.schema.json.\n"
       "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\nExamples:\n"
       "  raymoval run quick --out out/quick\n"
       "  raymoval compare out/quick results/reference/street\n"
