@@ -91,8 +91,12 @@ const std::deque<ProtocolEntry>& protocol_entries() {
   return protocol_registry().entries;
 }
 
+const ProtocolEntry* find_protocol(const std::string& name) {
+  return find_named(protocol_entries(), name);
+}
+
 const ProtocolEntry& protocol_entry(const std::string& name) {
-  const ProtocolEntry* entry = find_named(protocol_entries(), name);
+  const ProtocolEntry* entry = find_protocol(name);
   if (entry != nullptr) return *entry;
   std::vector<std::string> names;
   for (const ProtocolEntry& known : protocol_entries()) names.push_back(known.name);

@@ -15,7 +15,10 @@ namespace raymoval {
 
 const std::deque<ProtocolEntry>& protocol_entries();
 
-/// The protocol called `name`. @throws UsageError suggesting the nearest name
+/// The protocol called `name`; null if there is none.
+const ProtocolEntry* find_protocol(const std::string& name);
+
+/// The same. @throws UsageError suggesting the nearest name if there is none
 const ProtocolEntry& protocol_entry(const std::string& name);
 
 /// The name of the protocol that scores where none is asked for.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/command_line.h"
+#include "benchmark/harness.h"
 
 #include <algorithm>
 #include <csignal>

@@ -25,15 +25,15 @@ MethodRecord method_record(const MethodRequest& request) {
           request.method.configuration};
 }
 
-DataRecord data_record(SequenceBench& bench) {
-  DataRecord data = bench.sequence().record();
-  data.fingerprint = bench.data_fingerprint();
+DataRecord data_record(ScoredSequence& scored) {
+  DataRecord data = scored.sequence().record();
+  data.fingerprint = scored.data_fingerprint();
   return data;
 }
 
-ProtocolRecord protocol_record(const SequenceBench& bench, std::size_t i) {
-  const Protocol& protocol = bench.protocol(i);
-  return {bench.protocol_name(i), protocol.name(), protocol.version(), protocol.options()};
+ProtocolRecord protocol_record(const ScoredSequence& scored, std::size_t i) {
+  const Protocol& protocol = scored.protocol(i);
+  return {scored.protocol_name(i), protocol.name(), protocol.version(), protocol.options()};
 }
 
 void check_cancelled(const CellTask& task) {
@@ -41,19 +41,19 @@ void check_cancelled(const CellTask& task) {
 }
 
 void score_all(const CellTask& task, const MaskStore& masks, Cell& cell) {
-  for (std::size_t i = 0; i < task.bench->protocol_count(); ++i) {
+  for (std::size_t i = 0; i < task.scored->protocol_count(); ++i) {
     check_cancelled(task);
-    ProtocolResult result = task.bench->score(i, masks);
-    cell.scores.push_back({protocol_record(*task.bench, i), std::move(result.counts),
+    ProtocolResult result = task.scored->score(i, masks);
+    cell.scores.push_back({protocol_record(*task.scored, i), std::move(result.counts),
                            std::move(result.rates), std::move(result.warnings),
                            std::move(result.intervals)});
   }
-  cell.columns = ColumnRecord{kColumnsVersion, task.bench->columns(masks)};
+  cell.columns = ColumnRecord{kColumnsVersion, task.scored->columns(masks)};
 }
 
 void write_cell_removals(const CellTask& task, const MethodAnswer& answer) {
-  Progress* progress = task.bench->progress();
-  const ScanSource& scans = *task.bench->sequence().scans;
+  Progress* progress = task.scored->progress();
+  const ScanSource& scans = *task.scored->sequence().scans;
   if (progress != nullptr) progress->begin("writing removals", scans.size());
   write_removals(task.removals, scans, answer.masks, [&] {
     check_cancelled(task);
@@ -70,7 +70,7 @@ void check_masks(const MethodAnswer& answer, const ScanSource& scans) {
 }
 
 void fill_cell(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
-  check_masks(answer, *task.bench->sequence().scans);
+  check_masks(answer, *task.scored->sequence().scans);
   cell.measured = answer.measured;
   cell.masks = MaskRecord{mask_digest(answer.masks),
                           static_cast<std::int64_t>(answer.masks.removed_count())};
@@ -78,8 +78,8 @@ void fill_cell(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
 }
 
 MethodAnswer answer_of_method(const CellTask& task) {
-  const MethodTask method{&task.bench->sequence(), task.request, task.bench->threads(),
-                          task.bench->progress(),  task.cancel,  !task.removals.empty()};
+  const MethodTask method{&task.scored->sequence(), task.request, task.scored->threads(),
+                          task.scored->progress(),  task.cancel,  !task.removals.empty()};
   return task.place == nullptr ? run_method(method)
                                : run_method_apart(method, *task.place, task.limits);
 }
@@ -100,19 +100,19 @@ std::string changed_program(const MethodEntry& entry) {
   }
 }
 
-/// The method's answer, which is only "ok" if the method and what it read are those of the key.
+/// The method's answer. Its status is only kOk if the method and what it read are those of the key.
 MethodAnswer method_answer(const CellTask& task) {
   MethodAnswer answer;
-  answer.status = "failed";
+  answer.status = CellStatus::kFailed;
   answer.reason = changed_program(*task.request->method.entry);
   if (!answer.reason.empty()) return answer;
   answer = answer_of_method(task);
-  if (answer.status != "ok") return answer;
+  if (answer.status != CellStatus::kOk) return answer;
   answer.reason = changed_program(*task.request->method.entry);
-  if (!answer.reason.empty()) answer.status = "failed";
-  const std::string change = task.bench->data_change(answer.loaded ? &*answer.loaded : nullptr);
+  if (!answer.reason.empty()) answer.status = CellStatus::kFailed;
+  const std::string change = task.scored->data_change(answer.loaded ? &*answer.loaded : nullptr);
   if (!change.empty()) {
-    answer.status = "bad_data";
+    answer.status = CellStatus::kBadData;
     answer.reason = change;
   }
   return answer;
@@ -123,7 +123,7 @@ void score_answer(const CellTask& task, const MethodAnswer& answer, Cell& cell) 
   try {
     fill_cell(task, answer, cell);
     // Scoring reads the data once more.
-    const std::string change = task.bench->data_change(nullptr);
+    const std::string change = task.scored->data_change(nullptr);
     if (!change.empty()) cell.fail(CellStatus::kBadData, change);
   } catch (const Cancelled&) {
     throw;
@@ -138,27 +138,27 @@ void score_answer(const CellTask& task, const MethodAnswer& answer, Cell& cell) 
 
 }  // namespace
 
-CellIdentity cell_identity(SequenceBench& bench, const MethodRequest& request) {
-  CellIdentity identity{method_record(request), data_record(bench), {}};
-  for (std::size_t i = 0; i < bench.protocol_count(); ++i) {
-    identity.protocols.push_back(protocol_record(bench, i));
+CellIdentity cell_identity(ScoredSequence& scored, const MethodRequest& request) {
+  CellIdentity identity{method_record(request), data_record(scored), {}};
+  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
+    identity.protocols.push_back(protocol_record(scored, i));
   }
   return identity;
 }
 
-std::string current_key(SequenceBench& bench, const MethodRequest& request) {
-  return cell_key(cell_identity(bench, request));
+std::string current_key(ScoredSequence& scored, const MethodRequest& request) {
+  return cell_key(cell_identity(scored, request));
 }
 
 Cell execute_cell(const CellTask& task) {
-  CellIdentity identity = cell_identity(*task.bench, *task.request);
-  Cell cell{task.bench->sequence().name, task.request->name, cell_key(identity)};
+  CellIdentity identity = cell_identity(*task.scored, *task.request);
+  Cell cell{task.scored->sequence().name, task.request->name, cell_key(identity)};
   cell.method = std::move(identity.method);
   cell.data = std::move(identity.data);
   const MethodAnswer answer = method_answer(task);
   cell.output_tail = answer.output_tail;
-  if (answer.status != "ok") {
-    cell.fail(status_called(answer.status).value_or(CellStatus::kFailed), answer.reason);
+  if (answer.status != CellStatus::kOk) {
+    cell.fail(answer.status, answer.reason);
     return cell;
   }
   score_answer(task, answer, cell);

@@ -7,7 +7,7 @@
 
 #include "benchmark/process/method_run.h"
 #include "benchmark/result/cell.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "benchmark/suite/suite.h"
 #include "core/process/child_process.h"
 
@@ -15,7 +15,7 @@ namespace raymoval {
 
 /// What it takes to run a method on a sequence and to score it.
 struct CellTask {
-  SequenceBench* bench = nullptr;
+  ScoredSequence* scored = nullptr;
   const MethodRequest* request = nullptr;
   std::filesystem::path removals;  ///< Folder for label files; none are written if it is empty.
   const std::atomic<bool>* cancel = nullptr;
@@ -25,10 +25,10 @@ struct CellTask {
 };
 
 /// What the cell's key is made from. @throws DataError if the data cannot be read
-CellIdentity cell_identity(SequenceBench& bench, const MethodRequest& request);
+CellIdentity cell_identity(ScoredSequence& scored, const MethodRequest& request);
 
 /// The key that a cell of this program has now. @throws DataError if the data cannot be read
-std::string current_key(SequenceBench& bench, const MethodRequest& request);
+std::string current_key(ScoredSequence& scored, const MethodRequest& request);
 
 /// Runs the method, checks its answer and scores it. It does not throw for a fault of the method or
 /// the data: that is a cell with a status and a reason.

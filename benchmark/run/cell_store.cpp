@@ -75,15 +75,15 @@ path CellStore::new_removals(const CellName& cell) const {
   return new_part_name(folder(cell) / kRemovals);
 }
 
-StoredCell CellStore::find(SequenceBench& bench, const MethodRequest& request,
+StoredCell CellStore::find(ScoredSequence& scored, const MethodRequest& request,
                            bool with_removals) const {
   using State = StoredCell::State;
-  const path place = folder({bench.sequence().name, request.name});
+  const path place = folder({scored.sequence().name, request.name});
   const path file = place / "cell.json";
   if (!has_file(file)) return {State::kMissing, "is not there yet", {}};
   try {
     Cell cell = read_cell(file);
-    const CellIdentity wanted = cell_identity(bench, request);
+    const CellIdentity wanted = cell_identity(scored, request);
     const bool same = cell.key == cell_key(wanted);
     if (!cell.ok()) {
       const std::string why = "failed last time: " + cell.reason;
@@ -91,7 +91,7 @@ StoredCell CellStore::find(SequenceBench& bench, const MethodRequest& request,
       return {State::kFailed, why, std::move(cell)};
     }
     if (!same) return {State::kStale, identity_difference(cell, wanted), {}};
-    if (with_removals && !has_removals(place, cell, *bench.sequence().scans)) {
+    if (with_removals && !has_removals(place, cell, *scored.sequence().scans)) {
       return {State::kStale, "its removals are asked for and not there, or not whole", {}};
     }
     return {State::kFresh, "", std::move(cell)};

@@ -7,7 +7,7 @@
 
 #include "benchmark/result/cell.h"
 #include "benchmark/result/run_record.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "benchmark/suite/suite.h"
 
 namespace raymoval {
@@ -36,7 +36,7 @@ class CellStore {
   [[nodiscard]] std::filesystem::path new_removals(const CellName& cell) const;
 
   /// @param with_removals whether the cell's removals have to be there too
-  [[nodiscard]] StoredCell find(SequenceBench& bench, const MethodRequest& request,
+  [[nodiscard]] StoredCell find(ScoredSequence& scored, const MethodRequest& request,
                                 bool with_removals) const;
   /// Repeat `number` (2, 3 ...) of the cell with `key`; no value if it is not there.
   [[nodiscard]] std::optional<RepeatRecord> find_repeat(const CellName& cell, int number,

@@ -48,15 +48,15 @@ std::vector<std::string> selection_names(const std::vector<CellName>& cells) {
 void check_same_data(OpenedSuite& suite, std::size_t sequence, const RunRecord& present) {
   const std::string& name = suite.sequences()[sequence].name;
   if (known_fingerprint(present, name).empty() || !suite.is_needed(sequence)) return;
-  SequenceBench bench = suite.take_bench(sequence);
+  ScoredSequence scored = suite.take_sequence(sequence);
   try {
-    (void)bench.data_fingerprint();
+    (void)scored.data_fingerprint();
   } catch (const DataError&) {
     return;  // Its cells say so.
   }
   refuse_other_results(suite.options().out,
-                       why_other_data(present, name, bench.data_fingerprint()));
-  suite.give_back(sequence, std::move(bench));
+                       why_other_data(present, name, scored.data_fingerprint()));
+  suite.give_back(sequence, std::move(scored));
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ OpenedSuite::OpenedSuite(const Suite& suite, const RunOptions& options)
         open_sequence(request.path, request.options, {threads_, options.progress, options.cancel}));
     check_has_labels(sequences_.back());
   }
-  benches_.resize(sequences_.size());
+  scored_sequences_.resize(sequences_.size());
 }
 
 void OpenedSuite::select_only(CellIndex cell) {
@@ -94,17 +94,17 @@ bool OpenedSuite::is_needed(std::size_t sequence) const {
   return false;
 }
 
-SequenceBench OpenedSuite::take_bench(std::size_t sequence) {
-  if (auto& kept = benches_[sequence]) {
-    SequenceBench bench = std::move(*kept);
+ScoredSequence OpenedSuite::take_sequence(std::size_t sequence) {
+  if (auto& kept = scored_sequences_[sequence]) {
+    ScoredSequence scored = std::move(*kept);
     kept.reset();
-    return bench;
+    return scored;
   }
   return {sequences_[sequence], suite_.protocols, threads_, options_.progress};
 }
 
-void OpenedSuite::give_back(std::size_t sequence, SequenceBench bench) {
-  benches_[sequence].emplace(std::move(bench));
+void OpenedSuite::give_back(std::size_t sequence, ScoredSequence scored) {
+  scored_sequences_[sequence].emplace(std::move(scored));
 }
 
 CellIndex OpenedSuite::find(const std::string& wanted) {
@@ -115,9 +115,9 @@ CellIndex OpenedSuite::find(const std::string& wanted) {
   }
   const bool may_be_key = wanted.find('/') == std::string::npos;
   for (std::size_t sequence = 0; may_be_key && sequence < sequences_.size(); ++sequence) {
-    SequenceBench bench = take_bench(sequence);
+    ScoredSequence scored = take_sequence(sequence);
     for (std::size_t method = 0; method < methods; ++method) {
-      if (current_key(bench, suite_.methods[method]) == wanted) return {sequence, method};
+      if (current_key(scored, suite_.methods[method]) == wanted) return {sequence, method};
     }
   }
   throw UsageError("--cell " + wanted +

@@ -8,7 +8,7 @@
 #include "benchmark/run/cell_store.h"
 #include "benchmark/run/folder_content.h"
 #include "benchmark/run/run_options.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "benchmark/suite/suite.h"
 
 namespace raymoval {
@@ -52,8 +52,8 @@ class OpenedSuite {
 
   /// The sequence with its protocols: what `give_back` left, which knows its fingerprint already,
   /// or a new one.
-  [[nodiscard]] SequenceBench take_bench(std::size_t sequence);
-  void give_back(std::size_t sequence, SequenceBench bench);
+  [[nodiscard]] ScoredSequence take_sequence(std::size_t sequence);
+  void give_back(std::size_t sequence, ScoredSequence scored);
 
   /// The cell with the name "SEQUENCE/NAME", which takes no reading of data, or with this key.
   /// @throws UsageError if there is none
@@ -71,7 +71,7 @@ class OpenedSuite {
   std::vector<CellName> cells_;
   std::vector<bool> selected_;  ///< As `cells_`.
   bool alone_ = false;
-  std::vector<std::optional<SequenceBench>> benches_;  ///< By sequence.
+  std::vector<std::optional<ScoredSequence>> scored_sequences_;  ///< By sequence.
 };
 
 /// A run folder to which a run is added.

@@ -10,9 +10,9 @@ namespace raymoval {
 namespace {
 
 /// Looks into the run folder whether a cell is there already, with its repeats.
-void look_for_cell(const OpenedSuite& suite, SequenceBench& bench, const MethodRequest& method,
+void look_for_cell(const OpenedSuite& suite, ScoredSequence& scored, const MethodRequest& method,
                    PlannedCell& planned) {
-  const StoredCell stored = suite.store().find(bench, method, suite.options().keep_removals);
+  const StoredCell stored = suite.store().find(scored, method, suite.options().keep_removals);
   planned.why = stored.why;
   planned.to_run = stored.state != StoredCell::State::kFresh;
   if (is_control(method.method.entry->name)) return;
@@ -23,19 +23,19 @@ void look_for_cell(const OpenedSuite& suite, SequenceBench& bench, const MethodR
   }
 }
 
-PlannedCell plan_cell(const OpenedSuite& suite, SequenceBench& bench, CellIndex index,
+PlannedCell plan_cell(const OpenedSuite& suite, ScoredSequence& scored, CellIndex index,
                       const std::string& unreadable) {
   const MethodRequest& method = suite.method(index);
   PlannedCell planned{suite.name(index)};
   planned.method = method.method.full_name();
   planned.folder = CellStore("").folder(planned.cell);
-  planned.scans = bench.sequence().scans->size();
+  planned.scans = scored.sequence().scans->size();
   planned.why = "is not there yet";
   if (!unreadable.empty()) {
     planned.why = "its data cannot be read: " + unreadable;
   } else {
-    planned.key = current_key(bench, method);
-    if (!suite.options().out.empty()) look_for_cell(suite, bench, method, planned);
+    planned.key = current_key(scored, method);
+    if (!suite.options().out.empty()) look_for_cell(suite, scored, method, planned);
   }
   if (!suite.is_selected(index)) {
     planned.to_run = false;
@@ -45,15 +45,15 @@ PlannedCell plan_cell(const OpenedSuite& suite, SequenceBench& bench, CellIndex 
 }
 
 void plan_sequence(OpenedSuite& suite, std::size_t sequence, std::vector<PlannedCell>& cells) {
-  SequenceBench bench = suite.take_bench(sequence);
+  ScoredSequence scored = suite.take_sequence(sequence);
   std::string unreadable;
   try {
-    (void)bench.data_fingerprint();
+    (void)scored.data_fingerprint();
   } catch (const DataError& error) {
     unreadable = error.what();
   }
   for (std::size_t method = 0; method < suite.suite().methods.size(); ++method) {
-    cells.push_back(plan_cell(suite, bench, {sequence, method}, unreadable));
+    cells.push_back(plan_cell(suite, scored, {sequence, method}, unreadable));
   }
 }
 

@@ -47,23 +47,23 @@ SequenceRuns::SequenceRuns(OpenedSuite& suite, JoinedFolder& folder)
 
 void SequenceRuns::run(std::size_t sequence) {
   if (!suite_.is_needed(sequence)) return;
-  SequenceBench bench = suite_.take_bench(sequence);
-  if (!read_data(bench, sequence)) return;
+  ScoredSequence scored = suite_.take_sequence(sequence);
+  if (!read_data(scored, sequence)) return;
   describe(sequence);
   const std::size_t methods = suite_.suite().methods.size();
-  for (std::size_t method = 0; method < methods; ++method) run_cell(bench, {sequence, method});
+  for (std::size_t method = 0; method < methods; ++method) run_cell(scored, {sequence, method});
   // Method after method in each round, so that a machine that slows down slows all of them.
   for (int round = 2; round <= suite_.suite().repeats; ++round) {
     for (std::size_t method = 0; method < methods; ++method) {
-      repeat(bench, {sequence, method}, round);
+      repeat(scored, {sequence, method}, round);
     }
   }
 }
 
-bool SequenceRuns::read_data(SequenceBench& bench, std::size_t sequence) {
+bool SequenceRuns::read_data(ScoredSequence& scored, std::size_t sequence) {
   try {
     const bool changed =
-        set_fingerprint(folder_.record, bench.sequence().name, bench.data_fingerprint());
+        set_fingerprint(folder_.record, scored.sequence().name, scored.data_fingerprint());
     if (changed && !suite_.is_alone()) {
       write_run_record(suite_.options().out / "run.json", folder_.record);
     }
@@ -96,23 +96,23 @@ void SequenceRuns::describe(std::size_t number) const {
   for (const std::string& line : left_out_lines(sequence)) suite_.say(sequence.name + ": " + line);
 }
 
-CellTask SequenceRuns::task_for(SequenceBench& bench, CellIndex index) const {
+CellTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const {
   const RunOptions& options = suite_.options();
-  CellTask task{&bench, &suite_.method(index), {}, options.cancel, nullptr, {}};
+  CellTask task{&scored, &suite_.method(index), {}, options.cancel, nullptr, {}};
   if (options.keep_removals) task.removals = suite_.store().new_removals(suite_.name(index));
   if (options.isolate) {
     task.place = &suite_.suite().sequences[index.sequence];
-    task.limits = limits_for(suite_.suite(), bench.sequence().scans->size());
+    task.limits = limits_for(suite_.suite(), scored.sequence().scans->size());
   }
   return task;
 }
 
-void SequenceRuns::run_cell(SequenceBench& bench, CellIndex index) {
+void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
   check_cancelled(suite_.options());
   const bool selected = suite_.is_selected(index);
   if (suite_.is_alone() && !selected) return;
   const MethodRequest& method = suite_.method(index);
-  StoredCell stored = suite_.store().find(bench, method, suite_.options().keep_removals);
+  StoredCell stored = suite_.store().find(scored, method, suite_.options().keep_removals);
   const bool to_run = selected && !suite_.options().collect;
   if (stored.state == StoredCell::State::kFresh ||
       (!to_run && stored.state == StoredCell::State::kFailed)) {
@@ -121,24 +121,24 @@ void SequenceRuns::run_cell(SequenceBench& bench, CellIndex index) {
   } else if (to_run) {
     suite_.store().prepare(suite_.name(index));
     if (stored.state == StoredCell::State::kStale) {
-      suite_.say(
-          fmt::format("{} on {} is run again: {}", method.name, bench.sequence().name, stored.why));
+      suite_.say(fmt::format("{} on {} is run again: {}", method.name, scored.sequence().name,
+                             stored.why));
     }
     show_running(index, "");
-    const CellTask task = task_for(bench, index);
+    const CellTask task = task_for(scored, index);
     Cell cell = execute_cell(task);
     suite_.store().keep(cell, task.removals);
     finish(index, std::move(cell), false);
   }
 }
 
-void SequenceRuns::repeat(SequenceBench& bench, CellIndex index, int round) {
+void SequenceRuns::repeat(ScoredSequence& scored, CellIndex index, int round) {
   FinishedCell& finished = finished_[suite_.place(index)];
   const bool has_result = finished.cell && finished.cell->ok() && finished.cell->masks;
   if (!has_result || finished.cell->method.control) return;
   auto repeat = suite_.store().find_repeat(suite_.name(index), round, finished.cell->key);
   if (!repeat && suite_.is_selected(index) && !suite_.options().collect) {
-    repeat = run_again(bench, index, round);
+    repeat = run_again(scored, index, round);
   }
   if (!repeat) return;
   if (repeat->digest != finished.cell->masks->digest) {
@@ -148,14 +148,13 @@ void SequenceRuns::repeat(SequenceBench& bench, CellIndex index, int round) {
   finished.repeats.push_back(repeat->measured);
 }
 
-std::optional<RepeatRecord> SequenceRuns::run_again(SequenceBench& bench, CellIndex index,
+std::optional<RepeatRecord> SequenceRuns::run_again(ScoredSequence& scored, CellIndex index,
                                                     int round) {
   check_cancelled(suite_.options());
   show_running(index, fmt::format(", repeat {}", round));
-  const MethodAnswer answer = repeat_cell(task_for(bench, index));
-  if (answer.status != "ok") {
-    fail_repeat(index, round, status_called(answer.status).value_or(CellStatus::kFailed),
-                answer.reason);
+  const MethodAnswer answer = repeat_cell(task_for(scored, index));
+  if (answer.status != CellStatus::kOk) {
+    fail_repeat(index, round, answer.status, answer.reason);
     return std::nullopt;
   }
   const std::string& key = finished_[suite_.place(index)].cell->key;

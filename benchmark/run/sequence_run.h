@@ -37,14 +37,14 @@ class SequenceRuns {
 
  private:
   /// Puts the fingerprint into run.json. @return false if the data cannot be read
-  bool read_data(SequenceBench& bench, std::size_t sequence);
+  bool read_data(ScoredSequence& scored, std::size_t sequence);
   void fail_all(std::size_t sequence, const std::string& reason);
   void describe(std::size_t sequence) const;
-  void run_cell(SequenceBench& bench, CellIndex index);
-  void repeat(SequenceBench& bench, CellIndex index, int round);
-  std::optional<RepeatRecord> run_again(SequenceBench& bench, CellIndex index, int round);
+  void run_cell(ScoredSequence& scored, CellIndex index);
+  void repeat(ScoredSequence& scored, CellIndex index, int round);
+  std::optional<RepeatRecord> run_again(ScoredSequence& scored, CellIndex index, int round);
   void fail_repeat(CellIndex index, int round, CellStatus status, const std::string& reason);
-  [[nodiscard]] CellTask task_for(SequenceBench& bench, CellIndex index) const;
+  [[nodiscard]] CellTask task_for(ScoredSequence& scored, CellIndex index) const;
   void show_running(CellIndex index, const std::string& round) const;
   void finish(CellIndex index, Cell cell, bool was_there);
 

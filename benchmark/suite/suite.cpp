@@ -271,4 +271,11 @@ std::string folder_name(const std::string& name) {
   return folder;
 }
 
+std::optional<KnownAnswer> known_answer(const std::string& method) {
+  if (method == "noop") return KnownAnswer::kNothingRemoved;
+  if (method == "remove-all") return KnownAnswer::kEverythingRemoved;
+  if (method == "oracle") return KnownAnswer::kMovingPointsRemoved;
+  return std::nullopt;
+}
+
 }  // namespace raymoval

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/parameters.h"
 #include "datasets/sequence.h"
+#include "eval/rate.h"
 #include "methods/registry.h"
 
 namespace raymoval {
@@ -110,5 +112,8 @@ bool is_control(const std::string& method);
 /// The name of a cell's folder: ':' becomes '-', and characters that a file system may not accept
 /// become '_'.
 std::string folder_name(const std::string& name);
+
+/// What a control answers; nothing if `method` is no control.
+std::optional<KnownAnswer> known_answer(const std::string& method);
 
 }  // namespace raymoval

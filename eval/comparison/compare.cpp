@@ -97,7 +97,7 @@ class Comparer {
                              [](const auto& cell) { return cell.seconds_per_scan.has_value(); });
     if (!timeless_) return;
     add_line(Change::kIncomparable, {},
-             "the reference has no times to judge by --time-band; make it again with --update "
+             "the reference has no times for --time-band; make it again with --update "
              "--with-times, or leave --time-band out");
   }
 
@@ -260,8 +260,8 @@ void check_tolerances(const ResultSet& reference, const ComparisonOptions& optio
     }
     if (!has_known_direction(name)) {
       throw UsageError("--tolerance " + name +
-                       ": it is not known whether more of this rate is better, so it is told and "
-                       "not judged; leave it out.");
+                       ": it is not known which direction of this rate is better, so it decides "
+                       "nothing; leave it out.");
     }
   }
 }

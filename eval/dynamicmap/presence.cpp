@@ -11,7 +11,7 @@
 namespace raymoval::dynamicmap {
 namespace {
 
-/// Edge of the cells that tell which kept points are worth keeping, at least.
+/// The smallest edge of the cells that say which kept points have to stay in memory.
 constexpr double kSmallestEdge = 0.2;
 
 Eigen::Vector3d placed(const Scan& scan, std::size_t point) {
@@ -38,10 +38,10 @@ ScanPresence count_by_index(const TruthPoints& truth, const MaskStore& masks, st
 struct FlaggedPoints {
   std::vector<Eigen::Vector3d> points;  ///< World frame.
   std::vector<std::uint8_t> moving;
-  std::vector<std::size_t> first = {0};  ///< Of each scan, and the end.
+  std::vector<std::size_t> first = {0};  ///< Where the points of each scan begin, and the end.
 };
 
-/// Cells with flagged points in or beside them; what lies elsewhere is near none of them.
+/// Cells with flagged points in or beside them. A point in another cell is near no flagged point.
 class CellsAround {
  public:
   CellsAround(const std::vector<Eigen::Vector3d>& points, double distance)

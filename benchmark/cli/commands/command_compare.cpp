@@ -146,8 +146,8 @@ Command add_compare_command(CommandParser& program) {
               "The run folder, or results.json, to compare with");
   options.add(
       "--tolerance", "TOLERANCE", flags->tolerances,
-      "METRIC=NUMBER: allow this rate to get worse by at most NUMBER, instead of comparing the "
-      "counts (F1 is a fraction, other rates are in percent)");
+      "METRIC=NUMBER: this rate may get worse by at most NUMBER, in its own unit, and counts "
+      "may differ; F1=0.01 allows F1 to fall by at most 0.01");
   options.add(
       "--across", "WHAT", flags->across,
       "What may differ: parameters or version of methods, or both (parameters,version). Cells "
@@ -165,15 +165,15 @@ Command add_compare_command(CommandParser& program) {
                    "With --update: keep times and machine, for --time-band");
   options.set_footer(
       "Counts must be equal. Runs with other data, protocols or parameters cannot be compared. "
-      "With "
-      "--tolerance\nonly the named rates are compared, in the protocols that have them.\n"
+      "With\n"
+      "--tolerance the rates that it names decide, in the protocols that have them. Each protocol\n"
+      "says which direction of a rate is better.\n"
       "--across parameters is for a changed default: cells whose parameters differ are compared "
       "by\n"
-      "their rates, which may get worse by at most their tolerance; if no rate of a protocol has a "
-      "tolerance,\nnone may get worse. The differences are shown.\n"
-      "--format junit writes XML for a CI server: a test suite for each sequence, and a test case "
-      "for each\nmethod and protocol. The keys of json are in "
-      "results/schema/comparison.schema.json.\n"
+      "their rates, none of which may get worse by more than its tolerance (or at all, if the\n"
+      "protocol has no rate with one). The output says what differs.\n"
+      "--format junit is XML for a CI server: a test suite for each sequence, and a test case for\n"
+      "each method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
       "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\nExamples:\n"
       "  raymoval run quick --out out/quick\n"
       "  raymoval compare out/quick results/reference/street\n"

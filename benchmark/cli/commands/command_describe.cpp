@@ -20,13 +20,6 @@ struct DescribeFlags {
 
 constexpr const char* kProtocolPrefix = "protocol:";
 
-const ProtocolEntry* find_protocol(const std::string& name) {
-  for (const ProtocolEntry& entry : protocol_entries()) {
-    if (entry.name == name) return &entry;
-  }
-  return nullptr;
-}
-
 /// A name that is both a method's and a protocol's means the method.
 Description description_of(const std::string& name) {
   const MethodRegistry& registry = program_methods();

@@ -10,7 +10,7 @@
 namespace raymoval {
 namespace {
 
-/// What a sweep is of, and over what; the cell itself if it is none of a sweep.
+/// What is swept over what, or the name of a cell that is no point of a sweep.
 std::string series_name(const RunResults& results, const std::string& cell) {
   const SweptCell* point = results.swept(cell);
   return point == nullptr ? cell : point->sweep();

@@ -17,11 +17,11 @@ namespace raymoval {
 
 /// An opened sequence with the protocols that score on it. What a protocol derives from scans and
 /// labels is built when first needed, then shared by all methods.
-class SequenceBench {
+class ScoredSequence {
  public:
   /// @throws DataError if the sequence has no labels, ConfigurationError for bad options
-  SequenceBench(Sequence sequence, const std::vector<ProtocolRequest>& requests, int threads,
-                Progress* progress);
+  ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests, int threads,
+                 Progress* progress);
 
   /// Its sources throw DataError for a scan that has changed since it was first read.
   [[nodiscard]] const Sequence& sequence() const { return watched_.sequence; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 
 #include <algorithm>
 #include <utility>
@@ -38,8 +38,8 @@ ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
 
 }  // namespace
 
-SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolRequest>& requests,
-                             int threads, Progress* progress)
+ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests,
+                               int threads, Progress* progress)
     : watched_(watched(std::move(sequence))), threads_(threads), progress_(progress) {
   const Sequence& opened = watched_.sequence;
   check_has_labels(opened);
@@ -54,7 +54,7 @@ SequenceBench::SequenceBench(Sequence sequence, const std::vector<ProtocolReques
   }
 }
 
-const std::string& SequenceBench::data_fingerprint() {
+const std::string& ScoredSequence::data_fingerprint() {
   if (!fingerprint_.empty()) return fingerprint_;
   fingerprint_ = fingerprint(sequence(), threads_);
   loaded_ = watched_.loaded();
@@ -71,14 +71,14 @@ const std::string& SequenceBench::data_fingerprint() {
   return fingerprint_;
 }
 
-std::string SequenceBench::data_change(const LoadedData* loaded) {
+std::string ScoredSequence::data_change(const LoadedData* loaded) {
   (void)data_fingerprint();
   LoadedData expected = loaded_;
   expected.change = watched_.record->data().change;
   return changed_data(expected, loaded != nullptr ? *loaded : loaded_);
 }
 
-EvaluationInput SequenceBench::input() const {
+EvaluationInput ScoredSequence::input() const {
   EvaluationInput input;
   input.scans = scored_scans_.get();
   input.labels = sequence().labels.get();
@@ -90,25 +90,25 @@ EvaluationInput SequenceBench::input() const {
   return input;
 }
 
-std::vector<ColumnValue> SequenceBench::columns(const MaskStore& masks) const {
+std::vector<ColumnValue> ScoredSequence::columns(const MaskStore& masks) const {
   return column_values(tally_removals(input(), masks));
 }
 
-const Scorer& SequenceBench::scorer(std::size_t i) {
+const Scorer& ScoredSequence::scorer(std::size_t i) {
   OpenedProtocol& opened = protocols_[i];
   if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
   return *opened.scorer;
 }
 
-ProtocolResult SequenceBench::score(std::size_t i, const MaskStore& masks) {
+ProtocolResult ScoredSequence::score(std::size_t i, const MaskStore& masks) {
   return checked(scorer(i).score(masks), protocol(i));
 }
 
-ProtocolResult SequenceBench::score_cloud(std::size_t i, const CloudEstimate& cloud) {
+ProtocolResult ScoredSequence::score_cloud(std::size_t i, const CloudEstimate& cloud) {
   return checked(scorer(i).score_cloud(cloud), protocol(i));
 }
 
-const MaskStore& SequenceBench::cloud_masks(const CloudEstimate& cloud) const {
+const MaskStore& ScoredSequence::cloud_masks(const CloudEstimate& cloud) const {
   return cloud.masks(input(), kCloudDistance);
 }
 
