@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/command_tree.h"
+#include "benchmark/cli/shell/command_tree.h"
 
 #include <catch2/catch.hpp>
 
-#include "benchmark/cli/completion.h"
-#include "benchmark/cli/manual_page.h"
+#include "benchmark/cli/shell/completion.h"
+#include "benchmark/cli/shell/manual_page.h"
 #include "core/error.h"
 
 using namespace raymoval;

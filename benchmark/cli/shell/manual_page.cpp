@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/manual_page.h"
+#include "benchmark/cli/shell/manual_page.h"
 
 #include <map>
 

@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/cli/completion.h"
-#include "benchmark/cli/manual_page.h"
+#include "benchmark/cli/shell/completion.h"
+#include "benchmark/cli/shell/manual_page.h"
 #include "core/text.h"
 
 namespace raymoval {

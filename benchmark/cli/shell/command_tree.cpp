@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/command_tree.h"
+#include "benchmark/cli/shell/command_tree.h"
 
 #include <algorithm>
 #include <array>

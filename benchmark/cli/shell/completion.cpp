@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/completion.h"
+#include "benchmark/cli/shell/completion.h"
 
 #include <fmt/format.h>
 

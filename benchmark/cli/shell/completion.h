@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "benchmark/cli/command_tree.h"
+#include "benchmark/cli/shell/command_tree.h"
 
 namespace raymoval {
 
