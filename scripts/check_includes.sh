@@ -18,7 +18,7 @@ methods    remover method_entry common
 methods    controls|dufomap|erasor|octomap|peopleremover|raymoval|raymoval_plus|removert|external
 methods    registry
 methods/raymoval       kernels .
-eval       . points columns|erasor|dynamicmap comparison published
+eval       . points columns|erasor|dynamicmap protocol_registry comparison|published
 benchmark  suite result process tables run clean picture report cli
 benchmark  kernels
 "

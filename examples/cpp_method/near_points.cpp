@@ -51,7 +51,7 @@ int main() {
   EvaluationInput input;
   input.scans = street.scans.get();
   input.labels = street.labels.get();
-  const auto protocol = make_protocol("erasor", protocol_defaults("erasor"));
+  const auto protocol = make_protocol("erasor", {});
   const ProtocolResult result = protocol->open(input)->score(sink.masks);
   const auto rate = result.rate("PR");
   std::printf("removed %zu points, PR %.3f\n", sink.masks.removed_count(), rate.value_or(-1.0));
