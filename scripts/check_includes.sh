@@ -19,7 +19,7 @@ methods    controls|dufomap|erasor|octomap|peopleremover|raymoval|raymoval_plus|
 methods    registry
 methods/raymoval       kernels .
 eval       . points columns|erasor|dynamicmap protocol_registry comparison|published
-benchmark  suite result process tables run clean picture report cli
+benchmark  harness suite result process tables run clean picture report cli
 benchmark  kernels
 "
 

@@ -13,14 +13,14 @@ set -euo pipefail
 packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev libpcl-dev liboctomap-dev nlohmann-json3-dev
   catch2 libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
-  libembree-dev libfmt-dev libpng-dev librapidcheck-dev libxxhash-dev zlib1g-dev libfreetype-dev
-  librsvg2-dev fonts-dejavu-core esbuild
+  libembree-dev libfmt-dev librapidcheck-dev libxxhash-dev zlib1g-dev libcairo2-dev librsvg2-dev
+  fonts-dejavu-core esbuild
 )
 case ${1:-} in
   "") ;;
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
   --tests) packages+=(snakemake python3-jsonschema python3-numpy texlive-latex-base
-    texlive-latex-recommended chromium) ;;
+    texlive-latex-recommended chromium doxygen) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing or --tests." >&2; exit 2 ;;
 esac
 # npm fetches three.js. One that did not come from Debian will do, and would be in Debian's way.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/command_line.h"
+#include "benchmark/harness.h"
 
 #include <algorithm>
 #include <csignal>
@@ -9,9 +9,9 @@
 #include <new>
 
 #include "benchmark/cli/commands.h"
-#include "core/terminal_colour.h"
 #include "benchmark/suite/amounts.h"
 #include "core/files/file_kind.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {

@@ -11,7 +11,6 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/cell_json.h"
-#include "benchmark/result/json_fields.h"
 #include "benchmark/suite/suite_json.h"
 #include "core/error.h"
 #include "core/files/descriptor_io.h"
@@ -129,7 +128,7 @@ MethodOrder read_order(int file, const MethodRegistry& registry) {
 }
 
 void write_answer(int file, const MethodAnswer& answer) {
-  AnswerHead head{answer.status,
+  AnswerHead head{status_name(answer.status),
                   answer.reason,
                   to_json(answer.measured),
                   {},
@@ -154,11 +153,11 @@ MethodAnswer read_answer(int file) {
   MessageReader reader(file);
   const auto head = reader.take_json().get<AnswerHead>();
   MethodAnswer answer;
-  answer.status = head.status;
+  const auto status = status_called(head.status);
+  if (!status) throw MethodError("the answer is damaged");
+  answer.status = *status;
   answer.reason = head.reason;
-  const nlohmann::ordered_json measured = head.measured;
-  const std::string place = "the answer";
-  answer.measured = measurement_from(JsonFields(measured, place));
+  answer.measured = measurement_from(head.measured, "the answer");
   if (!head.loaded.empty()) answer.loaded = head.loaded.front();
   answer.masks = MaskStore(head.points.size());
   for (std::size_t i = 0; i < head.points.size(); ++i) {

@@ -24,19 +24,19 @@ constexpr int kProgressFile = 5;
 /// What became of a child that gave no answer.
 MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
   MethodAnswer answer;
-  answer.status = "failed";
+  answer.status = CellStatus::kFailed;
   switch (end.kind) {
     case ChildEnd::Kind::kCancelled:
       throw Cancelled();
     case ChildEnd::Kind::kNotStarted:
       throw DataError(not_started_text(end.code));
     case ChildEnd::Kind::kTimeout:
-      answer.status = "timeout";
+      answer.status = CellStatus::kTimeout;
       answer.reason = fmt::format("did not finish within {:.0f} s (see --time-limit) and was ended",
                                   limits.seconds);
       break;
     case ChildEnd::Kind::kOutOfMemory:
-      answer.status = "out_of_memory";
+      answer.status = CellStatus::kOutOfMemory;
       answer.reason =
           fmt::format("used more than {:.0f} MiB of memory (see --memory-limit) and was ended",
                       limits.memory_mib);
@@ -45,7 +45,7 @@ MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
       answer.reason = "crashed: " + signal_text(end.code);
       if (end.code != SIGKILL) break;
       // Nobody here sent it. The system does when memory runs out, and then this was the largest.
-      if (end.largest_mib > 0.5 * machine_memory_mib()) answer.status = "out_of_memory";
+      if (end.largest_mib > 0.5 * machine_memory_mib()) answer.status = CellStatus::kOutOfMemory;
       answer.reason = fmt::format(
           "was killed from outside when it had {:.0f} MiB of memory: by the system if memory ran "
           "out, or by somebody",
@@ -94,13 +94,13 @@ MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& pla
       answer = read_answer(answer_file.get());
     } catch (const std::exception& error) {
       answer = {};
-      answer.status = "failed";
+      answer.status = CellStatus::kFailed;
       answer.reason = std::string("gave no readable answer (") + error.what() + ")";
     }
   } else {
     answer = no_answer(end, limits);
   }
-  if (answer.status != "ok") answer.output_tail = end.output_tail;
+  if (answer.status != CellStatus::kOk) answer.output_tail = end.output_tail;
   return answer;
 }
 
@@ -124,7 +124,7 @@ void serve_method(const MethodRegistry& registry) {
         {&data.sequence, &order.request, order.threads, &progress, nullptr, order.with_reasons});
     answer.loaded = data.loaded();
   } catch (const Error& error) {
-    answer.status = "bad_data";
+    answer.status = CellStatus::kBadData;
     answer.reason = error.what();
   }
   progress.end();

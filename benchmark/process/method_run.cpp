@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/process/method_run.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -96,7 +97,7 @@ void answer_task(const MethodTask& task, MethodAnswer& answer) {
 
 MethodAnswer run_method(const MethodTask& task) {
   MethodAnswer answer;
-  const auto fail = [&](const char* status, const std::string& reason) {
+  const auto fail = [&](CellStatus status, const std::string& reason) {
     answer = {};
     answer.status = status;
     answer.reason = reason;
@@ -106,22 +107,23 @@ MethodAnswer run_method(const MethodTask& task) {
   } catch (const Cancelled&) {
     throw;
   } catch (const DataError& error) {
-    fail("bad_data", error.what());
+    fail(CellStatus::kBadData, error.what());
   } catch (const std::bad_alloc&) {
-    fail("out_of_memory", "there was not enough memory");
+    fail(CellStatus::kOutOfMemory, "there was not enough memory");
   } catch (const std::exception& error) {
-    fail("failed", error.what());
+    fail(CellStatus::kFailed, error.what());
   } catch (...) {
-    fail("failed", "the method threw something that is no std::exception");
+    fail(CellStatus::kFailed, "the method threw something that is no std::exception");
   }
   return answer;
 }
 
 void check_has_labels(const Sequence& sequence) {
   if (sequence.labels != nullptr) return;
-  throw DataError("sequence '" + sequence.name +
-                  "' has no labels, so nothing can be scored on it; expected a folder labels/ "
-                  "beside the scans. To clean a map without labels use `raymoval clean`.");
+  throw DataError(
+      fmt::format("sequence '{}' has no labels, so nothing can be scored on it; expected a folder "
+                  "labels/ beside the scans. To clean a map without labels use `raymoval clean`.",
+                  sequence.name));
 }
 
 std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence) {

@@ -25,9 +25,9 @@ struct MethodTask {
   bool with_reasons = false;  ///< Whether the method is asked why.
 };
 
-/// What came of it. `masks` and `measured` stand only where `status` is "ok".
+/// What came of it. There are `masks` and `measured` only if `status` is kOk.
 struct MethodAnswer {
-  std::string status = "ok";  ///< As in cell.json.
+  CellStatus status = CellStatus::kOk;
   std::string reason;
   std::string output_tail;  ///< Of a method that ran in a process of its own and failed.
   MaskStore masks;

@@ -8,8 +8,8 @@
 namespace raymoval {
 namespace {
 
-/// "range 0-10 m" of "rejection [range 0-10 m]"; "all" of "rejection"; nothing of other columns and
-/// of classes within a band.
+/// The part that a column is about: "range 0-10 m" for "rejection [range 0-10 m]", and "all" for
+/// "rejection". It has no value for other columns and for classes within a band.
 std::optional<std::string> part_of(const std::string& column, const std::string& kind) {
   const ColumnName name = parse_column_name(column);
   if (name.kind != kind || (!name.group.empty() && !name.axis.empty())) return std::nullopt;
@@ -17,8 +17,8 @@ std::optional<std::string> part_of(const std::string& column, const std::string&
   return name.axis.empty() ? "all" : name.axis + " " + name.band;
 }
 
-/// What is lost of each part, a column for each method.
-/// @param kind name of the columns with what is not lost
+/// A table of what is lost of each part, with a column for each method.
+/// @param kind the name of the columns that hold what is not lost
 TextTable loss_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
                      const std::string& title) {
   TextTable table{title, "of", {{"", {"points"}}}, {}, {}};

@@ -100,19 +100,19 @@ std::string changed_program(const MethodEntry& entry) {
   }
 }
 
-/// The method's answer, which is only "ok" if the method and what it read are those of the key.
+/// The method's answer. Its status is only kOk if the method and what it read are those of the key.
 MethodAnswer method_answer(const CellTask& task) {
   MethodAnswer answer;
-  answer.status = "failed";
+  answer.status = CellStatus::kFailed;
   answer.reason = changed_program(*task.request->method.entry);
   if (!answer.reason.empty()) return answer;
   answer = answer_of_method(task);
-  if (answer.status != "ok") return answer;
+  if (answer.status != CellStatus::kOk) return answer;
   answer.reason = changed_program(*task.request->method.entry);
-  if (!answer.reason.empty()) answer.status = "failed";
+  if (!answer.reason.empty()) answer.status = CellStatus::kFailed;
   const std::string change = task.scored->data_change(answer.loaded ? &*answer.loaded : nullptr);
   if (!change.empty()) {
-    answer.status = "bad_data";
+    answer.status = CellStatus::kBadData;
     answer.reason = change;
   }
   return answer;
@@ -157,8 +157,8 @@ Cell execute_cell(const CellTask& task) {
   cell.data = std::move(identity.data);
   const MethodAnswer answer = method_answer(task);
   cell.output_tail = answer.output_tail;
-  if (answer.status != "ok") {
-    cell.fail(status_called(answer.status).value_or(CellStatus::kFailed), answer.reason);
+  if (answer.status != CellStatus::kOk) {
+    cell.fail(answer.status, answer.reason);
     return cell;
   }
   score_answer(task, answer, cell);

@@ -7,7 +7,6 @@
 
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/differences.h"
-#include "benchmark/result/json_fields.h"
 #include "benchmark/result/run_record_json.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"

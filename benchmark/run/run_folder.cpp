@@ -5,7 +5,7 @@
 #include <array>
 
 #include "benchmark/process/machine.h"
-#include "benchmark/result/json_fields.h"
+#include "benchmark/result/cell_json.h"
 #include "benchmark/result/results.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/cell_store.h"
@@ -118,7 +118,9 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
   }
   for (const MethodRequest& request : suite.methods) {
     run.methods.push_back({request.name, request.method.full_name(), request.method.entry->version,
-                           request.method.configuration, request.sweep_of, request.sweep});
+                           request.method.configuration});
+    if (request.sweep.empty()) continue;
+    run.methods.back().sweep = SweepRecord{request.sweep_of, request.sweep};
   }
   for (const ProtocolRequest& request : suite.protocols) {
     run.protocols.push_back({request.name, request.protocol,

@@ -153,9 +153,8 @@ std::optional<RepeatRecord> SequenceRuns::run_again(ScoredSequence& scored, Cell
   check_cancelled(suite_.options());
   show_running(index, fmt::format(", repeat {}", round));
   const MethodAnswer answer = repeat_cell(task_for(scored, index));
-  if (answer.status != "ok") {
-    fail_repeat(index, round, status_called(answer.status).value_or(CellStatus::kFailed),
-                answer.reason);
+  if (answer.status != CellStatus::kOk) {
+    fail_repeat(index, round, answer.status, answer.reason);
     return std::nullopt;
   }
   const std::string& key = finished_[suite_.place(index)].cell->key;

@@ -10,6 +10,7 @@
 #include "benchmark/tables/text_table.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {

@@ -6,6 +6,7 @@
 #include "benchmark/tables/column_tables.h"
 #include "benchmark/tables/rate_tables.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
@@ -14,9 +15,7 @@ namespace {
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 200;
   if (text.size() <= kMost) return text;
-  std::size_t end = kMost;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return text.substr(0, end) + " ...";
+  return cut_text(text, kMost) + " ...";
 }
 
 /// What became of the cells that have no result.

@@ -230,13 +230,16 @@ TEST_CASE("A chart is written as PDF and PNG too") {
   CHECK(pdf.find("CreationDate") == std::string::npos);
   CHECK(pdf == written("b.pdf"));
   write_chart(folder.path() / "a.png", draw);
-  const RgbImage image = read_png(folder.path() / "a.png");
+  const Canvas image = read_png(folder.path() / "a.png");
   CHECK_THAT(draw(ChartPlace::kPrint),
-             Contains("width=\"" + std::to_string(image.width / 2) + "\" height"));
+             Contains("width=\"" + std::to_string(image.width() / 2) + "\" height"));
   // The ground is white, and there is ink.
-  CHECK(image.rgb[0] == 255);
-  CHECK(std::count_if(image.rgb.begin(), image.rgb.end(), [](int value) { return value < 100; }) >
-        500);
+  CHECK(image.at(0, 0) == kPaper);
+  int ink = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) ink += image.at(x, y).red < 100 ? 1 : 0;
+  }
+  CHECK(ink > 500);
 }
 
 TEST_CASE("Axes begin and end at round numbers") {

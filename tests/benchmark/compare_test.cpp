@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/cli/command_line.h"
+#include "benchmark/harness.h"
 #include "benchmark/result/result_sets.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/runner.h"

@@ -210,12 +210,12 @@ TEST_CASE("The end of a run fits a screen for ten methods") {
 
 TEST_CASE("The log line of a cell has its F1 and time first and no rates of secondary kinds") {
   const auto cell = [](const std::string& sequence, const std::string& name, double f1) {
-    Cell cell{sequence, name, ""};
+    Cell made{sequence, name, ""};
     const std::vector<Rate> rates = {
         {"PR", 100.0}, {"RR", 9.5}, {"F1", f1}, {"PR_no_truck", 1.0}, {"F1_no_truck", 0.5}};
-    cell.scores = {{{}, {}, rates}, {{}, {}, {{"SA", {}}, {"DA", 1.0}, {"AA", 2.0}, {"HA", 99.5}}}};
-    cell.measured.emplace().mean_seconds = 0.0123;
-    return cell;
+    made.scores = {{{}, {}, rates}, {{}, {}, {{"SA", {}}, {"DA", 1.0}, {"AA", 2.0}, {"HA", 99.5}}}};
+    made.measured.emplace().mean_seconds = 0.0123;
+    return made;
   };
   const CellLines lines({"a", "town"}, {"x", "longer:variant"}, 52);
   const std::string first = lines.line(3, cell("a", "x", 0.25));

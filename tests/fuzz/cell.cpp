@@ -9,9 +9,9 @@
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 
+namespace raymoval::fuzz {
 namespace {
 
-using namespace raymoval;
 using nlohmann::ordered_json;
 
 /// A whole file of results around one cell.
@@ -26,14 +26,14 @@ ordered_json results_of(const ordered_json& cell) {
 }
 
 /// The file as it stands, then its content with the checksum made good, as a cell and in results.
-void try_cell(std::string_view bytes) {
-  const auto path = fuzz::input_file("cell.json", bytes);
-  fuzz::may_refuse([&] { (void)read_cell(path); });
-  fuzz::may_refuse([&] { (void)read_result_set(path); });
+RAYMOVAL_FUZZ_TARGET(cell) {
+  const auto path = input_file("cell.json", bytes);
+  may_refuse([&] { (void)read_cell(path); });
+  may_refuse([&] { (void)read_result_set(path); });
   const ordered_json cell = ordered_json::parse(bytes, nullptr, /*allow_exceptions=*/false);
   if (!cell.is_object() || bytes.size() > 100'000) return;
-  fuzz::may_refuse([&] {
-    const auto results = fuzz::input_file("results.json", "");
+  may_refuse([&] {
+    const auto results = input_file("results.json", "");
     write_sealed(results, results_of(cell));
     (void)shown_results(read_results(results));
     (void)read_result_set(results);
@@ -41,5 +41,4 @@ void try_cell(std::string_view bytes) {
 }
 
 }  // namespace
-
-RAYMOVAL_FUZZ_TARGET(cell, try_cell)
+}  // namespace raymoval::fuzz

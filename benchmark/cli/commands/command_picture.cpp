@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
+#include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/picture/charts/chart_file.h"
 #include "benchmark/picture/charts/charts.h"
 #include "benchmark/picture/maps/map_picture.h"
@@ -120,7 +121,7 @@ const KeptCell& chosen_cell(const PictureFlags& flags, const KeptRun& run) {
                   chosen(flags.method, "--method", methods));
 }
 
-RgbImage drawn(const PictureFlags& flags, Progress& progress) {
+Canvas drawn(const PictureFlags& flags, Progress& progress) {
   MapPictureOptions map;
   RangePictureOptions range;
   OverviewOptions overview;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/result/cell_json.h"
+
 namespace raymoval {
 namespace {
 
@@ -40,6 +42,20 @@ ordered_json finding_json(const Finding& finding) {
   return {{"check", finding.check},       {"severity", severity_name(finding.severity)},
           {"where", finding.where},       {"what", finding.what},
           {"expected", finding.expected}, {"remedy", finding.remedy}};
+}
+
+ordered_json scored_json(const ScoredProtocol& scored) {
+  ordered_json json = to_json(scored.protocol);
+  json.update(to_json(scored.result));
+  if (scored.oracle) json["oracle"] = to_json(*scored.oracle)["rates"];
+  return json;
+}
+
+ordered_json cloud_json(const CloudRecord& cloud) {
+  return {{"points", cloud.points},
+          {"non_finite", cloud.non_finite},
+          {"oracle_voxel_m", cloud.oracle_voxel_m},
+          {"warnings", cloud.warnings}};
 }
 
 }  // namespace
@@ -85,6 +101,18 @@ ordered_json to_json(const InspectionReport& report) {
           {"scans", report.scans},          {"scans_read", report.scans_read},
           {"sensor", report.sensor},        {"findings", std::move(findings)},
           {"measures", std::move(measures)}};
+}
+
+ordered_json to_json(const ScoreRecord& record) {
+  ordered_json protocols = ordered_json::array();
+  for (const ScoredProtocol& scored : record.protocols) protocols.push_back(scored_json(scored));
+  ordered_json json = {{"schema_version", kSchemaVersion},
+                       {"data", to_json(record.data)},
+                       {"labels", record.cloud ? "nearest" : "index"},
+                       {"protocols", std::move(protocols)}};
+  if (record.cloud) json["cloud"] = cloud_json(*record.cloud);
+  json["columns"] = to_json(record.columns);
+  return json;
 }
 
 }  // namespace raymoval

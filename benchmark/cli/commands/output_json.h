@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "benchmark/cli/commands/score_record.h"
 #include "benchmark/cli/description.h"
 #include "benchmark/run/plan.h"
 #include "datasets/inspection/inspect.h"
@@ -23,5 +24,8 @@ const char* severity_name(Severity severity);
 
 /// `raymoval inspect --json`.
 nlohmann::ordered_json to_json(const InspectionReport& report);
+
+/// `raymoval score --json`.
+nlohmann::ordered_json to_json(const ScoreRecord& record);
 
 }  // namespace raymoval

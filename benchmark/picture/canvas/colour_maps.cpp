@@ -3,17 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace raymoval {
-
-Colour blended(const Colour& from, const Colour& to, double share) {
-  const double weight = std::clamp(share, 0.0, 1.0);
-  const auto channel = [&](std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>(std::lround(a + weight * (static_cast<double>(b) - a)));
-  };
-  return {channel(from.red, to.red), channel(from.green, to.green), channel(from.blue, to.blue)};
-}
 
 Colour sequential_colour(double share) {
   static constexpr std::array<Colour, 9> kStops = {{{68, 1, 84},

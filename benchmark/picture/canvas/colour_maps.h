@@ -5,13 +5,11 @@
 
 namespace raymoval {
 
-/// From dark blue over green to yellow for 0 .. 1, even in lightness; after matplotlib's viridis.
+/// The colour of a share from 0 (dark blue) over green to 1 (yellow). Its lightness grows evenly,
+/// as that of matplotlib's viridis does.
 Colour sequential_colour(double share);
 
-/// From blue over white to vermillion for -1 .. 1.
+/// The colour of a share from -1 (blue) over 0 (white) to 1 (vermillion).
 Colour diverging_colour(double share);
-
-/// From one colour to another for 0 .. 1.
-Colour blended(const Colour& from, const Colour& to, double share);
 
 }  // namespace raymoval

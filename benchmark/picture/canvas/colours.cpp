@@ -1,32 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/picture/canvas/colours.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace raymoval {
-namespace {
-
-/// The colour mixed with white (`share` above 0) or black (below 0).
-Colour mixed(const Colour& colour, double share) {
-  const double end = share > 0.0 ? 255.0 : 0.0;
-  const auto mix = [&](std::uint8_t channel) {
-    const double value = channel + (end - channel) * std::abs(share);
-    return static_cast<std::uint8_t>(std::lround(value));
+Colour blended(const Colour& from, const Colour& to, double share) {
+  const double weight = std::clamp(share, 0.0, 1.0);
+  const auto channel = [&](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::lround(a + weight * (static_cast<double>(b) - a)));
   };
-  return {mix(colour.red), mix(colour.green), mix(colour.blue)};
+  return {channel(from.red, to.red), channel(from.green, to.green), channel(from.blue, to.blue)};
 }
 
-}  // namespace
-
 std::string colour_text(const Colour& colour) {
-  constexpr const char* kDigits = "0123456789ABCDEF";
-  std::string text = "#";
-  for (const std::uint8_t channel : {colour.red, colour.green, colour.blue}) {
-    text += kDigits[channel >> 4U];
-    text += kDigits[channel & 15U];
-  }
-  return text;
+  return fmt::format("#{:02X}{:02X}{:02X}", colour.red, colour.green, colour.blue);
 }
 
 std::vector<Colour> distinct_colours(std::size_t count) {
@@ -38,7 +28,8 @@ std::vector<Colour> distinct_colours(std::size_t count) {
     const double step = static_cast<double>((round + 1) / 2) /
                         static_cast<double>(std::max<std::size_t>(1, rounds / 2));
     const double share = round == 0 ? 0.0 : (round % 2 == 1 ? 0.6 * step : -0.55 * step);
-    colours.push_back(mixed(kSeriesColours[i % kSeriesColours.size()], share));
+    const Colour end = share > 0.0 ? Colour{255, 255, 255} : Colour{0, 0, 0};
+    colours.push_back(blended(kSeriesColours[i % kSeriesColours.size()], end, std::abs(share)));
   }
   return colours;
 }

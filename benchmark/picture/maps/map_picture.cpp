@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kMargin = 20;
 constexpr int kGap = 14;
-constexpr int kHeading = 26;  ///< Above the panels of a row: the sequence's name.
-constexpr int kCaption = 22;  ///< Below a panel: its rates.
+constexpr int kHeading = 26;  ///< Height above the panels of a row, for the sequence's name.
+constexpr int kCaption = 22;  ///< Height below a panel, for its rates.
 constexpr double kAround = 30.0;
 
 /// One panel: a raster, or a reason why there is none.
@@ -34,7 +34,7 @@ struct MapRow {
   int width = 0, height = 0;  ///< Of a panel.
 };
 
-/// Cells of the picture by name; empty columns and rows are left out.
+/// The cells that the picture shows.
 std::vector<const KeptCell*> chosen_cells(const KeptRun& run, const MapPictureOptions& options) {
   std::vector<std::string> names;
   for (const KeptCell& cell : run.cells()) names.push_back(cell.sequence + "/" + cell.name);
@@ -83,34 +83,7 @@ std::string caption_of(const RunResults& results, const KeptCell& cell) {
   return text;
 }
 
-/// All panels of a sequence in one pass over its scans.
-/// @param scans of the sequence, up along z
-void add_points(const Sequence& sequence, const ScanSource& scans,
-                const std::vector<MaskStore>& masks, const std::vector<TopDownRaster*>& rasters,
-                const OpenContext& context) {
-  const ShownPoints points(sequence);
-  if (context.progress != nullptr) {
-    context.progress->begin("drawing " + sequence.name, sequence.scans->size());
-  }
-  for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
-    if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
-    const Scan scan = scans.load(i);
-    const std::vector<std::uint32_t> labels = sequence.labels->labels(scan);
-    std::vector<Mask> removed;
-    for (const MaskStore& store : masks) removed.push_back(store.get(i));
-    for (std::size_t k = 0; k < scan.size(); ++k) {
-      if (!points.shows(scan.points[k], labels[k])) continue;
-      const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
-      const bool moving = points.moving(labels[k]);
-      for (std::size_t m = 0; m < rasters.size(); ++m) {
-        rasters[m]->add(world, outcome_of(moving, removed[m][k] != 0));
-      }
-    }
-    if (context.progress != nullptr) context.progress->advance();
-  }
-}
-
-/// Size of the panels of a sequence.
+/// Sets the size of the panels of a sequence.
 void set_scale(const MapPictureOptions& options, const WorldWindow& window, MapRow& row) {
   row.resolution = options.resolution > 0.0
                        ? options.resolution
@@ -148,7 +121,10 @@ void fill_row(const KeptRun& run, const std::vector<const KeptCell*>& cells,
     row.panels[i].raster.emplace(window, row.resolution);
     rasters.push_back(&*row.panels[i].raster);
   }
-  add_points(sequence, upright, masks, rasters, context);
+  for_each_shown_point(sequence, upright, masks, "drawing " + sequence.name, context,
+                       [&](std::size_t mask, const PointOutcome& point) {
+                         rasters[mask]->add(point.world, point.outcome);
+                       });
 }
 
 void draw_row(Canvas& canvas, const MapRow& row, int column_width, int top) {
@@ -172,12 +148,11 @@ void draw_row(Canvas& canvas, const MapRow& row, int column_width, int top) {
       scale_shown = true;
     }
     canvas.text(left + row.width / 2, y + row.height + 16,
-                canvas.font().fitted(panel.caption, 12, column_width), 12, kSoftInk,
-                Align::kCentre);
+                canvas.fitted(panel.caption, 12, column_width), 12, kSoftInk, Align::kCentre);
   }
 }
 
-RgbImage drawn(const std::vector<MapRow>& rows, const std::vector<std::string>& methods) {
+Canvas drawn(const std::vector<MapRow>& rows, const std::vector<std::string>& methods) {
   int column_width = 1;
   int height = kMargin + 24 + 34 + kMargin;
   for (const MapRow& row : rows) {
@@ -190,8 +165,8 @@ RgbImage drawn(const std::vector<MapRow>& rows, const std::vector<std::string>& 
   Canvas canvas(width, height);
   for (int i = 0; i < columns; ++i) {
     canvas.text(kMargin + i * (column_width + kGap) + column_width / 2, kMargin + 14,
-                canvas.font().fitted(methods[static_cast<std::size_t>(i)], 16, column_width), 16,
-                kInk, Align::kCentre);
+                canvas.fitted(methods[static_cast<std::size_t>(i)], 16, column_width), 16, kInk,
+                Align::kCentre);
   }
   int top = kMargin + 24;
   for (const MapRow& row : rows) {
@@ -199,7 +174,7 @@ RgbImage drawn(const std::vector<MapRow>& rows, const std::vector<std::string>& 
     top += kHeading + row.height + kCaption + kGap;
   }
   draw_outcome_legend(canvas, kMargin, top + 18, 13);
-  return canvas.image();
+  return canvas;
 }
 
 }  // namespace
@@ -216,8 +191,8 @@ WorldWindow window_around_way(const ScanSource& scans) {
   return scans.size() > 0 ? window : WorldWindow{-kAround, kAround, -kAround, kAround};
 }
 
-RgbImage map_picture(const KeptRun& run, const MapPictureOptions& options,
-                     const OpenContext& context) {
+Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
+                   const OpenContext& context) {
   const std::vector<const KeptCell*> chosen = chosen_cells(run, options);
   check_something_kept(chosen);
   std::vector<std::string> methods, sequences;

@@ -59,13 +59,11 @@ void ObliqueRaster::add(const Eigen::Vector3d& view, const Colour& colour, int s
 }
 
 void ObliqueRaster::draw(Canvas& canvas, int left, int top) const {
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      const Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                   static_cast<std::size_t>(x)];
-      if (pixel.filled) canvas.set(left + x, top + y, pixel.colour);
-    }
-  }
+  canvas.draw_pixels(left, top, width_, height_, [&](int x, int y) -> std::optional<Colour> {
+    const Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                 static_cast<std::size_t>(x)];
+    return pixel.filled ? std::optional(pixel.colour) : std::nullopt;
+  });
 }
 
 }  // namespace raymoval

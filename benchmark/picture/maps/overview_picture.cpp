@@ -20,44 +20,24 @@ constexpr int kMargin = 20;
 constexpr int kHeading = 28;
 constexpr int kGap = 16;
 constexpr double kAround = 20.0;
-constexpr double kLeastAspect = 0.30;  ///< Height to width of the maps, lest they become stripes.
+constexpr double kLeastAspect = 0.30;  ///< Least ratio of height to width of the maps.
 constexpr double kMostAboveSensor = 4.0;
 constexpr double kZoomSide = 26.0;
-constexpr double kCell = 4.0;  ///< Of the grid that finds the place to look at closely.
+constexpr double kCell = 4.0;  ///< Of the grid that finds the busiest place, metres.
 
-/// A shown point with what became of it.
-struct ShownPoint {
-  Eigen::Vector3d world;
-  double above_sensor;
-  Outcome outcome;
-};
-
-/// @param scans of the sequence, up along z
-void for_each_point(const Sequence& sequence, const ScanSource& scans, const MaskStore& masks,
-                    const char* task, const OpenContext& context,
-                    const std::function<void(const ShownPoint&)>& look) {
-  const ShownPoints points(sequence);
-  if (context.progress != nullptr) context.progress->begin(task, sequence.scans->size());
-  for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
-    if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
-    const Scan scan = scans.load(i);
-    const std::vector<std::uint32_t> labels = sequence.labels->labels(scan);
-    const Mask mask = masks.get(i);
-    const double sensor_z = scan.T_world_sensor.translation().z();
-    for (std::size_t k = 0; k < scan.size(); ++k) {
-      if (!points.shows(scan.points[k], labels[k])) continue;
-      ShownPoint shown;
-      shown.world = scan.T_world_sensor * scan.points[k].cast<double>();
-      shown.above_sensor = shown.world.z() - sensor_z;
-      if (shown.above_sensor > kMostAboveSensor) continue;
-      shown.outcome = outcome_of(points.moving(labels[k]), mask[k] != 0);
-      look(shown);
-    }
-    if (context.progress != nullptr) context.progress->advance();
-  }
+/// Calls `look` for each point that the overview shows.
+void for_each_point(const Sequence& sequence, const ScanSource& scans,
+                    const std::vector<MaskStore>& masks, const char* task,
+                    const OpenContext& context,
+                    const std::function<void(const PointOutcome&)>& look) {
+  for_each_shown_point(sequence, scans, masks, task, context,
+                       [&](std::size_t, const PointOutcome& point) {
+                         if (point.above_sensor <= kMostAboveSensor) look(point);
+                       });
 }
 
-/// The way runs from left to right; about a standing sensor the world's x axis does.
+/// The turn that makes the sensor's path run from left to right. If the sensor stands still, the
+/// world's x axis does.
 double yaw_of_way(const ScanSource& scans) {
   const Eigen::Vector3d from = scans.pose(0).translation();
   Eigen::Vector3d farthest = from;
@@ -96,14 +76,15 @@ ObliqueCamera camera_of(const ScanSource& scans, const OverviewOptions& options)
   return camera;
 }
 
-/// A square of the view's frame where most points were removed rightly; where nothing was, most
-/// moving points; else the middle.
-WorldWindow busiest_place(const Sequence& sequence, const ScanSource& scans, const MaskStore& masks,
-                          const ObliqueCamera& camera, const OpenContext& context) {
+/// The square of the view's frame in which most moving points were removed. If none was removed
+/// anywhere, it is the square with most moving points; if nothing moves, the middle.
+WorldWindow busiest_place(const Sequence& sequence, const ScanSource& scans,
+                          const std::vector<MaskStore>& masks, const ObliqueCamera& camera,
+                          const OpenContext& context) {
   std::map<std::pair<int, int>, double> cells;
   const auto cell_of = [](double metres) { return static_cast<int>(std::floor(metres / kCell)); };
   for_each_point(sequence, scans, masks, "looking for what was removed", context,
-                 [&](const ShownPoint& point) {
+                 [&](const PointOutcome& point) {
                    const Eigen::Vector3d at = camera.to_view(point.world);
                    const WorldWindow& window = camera.window;
                    if (at.x() < window.x_min || at.x() > window.x_max || at.y() < window.y_min ||
@@ -140,7 +121,7 @@ WorldWindow busiest_place(const Sequence& sequence, const ScanSource& scans, con
   return {x_min, x_max, y_min, y_max};
 }
 
-/// Ground light, what stands on it dark.
+/// The ground is light, and what stands on it is dark.
 Colour static_colour(double above_sensor) {
   return blended({206, 208, 212}, {92, 98, 112}, (above_sensor + 1.6) / 4.5);
 }
@@ -150,7 +131,7 @@ struct Views {
   ObliqueRaster raw, cleaned, zoom;
   std::uint64_t points = 0, moving = 0, removed = 0, wrong = 0, left = 0;
 
-  void add(const ShownPoint& point) {
+  void add(const PointOutcome& point) {
     const bool moves =
         point.outcome == Outcome::kTruePositive || point.outcome == Outcome::kFalseNegative;
     const bool gone =
@@ -168,7 +149,7 @@ struct Views {
   }
 };
 
-/// The outline of the place that is shown closely.
+/// Draws the outline of the place that is shown at a larger scale.
 void draw_outline(Canvas& canvas, const ObliqueCamera& camera, const WorldWindow& place, int left,
                   int top) {
   const auto line = [&](double x0, double y0, double x1, double y1) {
@@ -191,17 +172,16 @@ std::string percent_text(std::uint64_t part, std::uint64_t whole) {
   return fixed_text(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
 }
 
-RgbImage drawn(const KeptCell& cell, std::size_t scans, const Views& views,
-               const WorldWindow& place) {
+Canvas drawn(const KeptCell& cell, std::size_t scans, const Views& views,
+             const WorldWindow& place) {
   const int wide = views.raw.camera().width(), high = views.raw.camera().height();
   const int zoom_wide = views.zoom.camera().width(), zoom_high = views.zoom.camera().height();
   const int maps_high = 2 * (kHeading + high) + kGap;
   const int body = std::max(maps_high, kHeading + zoom_high);
   Canvas canvas(2 * kMargin + wide + kGap + zoom_wide, 2 * kMargin + body + 30);
   const auto panel = [&](const ObliqueRaster& raster, int x, int y, const std::string& heading) {
-    const int size = canvas.font().width(heading, 14) <= raster.camera().width() ? 14 : 12;
-    canvas.text(x, y + 18, canvas.font().fitted(heading, size, raster.camera().width()), size,
-                kInk);
+    const int size = canvas.text_width(heading, 14) <= raster.camera().width() ? 14 : 12;
+    canvas.text(x, y + 18, canvas.fitted(heading, size, raster.camera().width()), size, kInk);
     raster.draw(canvas, x, y + kHeading);
     canvas.frame(x, y + kHeading, raster.camera().width(), raster.camera().height(), kBorder);
   };
@@ -220,16 +200,16 @@ RgbImage drawn(const KeptCell& cell, std::size_t scans, const Views& views,
   draw_scale_bar(canvas, kMargin + 10, second + kHeading + high - 12, views.raw.camera().resolution,
                  wide / 5);
   draw_outcome_legend(canvas, kMargin, kMargin + body + 24, 13);
-  return canvas.image();
+  return canvas;
 }
 
 }  // namespace
 
-RgbImage overview_picture(const KeptRun& run, const KeptCell& cell, const OverviewOptions& options,
-                          const OpenContext& context) {
+Canvas overview_picture(const KeptRun& run, const KeptCell& cell, const OverviewOptions& options,
+                        const OpenContext& context) {
   if (!cell.has_removals()) (void)run.masks(cell, {});  // Says why before anything is read.
   const Sequence sequence = run.open(cell.sequence, context);
-  const MaskStore masks = run.masks(cell, sequence);
+  const std::vector<MaskStore> masks = {run.masks(cell, sequence)};
   const LocalFrameSource scans(*sequence.scans, sequence.upright_frame());
   const ObliqueCamera camera = camera_of(scans, options);
   ObliqueCamera close = camera;
@@ -238,7 +218,7 @@ RgbImage overview_picture(const KeptRun& run, const KeptCell& cell, const Overvi
   close.resolution = camera.resolution * close.height() / (2.0 * camera.height() + kHeading + kGap);
   Views views{ObliqueRaster(camera), ObliqueRaster(camera), ObliqueRaster(close)};
   for_each_point(sequence, scans, masks, "drawing", context,
-                 [&](const ShownPoint& point) { views.add(point); });
+                 [&](const PointOutcome& point) { views.add(point); });
   return drawn(cell, sequence.scans->size(), views, close.window);
 }
 

@@ -143,14 +143,13 @@ class Strip {
   void draw(const std::string& heading, ColourOf&& colour_of) {
     canvas_.text(kMargin, top_ + 18, heading, 14, kInk);
     const AngularGrid& grid = images_.grid;
-    for (int bin = 0; bin < grid.size(); ++bin) {
-      const int x = kMargin + grid.azimuth_bins - 1 - grid.azimuth_of(bin);
-      const int y =
-          top_ + kHeading + (grid.elevation_bins - 1 - grid.elevation_of(bin)) * row_height_;
-      canvas_.fill(x, y, 1, row_height_, colour_of(static_cast<std::size_t>(bin)));
-    }
-    canvas_.frame(kMargin, top_ + kHeading, grid.azimuth_bins, grid.elevation_bins * row_height_,
-                  kBorder);
+    const int height = grid.elevation_bins * row_height_;
+    canvas_.draw_pixels(kMargin, top_ + kHeading, grid.azimuth_bins, height, [&](int x, int y) {
+      const int row = grid.elevation_bins - 1 - y / row_height_;
+      const int bin = row * grid.azimuth_bins + grid.azimuth_bins - 1 - x;
+      return colour_of(static_cast<std::size_t>(bin));
+    });
+    canvas_.frame(kMargin, top_ + kHeading, grid.azimuth_bins, height, kBorder);
   }
 
   /// Colours and what they mean at the right end of the heading.
@@ -158,11 +157,10 @@ class Strip {
   void draw_scale(const std::string& low, const std::string& high, ColourOf&& colour_of) {
     constexpr int kLength = 160;
     const int right = kMargin + images_.grid.azimuth_bins;
-    const int end = right - canvas_.font().width(high, 12) - 8;
+    const int end = right - canvas_.text_width(high, 12) - 8;
     canvas_.text(right, top_ + 18, high, 12, kSoftInk, Align::kRight);
-    for (int x = 0; x < kLength; ++x) {
-      canvas_.fill(end - kLength + x, top_ + 8, 1, 12, colour_of((x + 0.5) / kLength));
-    }
+    canvas_.draw_pixels(end - kLength, top_ + 8, kLength, 12,
+                        [&](int x, int) { return colour_of((x + 0.5) / kLength); });
     canvas_.text(end - kLength - 6, top_ + 18, low, 12, kSoftInk, Align::kRight);
   }
 
@@ -172,14 +170,13 @@ class Strip {
   int row_height_, top_;
 };
 
-RgbImage drawn(const std::string& title, const RangeImages& images) {
+Canvas drawn(const std::string& title, const RangeImages& images) {
   const int rows = images.grid.elevation_bins;
   const int row_height =
       std::clamp(static_cast<int>(std::lround(images.grid.azimuth_bins / 7.0 / rows)), 1, 12);
   const int pitch = kHeading + rows * row_height + kGap;
   Canvas canvas(images.grid.azimuth_bins + 2 * kMargin, kMargin + 26 + 4 * pitch + kMargin);
-  canvas.text(kMargin, kMargin + 14, canvas.font().fitted(title, 17, images.grid.azimuth_bins), 17,
-              kInk);
+  canvas.text(kMargin, kMargin + 14, canvas.fitted(title, 17, images.grid.azimuth_bins), 17, kInk);
   const auto strip = [&](int number) {
     return Strip(canvas, images, row_height, kMargin + 26 + number * pitch);
   };
@@ -197,13 +194,13 @@ RgbImage drawn(const std::string& title, const RangeImages& images) {
     return images.outcome[bin] < 0 ? kPaper : outcome_colour(Outcome(images.outcome[bin]));
   });
   draw_outcome_legend(canvas, kMargin + 90, kMargin + 26 + 3 * pitch + 18, 12);
-  return canvas.image();
+  return canvas;
 }
 
 }  // namespace
 
-RgbImage range_picture(const KeptRun& run, const KeptCell& cell, const RangePictureOptions& options,
-                       const OpenContext& context) {
+Canvas range_picture(const KeptRun& run, const KeptCell& cell, const RangePictureOptions& options,
+                     const OpenContext& context) {
   if (!cell.has_removals()) (void)run.masks(cell, {});  // Says why before anything is read.
   const Sequence sequence = run.open(cell.sequence, context);
   const std::size_t index = scan_index(sequence, options.frame);

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "benchmark/picture/canvas/png_file.h"
+#include "benchmark/picture/canvas/canvas.h"
 #include "benchmark/run/kept_run.h"
 
 namespace raymoval {
@@ -18,7 +18,7 @@ struct RangePictureOptions {
 /// became of the points. A pixel of the scan is the nearest point in its direction.
 /// @throws UsageError if there is no such frame; DataError if removals or data are missing or not
 ///   what they were; Cancelled
-RgbImage range_picture(const KeptRun& run, const KeptCell& cell, const RangePictureOptions& options,
-                       const OpenContext& context);
+Canvas range_picture(const KeptRun& run, const KeptCell& cell, const RangePictureOptions& options,
+                     const OpenContext& context);
 
 }  // namespace raymoval

@@ -9,10 +9,11 @@
 namespace raymoval {
 namespace {
 
-/// A moving object always stands on many static points: so many of them outweigh one of its own.
+/// A moving object always stands on many static points, so it takes this many of them to outweigh
+/// one moving point.
 constexpr std::uint64_t kMovingWeight = 10;
 
-/// A few points are light, a wall is dark.
+/// Few points are light grey, and a wall is dark.
 Colour static_grey(std::uint32_t points) {
   const double share = std::min(1.0, std::log2(1.0 + points) / 8.0);
   const auto level = static_cast<std::uint8_t>(std::lround(226.0 - 110.0 * share));
@@ -53,16 +54,13 @@ bool TopDownRaster::shown(int x, int y, Outcome& outcome) const {
 }
 
 void TopDownRaster::draw(Canvas& canvas, int left, int top) const {
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      Outcome outcome = Outcome::kKeptStatic;
-      if (!shown(x, y, outcome)) continue;
-      canvas.set(left + x, top + y,
-                 outcome == Outcome::kKeptStatic
-                     ? static_grey(counts(x, y)[static_cast<std::size_t>(outcome)])
-                     : outcome_colour(outcome));
-    }
-  }
+  canvas.draw_pixels(left, top, width_, height_, [&](int x, int y) -> std::optional<Colour> {
+    Outcome outcome = Outcome::kKeptStatic;
+    if (!shown(x, y, outcome)) return std::nullopt;
+    return outcome == Outcome::kKeptStatic
+               ? static_grey(counts(x, y)[static_cast<std::size_t>(outcome)])
+               : outcome_colour(outcome);
+  });
 }
 
 void draw_scale_bar(Canvas& canvas, int x, int y, double resolution, int most_pixels) {
@@ -74,7 +72,7 @@ void draw_scale_bar(Canvas& canvas, int x, int y, double resolution, int most_pi
   }
   const int length = std::max(1, static_cast<int>(std::lround(metres / resolution)));
   const std::string name = fixed_text(metres, metres < 1.0 ? 2 : 0) + " m";
-  canvas.fill(x - 3, y - 19, std::max(length, canvas.font().width(name, 12)) + 6, 26, kPaper);
+  canvas.fill(x - 3, y - 19, std::max(length, canvas.text_width(name, 12)) + 6, 26, kPaper);
   canvas.fill(x, y, length, 3, kInk);
   canvas.fill(x, y - 3, 1, 6, kInk);
   canvas.fill(x + length - 1, y - 3, 1, 6, kInk);
@@ -86,7 +84,7 @@ int draw_outcome_legend(Canvas& canvas, int x, int y, int size) {
   for (const Outcome outcome : kLegendOrder) {
     canvas.fill(at, y - size + 2, size, size, outcome_colour(outcome));
     canvas.text(at + size + 6, y, outcome_name(outcome), size, kInk);
-    at += size + 6 + canvas.font().width(outcome_name(outcome), size) + 24;
+    at += size + 6 + canvas.text_width(outcome_name(outcome), size) + 24;
   }
   return at - x;
 }

@@ -18,7 +18,7 @@ struct WorldWindow {
   [[nodiscard]] double height() const { return y_max - y_min; }
 };
 
-/// Points seen from above: how many of each outcome fall into each pixel.
+/// Points seen from above. It counts for each pixel how many points of each outcome lie in it.
 class TopDownRaster {
  public:
   /// @param resolution metres per pixel
@@ -28,11 +28,11 @@ class TopDownRaster {
   [[nodiscard]] int height() const { return height_; }
   void add(const Eigen::Vector3d& world, Outcome outcome);
 
-  /// What a pixel shows: of its moving points, if at least a tenth as many move as stand, else of
-  /// its static points, what became of most of them. An error wins a tie.
-  /// @return false if no point is there
+  /// What a pixel shows. If at least one point moves for every ten static ones, it is the outcome
+  /// of most of the moving points, else that of most of the static ones. An error wins a tie.
+  /// @return false if the pixel has no point
   [[nodiscard]] bool shown(int x, int y, Outcome& outcome) const;
-  /// Colours of `shown`; kept static points in grey, the darker the more of them.
+  /// Draws the colours of `shown`. Kept static points are grey: the more of them, the darker.
   void draw(Canvas& canvas, int x, int y) const;
 
  private:
@@ -48,10 +48,12 @@ class TopDownRaster {
   std::vector<Counts> counts_;
 };
 
-/// A bar of a round length of metres with its name, its left end at x, y.
+/// Draws a bar whose length is a round number of metres, and writes that number above it.
+/// @param x,y left end of the bar
+/// @param resolution metres per pixel
 void draw_scale_bar(Canvas& canvas, int x, int y, double resolution, int most_pixels);
 
-/// Squares and names of the four outcomes in a line. @return its width
+/// Draws the colours and names of the four outcomes in a line. @return the width of the line
 int draw_outcome_legend(Canvas& canvas, int x, int y, int size);
 
 }  // namespace raymoval
