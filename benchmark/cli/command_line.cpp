@@ -15,6 +15,7 @@
 #include "benchmark/suite/amounts.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval {
 namespace {

@@ -8,6 +8,7 @@
 #include "benchmark/suite/shipped_suites.h"
 #include "core/error.h"
 #include "datasets/clouds/frames.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval {
 namespace {

@@ -17,6 +17,7 @@
 #include "benchmark/suite/sequence_place.h"
 #include "core/files/descriptor.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "methods/external/working_folder.h"
 
 namespace raymoval {

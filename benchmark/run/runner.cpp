@@ -21,6 +21,7 @@
 #include "core/files/file_kind.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 
 namespace raymoval {

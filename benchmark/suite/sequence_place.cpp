@@ -7,7 +7,7 @@
 
 #include "core/files/file_kind.h"
 #include "core/text.h"
-#include "datasets/simulation/scene/simulated.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval {
 namespace {
@@ -17,8 +17,8 @@ using nlohmann::ordered_json;
 /// "town" of "town:scans=60": a scene that the program brings along.
 bool is_built_in(const std::string& path) {
   const std::string name = path.substr(0, path.find(':'));
-  const std::vector<std::string> scenes = simulated_scene_names();
-  return path == "street" || std::find(scenes.begin(), scenes.end(), name) != scenes.end();
+  const std::vector<std::string> scenes = scene_names();
+  return std::find(scenes.begin(), scenes.end(), name) != scenes.end();
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "datasets/settings.h"
-#include "datasets/simulation/scene/scene_text.h"
 
 namespace raymoval {
 namespace {
@@ -69,8 +69,8 @@ std::string located(const std::string& path, Places& places) {
     return places.data + path.substr(kData.size());
   }
   const std::filesystem::path given(path);
-  if (given.is_absolute() || path == "street") return path;
-  if (path.find('/') == std::string::npos && names_scene(path)) return path;
+  if (given.is_absolute()) return path;
+  if (path.find('/') == std::string::npos && is_scene(path)) return path;
   const std::filesystem::path beside = places.folder / given;
   const std::string text = beside.string();
   const std::size_t colon = text.rfind(':');

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "core/scan/mask_store.h"
-#include "datasets/sequence.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol.h"
 #include "methods/registry.h"
 

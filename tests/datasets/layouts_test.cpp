@@ -3,8 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "datasets/clouds/cloud_file.h"
-#include "datasets/sequence.h"
+#include "datasets/clouds/cloud_writer.h"
+#include "datasets/open_sequence.h"
+#include "datasets/reading/loaded_data.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

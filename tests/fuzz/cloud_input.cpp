@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/cloud_writer.h"
 #include "datasets/clouds/file_source.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"

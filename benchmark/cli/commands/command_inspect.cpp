@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/inspection/inspect.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval {
 namespace {

@@ -15,6 +15,7 @@
 #include "core/parallel.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "eval/rate.h"
 
 namespace raymoval {

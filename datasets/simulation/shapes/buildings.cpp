@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/simulation/shapes/buildings.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/simulation/shapes/parts.h"
 #include "datasets/simulation/shapes/shapes.h"
-#include "datasets/simulation/world/world_parts.h"
 
 namespace raymoval::simulated {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/inspection/surfels.h"
+#include "datasets/geometry/surfels.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace raymoval::inspection {
+namespace raymoval {
 namespace {
 
 using Eigen::Matrix3d;
@@ -110,7 +110,7 @@ std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points) {
   return points;
 }
 
-std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points, std::size_t most) {
+std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points) {
   std::unordered_map<std::uint64_t, std::size_t> places;
   std::vector<Moments> cells;
   for (const Eigen::Vector3f& point : points) {
@@ -125,10 +125,7 @@ std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points, std
   for (const Moments& cell : cells) {
     if (make_surfel(cell, surfel)) surfels.push_back(surfel);
   }
-  if (surfels.size() <= most) return surfels;
-  std::vector<Surfel> chosen;
-  for (std::size_t i = 0; i < most; ++i) chosen.push_back(surfels[i * surfels.size() / most]);
-  return chosen;
+  return surfels;
 }
 
 SurfaceMap::SurfaceMap(std::vector<Surfel> surfels) : surfels_(std::move(surfels)) {
@@ -217,4 +214,4 @@ Pose SurfaceMap::refine(const std::vector<Surfel>& surfels, const Pose& motion, 
   return best;
 }
 
-}  // namespace raymoval::inspection
+}  // namespace raymoval
