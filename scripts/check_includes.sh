@@ -13,10 +13,11 @@
 rooms="core datasets|methods|eval benchmark"
 folders="
 core                   . files process scan simd
-datasets               geometry clouds ego world_axes . reading semantickitti|dynamicmap|files
+datasets               clouds|fields|geometry ego|world_axes sequence_record sequence
+datasets               reading|settings layout semantickitti|dynamicmap|files
 datasets               simulation layouts open_sequence inspection
+datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
-datasets/simulation    shapes world sensor scene street .
 methods                remover method_entry common
 methods                controls|external|raymoval|raymoval_plus
 methods                |octomap|peopleremover|removert|erasor|dufomap registry

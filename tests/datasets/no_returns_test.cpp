@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "datasets/reading/left_out.h"
-#include "datasets/sequence.h"
+#include "datasets/open_sequence.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

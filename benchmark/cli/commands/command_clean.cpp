@@ -15,6 +15,7 @@
 #include "core/process/proc_files.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
 

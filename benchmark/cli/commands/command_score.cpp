@@ -11,6 +11,7 @@
 #include "core/files/files.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {

@@ -8,6 +8,8 @@
 
 #include "benchmark/run/scored_sequence.h"
 #include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/cloud_writer.h"
+#include "datasets/open_sequence.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

@@ -10,6 +10,7 @@
 #include "benchmark/run/scored_sequence.h"
 #include "core/scan/local_frame.h"
 #include "datasets/clouds/cloud_file.h"
+#include "datasets/open_sequence.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/simulation/world/world_parts.h"
+#include "datasets/simulation/shapes/parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/simulation/shapes/bodies.h"
-#include "datasets/simulation/shapes/buildings.h"
-#include "datasets/simulation/shapes/plants.h"
 #include "datasets/simulation/shapes/shapes.h"
 
 namespace raymoval::simulated {

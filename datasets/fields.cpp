@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/simulation/shapes/fields.h"
+#include "datasets/fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,13 @@
 #include "core/files/files.h"
 #include "core/text.h"
 
-namespace raymoval::simulated {
+namespace raymoval {
 
-Fields::Fields(const nlohmann::json& json, std::string where, const std::vector<std::string>& keys)
+Fields::Fields(const nlohmann::json& json, std::string where, std::string_view keys)
     : json_(json), where_(std::move(where)) {
-  check_keys(json, keys, where_);
+  std::vector<std::string> known;
+  for (const std::string_view key : split_blanks(keys)) known.emplace_back(key);
+  check_keys(json, known, where_);
 }
 
 void Fields::fail(const std::string& key, const std::string& expected) const {
@@ -31,6 +33,16 @@ const nlohmann::json& Fields::member(const std::string& key) const {
     throw ConfigurationError(where_ + ": key '" + key + "' is missing; it has no default.");
   }
   return json_.at(key);
+}
+
+bool Fields::is_number(const std::string& key) const {
+  return has(key) && json_.at(key).is_number();
+}
+
+std::vector<std::string> Fields::names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : json_.items()) names.push_back(name);
+  return names;
 }
 
 double Fields::number(const std::string& key, double fallback, double low, double high) const {
@@ -72,10 +84,10 @@ std::string Fields::choice(const std::string& key, const std::string& fallback,
   return value;
 }
 
-Interval Fields::interval(const std::string& key, Interval fallback, double lowest,
-                          double highest) const {
+NumberRange Fields::interval(const std::string& key, NumberRange fallback, double lowest,
+                             double highest) const {
   if (!has(key)) return fallback;
-  if (json_.at(key).is_number()) {
+  if (is_number(key)) {
     const double value = number(key, 0.0, lowest, highest);
     return {value, value};
   }
@@ -113,11 +125,11 @@ std::vector<std::pair<double, double>> Fields::pairs(const std::string& key) con
   return values;
 }
 
-std::vector<Eigen::Vector2d> Fields::points(const std::string& key) const {
+std::vector<Eigen::Vector2d> Fields::points(const std::string& key, double reach) const {
   std::vector<Eigen::Vector2d> values;
   for (const auto& [x, y] : pairs(key)) {
-    if (std::abs(x) > kWorldReach || std::abs(y) > kWorldReach) {
-      fail(key, "points at most " + number_text(kWorldReach) + " m from the origin");
+    if (std::abs(x) > reach || std::abs(y) > reach) {
+      fail(key, "points at most " + number_text(reach) + " m from the origin");
     }
     values.emplace_back(x, y);
   }
@@ -136,4 +148,4 @@ std::vector<std::pair<const nlohmann::json*, std::string>> Fields::list(
   return values;
 }
 
-}  // namespace raymoval::simulated
+}  // namespace raymoval

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/inspection/samples.h"
+#include "datasets/inspection/evidence/samples.h"
 
 #include <algorithm>
 #include <set>
 
 #include "core/error.h"
+#include "core/sampling.h"
 #include "core/text.h"
-#include "datasets/ego/ego_free_source.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -20,7 +20,8 @@ constexpr double kMillimetre = 0.001;
 
 }  // namespace
 
-Samples::Samples(const Sequence& sequence, const std::atomic<bool>* cancel) : sequence_(sequence) {
+Samples::Samples(const Sequence& sequence, const std::atomic<bool>* cancel)
+    : sequence_(sequence), layout_(layout_of(sequence)) {
   if (const FileScanSource* files = file_source(sequence)) {
     files_ = files->frames();
   }
@@ -37,10 +38,7 @@ void Samples::choose_pairs() {
   std::set<std::pair<std::size_t, std::size_t>> chosen;
   for (const std::size_t step : kSteps) {
     if (step >= count) continue;
-    const std::size_t last = count - 1 - step;
-    const std::size_t references = std::min(kReferences, last + 1);
-    for (std::size_t k = 0; k < references; ++k) {
-      const std::size_t from = references == 1 ? 0 : k * last / (references - 1);
+    for (const std::size_t from : evenly_spread(count - step, kReferences)) {
       chosen.emplace(from, from + step);
     }
   }
@@ -72,9 +70,7 @@ void Samples::settle_point_scale() {
     }
   }
   if (ranges.empty()) return;
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  median_range_ = *middle;
+  median_range_ = median(std::move(ranges));
   if (median_range_ < kFarthestMedian) return;
   point_scale_ = kMillimetre;
   for (auto& [index, scan] : scans_) {
@@ -110,11 +106,8 @@ const SensorModel& Samples::seen_sensor() const {
   constexpr std::size_t kMost = 5;
   std::vector<std::size_t> all;
   for (const auto& [index, scan] : scans_) all.push_back(index);
-  const std::size_t count = std::min(kMost, all.size());
   std::vector<Scan> chosen;
-  for (std::size_t i = 0; i < count; ++i) {
-    chosen.push_back(scans_.at(all[count == 1 ? 0 : i * (all.size() - 1) / (count - 1)]));
-  }
+  for (const std::size_t k : evenly_spread(all.size(), kMost)) chosen.push_back(scans_.at(all[k]));
   seen_sensor_ = estimate_sensor_model(chosen);
   return *seen_sensor_;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/inspection/surfels.h"
+#include "datasets/geometry/surfels.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,18 +8,18 @@
 #include <cmath>
 #include <limits>
 
-namespace raymoval::inspection {
+namespace raymoval {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kCell = 0.8;         // metres, edge of the cells that points are gathered in
-constexpr std::size_t kFewest = 6;    // points of a surfel
-constexpr double kThickness = 0.05;   // metres, standard deviation across a surface
-constexpr double kBreadth = 0.12;     // metres, standard deviation along a plane's short side
-constexpr double kLookup = 1.6;       // metres, edge of the cells that surfels are found in
-constexpr double kSameNormal = 0.85;  // cosine between surfels that may be the same surface
+constexpr double kCell = 0.8;             // metres, edge of the cells that points are gathered in
+constexpr std::size_t kFewestPoints = 6;  // points of a surfel
+constexpr double kMostSpread = 0.05;      // metres, standard deviation across a surface
+constexpr double kBreadth = 0.12;         // metres, standard deviation along a plane's short side
+constexpr double kLookup = 1.6;           // metres, edge of the cells that surfels are found in
+constexpr double kSameNormal = 0.85;      // cosine between surfels that may be the same surface
 constexpr std::size_t kFewestOfGroup = 12;
 constexpr std::size_t kGroups = 4;
 
@@ -62,14 +62,14 @@ Surfel::Group group_of(const Vector3d& normal) {
 /// A line of points that lies flat is one beam on the ground, which moves with the sensor; only
 /// planes and upright lines say where things are.
 bool make_surfel(const Moments& moments, Surfel& surfel) {
-  if (moments.count < kFewest) return false;
+  if (moments.count < kFewestPoints) return false;
   const auto count = static_cast<double>(moments.count);
   const Vector3d mean = moments.sum / count;
   Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
   solver.computeDirect(moments.squares / count - mean * mean.transpose());
   const Vector3d spread = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   surfel.mean = moments.origin + mean;
-  if (spread[0] < kThickness && spread[1] > kBreadth) {
+  if (spread[0] < kMostSpread && spread[1] > kBreadth) {
     surfel.axis = solver.eigenvectors().col(0);
     surfel.group = group_of(surfel.axis);
     return true;
@@ -110,7 +110,7 @@ std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points) {
   return points;
 }
 
-std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points, std::size_t most) {
+std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points) {
   std::unordered_map<std::uint64_t, std::size_t> places;
   std::vector<Moments> cells;
   for (const Eigen::Vector3f& point : points) {
@@ -125,10 +125,7 @@ std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points, std
   for (const Moments& cell : cells) {
     if (make_surfel(cell, surfel)) surfels.push_back(surfel);
   }
-  if (surfels.size() <= most) return surfels;
-  std::vector<Surfel> chosen;
-  for (std::size_t i = 0; i < most; ++i) chosen.push_back(surfels[i * surfels.size() / most]);
-  return chosen;
+  return surfels;
 }
 
 SurfaceMap::SurfaceMap(std::vector<Surfel> surfels) : surfels_(std::move(surfels)) {
@@ -217,4 +214,4 @@ Pose SurfaceMap::refine(const std::vector<Surfel>& surfels, const Pose& motion, 
   return best;
 }
 
-}  // namespace raymoval::inspection
+}  // namespace raymoval

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/inspection/pose_fit.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/sampling.h"
 #include "core/text.h"
-#include "datasets/inspection/pose_hypotheses.h"
+#include "datasets/inspection/evidence/pose_hypotheses.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -188,9 +189,7 @@ Eigen::Vector3d middle_of(const Scan& scan) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<float> values;
     for (std::size_t i = 0; i < scan.size(); i += 10) values.push_back(scan.points[i][axis]);
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), at, values.end());
-    middle[axis] = static_cast<double>(*at);
+    middle[axis] = static_cast<double>(median(std::move(values)));
   }
   return middle;
 }
@@ -244,7 +243,7 @@ double position_step(const std::vector<Pose>& poses) {
   return found;
 }
 
-PoseVerdict judge(Samples& samples) {
+PoseVerdict compare_hypotheses(Samples& samples) {
   if (samples.pairs().empty()) return {};
   PairFit fit(samples);
   fit.find_best({});
@@ -281,7 +280,7 @@ PoseVerdict judge(Samples& samples) {
 
 const PoseVerdict& pose_verdict(Samples& samples) {
   if (!samples.pose_verdict) {
-    PoseVerdict verdict = judge(samples);
+    PoseVerdict verdict = compare_hypotheses(samples);
     look_at_axes(samples, verdict);
     samples.pose_verdict = verdict;
   }

@@ -77,18 +77,6 @@ void write_tables(const SimulatedSequence& sequence, simulated::SceneFolder& fol
   folder.write("calib.txt", calib + "Tr: " + row_text(Tr) + "\n");
 }
 
-const char* rolling_name(Rolling rolling) {
-  switch (rolling) {
-    case Rolling::kNone:
-      return "none";
-    case Rolling::kSkewed:
-      return "skewed";
-    case Rolling::kCorrected:
-      return "corrected";
-  }
-  throw InternalError("unknown rolling");
-}
-
 void write_description(const SimulationOptions& options, const SimulatedSequence& sequence,
                        simulated::SceneFolder& folder) {
   const auto known = sensor_model_names();
@@ -98,7 +86,8 @@ void write_description(const SimulationOptions& options, const SimulatedSequence
   json["source"] = "simulated by raymoval: scene " + sequence.name() + ", sensor " +
                    sequence.sensor_name() + ", seed " + std::to_string(options.seed) +
                    ", pose noise " + number_text(options.pose_noise) + ", rolling " +
-                   rolling_name(options.rolling) + (options.noise_free ? ", noise-free" : "");
+                   kRollingNames[static_cast<int>(options.rolling)] +
+                   (options.noise_free ? ", noise-free" : "");
   json["sensor"] = named ? sequence.sensor_name() : "estimated";
   json["scan_period_s"] = sequence.scan_period_s();
   json["poses"] = "poses.txt";

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "datasets/inspection/samples.h"
+#include "datasets/inspection/evidence/samples.h"
 
 namespace raymoval::inspection {
 

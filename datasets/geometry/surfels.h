@@ -9,7 +9,7 @@
 
 #include "core/scan/scan.h"
 
-namespace raymoval::inspection {
+namespace raymoval {
 
 /// A small piece of surface as a scan sees it: a patch of a plane, or of a thin pole.
 struct Surfel {
@@ -21,15 +21,15 @@ struct Surfel {
   [[nodiscard]] bool is_line() const { return group == Group::kLine; }
 };
 
-/// Without what is within 3 m, where a vehicle sees itself: that goes along with the sensor.
+/// `points` without those within 3 m of the sensor: there a vehicle sees itself, and its own points
+/// move along with the sensor.
 std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points);
 
-/// Surfels of a scan in its own frame: cells of 0.8 m with at least six points that lie on a plane
-/// or a pole. At most `most` of them, evenly chosen, in a fixed order.
-std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points,
-                                 std::size_t most = 1000000);
+/// The surfels of a scan in its own frame, in a fixed order: one for each cell of 0.8 m whose
+/// points (at least six) lie on a plane or on a pole.
+std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points);
 
-/// How well one scan lies on another.
+/// The surfels of one scan, to which those of another scan are compared.
 class SurfaceMap {
  public:
   explicit SurfaceMap(std::vector<Surfel> surfels);
@@ -51,4 +51,4 @@ class SurfaceMap {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
-}  // namespace raymoval::inspection
+}  // namespace raymoval

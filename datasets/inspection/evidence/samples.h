@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "datasets/clouds/file_source.h"
-#include "datasets/inspection/finding.h"
-#include "datasets/inspection/surfels.h"
-#include "datasets/sequence.h"
+#include "datasets/geometry/surfels.h"
+#include "datasets/inspection/evidence/finding.h"
+#include "datasets/layouts.h"
 
 namespace raymoval::inspection {
 
@@ -27,8 +27,8 @@ struct PoseVerdict {
   std::string what;   ///< What the numbers say.
 };
 
-/// What the checks look at: the whole sequence by its poses and files, and about thirty
-/// scans, evenly spread, with their points. Reading is all that happens to the data.
+/// What the checks look at: the poses and files of the whole sequence, and about thirty scans,
+/// evenly spread, with their points. The data is only read.
 class Samples {
  public:
   /// @throws DataError if a scan cannot be read; Cancelled
@@ -49,8 +49,7 @@ class Samples {
   /// The sensor as five of the scans show it, whatever it is called; estimated when first asked
   /// for.
   [[nodiscard]] const SensorModel& seen_sensor() const;
-  /// Whether the stored points stand in the world frame.
-  [[nodiscard]] bool stored_in_world() const { return sequence_.layout == "dynamicmap"; }
+  [[nodiscard]] const Layout& layout() const { return layout_; }
 
   /// "000012.bin" or "scan 12".
   [[nodiscard]] std::string scan_name(std::size_t scan) const;
@@ -59,7 +58,7 @@ class Samples {
   [[nodiscard]] std::string all_frames() const;
   [[nodiscard]] std::string pose_source() const;
 
-  /// Found by the first check that asks for it.
+  /// The first check that needs it finds it.
   std::optional<PoseVerdict> pose_verdict;
   std::vector<std::pair<std::string, double>> measures;
 
@@ -69,6 +68,7 @@ class Samples {
   void settle_point_scale();
 
   const Sequence& sequence_;
+  const Layout& layout_;
   std::vector<FrameEntry> files_;
   std::vector<Pose> poses_;
   std::vector<ScanPair> pairs_;

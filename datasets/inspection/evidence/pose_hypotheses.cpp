@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/inspection/pose_hypotheses.h"
+#include "datasets/inspection/evidence/pose_hypotheses.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -85,10 +85,18 @@ Matrix3d reordered_quaternion(const Matrix3d& rotation, bool written_w_first) {
       .toRotationMatrix();
 }
 
+/// Takes points of a LiDAR (x ahead, y left, z up) to a camera (x right, y down, z ahead).
+Pose camera_axes() {
+  Pose C = Pose::Identity();
+  C.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return C;
+}
+
 /// The data set's own camera if its calibration tells one, else the axes alone.
 Pose camera_of(const Samples& samples) {
-  if (samples.sequence().layout != "semantickitti" || samples.files().empty()) return camera_axes();
-  const auto calibration = samples.files().front().path.parent_path().parent_path() / "calib.txt";
+  const std::string& file = samples.layout().calibration_file;
+  if (file.empty() || samples.files().empty()) return camera_axes();
+  const auto calibration = samples.files().front().path.parent_path().parent_path() / file;
   if (!has_file(calibration)) return camera_axes();
   try {
     const Pose Tr = read_calibration(calibration, "Tr");
@@ -100,7 +108,7 @@ Pose camera_of(const Samples& samples) {
 
 /// Whether the poses are written with quaternions; in memory anything may have been.
 bool have_quaternions(const Samples& samples) {
-  if (samples.files().empty() || samples.stored_in_world()) return true;
+  if (samples.files().empty() || samples.layout().points_in_world) return true;
   const auto folder = samples.files().front().path.parent_path();
   for (const auto& place : {folder, folder.parent_path()}) {
     const auto path = place / samples.sequence().poses_file;
@@ -124,7 +132,7 @@ void add_frame_hypotheses(const std::vector<Pose>& poses, const Pose& C,
 
 void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& all) {
   const auto& poses = samples.poses();
-  if (samples.stored_in_world()) {
+  if (samples.layout().points_in_world) {
     all.push_back({"viewpoint-twice", "if VIEWPOINT is taken off the stored points once more",
                    [](std::size_t) { return Pose(Pose::Identity()); }});
     all.push_back({"viewpoint-missing", "once VIEWPOINT is applied to the stored points",
@@ -136,12 +144,6 @@ void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& a
 }
 
 }  // namespace
-
-Pose camera_axes() {
-  Pose C = Pose::Identity();
-  C.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-  return C;
-}
 
 std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
   const auto& poses = samples.poses();
@@ -160,7 +162,7 @@ std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
                    [&poses](std::size_t i) { return scaled(poses[i], 1000.0); }});
   }
   for (const bool w_first : {true, false}) {
-    if (w_first == samples.stored_in_world() || !quaternions) continue;
+    if (w_first == samples.layout().points_in_world || !quaternions) continue;
     all.push_back(
         {"quaternion-order",
          w_first ? "if quaternions are read as w x y z" : "if quaternions are read as x y z w",

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/inspection/samples.h"
+#include "datasets/inspection/evidence/samples.h"
 
 namespace raymoval::inspection {
 
@@ -18,9 +18,6 @@ struct PoseHypothesis {
   std::string phrase;  ///< "the scans agree ... <phrase>".
   std::function<Pose(std::size_t)> pose;
 };
-
-/// Takes points of a LiDAR (x ahead, y left, z up) to a camera (x right, y down, z ahead).
-Pose camera_axes();
 
 /// All that are worth trying for these poses; refers to `samples.poses()`.
 std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/inspection/overlap.h"
+#include "datasets/inspection/evidence/overlap.h"
 
 #include <algorithm>
 #include <array>

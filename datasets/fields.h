@@ -5,28 +5,28 @@
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-namespace raymoval::simulated {
+namespace raymoval {
 
 /// Two numbers with low <= high.
-struct Interval {
+struct NumberRange {
   double low = 0.0;
   double high = 0.0;
 };
-
-/// Metres from the origin along x or y, either way, within which all of a world lies.
-inline constexpr double kWorldReach = 1e5;
 
 /// Reads the members of a JSON object by name; what is missing keeps its default. Every error is a
 /// ConfigurationError that names the place ("town.json: roads[0]"), the key and what was expected.
 class Fields {
  public:
-  /// Unknown keys are errors that suggest the nearest of `keys`.
-  Fields(const nlohmann::json& json, std::string where, const std::vector<std::string>& keys);
+  /// @param keys those that are known, between blanks. Any other is an error that suggests the
+  ///   nearest of them.
+  Fields(const nlohmann::json& json, std::string where, std::string_view keys);
 
   [[nodiscard]] bool has(const std::string& key) const;
+  [[nodiscard]] bool is_number(const std::string& key) const;
   [[nodiscard]] double number(const std::string& key, double fallback,
                               double low = -std::numeric_limits<double>::max(),
                               double high = std::numeric_limits<double>::max()) const;
@@ -37,20 +37,21 @@ class Fields {
   [[nodiscard]] std::string choice(const std::string& key, const std::string& fallback,
                                    const std::vector<std::string>& choices) const;
   /// [low, high], or one number for both; both within `lowest` and `highest`.
-  [[nodiscard]] Interval interval(const std::string& key, Interval fallback,
-                                  double lowest = -std::numeric_limits<double>::max(),
-                                  double highest = std::numeric_limits<double>::max()) const;
+  [[nodiscard]] NumberRange interval(const std::string& key, NumberRange fallback,
+                                     double lowest = -std::numeric_limits<double>::max(),
+                                     double highest = std::numeric_limits<double>::max()) const;
   [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
   /// [[a, b], ...]
   [[nodiscard]] std::vector<std::pair<double, double>> pairs(const std::string& key) const;
-  /// The same as places, at most `kWorldReach` from the origin along each axis.
-  [[nodiscard]] std::vector<Eigen::Vector2d> points(const std::string& key) const;
+  /// The same as places, at most `reach` metres from the origin along each axis.
+  [[nodiscard]] std::vector<Eigen::Vector2d> points(const std::string& key, double reach) const;
   /// Members of the list `key` with their places; empty if it is missing.
   [[nodiscard]] std::vector<std::pair<const nlohmann::json*, std::string>> list(
       const std::string& key) const;
   /// Member `key`, which must be there.
   [[nodiscard]] const nlohmann::json& member(const std::string& key) const;
-  void require(const std::string& key) const { static_cast<void>(member(key)); }
+  /// Names of all members, sorted.
+  [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] std::string place(const std::string& key) const { return where_ + ": " + key; }
   [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
 
@@ -59,4 +60,4 @@ class Fields {
   std::string where_;
 };
 
-}  // namespace raymoval::simulated
+}  // namespace raymoval

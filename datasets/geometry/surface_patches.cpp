@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/world_axes/surface_patches.h"
+#include "datasets/geometry/surface_patches.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/simulation/shapes/path.h"
+#include "datasets/simulation/world/path.h"
 
 #include <algorithm>
 #include <cmath>

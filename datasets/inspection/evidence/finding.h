@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,12 +22,12 @@ enum class Consequence {
 
 /// Something that an inspection found.
 struct Finding {
-  std::string check;  ///< Name in the table of checks, such as "poses-inverted".
+  std::string check = {};  ///< Name in the table of checks, such as "poses-inverted".
   Severity severity = Severity::kFinding;
-  std::string where;                               ///< File and frames.
-  std::string what;                                ///< What was found, with numbers.
-  std::string expected;                            ///< What good data has there.
-  std::string remedy;                              ///< What to do.
+  std::string where = {};                          ///< File and frames.
+  std::string what = {};                           ///< What was found, with numbers.
+  std::string expected = {};                       ///< What good data has there.
+  std::string remedy = {};                         ///< What to do.
   Consequence consequence = Consequence::kWarned;  ///< That of its check.
 
   /// "poses-inverted: poses.txt, ...: the scans agree to ...; expected .... Invert each pose."
@@ -48,10 +49,9 @@ struct InspectionReport {
 
   /// Whether there is a finding that is no note.
   [[nodiscard]] bool has_findings() const {
-    for (const Finding& finding : findings) {
-      if (finding.severity == Severity::kFinding) return true;
-    }
-    return false;
+    return std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+      return finding.severity == Severity::kFinding;
+    });
   }
 };
 

@@ -27,6 +27,22 @@ const std::vector<std::string>& part_names();
 /// @throws ConfigurationError for an unknown name, suggesting the nearest one.
 Mesh make_part(const PartSpec& spec, std::uint16_t instance, Random& random);
 
+/// A town house in a closed row: storeys with panes set back in the wall, a gateway, a balcony, a
+/// roof. Front at y = 0, x from -length / 2 to length / 2.
+Mesh make_block(const PartSpec& spec, Random& random);
+/// A detached house with a gable roof and a porch.
+Mesh make_house(const PartSpec& spec, Random& random);
+Mesh make_garage(const PartSpec& spec, Random& random);
+
+/// Trunk, branches and a porous crown, one branch hanging out over the road (towards -y).
+Mesh make_tree(const PartSpec& spec, Random& random);
+Mesh make_conifer(const PartSpec& spec, Random& random);
+/// A clipped hedge: leaves around a denser core.
+Mesh make_hedge(const PartSpec& spec, Random& random);
+Mesh make_bush(const PartSpec& spec, Random& random);
+/// A strip of grass and weeds, knee-high.
+Mesh make_tall_grass(const PartSpec& spec, Random& random);
+
 /// Does a part fill the whole length of its place in a row (fence, hedge), or stand in it?
 bool is_continuous(const std::string& part);
 /// Room it needs around its place, to keep it off other roads.
