@@ -76,7 +76,7 @@ class SceneBuilder {
     scene_.error_cell = errors_.cell();
     scene_.other_cell = others_.cell();
     for (const auto& [id, kind] : labels_) {
-      scene_.labels.push_back({id, class_name(sequence_.label_rule.name, id), kind});
+      scene_.labels.push_back({id, sequence_.label_rule.class_name(id), kind});
     }
     gather();
     return std::move(scene_);

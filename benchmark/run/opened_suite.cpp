@@ -9,6 +9,7 @@
 #include "core/files/file_kind.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {

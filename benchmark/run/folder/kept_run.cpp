@@ -11,6 +11,8 @@
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
+#include "datasets/reading/loaded_data.h"
 
 namespace raymoval {
 namespace {
