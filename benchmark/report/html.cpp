@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
@@ -166,13 +165,6 @@ std::string html_name(const std::string& name) {
     piece.clear();
   }
   return html + html_text(piece);
-}
-
-std::string script_json(const nlohmann::ordered_json& json) {
-  using nlohmann::ordered_json;
-  const std::string text = json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
-  const std::vector<std::string_view> pieces = split(text, '<');  // Only texts have it.
-  return fmt::format("{}", fmt::join(pieces, "\\u003c"));
 }
 
 std::string html_table(const TextTable& table, TableHeight height) {

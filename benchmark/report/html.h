@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -14,9 +13,6 @@ std::string html_text(const std::string& text);
 
 /// The same for a name. A line may be broken behind its ':', '_', '/', '=' and ','.
 std::string html_name(const std::string& name);
-
-/// JSON for a <script> element. No text in it can end the element.
-std::string script_json(const nlohmann::ordered_json& json);
 
 enum class TableHeight { kWhole, kScrolled };
 

@@ -9,9 +9,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/picture/canvas/colours.h"
 #include "benchmark/report/pack.h"
 #include "benchmark/report/scene.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace raymoval {
 namespace {
@@ -113,6 +115,15 @@ ordered_json trajectory_record(const Scene& scene, const Frame& frame) {
   return record;
 }
 
+ordered_json kind_colours() {
+  ordered_json colours = ordered_json::array();
+  for (const Colour& colour : {verdict_colours::kKeptStatic, verdict_colours::kFalsePositive,
+                               verdict_colours::kTruePositive, verdict_colours::kFalseNegative}) {
+    colours.push_back(colour_text(colour));
+  }
+  return colours;
+}
+
 }  // namespace
 
 std::string deflated(std::string_view bytes) {
@@ -132,7 +143,19 @@ std::string base64(std::string_view bytes) {
   return text.get();
 }
 
-PackedScene pack_scene(const Scene& scene, std::size_t number, ordered_json& head) {
+std::string script_json(const ordered_json& json) {
+  const std::string text = json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  const std::vector<std::string_view> pieces = split(text, '<');  // Only texts have it.
+  return fmt::format("{}", fmt::join(pieces, "\\u003c"));
+}
+
+std::string page_data(const std::vector<std::string>& heads) {
+  return fmt::format("{{\"colours\":{},\"scenes\":[{}]}}", script_json(kind_colours()),
+                     fmt::join(heads, ","));
+}
+
+PackedScene pack_scene(const Scene& scene, std::size_t number) {
+  ordered_json head;
   const Frame frame = frame_of(scene.points);
   const std::string prefix = "scene-" + std::to_string(number);
   head["sequence"] = scene.sequence;
@@ -167,6 +190,7 @@ PackedScene pack_scene(const Scene& scene, std::size_t number, ordered_json& hea
         prefix + "-" + std::to_string(i),
         base64(deflated({reinterpret_cast<const char*>(bytes.data()), bytes.size()})));
   }
+  packed.head = script_json(head);
   return packed;
 }
 

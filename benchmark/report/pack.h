@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace raymoval {
 
@@ -11,5 +13,12 @@ std::string deflated(std::string_view bytes);
 
 /// `bytes` in base64, with padding.
 std::string base64(std::string_view bytes);
+
+/// JSON for a <script> element. No text in it can end the element.
+std::string script_json(const nlohmann::ordered_json& json);
+
+/// What the page's script reads: the colours of the view, and the heads of all scenes.
+/// @param heads see `PackedScene`
+std::string page_data(const std::vector<std::string>& heads);
 
 }  // namespace raymoval

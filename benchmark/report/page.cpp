@@ -2,14 +2,12 @@
 #include "benchmark/report/page.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "benchmark/picture/canvas/colours.h"
 #include "benchmark/picture/charts/charts.h"
+#include "benchmark/report/pack.h"
 #include "benchmark/report/page_files.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/result/removals/reasons.h"
-#include "benchmark/result/sealed_json.h"
 #include "benchmark/suite/suite.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -17,11 +15,9 @@
 namespace raymoval {
 namespace {
 
-using nlohmann::ordered_json;
-
 /// Scenes for the 3-D view, and what to say where there are none.
 struct Points {
-  ordered_json scenes = ordered_json::array();
+  std::vector<std::string> scenes;  ///< Their heads.
   std::vector<std::pair<std::string, std::string>> streams;
   std::vector<std::string> warnings;
 };
@@ -68,9 +64,8 @@ void add_scene(const PageRequest& request, const std::string& name, std::size_t 
   std::vector<SceneCell> cells = scene_cells(*request.run, sequence, points.warnings);
   if (cells.empty()) return;
   const Scene scene = build_scene(sequence, std::move(cells), limit, request.progress);
-  ordered_json head;
-  PackedScene packed = pack_scene(scene, points.scenes.size(), head);
-  points.scenes.push_back(std::move(head));
+  PackedScene packed = pack_scene(scene, points.scenes.size());
+  points.scenes.push_back(std::move(packed.head));
   for (auto& stream : packed.streams) points.streams.push_back(std::move(stream));
 }
 
@@ -92,15 +87,6 @@ Points collect_points(const PageRequest& request) {
     }
   }
   return points;
-}
-
-ordered_json kind_colours() {
-  ordered_json colours = ordered_json::array();
-  for (const Colour& colour : {verdict_colours::kKeptStatic, verdict_colours::kFalsePositive,
-                               verdict_colours::kTruePositive, verdict_colours::kFalseNegative}) {
-    colours.push_back(colour_text(colour));
-  }
-  return colours;
 }
 
 std::string points_html(const PageRequest& request, const Points& points) {
@@ -176,8 +162,7 @@ std::string scripts_html(const Points& points) {
   for (const auto& [id, text] : points.streams) {
     html += "<script type=\"application/octet-stream\" id=\"" + id + "\">" + text + "</script>\n";
   }
-  const ordered_json content = {{"colours", kind_colours()}, {"scenes", points.scenes}};
-  html += "<script type=\"application/json\" id=\"scenes\">" + script_json(content) +
+  html += "<script type=\"application/json\" id=\"scenes\">" + page_data(points.scenes) +
           "</script>\n<script>\n" + std::string(page_file("view.js")) + "</script>\n";
   return html;
 }

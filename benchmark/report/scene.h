@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -63,13 +62,14 @@ struct Scene {
 Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit,
                   Progress* progress);
 
-/// The points of a scene as a page holds them.
+/// A scene as a page has it.
 struct PackedScene {
-  std::vector<std::pair<std::string, std::string>> streams;  ///< Id, and deflated bytes in base64.
+  /// JSON for a <script> element: names, numbers, trajectory, labels, and how to read the streams.
+  std::string head;
+  std::vector<std::pair<std::string, std::string>> streams;  ///< Id and base64 of deflated bytes.
 };
 
 /// @param number of the scene in the page, for the ids of its streams
-/// @param head receives names, numbers, trajectory, labels, and how to read the streams
-PackedScene pack_scene(const Scene& scene, std::size_t number, nlohmann::ordered_json& head);
+PackedScene pack_scene(const Scene& scene, std::size_t number);
 
 }  // namespace raymoval

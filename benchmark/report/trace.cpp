@@ -39,7 +39,7 @@ TextTable parameter_table(const SuiteMethodRecord& method, const MethodRegistry&
       row.cells[1].text = parameter_text(spec->default_value);
       row.cells[2].text = spec->notes.unit;
       row.cells[3].text = spec->notes.sentence;
-      if (row.cells[0].text != row.cells[1].text) row.cells[0].mark = Mark::kBest;
+      if (value != spec->default_value) row.cells[0].mark = Mark::kBest;
     }
     table.rows.push_back(std::move(row));
   }

@@ -198,8 +198,8 @@ TEST_CASE("a scene has every point's verdict by every cell", "[report]") {
   CHECK(scene.labels[2].kind == LabelClass::kMoving);
 
   // Points at x = 1, 2 and 3 m of the first scan, x = 1 m of the second; along x in this order.
-  nlohmann::ordered_json head;
-  const PackedScene packed = pack_scene(scene, 4, head);
+  const PackedScene packed = pack_scene(scene, 4);
+  const auto head = nlohmann::json::parse(packed.head);
   REQUIRE(packed.streams.size() == 3);
   CHECK(packed.streams[0].first == "scene-4");
   CHECK(packed.streams[2].first == "scene-4-1");
