@@ -25,12 +25,9 @@ endif()
 # The simulator's ray tracer.
 find_package(embree 3.13 CONFIG REQUIRED)
 
-# Pictures.
-find_package(PNG REQUIRED)
-find_package(Freetype REQUIRED)
-# Charts as PDF and PNG: librsvg draws them with cairo.
-pkg_check_modules(rsvg IMPORTED_TARGET librsvg-2.0>=2.46 cairo-pdf)
+# Pictures are drawn by cairo; charts as PDF and PNG by librsvg on it.
+pkg_check_modules(rsvg IMPORTED_TARGET librsvg-2.0>=2.46 cairo-pdf cairo-png cairo-ft)
 if(NOT rsvg_FOUND)
-  message(FATAL_ERROR "librsvg (2.46 or later, with cairo) was not found: it draws charts as PDF and "
-                      "PNG. Run scripts/install_dependencies.sh, or install librsvg2-dev.")
+  message(FATAL_ERROR "librsvg (2.46 or later) or cairo was not found: they draw pictures and charts. "
+                      "Run scripts/install_dependencies.sh, or install librsvg2-dev.")
 endif()

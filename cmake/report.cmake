@@ -1,15 +1,18 @@
 # The page of `raymoval report`. Its 3-D view is drawn with three.js, which comes from the npm
 # registry by npm, pinned by version and SHA-512, and is bundled by esbuild into one script.
-option(RAYMOVAL_REPORT_3D "Reports with a 3-D view: needs npm, its registry, and esbuild" ON)
+set(RAYMOVAL_REPORT_3D AUTO CACHE STRING
+    "Reports with a 3-D view, which needs npm, its registry, and esbuild: ON, OFF, or AUTO (if they are there)")
+set_property(CACHE RAYMOVAL_REPORT_3D PROPERTY STRINGS AUTO ON OFF)
 set(three_version 0.187.0)
 set(three_sha512 422bbb47e0a687c0acb59b18d6e24e4969d595fa3b66d34b57b985f0996d9372c1dc0b43bbd71166572744a90093c638cfa28ac37e73ed8ed4addee3598f1eb4)
 set(report_web ${PROJECT_SOURCE_DIR}/benchmark/report/web)
 set(report_build ${PROJECT_BINARY_DIR}/report)
-set(without_view "or configure with -DRAYMOVAL_REPORT_3D=OFF for reports without the 3-D view")
 file(MAKE_DIRECTORY ${report_build})
 
-# Fetched once for a build folder; a file that is not what was pinned is never used.
-function(raymoval_fetch_three)
+# Gets three.js into report_build/node_modules. It is fetched once for a build folder; a file that is
+# not what was pinned is never used. `problem` is set to what is missing, or to nothing.
+function(raymoval_fetch_three problem)
+  set(${problem} "" PARENT_SCOPE)
   set(archive ${report_build}/three-${three_version}.tgz)
   if(EXISTS ${archive})
     file(SHA512 ${archive} found)
@@ -17,22 +20,25 @@ function(raymoval_fetch_three)
   if(NOT "${found}" STREQUAL ${three_sha512})
     find_program(RAYMOVAL_NPM npm)
     if(NOT RAYMOVAL_NPM)
-      message(FATAL_ERROR "npm is missing; run scripts/install_dependencies.sh, ${without_view}")
+      set(${problem} "npm is missing; scripts/install_dependencies.sh installs it" PARENT_SCOPE)
+      return()
     endif()
     message(STATUS "Fetching three ${three_version}")
     execute_process(COMMAND ${RAYMOVAL_NPM} pack three@${three_version} --loglevel=error
+                            --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-timeout=60000
                             --pack-destination ${report_build}
                     WORKING_DIRECTORY ${report_build} RESULT_VARIABLE status
                     OUTPUT_VARIABLE told ERROR_VARIABLE told)
     if(NOT status EQUAL 0 OR NOT EXISTS ${archive})
-      message(FATAL_ERROR "npm could not fetch three ${three_version}:\n${told}\n"
-                          "Try again with a network, ${without_view}")
+      set(${problem} "npm could not fetch three ${three_version}:\n${told}" PARENT_SCOPE)
+      return()
     endif()
     file(SHA512 ${archive} found)
     if(NOT found STREQUAL ${three_sha512})
       file(REMOVE ${archive})
       message(FATAL_ERROR "three ${three_version} came with SHA-512 ${found}, expected "
-                          "${three_sha512}. Find out why, ${without_view}")
+                          "${three_sha512}. Find out why, or configure with "
+                          "-DRAYMOVAL_REPORT_3D=OFF for reports without the 3-D view")
     endif()
   endif()
   if(NOT EXISTS ${report_build}/node_modules/three/package.json)
@@ -42,13 +48,38 @@ function(raymoval_fetch_three)
   endif()
 endfunction()
 
-set(report_parts ${report_web}/page.css ${report_web}/page.js)
-if(RAYMOVAL_REPORT_3D)
+# What is wanted, what can be had, and `raymoval_report_3d`: what is built.
+if(RAYMOVAL_REPORT_3D STREQUAL "AUTO")
+  # The registry is asked once for a build folder, for asking takes long where it does not answer.
+  set(wanted ON)
+  if(RAYMOVAL_REPORT_3D_TRIED)
+    set(wanted ${raymoval_report_3d})
+  endif()
+else()
+  set(wanted ${RAYMOVAL_REPORT_3D})
+endif()
+set(problem "")
+if(wanted)
   find_program(RAYMOVAL_ESBUILD esbuild)
   if(NOT RAYMOVAL_ESBUILD)
-    message(FATAL_ERROR "esbuild is missing; run scripts/install_dependencies.sh, ${without_view}")
+    set(problem "esbuild is missing; scripts/install_dependencies.sh installs it")
+  else()
+    raymoval_fetch_three(problem)
   endif()
-  raymoval_fetch_three()
+endif()
+if(problem AND RAYMOVAL_REPORT_3D STREQUAL "AUTO")
+  message(WARNING "Reports are built without the 3-D view: ${problem}\n"
+                  "Once this is mended, configure with -DRAYMOVAL_REPORT_3D=ON.")
+  set(wanted OFF)
+elseif(problem)
+  message(FATAL_ERROR "${problem}\nMend this, or configure with -DRAYMOVAL_REPORT_3D=OFF for "
+                      "reports without the 3-D view.")
+endif()
+set(RAYMOVAL_REPORT_3D_TRIED TRUE CACHE INTERNAL "AUTO has been decided for this build folder")
+set(raymoval_report_3d ${wanted} CACHE INTERNAL "Whether reports have the 3-D view")
+
+set(report_parts ${report_web}/page.css ${report_web}/page.js)
+if(raymoval_report_3d)
   file(GLOB view_sources CONFIGURE_DEPENDS ${report_web}/view/*.js)
   set(view_bundle ${report_build}/view.js)
   add_custom_command(OUTPUT ${view_bundle}

@@ -23,6 +23,32 @@ function(raymoval_unity room)
   endforeach()
 endfunction()
 
+# What nearly every file includes, compiled once for all rooms. It saves half a second for each file,
+# and a touched file compiles quicker, too. A compiler cache mostly cannot work with it, so with one
+# it is off. Each file includes what it needs all the same. nlohmann/json.hpp is not among these
+# headers: it would make every file that does not use it slower.
+set(pch ON)
+if(CMAKE_CXX_COMPILER_LAUNCHER)
+  set(pch OFF)
+endif()
+option(RAYMOVAL_PCH "Compile common headers once (precompiled headers)" ${pch})
+if(RAYMOVAL_PCH)
+  # A target of its own, without the definitions of any room, for these would not fit the others.
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/no_code.cpp CONTENT "")
+  add_library(raymoval_headers OBJECT ${PROJECT_BINARY_DIR}/generated/no_code.cpp)
+  target_link_libraries(raymoval_headers PRIVATE raymoval_options Eigen3::Eigen)
+  target_precompile_headers(raymoval_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <cstdio>
+    <filesystem> <functional> <limits> <map> <memory> <optional> <set> <string> <string_view>
+    <utility> <variant> <vector> <Eigen/Geometry>)
+endif()
+
+# raymoval_precompile(TARGET): for a library.
+function(raymoval_precompile target)
+  if(RAYMOVAL_PCH)
+    target_precompile_headers(${target} REUSE_FROM raymoval_headers)
+  endif()
+endfunction()
+
 # A room is a folder of the house and one static library, raymoval::<name>. Every source file below
 # the folder belongs to it.
 function(raymoval_room name)
@@ -32,6 +58,7 @@ function(raymoval_room name)
   endif()
   add_library(raymoval_${name} STATIC ${sources})
   raymoval_unity(${name} ${sources})
+  raymoval_precompile(raymoval_${name})
   add_library(raymoval::${name} ALIAS raymoval_${name})
   target_compile_features(raymoval_${name} PUBLIC cxx_std_20)
   target_include_directories(raymoval_${name} PUBLIC

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
@@ -26,14 +27,6 @@ std::size_t line_width(std::FILE* stream) {
   winsize size{};
   if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return 0;
   return size.ws_col - 1U;
-}
-
-/// The first `most` bytes of a line, cut between letters.
-std::string shortened(std::string line, std::size_t most) {
-  if (line.size() <= most) return line;
-  while (most > 0 && (static_cast<unsigned char>(line[most]) & 0xC0U) == 0x80U) --most;
-  line.resize(most);
-  return line;
 }
 
 }  // namespace
@@ -103,7 +96,7 @@ void Progress::print_terminal(Clock::time_point now) {
   // A line that the terminal breaks cannot be cleared. How far it is matters more than what it is.
   std::string line = with_context(status(now));
   if (const std::size_t width = line_width(stream_); width > 0 && line.size() > width) {
-    line = shortened(status(now), width);
+    line = cut_text(status(now), width);
   }
   std::fprintf(stream_, "\r\x1b[K%s", line.c_str());
   std::fflush(stream_);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/sequence.h"
 
-#include <nlohmann/json.hpp>
-
 #include "core/scan/local_frame.h"
 #include "datasets/ego/ego_free_source.h"
 #include "datasets/world_axes/gravity.h"
@@ -24,29 +22,24 @@ Pose Sequence::upright_frame() const {
   return T_upright_world;
 }
 
-nlohmann::ordered_json Sequence::record() const {
-  nlohmann::ordered_json record;
-  record["name"] = name;
-  record["layout"] = layout;
-  record["source"] = source;
-  record["frames"] = frames;
-  record["scans"] = scans->size();
-  record["poses"] = poses_file;
-  record["sensor"] = scans->sensor().name;
-  if (scans->sensor().is_estimated()) record["sensor_basis"] = scans->sensor().basis;
-  record["up"] = up_text(up().direction);
-  record["up_source"] = up_source_name(up().source);
-  record["scan_period_s"] = nullptr;
-  if (scan_period_s) record["scan_period_s"] = *scan_period_s;
-  record["range_m"] = {{"min", range_m.min}, {"max", nullptr}};
-  if (range_m.max < RangeLimits{}.max) record["range_m"]["max"] = range_m.max;
+DataRecord Sequence::record() const {
+  DataRecord data{name,
+                  layout,
+                  source,
+                  frames,
+                  scans->size(),
+                  poses_file,
+                  scans->sensor().name,
+                  scans->sensor().basis};
+  data.up = up_text(up().direction);
+  data.up_source = up_source_name(up().source);
+  data.scan_period_s = scan_period_s;
+  data.range_m = range_m;
   if (const EgoFreeSource* without_ego = ego_free_source(*this)) {
-    record["drop_ego"] = {{"asked", ego_region_text(without_ego->asked())},
-                          {"left_out", ego_region_text(without_ego->region())}};
+    data.drop_ego = {ego_region_text(without_ego->asked()), ego_region_text(without_ego->region())};
   }
-  record["label_rule"] = nullptr;
-  if (labels) record["label_rule"] = to_json(label_rule);
-  return record;
+  if (labels) data.label_rule = label_rule;
+  return data;
 }
 
 const EgoFreeSource* ego_free_source(const Sequence& sequence) {

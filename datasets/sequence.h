@@ -4,7 +4,6 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "core/scan/scan_source.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/ego/ego_region.h"
+#include "datasets/sequence_record.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
@@ -73,9 +73,9 @@ struct Sequence {
   [[nodiscard]] Pose method_frame() const;
   /// The turn of the world that brings up to z, about its origin. @throws DataError as `up`
   [[nodiscard]] Pose upright_frame() const;
-  /// Path-free record for results: name, layout, frames, poses, sensor, up, label
-  /// rule, range, and the region that is left out if there is one.
-  [[nodiscard]] nlohmann::ordered_json record() const;
+  /// What is stored of the sequence with results. The fingerprint is left empty, because it takes
+  /// reading all data. @throws DataError as `up`
+  [[nodiscard]] DataRecord record() const;
 };
 
 /// The source that leaves out the own vehicle of `sequence`. Null if nothing does.

@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "eval/averages.h"
 
-#include "eval/rates.h"
+#include <cmath>
 
 namespace raymoval {
-namespace {
 
-Mean f1_of_means(const std::vector<SegmentRates>& segments) {
-  std::vector<std::optional<double>> preservation, rejection;
-  for (const SegmentRates& segment : segments) {
-    if (!segment.PR || !segment.RR) continue;
-    preservation.push_back(segment.PR);
-    rejection.push_back(segment.RR);
-  }
-  if (preservation.empty()) return {};
-  return {f1_from_percent(*mean_of(preservation).value, *mean_of(rejection).value),
-          preservation.size()};
+double harmonic_mean(double a, double b) {
+  return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
 }
 
-}  // namespace
+double geometric_mean(double a, double b) {
+  return std::sqrt(a * b);
+}
 
-Mean mean_of(const std::vector<std::optional<double>>& values) {
+double f1_from_percent(double preservation_rate, double rejection_rate) {
+  return harmonic_mean(preservation_rate / 100.0, rejection_rate / 100.0);
+}
+
+Mean mean_of(const SegmentValues& values) {
   Mean mean;
   double sum = 0.0;
   for (const std::optional<double>& value : values) {
@@ -32,15 +29,16 @@ Mean mean_of(const std::vector<std::optional<double>>& values) {
   return mean;
 }
 
-AverageRates average_rates(const std::vector<SegmentRates>& segments) {
-  std::vector<std::optional<double>> preservation, rejection, f1;
-  for (const SegmentRates& segment : segments) {
-    preservation.push_back(segment.PR);
-    rejection.push_back(segment.RR);
-    f1.push_back(segment.F1);
+Mean combined_means(const SegmentValues& first, const SegmentValues& second,
+                    double (*combine)(double, double)) {
+  SegmentValues both_first, both_second;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (!first[i] || !second[i]) continue;
+    both_first.push_back(first[i]);
+    both_second.push_back(second[i]);
   }
-  return {mean_of(preservation), mean_of(rejection), mean_of(f1), f1_of_means(segments),
-          segments.size()};
+  if (both_first.empty()) return {};
+  return {combine(*mean_of(both_first).value, *mean_of(both_second).value), both_first.size()};
 }
 
 }  // namespace raymoval

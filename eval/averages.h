@@ -7,31 +7,32 @@
 
 namespace raymoval {
 
-/// Rates of one segment; PR and RR in percent, F1 a fraction; no value where undefined.
-struct SegmentRates {
-  std::optional<double> PR;
-  std::optional<double> RR;
-  std::optional<double> F1;
-};
+/// 2 a b / (a + b), and 0 if both are 0. For PR and RR as fractions it is F1, for SA and DA it is
+/// HA.
+double harmonic_mean(double a, double b);
 
-/// A mean over the segments that have the value, and how many those are.
+/// The square root of a b.
+double geometric_mean(double a, double b);
+
+/// F1 as a fraction from PR and RR in percent. It is a harmonic mean of two recalls and not the F1
+/// of precision and recall.
+double f1_from_percent(double preservation_rate, double rejection_rate);
+
+/// A mean over the segments that have a value, and the number of these segments.
 struct Mean {
-  std::optional<double> value;  ///< None without any segment.
+  std::optional<double> value;  ///< Nothing without any segment.
   std::size_t segments = 0;
 };
 
-/// Averages over segments. Each mean leaves out the segments where its own rate is undefined.
-struct AverageRates {
-  Mean PR, RR;
-  Mean mean_F1;  ///< Mean of the segments' F1: what papers print.
-  /// F1 of the mean PR and the mean RR of the segments that have both.
-  Mean F1_of_means;
-  std::size_t segments = 0;  ///< All of them, undefined ones included.
-};
+/// The values of a rate on each segment. A segment on which the rate is undefined has none.
+using SegmentValues = std::vector<std::optional<double>>;
 
-AverageRates average_rates(const std::vector<SegmentRates>& segments);
+/// The mean of the values that are there.
+Mean mean_of(const SegmentValues& values);
 
-/// Mean of the values that are there.
-Mean mean_of(const std::vector<std::optional<double>>& values);
+/// What `combine` gives for the means of two rates over the segments that have both.
+/// @param first,second values of the same segments
+Mean combined_means(const SegmentValues& first, const SegmentValues& second,
+                    double (*combine)(double, double));
 
 }  // namespace raymoval

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "eval/protocol.h"
-
 namespace raymoval {
 namespace {
 

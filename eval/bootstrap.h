@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace raymoval {
+#include "eval/rate.h"
 
-struct Rate;
+namespace raymoval {
 
 /// How intervals are drawn. The seed is fixed, so the same counts give the same intervals, and all
 /// methods on a sequence see the same draws.
@@ -20,7 +20,7 @@ struct BootstrapOptions {
   std::uint64_t seed = 20260101;
 };
 
-/// Where a rate lies between when other scans of the same drive had been taken.
+/// The values between which a rate would lie if other scans of the same drive had been taken.
 struct Interval {
   std::string name;  ///< Of the rate.
   std::optional<double> low, high;
@@ -34,8 +34,9 @@ struct Intervals {
   BootstrapOptions options;
 };
 
-/// Scans of a block: the square root of their number, rounded up. Longer than the cube root that
-/// is best for short memory, since a place stays in view for many scans.
+/// The number of scans in a block: the square root of the number of all scans, rounded up. This is
+/// longer than the cube root that is best for short memory, since a place stays in view for many
+/// scans.
 std::size_t bootstrap_block(std::size_t scans);
 
 /// Circular block bootstrap over scans (Politis and Romano, 1992): each replicate strings blocks of
@@ -43,12 +44,13 @@ std::size_t bootstrap_block(std::size_t scans);
 /// their counts up and takes the rates of the sums; the interval holds the middle `level` of the
 /// replicates where the rate is defined (nearest rank).
 ///
-/// What is counted per voxel belongs to one scan each, see the protocol. Verdicts, map and partners
-/// are those of the whole sequence: the interval says how much the rate hangs on which scans were
+/// A protocol that counts voxels assigns each voxel to one scan. Verdicts, map and partners are
+/// those of the whole sequence: the interval says how much the rate depends on which scans were
 /// counted, not how a method would do with other scans in its map.
 /// @param counts_by_scan for each scan in order the same counts
 /// @param rates_of the rates that follow from sums of these counts, always the same ones in order
-/// @return no interval for fewer than four scans, or where most replicates leave a rate undefined
+/// @return a rate has no interval if there are fewer than four scans, or if it is undefined in most
+/// replicates
 Intervals bootstrap(
     const std::vector<std::vector<std::int64_t>>& counts_by_scan,
     const std::function<std::vector<Rate>(const std::vector<std::int64_t>&)>& rates_of,

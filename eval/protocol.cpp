@@ -1,46 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "eval/protocol.h"
 
-#include <functional>
+#include <fmt/format.h>
 
+#include "core/error.h"
 #include "core/text.h"
-#include "eval/dynamicmap/dynamicmap.h"
-#include "eval/dynamicmap/strict.h"
-#include "eval/erasor/erasor.h"
 
 namespace raymoval {
 namespace {
 
-struct Maker {
-  ProtocolEntry entry;
-  std::function<std::unique_ptr<Protocol>(const Configuration&)> make;
-};
-
-const std::vector<Maker>& makers() {
-  static const std::vector<Maker> all = {
-      {erasor_protocol_entry(), make_erasor_protocol},
-      {dynamicmap_protocol_entry(), make_dynamicmap_protocol},
-      {strict_protocol_entry(), make_strict_protocol},
-  };
-  return all;
-}
-
-const Maker& find_maker(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Maker& maker : makers()) {
-    if (maker.entry.name == name) return maker;
-    names.push_back(maker.entry.name);
+/// "frame = erasor": the options that are not at their defaults.
+std::string changed_options(const ProtocolEntry& entry, const Configuration& options) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (options[i].second == entry.parameters[i].default_value) continue;
+    texts.push_back(options[i].first + " = " + parameter_text(options[i].second));
   }
-  throw UsageError("protocol '" + name + "' is unknown." + suggestion(name, names));
+  return join(texts);
 }
 
 }  // namespace
-
-Rate percent_rate(const std::string& name, std::int64_t part, std::int64_t whole,
-                  const std::string& reason) {
-  if (whole == 0) return {name, std::nullopt, reason};
-  return {name, 100.0 * static_cast<double>(part) / static_cast<double>(whole)};
-}
 
 std::int64_t ProtocolResult::count(const std::string& name) const {
   for (const auto& [key, value] : counts) {
@@ -56,33 +35,50 @@ std::optional<double> ProtocolResult::rate(const std::string& name) const {
   return std::nullopt;
 }
 
-const std::vector<ProtocolEntry>& protocol_entries() {
-  static const std::vector<ProtocolEntry> entries = [] {
-    std::vector<ProtocolEntry> list;
-    for (const Maker& maker : makers()) list.push_back(maker.entry);
-    return list;
-  }();
-  return entries;
+ProtocolResult Scorer::score_cloud(const CloudEstimate& /*cloud*/) const {
+  throw UsageError("this protocol scores no clouds: expected masks.");
 }
 
-const ProtocolEntry& protocol_entry(const std::string& name) {
-  return find_maker(name).entry;
+void check_input(const EvaluationInput& input, const std::string& asker) {
+  if (input.scans == nullptr) throw InternalError("protocol " + asker + " was given no scans");
+  if (input.labels != nullptr) return;
+  throw DataError("protocol " + asker +
+                  " needs a label for each point and the sequence has none: expected label files. "
+                  "Choose labelled data.");
 }
 
-Configuration protocol_defaults(const std::string& name) {
+Configuration default_options(const ProtocolEntry& entry) {
   Configuration options;
-  for (const ParameterSpec& spec : find_maker(name).entry.parameters) {
+  for (const ParameterSpec& spec : entry.parameters) {
     options.emplace_back(spec.name, spec.default_value);
   }
   return options;
 }
 
-std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configuration& options) {
-  const Maker& maker = find_maker(name);
+Protocol::Protocol(const ProtocolEntry& entry, const Configuration& options)
+    : entry_(entry), options_(default_options(entry)) {
   for (const auto& [key, value] : options) {
-    find_parameter("protocol " + name, maker.entry.parameters, key);
+    find_parameter("protocol " + entry.name, entry.parameters, key);
+    set_parameter(options_, key, value);
   }
-  return maker.make(options);
+}
+
+bool Protocol::reads_calibration() const {
+  return entry_.reads_calibration && entry_.reads_calibration(options_);
+}
+
+void Protocol::check(const EvaluationInput& input) const {
+  check_input(input, name());
+  if (!reads_calibration() || input.T_camera_lidar) return;
+  throw DataError(fmt::format(
+      "protocol {} as asked for ({}) needs the calibration of a camera (calib.txt, row Tr) and its "
+      "poses; this sequence has those of the LiDAR. Leave the options at their defaults.",
+      name(), changed_options(entry_, options_)));
+}
+
+std::unique_ptr<Scorer> Protocol::open(const EvaluationInput& input) const {
+  check(input);
+  return entry_.open(input, options_);
 }
 
 }  // namespace raymoval

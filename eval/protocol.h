@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,90 +16,108 @@
 #include "core/scan/range_limits.h"
 #include "core/scan/scan_source.h"
 #include "eval/bootstrap.h"
+#include "eval/rate.h"
 
 namespace raymoval {
 
-/// What a protocol scores against: posed scans, a label word per point, and what labels mean.
+class CloudEstimate;
+
+/// What a protocol scores against: posed scans, a label word for each point, and what labels mean.
 struct EvaluationInput {
   const ScanSource* scans = nullptr;
   const LabelSource* labels = nullptr;
   LabelRule label_rule;
   RangeLimits range_m;  ///< Points outside are on neither side of the comparison.
-  /// Calibration of the camera whose poses the data set gives ("Tr"); none if they are the LiDAR's.
+  /// Calibration of the camera whose poses the data set gives ("Tr"); nothing if the poses are
+  /// those of the LiDAR.
   std::optional<Pose> T_camera_lidar = std::nullopt;
   int threads = 1;
   Progress* progress = nullptr;
 };
 
-/// A rate in percent or a fraction, as its name says; without a value where it is undefined.
-struct Rate {
-  std::string name;
-  std::optional<double> value;
-  std::string undefined_reason = "";
-};
+/// @param asker stands in the message
+/// @throws DataError if `input` has no labels
+void check_input(const EvaluationInput& input, const std::string& asker);
 
-/// 100 part / whole as a rate; undefined for `reason` where `whole` is 0.
-Rate percent_rate(const std::string& name, std::int64_t part, std::int64_t whole,
-                  const std::string& reason);
-
-/// Integer counts first, the rates that follow from them second.
+/// What a protocol says of an answer. The rates follow from the counts.
 struct ProtocolResult {
   std::string protocol;
   std::vector<std::pair<std::string, std::int64_t>> counts;
   std::vector<Rate> rates;
   std::vector<std::string> warnings;
-  /// Of the protocol's main rates, by block bootstrap over scans; none if it does not draw any.
+  /// Of the protocol's main rates, by block bootstrap over scans; nothing if the protocol does not
+  /// draw any.
   std::optional<Intervals> intervals = std::nullopt;
 
   /// @throws InternalError if there is no such count.
   [[nodiscard]] std::int64_t count(const std::string& name) const;
-  /// The rate called `name`; no value if it is undefined or not part of this protocol.
+  /// The value of a rate; nothing if it is undefined or not part of this protocol.
   [[nodiscard]] std::optional<double> rate(const std::string& name) const;
 };
 
-class CloudEstimate;
-
-/// What depends on scans and labels only, built once for a sequence and shared by all methods.
-class TruthMap {
+/// A protocol opened for one sequence. It holds what depends on scans and labels only, so one
+/// scorer serves all methods.
+class Scorer {
  public:
-  virtual ~TruthMap() = default;
-};
-
-/// (scans, labels, masks) -> counts -> rates. Same input, same counts, for any number of threads.
-class Protocol {
- public:
-  virtual ~Protocol() = default;
-  [[nodiscard]] virtual std::string name() const = 0;
-  [[nodiscard]] virtual std::string version() const = 0;  ///< Raised when counts may change.
-  [[nodiscard]] virtual Configuration options() const = 0;
-  /// Whether counts depend on `EvaluationInput::T_camera_lidar` too.
-  [[nodiscard]] virtual bool reads_calibration() const { return false; }
-  /// @throws DataError if there is nothing to score against (no point left after cropping).
-  [[nodiscard]] virtual std::unique_ptr<TruthMap> prepare(const EvaluationInput& input) const = 0;
-  /// @param truth what `prepare` of this protocol made from the same input
+  virtual ~Scorer() = default;
   /// @param masks one mask per scan, as long as the scan has points
-  [[nodiscard]] virtual ProtocolResult score(const EvaluationInput& input, const TruthMap& truth,
-                                             const MaskStore& masks) const = 0;
-  /// Scores a cleaned map without labels that was made elsewhere; labels are found again by nearest
-  /// neighbour. Not to be mixed with scores by masks in one table.
+  /// @throws MethodError if a mask is missing or has the wrong length
+  [[nodiscard]] virtual ProtocolResult score(const MaskStore& masks) const = 0;
+  /// Scores a cleaned map without labels that was made elsewhere. Labels are found again by nearest
+  /// neighbour, so the result must not stand in one table with scores by masks. A protocol that
+  /// does not override this function scores no clouds.
   /// @param cloud points in the world frame of the scans' poses
-  /// @throws UsageError if the options rule it out
-  [[nodiscard]] virtual ProtocolResult score_cloud(const EvaluationInput& input,
-                                                   const TruthMap& truth,
-                                                   const CloudEstimate& cloud) const = 0;
+  /// @throws UsageError if the protocol or its options rule it out
+  [[nodiscard]] virtual ProtocolResult score_cloud(const CloudEstimate& cloud) const;
 };
 
-/// Names, options and makers of the protocols; `make_protocol("erasor", options)`.
+/// What a protocol is: all that the program needs to know of it.
 struct ProtocolEntry {
   std::string name;
+  std::string version;  ///< Raised when counts may change.
   std::string sentence;
   std::vector<ParameterSpec> parameters;
+  std::vector<RateSpec> rates;    ///< All that its results may have, in the order of tables.
+  std::vector<CountSpec> counts;  ///< All that its results may have.
+  /// Opens the protocol for a sequence. The input's scans, labels and progress outlive the scorer.
+  /// @throws DataError if there is nothing to score against (no point is left after cropping)
+  std::function<std::unique_ptr<Scorer>(const EvaluationInput&, const Configuration& options)> open;
+  /// Options with which a cleaned cloud is scored, where they differ from the defaults.
+  Configuration cloud_options = {};
+  /// Whether counts depend on `EvaluationInput::T_camera_lidar` with these options. Null: they
+  /// never do.
+  std::function<bool(const Configuration& options)> reads_calibration = nullptr;
+  /// Whether these options let a point pass for another, so that the rates of an answer that
+  /// removes exactly the moving points depend on the data. Null: no options do.
+  std::function<bool(const Configuration& options)> oracle_is_uncertain = nullptr;
 };
-const std::vector<ProtocolEntry>& protocol_entries();
-/// The protocol called `name`. @throws UsageError suggesting the nearest name.
-const ProtocolEntry& protocol_entry(const std::string& name);
-/// Options of `name` at their defaults. @throws UsageError suggesting the nearest name.
-Configuration protocol_defaults(const std::string& name);
-std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configuration& options);
+
+/// A protocol with its options: (scans, labels, masks) -> counts -> rates. The same input gives the
+/// same counts, for any number of threads.
+class Protocol {
+ public:
+  /// @param entry must outlive this object
+  /// @param options those that are not given have their defaults
+  /// @throws ConfigurationError for an unknown option
+  Protocol(const ProtocolEntry& entry, const Configuration& options);
+
+  [[nodiscard]] const std::string& name() const { return entry_.name; }
+  [[nodiscard]] const std::string& version() const { return entry_.version; }
+  [[nodiscard]] const Configuration& options() const { return options_; }
+  [[nodiscard]] bool reads_calibration() const;
+  /// Checks, without reading a scan, that the sequence has what the protocol needs.
+  /// @throws DataError if it has no labels, or no calibration although counts depend on it
+  void check(const EvaluationInput& input) const;
+  /// @param input its scans, labels and progress must outlive the scorer
+  /// @throws DataError as `check`, or if there is nothing to score against
+  [[nodiscard]] std::unique_ptr<Scorer> open(const EvaluationInput& input) const;
+
+ private:
+  const ProtocolEntry& entry_;
+  Configuration options_;
+};
+
+/// Options of a protocol at their defaults.
+Configuration default_options(const ProtocolEntry& entry);
 
 }  // namespace raymoval

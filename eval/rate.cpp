@@ -1,41 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "eval/rate.h"
 
-#include <algorithm>
-
 namespace raymoval {
 
-const std::vector<RateSpec>& rate_specs() {
-  static const std::vector<RateSpec> specs = {
-      {"PR", RateUnit::kPercent, 3, true, RateRole::kKept},
-      {"RR", RateUnit::kPercent, 3, true, RateRole::kRemoved},
-      {"F1", RateUnit::kFraction, 4, true, RateRole::kHeadline},
-      {"SA", RateUnit::kPercent, 3, true, RateRole::kKept},
-      {"DA", RateUnit::kPercent, 3, true, RateRole::kRemoved},
-      {"AA", RateUnit::kPercent, 3, true, RateRole::kMean},
-      {"HA", RateUnit::kPercent, 3, true, RateRole::kHeadline}};
-  return specs;
+std::optional<double> RateSpec::expected(KnownAnswer answer) const {
+  switch (answer) {
+    case KnownAnswer::kNothingRemoved:
+      return nothing_removed;
+    case KnownAnswer::kEverythingRemoved:
+      return everything_removed;
+    default:
+      return moving_points_removed;
+  }
 }
 
-bool is_known_rate(const std::string& name) {
-  return std::any_of(rate_specs().begin(), rate_specs().end(), [&](const RateSpec& spec) {
-    return name == spec.name || name.starts_with(spec.name + "_");
-  });
-}
-
-RateSpec rate_spec(const std::string& name) {
-  for (const RateSpec& spec : rate_specs()) {
-    if (spec.name == name) return spec;
-  }
-  for (RateSpec spec : rate_specs()) {
-    if (!name.starts_with(spec.name + "_")) continue;
-    spec.name = name;
-    spec.role = RateRole::kSecondary;
-    return spec;
-  }
-  RateSpec unknown;
-  unknown.name = name;
-  return unknown;
+Rate percent_rate(const std::string& name, std::int64_t part, std::int64_t whole,
+                  const std::string& reason) {
+  if (whole == 0) return {name, std::nullopt, reason};
+  return {name, 100.0 * static_cast<double>(part) / static_cast<double>(whole)};
 }
 
 }  // namespace raymoval

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Times the kernels of the raymoval method and the designs they replace, in one process.
+# Times the kernels of the raymoval method and the usual ways to cast rays, in one process.
 #
 #   scripts/benchmark.sh [--out DIR]                 results go to DIR (default: results/run-kernels)
 #   RAYMOVAL_DATA=DIR scripts/benchmark.sh           also on your own sequence, see

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Compares two sequences in the SemanticKITTI layout, typically a simulated one with a real drive:
+// Compares sequences whose rings are stored one after another, as KITTI's are, typically a
+// simulated one with a real drive:
 //   realism FOLDER [FOLDER ...] [--scan N] [--pictures PREFIX]
 // Prints a table in Markdown, one column a folder; with --pictures also writes
 // PREFIX<k>_top.png (heights seen from above, 100 m a side) and PREFIX<k>_range.png (range image),
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -17,63 +17,27 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/picture/canvas.h"
+#include "benchmark/picture/canvas/png_file.h"
 #include "core/error.h"
-#include "core/files/files.h"
 #include "core/scan/voxel_key.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 
 namespace {
 
 using raymoval::VoxelSet;
-namespace fs = std::filesystem;
 
-struct Cloud {
-  std::vector<Eigen::Vector3f> points;
-  std::vector<std::uint32_t> labels;
+/// A scan with a label of each point: whether it moves.
+struct Cloud : raymoval::Scan {
+  std::vector<bool> moving;
 };
 
-std::string frame_name(std::size_t i) {
-  const std::string digits = std::to_string(i);
-  return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
-}
-
-Cloud load(const fs::path& folder, std::size_t i) {
-  const auto bytes = raymoval::read_bytes(folder / "velodyne" / (frame_name(i) + ".bin"));
-  const auto words = raymoval::read_bytes(folder / "labels" / (frame_name(i) + ".label"));
-  Cloud cloud;
-  cloud.points.resize(bytes.size() / 16);
-  cloud.labels.resize(words.size() / 4);
-  for (std::size_t p = 0; p < cloud.points.size(); ++p) {
-    std::memcpy(cloud.points[p].data(), bytes.data() + 16 * p, 12);
+Cloud load(const raymoval::Sequence& sequence, std::size_t i) {
+  Cloud cloud{sequence.scans->load(i), {}};
+  for (const std::uint32_t label : sequence.labels->labels(cloud)) {
+    cloud.moving.push_back(sequence.label_rule.classify(label) == raymoval::LabelClass::kMoving);
   }
-  std::memcpy(cloud.labels.data(), words.data(), 4 * cloud.labels.size());
   return cloud;
-}
-
-Eigen::Isometry3d transform(const std::string& line, std::size_t skip) {
-  const auto fields = raymoval::split_blanks(line);
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (std::size_t i = 0; i < 12; ++i) {
-    motion.matrix()(static_cast<int>(i / 4), static_cast<int>(i % 4)) =
-        raymoval::parse_number<double>(fields.at(i + skip)).value();
-  }
-  return motion;
-}
-
-std::vector<Eigen::Isometry3d> load_poses(const fs::path& folder) {
-  Eigen::Isometry3d calibration = Eigen::Isometry3d::Identity();
-  const std::string calib = raymoval::read_text(folder / "calib.txt");
-  for (const auto line : raymoval::split(calib, '\n')) {
-    if (line.starts_with("Tr:")) calibration = transform(std::string(line), 1);
-  }
-  std::vector<Eigen::Isometry3d> poses;
-  const std::string text = raymoval::read_text(folder / "poses.txt");
-  for (const auto line : raymoval::split(text, '\n')) {
-    if (line.empty()) continue;
-    poses.push_back(calibration.inverse() * transform(std::string(line), 0) * calibration);
-  }
-  return poses;
 }
 
 /// Rings as KITTI stores them: one after another, each from straight ahead all around to the left.
@@ -134,7 +98,7 @@ void add_rings(Statistics& s, const Cloud& cloud) {
   }
 }
 
-void add_scan(Statistics& s, const Cloud& cloud, const Eigen::Isometry3d& pose) {
+void add_scan(Statistics& s, const Cloud& cloud) {
   const auto count = static_cast<double>(cloud.points.size());
   s.scans += 1;
   s.points += count;
@@ -142,11 +106,11 @@ void add_scan(Statistics& s, const Cloud& cloud, const Eigen::Isometry3d& pose) 
   VoxelSet own;
   double moving = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const Eigen::Vector3d world = pose * cloud.points[i].cast<double>();
+    const Eigen::Vector3d world = cloud.T_world_sensor * cloud.points[i].cast<double>();
     const auto key = raymoval::voxel_key(raymoval::voxel_index(world, 5.0));
     own.insert(key);
     s.all.insert(key);
-    moving += (cloud.labels[i] & 0xFFFFU) >= 252 ? 1 : 0;
+    moving += cloud.moving[i] ? 1 : 0;
     const double range = cloud.points[i].norm();
     for (std::size_t k = 0; k < kLimits.size(); ++k) s.near[k] += range < kLimits[k] ? 1 : 0;
   }
@@ -228,28 +192,24 @@ void draw(const Cloud& cloud, const std::string& prefix) {
   });
   for (const std::size_t i : order) {
     const auto& p = cloud.points[i];
-    const bool moving = (cloud.labels[i] & 0xFFFFU) >= 252;
-    top.set(static_cast<int>(500 - 10 * p.y()), static_cast<int>(500 - 10 * p.x()),
-            colour((p.z() + 2.0) / 5.0, moving));
+    top.fill(static_cast<int>(500 - 10 * p.y()), static_cast<int>(500 - 10 * p.x()), 1, 1,
+             colour((p.z() + 2.0) / 5.0, cloud.moving[i]));
   }
   const auto starts = ring_starts(cloud);
   for (std::size_t r = 0; r + 1 < starts.size(); ++r) {
     for (std::size_t i = starts[r]; i < starts[r + 1]; ++i) {
       const auto& p = cloud.points[i];
       const double turn = 0.5 - std::atan2(p.y(), p.x()) / (2 * 3.14159265358979);
-      const bool moving = (cloud.labels[i] & 0xFFFFU) >= 252;
-      for (int y = 0; y < 4; ++y) {
-        range.set(static_cast<int>(turn * 2083), 4 * static_cast<int>(r) + y,
-                  colour(std::sqrt(p.norm() / 60.0), moving));
-      }
+      range.fill(static_cast<int>(turn * 2083), 4 * static_cast<int>(r), 1, 4,
+                 colour(std::sqrt(p.norm() / 60.0), cloud.moving[i]));
     }
   }
-  raymoval::write_png(prefix + "_top.png", top.image());
-  raymoval::write_png(prefix + "_range.png", range.image());
+  raymoval::write_png(prefix + "_top.png", top);
+  raymoval::write_png(prefix + "_range.png", range);
 }
 
 int run(const std::vector<std::string>& arguments) {
-  std::vector<fs::path> folders;
+  std::vector<std::string> folders;
   std::size_t picture_scan = 50;
   std::string prefix;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -258,18 +218,22 @@ int run(const std::vector<std::string>& arguments) {
     } else if (arguments[i] == "--pictures") {
       prefix = arguments.at(++i);
     } else {
-      folders.emplace_back(arguments[i]);
+      folders.push_back(arguments[i]);
     }
   }
   std::vector<Statistics> all(folders.size());
   for (std::size_t k = 0; k < folders.size(); ++k) {
-    const auto poses = load_poses(folders[k]);
-    for (std::size_t i = 0; i < poses.size(); ++i) add_scan(all[k], load(folders[k], i), poses[i]);
-    const std::size_t shown = std::min(picture_scan, poses.size() - 1);
-    if (!prefix.empty()) draw(load(folders[k], shown), prefix + std::to_string(k));
+    const raymoval::Sequence sequence = raymoval::open_sequence(folders[k], {});
+    if (sequence.labels == nullptr) throw raymoval::DataError(folders[k] + ": has no labels.");
+    const std::size_t count = sequence.scans->size();
+    for (std::size_t i = 0; i < count; ++i) add_scan(all[k], load(sequence, i));
+    const std::size_t shown = std::min(picture_scan, count - 1);
+    if (!prefix.empty()) draw(load(sequence, shown), prefix + std::to_string(k));
   }
   std::cout << "| |";
-  for (const auto& folder : folders) std::cout << " " << folder.filename().string() << " |";
+  for (const std::filesystem::path folder : folders) {
+    std::cout << " " << folder.filename().string() << " |";
+  }
   std::cout << "\n|---|";
   for (std::size_t k = 0; k < folders.size(); ++k) std::cout << "---:|";
   std::cout << "\n";

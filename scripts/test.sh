@@ -82,7 +82,7 @@ step "dependencies" scripts/install_dependencies.sh --tests
 step "includes" scripts/check_includes.sh
 step "tree" scripts/check_tree.sh
 step "format" check_format
-step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_TEST_PCH=ON -DRAYMOVAL_UNITY=benchmark
+step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_UNITY=benchmark
 run_tests release
 step "reference results" scripts/check_reference.sh
 step "installed library" check_consumer

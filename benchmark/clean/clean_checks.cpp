@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean/clean_checks.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <vector>
 
-#include "benchmark/cli/commands.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/inspection/inspect.h"
@@ -18,9 +19,10 @@ void warn(const std::string& text) {
 
 }  // namespace
 
-void check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress) {
+void check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress,
+                const std::atomic<bool>& cancel) {
   progress.begin("looking for mistakes in the data", 1);
-  const InspectionReport report = inspect(sequence, &interrupt_flag());
+  const InspectionReport report = inspect(sequence, &cancel);
   progress.end();
   std::vector<std::string> wrong;
   for (const Finding& finding : report.findings) {
@@ -34,15 +36,16 @@ void check_data(const Sequence& sequence, const std::string& path, bool force, P
     }
   }
   if (wrong.empty()) return;
-  throw DataError(join(wrong, "\nraymoval: ") +
-                  " The map would be wrong, so nothing was written; `" + "raymoval inspect " +
-                  path + "` says more, and --force cleans all the same.");
+  throw DataError(
+      fmt::format("{} The map would be wrong, so nothing was written; `raymoval inspect {}` says "
+                  "more, and --force cleans all the same.",
+                  join(wrong, "\nraymoval: "), path));
 }
 
 void check_removed(std::uint64_t removed, std::uint64_t points, const std::string& path) {
-  const std::string look = " Look at the poses, units and sensor (`raymoval inspect " + path +
-                           "`), or try another "
-                           "--method.";
+  const std::string look = fmt::format(
+      " Look at the poses, units and sensor (`raymoval inspect {}`), or try another --method.",
+      path);
   if (removed == 0) {
     warn("nothing was removed: either nothing moves here, or the method cannot see it." + look);
   } else if (2 * removed > points) {

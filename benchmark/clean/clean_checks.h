@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 
@@ -13,10 +14,12 @@ namespace raymoval {
 /// on standard error what may make the map worse (see `Consequence`).
 /// @param path what the user called the sequence, for the message
 /// @param force goes on where the map would be wrong, and says so
+/// @param cancel the check is given up when this becomes true
 /// @throws DataError with the findings for which it would be wrong; Cancelled
-void check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress);
+void check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress,
+                const std::atomic<bool>& cancel);
 
-/// Says on standard error what is unusual about `removed` of `points`: none, or more than half.
+/// Warns on standard error if no point was removed, or more than half of them.
 void check_removed(std::uint64_t removed, std::uint64_t points, const std::string& path);
 
 }  // namespace raymoval

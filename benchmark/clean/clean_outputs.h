@@ -10,24 +10,24 @@
 
 namespace raymoval {
 
-/// What `raymoval clean` is to write, and where.
+/// The files that `raymoval clean` is to write.
 struct CleanPaths {
   std::filesystem::path map;      ///< Cleaned map.
   std::filesystem::path removed;  ///< Removed points as a map; empty: none is written.
   std::filesystem::path labels;   ///< Folder for a label file per scan; empty: none is written.
-  bool overwrite = false;         ///< Whether these may be there already.
+  bool overwrite = false;         ///< Whether these may exist already.
 };
 
-/// Refuses what could not be written after the work is done, or would destroy something: unknown
-/// extensions, missing folders, the same file twice, and what is there already.
-/// @throws UsageError naming the path and the remedy
+/// Refuses paths that could not be written after the work is done, or that would destroy something:
+/// unknown extensions, missing folders, the same file twice, and files that exist already.
+/// @throws UsageError that names the path and the remedy
 void check_paths(const CleanPaths& paths);
 
 /// Refuses to write among the files of `sequence`: maps beside its scans, where they would be taken
 /// for scans, and labels over its labels. @throws UsageError
 void check_apart_from(const Sequence& sequence, const CleanPaths& paths);
 
-/// A folder of label files that appears as a whole.
+/// A folder of label files that gets its name when it is complete.
 class LabelFolder {
  public:
   /// @throws DataError if it cannot be made
@@ -37,7 +37,7 @@ class LabelFolder {
   LabelFolder& operator=(const LabelFolder&) = delete;
 
   void add(const Scan& scan, const Mask& mask);
-  /// Gives the folder its name; one that was there goes. @throws DataError
+  /// Gives the folder its name in place of a folder that had it. @throws DataError
   void commit();
 
  private:
@@ -46,16 +46,16 @@ class LabelFolder {
   std::filesystem::path path_, temporary_, old_;
 };
 
-/// The outputs of `raymoval clean`, all open from the beginning, so that a place where nothing can
-/// be written shows before the work, and named at the end only: until then nothing is replaced, and
-/// an error or an interruption leaves nothing behind.
+/// The outputs of `raymoval clean`. All are opened at the beginning, so that a place where nothing
+/// can be written is found before the work. They get their names at the end: until then nothing is
+/// replaced, and an error or an interruption leaves nothing behind.
 class CleanOutputs {
  public:
-  /// @param voxel_size metres; 0 keeps every point
+  /// @param voxel_size in metres; 0 keeps every point
   /// @throws UsageError if a file's format cannot hold the map's coordinates
   CleanOutputs(const CleanPaths& paths, double voxel_size, const MapPrecision& precision);
   void add(const Scan& scan, const Mask& mask);
-  /// Ends and names all outputs: first what takes room, then the names.
+  /// Ends all outputs, which may find the disk full, and then gives them their names.
   void commit();
   [[nodiscard]] std::uint64_t map_points() const { return map_points_; }
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean/clean_process.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <optional>
 #include <set>
 #include <system_error>
 
-#include "benchmark/cli/commands.h"
+#include "core/files/part_name.h"
 #include "core/process/child_process.h"
-#include "core/text.h"
-#include "methods/external/working_folder.h"
+#include "core/progress.h"
+#include "methods/external/external.h"
 
 namespace raymoval {
 namespace {
@@ -29,22 +29,19 @@ std::set<fs::path> unfinished(const CleanPaths& paths) {
     const fs::path named = whole.has_filename() ? whole : whole.parent_path();
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(named.parent_path(), error)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with(named.filename().string() + ".") && name.ends_with(".part")) {
-        found.insert(entry.path());
-      }
+      if (name_of_part(entry.path()) == named.filename()) found.insert(entry.path());
     }
   }
   return found;
 }
 
-/// Removes what a child that was ended could not.
+/// Removes what a child leaves behind that is ended.
 class LeftOvers {
  public:
   explicit LeftOvers(const CleanPaths& paths)
       : paths_(paths), before_(unfinished(paths)), had_labels_(has_labels()) {}
   ~LeftOvers() {
-    // Ended between two renames: what was there stands under another name and is the user's.
+    // The child was ended between two renames: what was there has another name and is the user's.
     if (has_labels() != had_labels_) return;
     std::error_code ignored;
     for (const fs::path& path : unfinished(paths_)) {
@@ -65,15 +62,7 @@ class LeftOvers {
   bool had_labels_;
 };
 
-/// The words of this command, told to stay in its process.
-std::vector<std::string> arguments_of_child() {
-  std::vector<std::string> arguments = program_arguments();
-  const auto command = std::find(arguments.begin(), arguments.end(), "clean");
-  arguments.insert(command == arguments.end() ? command : command + 1, "--in-process");
-  return arguments;
-}
-
-/// Which file `path` is; one that takes its place is another. Nothing: there is none.
+/// What tells the file at `path` from one that takes its place; nothing if there is no file.
 std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return std::nullopt;
@@ -81,51 +70,60 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
 }
 
 ExitCode answer_of(const ChildEnd& end, double limit_mib) {
-  const std::string nothing = " Nothing was written.";
   switch (end.kind) {
+    case ChildEnd::Kind::kNotStarted:
+      throw DataError(not_started_text(end.code));
     case ChildEnd::Kind::kCancelled:
     case ChildEnd::Kind::kTimeout:  // There is no limit on time.
       throw Cancelled();
     case ChildEnd::Kind::kOutOfMemory:
-      throw DataError("cleaning took more than " + fixed_text(limit_mib, 0) +
-                      " MiB of memory (see --memory-limit) and was ended." + nothing +
-                      " Choose fewer --frames, a larger --voxel, or a method that needs less.");
+      throw DataError(fmt::format(
+          "cleaning took more than {:.0f} MiB of memory (see --memory-limit) and was ended. "
+          "Nothing "
+          "was written. Choose fewer --frames, a larger --voxel, or a method that needs less.",
+          limit_mib));
     case ChildEnd::Kind::kSignalled:
       if (end.code == SIGKILL) {
-        throw DataError(
-            "cleaning was killed from outside when it had " + fixed_text(end.largest_mib, 0) +
-            " MiB of memory: by the system if memory ran out, or by somebody." + nothing);
+        throw DataError(fmt::format(
+            "cleaning was killed from outside when it had {:.0f} MiB of memory: by the system if "
+            "memory ran out, or by somebody. Nothing was written.",
+            end.largest_mib));
       }
-      throw MethodError("cleaning crashed: " + signal_text(end.code) + "." + nothing +
-                        " Try another --method.");
+      throw MethodError(
+          fmt::format("cleaning crashed: {}. Nothing was written. Try another --method.",
+                      signal_text(end.code)));
     case ChildEnd::Kind::kExited:
       break;
   }
   if (end.code >= 0 && end.code <= static_cast<int>(ExitCode::kInternal)) {
     return static_cast<ExitCode>(end.code);
   }
-  throw MethodError("cleaning ended with exit code " + std::to_string(end.code) + "." + nothing);
+  throw MethodError(
+      fmt::format("cleaning ended with exit code {}. Nothing was written.", end.code));
 }
 
 }  // namespace
 
-ExitCode clean_apart(const CleanPaths& paths, double memory_limit_mib) {
+ExitCode clean_apart(const std::vector<std::string>& arguments, const CleanPaths& paths,
+                     double memory_limit_mib, const std::atomic<bool>& cancel) {
   const auto map_before = identity_of(paths.map);
+  ChildSetup setup;
+  setup.arguments = {"raymoval"};
+  setup.arguments.insert(setup.arguments.end(), arguments.begin(), arguments.end());
+  setup.descriptors = {{STDOUT_FILENO, STDOUT_FILENO}, {STDERR_FILENO, STDERR_FILENO}};
+  setup.limits.memory_mib = memory_limit_mib;
+  setup.cancel = &cancel;
   ChildEnd end;
   {
     const LeftOvers left_overs(paths);
-    end = run_child({arguments_of_child(),
-                     {{STDOUT_FILENO, STDOUT_FILENO}, {STDERR_FILENO, STDERR_FILENO}},
-                     {0.0, memory_limit_mib},
-                     &interrupt_flag()});
+    end = run_child(setup);
   }
-  // Its live line may stand there still.
+  // The line with its progress may still be on the terminal.
   if (end.kind != ChildEnd::Kind::kExited) Progress(progress_style_of_stderr()).end();
   const ExitCode answer = answer_of(end, memory_limit_mib);
   const auto map = identity_of(paths.map);
   if (answer == ExitCode::kDone && (!map || map == map_before)) {
-    throw MethodError(
-        "cleaning ended without a map, though it told no fault. Try another --method.");
+    throw MethodError("cleaning ended without a map and without an error. Try another --method.");
   }
   return answer;
 }

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <string>
+#include <vector>
+
 #include "benchmark/clean/clean_outputs.h"
 #include "core/error.h"
 
 namespace raymoval {
 
-/// Runs this very command again in a child process, with `--in-process`, and watches its memory.
-/// However the child ends, nothing unfinished is left of `paths`.
-/// @param memory_limit_mib of the child and all that it starts; 0: none is known
-/// @return what the child answered, which has said why itself
+/// Runs this program as a child process that cleans, and watches its memory. However the child
+/// ends, nothing unfinished is left of `paths`.
+/// @param arguments of the child, without the program's name; it prints where this process does
+/// @param memory_limit_mib of the child and all that it starts; 0 means that none is known
+/// @param cancel the child is ended when this becomes true
+/// @return the exit code of the child, which has printed the reason itself
 /// @throws DataError if it was ended for its memory, MethodError if it crashed, Cancelled
-ExitCode clean_apart(const CleanPaths& paths, double memory_limit_mib);
+ExitCode clean_apart(const std::vector<std::string>& arguments, const CleanPaths& paths,
+                     double memory_limit_mib, const std::atomic<bool>& cancel);
 
 }  // namespace raymoval

@@ -11,22 +11,22 @@
 
 namespace raymoval {
 
-/// How a map of `scans` is written without losing digits.
+/// How a map is written so that coordinates lose no digits.
 struct MapPrecision {
-  /// Where voxels are counted from, see `lattice_origin`.
+  /// The origin from which voxels are counted, see `lattice_origin`.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   /// float64 where a sensor is so far from the world's origin that float32 loses a millimetre.
   Coordinates coordinates = Coordinates::kFloat;
 };
 MapPrecision map_precision(const ScanSource& scans);
 
-/// Writes a map in the world frame, scan by scan. With a voxel size it holds one sum per occupied
-/// cell, so that memory is bounded by the map; without one points go to the file as they come, and
-/// memory is bounded by a scan. Either way not by the number of scans.
+/// Writes a map in the world frame, scan by scan. With a voxel size it holds one sum for each
+/// occupied cell, so that memory is bounded by the map. Without one it writes points as they come,
+/// and memory is bounded by a scan. It never depends on the number of scans.
 class MapWriter {
  public:
   /// @param path a cloud file, see `CloudWriter`
-  /// @param voxel_size metres; 0 keeps every point, otherwise a cell gives the mean of its points
+  /// @param voxel_size in metres; 0 keeps every point, otherwise a cell has the mean of its points
   /// @throws UsageError if the file's format cannot hold the coordinates
   MapWriter(const std::filesystem::path& path, double voxel_size,
             const MapPrecision& precision = {})
@@ -34,11 +34,12 @@ class MapWriter {
     check_coordinates(path, precision.coordinates);
   }
 
-  /// Adds the points of `scan` whose mask value is `wanted`. Whether the map has reflectance is
-  /// told, with a voxel size, by all scans, else by the first that has a point; it is 0 where a
-  /// later one has none.
+  /// Adds the points of `scan` whose mask value is `wanted`. With a voxel size the map has
+  /// reflectance if all scans have it. Without one it has reflectance if the first scan with a
+  /// point has it, and the value is 0 for later scans that have none.
   void add(const Scan& scan, const Mask& mask, std::uint8_t wanted);
-  /// Ends the file: in order of arrival, or by cell along x, y, z. @return points written
+  /// Ends the file. Points stand in order of arrival, or by cell along x, y, z.
+  /// @return the number of points written
   std::uint64_t finish();
   /// Gives the file its name, after `finish`.
   void commit() { file_.commit(); }

@@ -9,7 +9,7 @@
 #include "core/text.h"
 #include "datasets/open_sequence.h"
 #include "datasets/simulation/scene/simulated.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -128,37 +128,16 @@ std::string set_of_sentence(const std::string& command, const OptionText& option
   return name;
 }
 
-OptionText option_text(const std::string& command, const CLI::Option& option,
-                       std::vector<ValueSet>& values) {
-  OptionText text;
-  if (!option.get_lnames().empty()) text.long_name = "--" + option.get_lnames().front();
-  if (!option.get_snames().empty()) text.short_name = "-" + option.get_snames().front();
-  text.sentence = option.get_description();
-  text.repeats = option.get_items_expected_max() > 1;
-  if (option.get_expected_max() == 0) return text;  // A flag.
-  text.value = option.get_type_name();
-  text.value_set = set_of_type(command, text.long_name, text.value);
-  if (text.value_set.empty()) text.value_set = set_of_sentence(command, text, values);
-  return text;
-}
-
-CommandText command_text(const CLI::App& app, std::vector<ValueSet>& values) {
-  CommandText text{.name = app.get_name(),
-                   .sentence = app.get_description(),
-                   .options = {},
-                   .words = {},
-                   .footer = app.get_footer()};
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;  // Not shown by --help.
-    OptionText told = option_text(text.name, *option, values);
-    const bool named = !told.long_name.empty() || !told.short_name.empty();
-    if (named) text.options.push_back(told);
-    if (!option->get_positional()) continue;  // Some are both: `inspect PATH`, `--sequence PATH`.
-    told.long_name.clear();
-    told.short_name.clear();
-    text.words.push_back(told);
+void name_value_sets(CommandText& command, std::vector<ValueSet>& values) {
+  for (std::vector<OptionText>* texts : {&command.options, &command.words}) {
+    for (OptionText& option : *texts) {
+      if (option.value.empty()) continue;  // A flag.
+      option.value_set = set_of_type(command.name, option.long_name, option.value);
+      if (option.value_set.empty()) {
+        option.value_set = set_of_sentence(command.name, option, values);
+      }
+    }
   }
-  return text;
 }
 
 bool is_word(const std::string& text) {
@@ -182,15 +161,16 @@ std::vector<std::string> words_named_first(const std::string& sentence) {
   return words;
 }
 
-CommandTree command_tree(const CLI::App& program, const MethodRegistry& methods) {
+CommandTree command_tree(const CommandParser& program, const MethodRegistry& methods) {
   CommandTree tree;
   tree.values = common_values(methods);
-  tree.program = command_text(program, tree.values);
+  tree.program = program.program_text();
+  tree.commands = program.command_texts();
+  name_value_sets(tree.program, tree.values);
   ValueSet names{.name = "commands"};
-  for (const CLI::App* app : program.get_subcommands(std::function<bool(const CLI::App*)>())) {
-    if (app->get_group().empty()) continue;
-    tree.commands.push_back(command_text(*app, tree.values));
-    names.words.push_back(app->get_name());
+  for (CommandText& command : tree.commands) {
+    name_value_sets(command, tree.values);
+    names.words.push_back(command.name);
   }
   tree.values.push_back(names);
   return tree;

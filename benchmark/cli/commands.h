@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/App.hpp>
 #include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "benchmark/suite/suite.h"
+#include "benchmark/cli/command_parser.h"
 #include "core/error.h"
 #include "datasets/sequence.h"
 #include "methods/registry.h"
@@ -16,26 +15,27 @@ namespace raymoval {
 
 /// A command of the program: its options, and what it does once they are read.
 struct Command {
-  CLI::App* app = nullptr;
+  std::string name;
   std::function<ExitCode()> run;
 };
 
-/// One function per command, each in its own file command_<name>.cpp.
-Command add_run_command(CLI::App& program);
-Command add_plan_command(CLI::App& program);
-Command add_run_method_command(CLI::App& program);  ///< The child's side of `run`; not shown.
-Command add_table_command(CLI::App& program);
-Command add_picture_command(CLI::App& program);
-Command add_compare_command(CLI::App& program);
-Command add_list_command(CLI::App& program);
-Command add_describe_command(CLI::App& program);
-Command add_score_command(CLI::App& program);
-Command add_clean_command(CLI::App& program);
-Command add_simulate_command(CLI::App& program);
-Command add_inspect_command(CLI::App& program);
-Command add_report_command(CLI::App& program);
-Command add_help_command(CLI::App& program);  ///< `program` has to live as long as the command.
-Command add_completion_command(CLI::App& program);  ///< The same.
+/// One function per command, each in its own file commands/command_<name>.cpp.
+Command add_run_command(CommandParser& program);
+Command add_plan_command(CommandParser& program);
+Command add_run_method_command(CommandParser& program);  ///< The child's side of `run`; not shown.
+Command add_table_command(CommandParser& program);
+Command add_picture_command(CommandParser& program);
+Command add_compare_command(CommandParser& program);
+Command add_list_command(CommandParser& program);
+Command add_describe_command(CommandParser& program);
+Command add_score_command(CommandParser& program);
+Command add_clean_command(CommandParser& program);
+Command add_simulate_command(CommandParser& program);
+Command add_inspect_command(CommandParser& program);
+Command add_report_command(CommandParser& program);
+Command add_help_command(
+    CommandParser& program);  ///< `program` has to live as long as the command.
+Command add_completion_command(CommandParser& program);  ///< The same.
 
 /// What the program was started with, without its own name.
 const std::vector<std::string>& program_arguments();
@@ -47,9 +47,9 @@ const MethodRegistry& program_methods();
 struct SequenceFlags {
   std::string frames, poses, label_rule, range, sensor, up, drop_ego, name;
 
-  void add_to(CLI::App& app);
+  void add_to(CommandOptions& options);
   /// The sequence that a command is about, which may be given with --sequence or without it.
-  static void add_place_to(CLI::App& app, std::string& place);
+  static void add_place_to(CommandOptions& options, std::string& place);
   /// @throws UsageError for an ill-formed value
   [[nodiscard]] SequenceOptions options() const;
   /// The first of these options that was given, such as "--frames"; empty if none was.

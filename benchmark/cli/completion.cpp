@@ -1,71 +1,68 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/cli/completion.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
 
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
-  for (std::size_t at = text.find(what); at != std::string::npos;
-       at = text.find(what, at + with.size())) {
-    text.replace(at, what.size(), with);
+/// `text` with a backslash before each of the `special` characters.
+std::string backslashed(const std::string& text, std::string_view special) {
+  std::string out;
+  for (const char letter : text) {
+    if (special.find(letter) != std::string_view::npos) out += '\\';
+    out += letter;
   }
-  return text;
+  return out;
 }
 
 std::string head(const std::string& shell) {
-  return "# Completes raymoval in " + shell + ". Made by `raymoval completion " + shell + "`.\n";
-}
-
-const ValueSet* find_set(const CommandTree& tree, const std::string& name) {
-  for (const ValueSet& set : tree.values) {
-    if (set.name == name) return &set;
-  }
-  return nullptr;
+  return fmt::format("# Completes raymoval in {0}. Made by `raymoval completion {0}`.\n", shell);
 }
 
 // --- bash ---
 
-/// The lines of a case that say which set of values follows each option of a command.
+/// A branch of a case that prints `answer`.
+std::string bash_branch(const std::string& pattern, const std::string& answer) {
+  return fmt::format("    {}) echo {} ;;\n", pattern, answer);
+}
+
+/// The branches that say which set of values follows each option of a command.
 std::string bash_values_of(const CommandText& command) {
   std::string text;
   for (const OptionText& option : command.options) {
     if (option.value_set.empty()) continue;
-    const std::string names =
-        "\"" + command.name + " " + option.long_name + "\"" +
-        (option.short_name.empty() ? "" : " | \"" + command.name + " " + option.short_name + "\"");
-    text += "    " + names + ") echo " + option.value_set + " ;;\n";
+    std::string names = fmt::format("\"{} {}\"", command.name, option.long_name);
+    if (!option.short_name.empty()) {
+      names += fmt::format(" | \"{} {}\"", command.name, option.short_name);
+    }
+    text += bash_branch(names, option.value_set);
   }
-  for (const OptionText& word : command.words) {
-    text += "    \"" + command.name + " word\") echo " + word.value_set + " ;;\n";
-    break;  // The first decides: of the commands with two words both are run folders.
-  }
-  return text;
+  // The first word decides: of the commands with two words both are run folders.
+  if (command.words.empty()) return text;
+  return text + bash_branch("\"" + command.name + " word\"", command.words.front().value_set);
 }
 
-std::string bash_options_of(const CommandText& command) {
+std::string bash_options_of(const std::string& name, const CommandText& command) {
   std::vector<std::string> names;
   for (const OptionText& option : command.options) {
     names.push_back(option.long_name.empty() ? option.short_name : option.long_name);
   }
-  return "    \"" + command.name + "\") echo \"" + join(names, " ") + "\" ;;\n";
+  return bash_branch("\"" + name + "\"", "\"" + join(names, " ") + "\"");
 }
 
-std::string bash_words_of(const ValueSet& set) {
-  if (set.words.empty()) return "";
-  return "    " + set.name + ") echo \"" + join(set.words, " ") + "\" ;;\n";
-}
-
-/// Names of the sets for which `wanted` is true, as a pattern of a case.
-template <class Wanted>
-std::string bash_sets(const CommandTree& tree, Wanted wanted) {
+/// A branch that sets how bash completes the paths of the sets for which `kind` is true.
+std::string bash_paths(const CommandTree& tree, bool ValueSet::*kind, const char* options) {
   std::vector<std::string> names;
   for (const ValueSet& set : tree.values) {
-    if (wanted(set)) names.push_back(set.name);
+    if (set.*kind) names.push_back(set.name);
   }
-  return join(names, " | ");
+  return fmt::format("    {}) compopt {} 2>/dev/null ;;\n", join(names, " | "), options);
 }
 
 // The line is taken apart at blanks, for bash itself also takes it apart at : and =, which stand in
@@ -108,37 +105,38 @@ complete -F _raymoval raymoval
 )bash";
 
 std::string bash_script(const CommandTree& tree) {
+  std::string values, options = bash_options_of("", tree.program), words;
+  for (const CommandText& command : tree.commands) {
+    values += bash_values_of(command);
+    options += bash_options_of(command.name, command);
+  }
+  for (const ValueSet& set : tree.values) {
+    if (!set.words.empty()) words += bash_branch(set.name, "\"" + join(set.words, " ") + "\"");
+  }
   std::string text = head("bash");
-  text += "_raymoval_set() {\n  case $1 in\n";
-  for (const CommandText& command : tree.commands) text += bash_values_of(command);
-  text += "  esac\n}\n_raymoval_options() {\n  case $1 in\n";
-  CommandText program = tree.program;
-  program.name.clear();
-  text += bash_options_of(program);
-  for (const CommandText& command : tree.commands) text += bash_options_of(command);
-  text += "  esac\n}\n_raymoval_words() {\n  case $1 in\n";
-  for (const ValueSet& set : tree.values) text += bash_words_of(set);
-  text += "  esac\n}\n_raymoval_paths() {\n  case $1 in\n";
-  text += "    " + bash_sets(tree, [](const ValueSet& set) { return set.files; }) +
-          ") compopt -o bashdefault -o default 2>/dev/null ;;\n";
-  text += "    " + bash_sets(tree, [](const ValueSet& set) { return set.folders; }) +
-          ") compopt -o plusdirs 2>/dev/null ;;\n";
-  text += "    " + bash_sets(tree, [](const ValueSet& set) { return set.goes_on; }) +
-          ") compopt -o nospace 2>/dev/null ;;\n";
-  return text + "  esac\n}" + kBashFunction;
+  for (const auto& [function, branches] :
+       {std::pair<const char*, std::string>{"set", values},
+        {"options", options},
+        {"words", words},
+        {"paths", bash_paths(tree, &ValueSet::files, "-o bashdefault -o default") +
+                      bash_paths(tree, &ValueSet::folders, "-o plusdirs") +
+                      bash_paths(tree, &ValueSet::goes_on, "-o nospace")}}) {
+    text += fmt::format("_raymoval_{}() {{\n  case $1 in\n{}  esac\n}}\n", function, branches);
+  }
+  return text + (kBashFunction + 1);  // Without the line break before the function.
 }
 
 // --- zsh ---
 
 std::string zsh_quoted(const std::string& text) {
-  return "'" + replaced(text, "'", R"('\'')") + "'";
+  std::string quoted;
+  for (const char letter : text) quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return "'" + quoted + "'";
 }
 
 /// `text` within the brackets or between the colons of a spec of _arguments.
-std::string zsh_escaped(std::string text) {
-  for (const char* special : {"\\", "[", "]", ":"})
-    text = replaced(text, special, std::string("\\") + special);
-  return text;
+std::string zsh_escaped(const std::string& text) {
+  return backslashed(text, "\\[]:");
 }
 
 std::string zsh_function_of(const ValueSet& set) {
@@ -203,15 +201,16 @@ std::string zsh_script(const CommandTree& tree) {
 // --- fish ---
 
 std::string fish_quoted(const std::string& text) {
-  return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
+  return "'" + backslashed(text, "\\'") + "'";
 }
 
 /// What follows an option or stands alone: the words of a set, and files if they will do.
-std::string fish_values(const ValueSet* set) {
-  if (set == nullptr) return "";
-  std::string text = set->files || set->folders ? " -F" : " -f";
-  if (!set->words.empty()) text += " -a " + fish_quoted(join(set->words, " "));
-  return text;
+std::string fish_values(const CommandTree& tree, const std::string& name) {
+  const auto set = std::find_if(tree.values.begin(), tree.values.end(),
+                                [&](const ValueSet& known) { return known.name == name; });
+  if (set == tree.values.end()) return "";
+  return (set->files || set->folders ? " -F" : " -f") +
+         (set->words.empty() ? "" : " -a " + fish_quoted(join(set->words, " ")));
 }
 
 std::string fish_option(const CommandTree& tree, const std::string& when,
@@ -219,7 +218,7 @@ std::string fish_option(const CommandTree& tree, const std::string& when,
   std::string text = "complete -c raymoval -n " + fish_quoted(when);
   if (!option.short_name.empty()) text += " -s " + option.short_name.substr(1);
   if (!option.long_name.empty()) text += " -l " + option.long_name.substr(2);
-  if (!option.value_set.empty()) text += " -r" + fish_values(find_set(tree, option.value_set));
+  if (!option.value_set.empty()) text += " -r" + fish_values(tree, option.value_set);
   return text + " -d " + fish_quoted(option.sentence) + "\n";
 }
 
@@ -234,8 +233,8 @@ std::string fish_script(const CommandTree& tree) {
     const std::string when = "__fish_seen_subcommand_from " + command.name;
     for (const OptionText& option : command.options) text += fish_option(tree, when, option);
     for (const OptionText& word : command.words) {
-      text += "complete -c raymoval -n " + fish_quoted(when) +
-              fish_values(find_set(tree, word.value_set)) + "\n";
+      text +=
+          "complete -c raymoval -n " + fish_quoted(when) + fish_values(tree, word.value_set) + "\n";
     }
   }
   return text;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <optional>
 
 #include "benchmark/tables/text_table.h"
 #include "core/parameter_condition.h"
@@ -13,8 +11,6 @@
 
 namespace raymoval {
 namespace {
-
-using nlohmann::ordered_json;
 
 std::string range_text(const ParameterSpec& spec) {
   if (!spec.choices.empty()) return join(spec.choices, ", ");
@@ -80,14 +76,6 @@ std::string parameter_lines(const Description& description) {
   return text;
 }
 
-ordered_json value_json(const ParameterValue& value) {
-  return std::visit([](const auto& held) { return ordered_json(held); }, value);
-}
-
-ordered_json bound_json(double bound) {
-  return std::isfinite(bound) ? ordered_json(bound) : ordered_json(nullptr);
-}
-
 }  // namespace
 
 Description describe_method(const MethodRegistry& registry, const std::string& name_and_variant) {
@@ -111,7 +99,7 @@ Description describe_protocol(const ProtocolEntry& entry) {
   description.name = entry.name;
   description.sentence = entry.sentence;
   description.parameters = entry.parameters;
-  description.version = make_protocol(entry.name, protocol_defaults(entry.name))->version();
+  description.version = entry.version;
   return description;
 }
 
@@ -146,39 +134,6 @@ std::string description_markdown(const Description& description) {
   if (!description.notes.empty()) text += "\n";
   for (const std::string& note : description.notes) text += "- " + note + "\n";
   return text;
-}
-
-ordered_json to_json(const Description& description) {
-  ordered_json json;
-  json["name"] = description.name;
-  json["sentence"] = description.sentence;
-  json["source"] = description.source;
-  json["version"] = description.version;
-  json["notes"] = description.notes;
-  json["variants"] = ordered_json::array();
-  for (const MethodVariant& variant : description.variants) {
-    json["variants"].push_back({{"name", variant.name},
-                                {"sentence", variant.sentence},
-                                {"online", variant.online},
-                                {"overrides", to_json(variant.overrides)}});
-  }
-  json["parameters"] = ordered_json::array();
-  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
-    const ParameterSpec& spec = description.parameters[i];
-    ordered_json parameter;
-    parameter["name"] = spec.name;
-    parameter["default"] = value_json(spec.default_value);
-    parameter["unit"] = spec.notes.unit;
-    parameter["minimum"] = bound_json(spec.notes.minimum);
-    parameter["maximum"] = bound_json(spec.notes.maximum);
-    parameter["choices"] = spec.choices;
-    parameter["source"] = spec.notes.source;
-    parameter["sentence"] = spec.notes.sentence;
-    parameter["acts_when"] = spec.notes.acts_when;
-    if (!description.acts.empty()) parameter["acts"] = static_cast<bool>(description.acts[i]);
-    json["parameters"].push_back(std::move(parameter));
-  }
-  return json;
 }
 
 }  // namespace raymoval

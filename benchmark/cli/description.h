@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -30,6 +29,5 @@ Description describe_protocol(const ProtocolEntry& entry);
 
 std::string description_text(const Description& description);
 std::string description_markdown(const Description& description);
-nlohmann::ordered_json to_json(const Description& description);
 
 }  // namespace raymoval

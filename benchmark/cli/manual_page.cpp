@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/cli/manual_page.h"
 
+#include <map>
+
 #include "core/text.h"
 
 namespace raymoval {
@@ -9,32 +11,14 @@ namespace {
 /// `text` so that man shows it letter by letter: signs that are typed stay signs that can be
 /// copied.
 std::string escaped(std::string_view text) {
-  std::string out;
+  static const std::map<char, const char*> signs = {
+      {'\\', "\\e"}, {'-', "\\-"}, {'`', "\\(ga"}, {'\'', "\\(aq"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
+  std::string out = text.starts_with('.') ? "\\&" : "";
   for (const char letter : text) {
-    switch (letter) {
-      case '\\':
-        out += "\\e";
-        break;
-      case '-':
-        out += "\\-";
-        break;
-      case '`':
-        out += "\\(ga";
-        break;
-      case '\'':
-        out += "\\(aq";
-        break;
-      case '^':
-        out += "\\(ha";
-        break;
-      case '~':
-        out += "\\(ti";
-        break;
-      default:
-        out += letter;
-    }
+    const auto sign = signs.find(letter);
+    out += sign == signs.end() ? std::string(1, letter) : sign->second;
   }
-  return out.starts_with('.') ? "\\&" + out : out;
+  return out;
 }
 
 std::string sentence(const std::string& text) {

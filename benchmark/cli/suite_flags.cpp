@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/cli/suite_flags.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -9,29 +11,22 @@
 #include "core/error.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/open_sequence.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
-/// What a path is that was given where a suite may stand; empty for what may be a suite.
-std::string sequence_kind(const std::string& path) {
-  const auto shipped = shipped_suite_names();
-  const bool known = std::find(shipped.begin(), shipped.end(), path) != shipped.end();
-  if (known || is_file(path)) return "";
-  if (is_folder(path)) return "folder";
-  if (is_scene(path)) return "scene";
-  const std::size_t colon = path.rfind(':');
-  return colon != std::string::npos && is_folder(path.substr(0, colon)) ? "sequence" : "";
-}
-
 /// Whether the word without an option is a sequence and no suite. A shipped suite or a file is a
-/// suite whatever else has its name; what is nothing is what the other options make of it.
+/// suite, whatever else has its name. If nothing has its name, it is a sequence where the other
+/// options name methods or sequences.
 bool means_sequence(const SuiteFlags& flags) {
-  if (flags.suite.empty()) return false;
-  if (!sequence_kind(flags.suite).empty()) return true;
+  const std::string& path = flags.suite;
   const auto shipped = shipped_suite_names();
-  const bool known = std::find(shipped.begin(), shipped.end(), flags.suite) != shipped.end();
-  return !known && !is_file(flags.suite) && (!flags.methods.empty() || !flags.sequences.empty());
+  const bool is_suite = std::find(shipped.begin(), shipped.end(), path) != shipped.end();
+  if (path.empty() || is_suite || is_file(path)) return false;
+  const bool is_sequence =
+      is_folder(path) || is_scene(path) || is_folder(path.substr(0, path.rfind(':')));
+  return is_sequence || !flags.methods.empty() || !flags.sequences.empty();
 }
 
 /// How to name the folder or scene that has the name of a suite; empty if there is none.
@@ -40,7 +35,7 @@ std::string if_a_folder_is_meant(const std::string& suite) {
   return " If the folder of that name is meant, write ./" + suite + ".";
 }
 
-/// What a suite file says cannot be said on the command line as well.
+/// Options that a suite file answers cannot be given together with one.
 void check_suite_alone(const SuiteFlags& flags) {
   std::string given = flags.sequence.first_given();
   if (!flags.protocols.empty()) given = "--protocol";
@@ -52,7 +47,7 @@ void check_suite_alone(const SuiteFlags& flags) {
                    if_a_folder_is_meant(flags.suite));
 }
 
-/// The methods of the command line. One that is named and also part of "all" is taken once.
+/// Adds the methods of the command line. One that is named and also part of "all" is added once.
 void add_methods(const SuiteFlags& flags, const MethodRegistry& registry, Suite& suite) {
   std::vector<std::string> named;
   for (const std::string& method : flags.methods) {
@@ -81,8 +76,8 @@ Suite suite_from_flags(const SuiteFlags& flags, const MethodRegistry& registry) 
         "--method all (see `raymoval list methods`).");
   }
   if (flags.sequences.size() > 1 && !flags.sequence.name.empty()) {
-    throw UsageError("--name names one sequence, but there are " +
-                     std::to_string(flags.sequences.size()) + "; use a suite file.");
+    throw UsageError(fmt::format("--name names one sequence, but there are {}; use a suite file.",
+                                 flags.sequences.size()));
   }
   Suite suite;
   const SequenceOptions options = flags.sequence.options();
@@ -112,7 +107,7 @@ Suite SuiteFlags::resolved() const {
   }
   Suite made = flags.suite.empty() ? suite_from_flags(flags, registry)
                                    : read_suite(find_suite(flags.suite), registry, data);
-  if (made.protocols.empty()) add_protocol(made, "erasor", "");
+  if (made.protocols.empty()) add_protocol(made, default_protocol(), "");
   apply_settings(made, parsed);
   if (made.controls) add_controls(made, registry);
   if (const int count = parse_threads(flags.threads); count > 0) made.threads = count;
@@ -129,40 +124,27 @@ void warn_of_settings_without_effect(const Suite& suite) {
   }
 }
 
-void SuiteFlags::add_to(CLI::App& app) {
-  app.add_option("suite", suite,
-                 "Suite file (JSON, comments allowed), name of a shipped suite, or a sequence as "
-                 "for --sequence")
-      ->type_name("SUITE");
-  app.add_option("--data", data, "Root of the data set that the suite calls {data}")
-      ->type_name("ROOT");
-  app.add_option("--sequence", sequences, "Sequence folder, ROOT:05, `street`, or a scene")
-      ->type_name("PATH")
-      ->allow_extra_args(false);
-  app.add_option("--method", methods,
-                 "Method to run, NAME or NAME:variant; NAME:all for all its variants, all for each "
-                 "method's default")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  app.add_option("--set", settings,
-                 "Parameter: METHOD.key=value or METHOD:variant.key=...; option of a protocol: "
-                 "protocol:NAME.key=...")
-      ->type_name("SETTING")
-      ->allow_extra_args(false);
-  app.add_option("--protocol", protocols, "Protocol to score by (default: erasor)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  sequence.add_to(app);
-  app.add_option("--threads", threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app.add_option("--time-limit", time_limit,
-                 "Time a cell may take, in seconds or as 5min, 2h (default: 30 s for each scan, at "
-                 "least 600 s)")
-      ->type_name("TIME");
-  app.add_option("--memory-limit", memory_limit,
-                 "Memory a method may use, in MiB or as 500MB, 2GB, 2GiB (default: nine tenths of "
-                 "the machine's)")
-      ->type_name("SIZE");
+void SuiteFlags::add_to(CommandOptions& options) {
+  options.add("suite", "SUITE", suite,
+              "Suite file (JSON, comments allowed), name of a shipped suite, or a sequence as "
+              "for --sequence");
+  options.add("--data", "ROOT", data, "Root of the data set that the suite calls {data}");
+  options.add("--sequence", "PATH", sequences, "Sequence folder, ROOT:05, `street`, or a scene");
+  options.add("--method", "NAME", methods,
+              "Method to run, NAME or NAME:variant; NAME:all for all its variants, all for each "
+              "method's default");
+  options.add("--set", "SETTING", settings,
+              "Parameter: METHOD.key=value or METHOD:variant.key=...; option of a protocol: "
+              "protocol:NAME.key=...");
+  options.add("--protocol", "NAME", protocols, "Protocol to score by (default: erasor)");
+  sequence.add_to(options);
+  options.add("--threads", "N", threads, "At most so many threads (default: all cores)");
+  options.add("--time-limit", "TIME", time_limit,
+              "Time a cell may take, in seconds or as 5min, 2h (default: 30 s for each scan, at "
+              "least 600 s)");
+  options.add("--memory-limit", "SIZE", memory_limit,
+              "Memory a method may use, in MiB or as 500MB, 2GB, 2GiB (default: nine tenths of "
+              "the machine's)");
 }
 
 }  // namespace raymoval

@@ -9,18 +9,18 @@
 
 namespace raymoval {
 
-/// Options that say what is run: a suite file, or sequences and methods one by one.
+/// Options that say what a run is about: a suite file, or sequences and methods one by one.
 struct SuiteFlags {
   std::string suite, data, threads, time_limit, memory_limit;
   std::vector<std::string> sequences, methods, settings, protocols;
   SequenceFlags sequence;
 
-  void add_to(CLI::App& app);
+  void add_to(CommandOptions& options);
   /// The suite with its controls. @throws UsageError or ConfigurationError
   [[nodiscard]] Suite resolved() const;
 };
 
-/// Tells on standard error which settings change nothing, a line each.
+/// Warns on standard error of each setting that changes nothing.
 void warn_of_settings_without_effect(const Suite& suite);
 
 }  // namespace raymoval

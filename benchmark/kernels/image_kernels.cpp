@@ -8,6 +8,7 @@
 #include "benchmark/kernels/ray_designs.h"
 #include "benchmark/kernels/registration.h"
 #include "benchmark/kernels/workloads.h"
+#include "core/simd/instruction_set_scope.h"
 
 namespace raymoval::kernels_bench {
 namespace {
@@ -23,18 +24,6 @@ const FirstHitImage& frame_at(Workload& workload, std::size_t pose) {
     frame = cast_first_hits(workload.map, workload.pose(pose), paper_grid(), kPaperLimits, 1);
   }
   return frame;
-}
-
-/// The bins in which the scan of the job's pose has a return.
-const std::vector<float>& returns_at(const Workload& workload, const ImageJob& job) {
-  static std::map<const FirstHitImage*, ProjectedScan> scans;
-  ProjectedScan& projected = scans[job.frame];
-  for (std::size_t view = 0; view < workload.views.size() && projected.bin.empty(); ++view) {
-    const Scan& scan = workload.sequence->scans[workload.views[view]];
-    if (!scan.T_world_sensor.isApprox(job.frame->T_world_sensor)) continue;
-    project(scan, paper_grid(), kPaperLimits.minimum_range, 1, projected);
-  }
-  return projected.minimum_range;
 }
 
 /// Bins in which two images differ by more than a millimetre.
@@ -55,13 +44,13 @@ void run_design(benchmark::State& state, Workload& workload, const Design& desig
   std::vector<float> range;
   std::int64_t steps = 0, off = 0;
   for (std::size_t pose = 0; pose < workload.views.size(); ++pose) {  // Also warms up.
-    const ImageJob job{&frame_at(workload, pose), &range, nullptr};
+    const ImageJob job{&frame_at(workload, pose), &range};
     steps += design(workload, job);
     off += bins_off(range, job.frame->range);
   }
   for (auto _ : state) {
     for (std::size_t pose = 0; pose < workload.views.size(); ++pose) {
-      design(workload, {&frame_at(workload, pose), &range, nullptr});
+      design(workload, {&frame_at(workload, pose), &range});
       benchmark::DoNotOptimize(range.data());
     }
   }
@@ -111,26 +100,14 @@ void add_rivals(Workload& workload) {
   add("hash_set_dda", workload, [set](Workload& w, const ImageJob& job) {
     return hash_set_dda(set(w), w.map.voxel_size(), job);
   });
-  const auto asked = [bits](Workload& w, const ImageJob& job) {
-    ImageJob part = job;
-    part.wanted = &returns_at(w, job);
-    return dense_bitset_dda(bits(w), part);
-  };
-  add("dense_bitset_dda_where_returns_are", workload, asked, Answer::kOther);
-  add("packet_dda", workload, [bits](Workload& w, const ImageJob& job) {
-    packet_dda(bits(w), job);
-    return std::int64_t{0};
-  });
-  add("brick_hash_dda", workload, [](Workload& w, const ImageJob& job) {
-    brick_hash_dda(w.map, job);
-    return std::int64_t{0};
-  });
 }
 
 Design sweep_with(InstructionSet set, int threads) {
-  const auto caster = std::make_shared<FirstHitCaster>(paper_grid(), kPaperLimits, set);
+  const InstructionSetScope scope(set);
+  const auto caster = std::make_shared<FirstHitCaster>(paper_grid(), kPaperLimits);
   const auto image = std::make_shared<FirstHitImage>();
-  return [caster, image, threads](Workload& workload, const ImageJob& job) {
+  return [caster, image, threads, set](Workload& workload, const ImageJob& job) {
+    const InstructionSetScope scope_of_cast(set);
     caster->cast(workload.map, job.frame->T_world_sensor, threads, *image);
     std::swap(image->range, *job.range);
     return std::int64_t{0};

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "benchmark/kernels/packet_walk.h"
 #include "core/error.h"
 
 namespace raymoval::kernels_bench {
@@ -18,7 +17,6 @@ void for_rays(const ImageJob& job, Cast&& cast) {
   job.range->assign(static_cast<std::size_t>(frame.grid.size()), kNoRange);
   for (int bin = 0; bin < frame.grid.size(); ++bin) {
     const auto at = static_cast<std::size_t>(bin);
-    if (job.wanted != nullptr && (*job.wanted)[at] == kNoRange) continue;
     (*job.range)[at] = cast(frame.ray(bin));
   }
 }
@@ -142,58 +140,6 @@ std::int64_t hash_set_dda(const VoxelSet& voxels, double voxel_size, const Image
     }
   });
   return steps;
-}
-
-void brick_hash_dda(const OccupancyMap& map, const ImageJob& job) {
-  for_rays(job, [&](const Ray& ray) {
-    const auto hit = cast_ray(map, ray, job.frame->limits);
-    return hit ? static_cast<float>(hit->range) : kNoRange;
-  });
-}
-
-namespace {
-
-/// Lane `lane` of a packet set to a ray; a ray that starts outside the block is not cast.
-void set_lane(const DenseBits& bits, const FirstHitImage& frame, int bin, std::size_t lane,
-              Packet& packet) {
-  const FloatWalk walk(frame.ray(bin), frame.limits.minimum_range, bits.voxel_size());
-  const auto strides = bits.strides();
-  std::int64_t bit = 0;
-  bool inside = true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<Eigen::Index>(k);
-    const int at = walk.cell[k] - bits.low()[axis];
-    inside &= at >= 0 && at < bits.size()[axis];
-    bit += at * strides[k];
-    packet.next[k][lane] = walk.next[k];
-    packet.delta[k][lane] = walk.delta[k];
-    packet.stride[k][lane] = static_cast<std::int32_t>(walk.step[k] * strides[k]);
-    packet.left[k][lane] = walk.step[k] > 0 ? bits.size()[axis] - 1 - at : at;
-  }
-  packet.bit[lane] = inside ? static_cast<std::int32_t>(bit) : -1;
-}
-
-}  // namespace
-
-void packet_dda(const DenseBits& bits, const ImageJob& job) {
-  const FirstHitImage& frame = *job.frame;
-  job.range->resize(static_cast<std::size_t>(frame.grid.size()));
-  const auto farthest = static_cast<float>(frame.limits.maximum_range);
-  Packet packet;
-  for (int i = 0; i < frame.grid.azimuth_bins; ++i) {
-    for (int row = 0; row < frame.grid.elevation_bins; row += 16) {
-      const int rows = std::min(16, frame.grid.elevation_bins - row);
-      for (int lane = 0; lane < 16; ++lane) {
-        const int bin = (row + std::min(lane, rows - 1)) * frame.grid.azimuth_bins + i;
-        set_lane(bits, frame, bin, static_cast<std::size_t>(lane), packet);
-      }
-      walk_packet(bits.words().data(), farthest, packet);
-      for (int lane = 0; lane < rows; ++lane) {
-        (*job.range)[static_cast<std::size_t>((row + lane) * frame.grid.azimuth_bins + i)] =
-            packet.range[lane];
-      }
-    }
-  }
 }
 
 void octomap_cast_ray(const octomap::OcTree& tree, const ImageJob& job) {

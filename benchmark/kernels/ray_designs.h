@@ -15,11 +15,12 @@ class OcTree;
 
 namespace raymoval::kernels_bench {
 
+using namespace raymoval_method;
+
 /// All rays of an image, and where their ranges go.
 struct ImageJob {
   const FirstHitImage* frame = nullptr;  ///< Grid, pose, limits and directions.
   std::vector<float>* range = nullptr;
-  const std::vector<float>* wanted = nullptr;  ///< If set, only bins with a finite value.
 };
 
 /// The map's bounding box as a block of bits.
@@ -30,7 +31,6 @@ class DenseBits {
   [[nodiscard]] bool contains(std::int64_t bit) const {
     return (words_[static_cast<std::size_t>(bit >> 5)] >> (bit & 31) & 1U) != 0;
   }
-  [[nodiscard]] const std::vector<std::uint32_t>& words() const { return words_; }
   [[nodiscard]] const Eigen::Vector3i& low() const { return low_; }
   [[nodiscard]] const Eigen::Vector3i& size() const { return size_; }
   [[nodiscard]] double voxel_size() const { return voxel_size_; }
@@ -50,13 +50,8 @@ std::unique_ptr<octomap::OcTree, void (*)(octomap::OcTree*)> octree_of(const Occ
 /// Amanatides and Woo in float with accumulated planes; each returns the number of steps made.
 std::int64_t dense_bitset_dda(const DenseBits& bits, const ImageJob& job);
 std::int64_t hash_set_dda(const VoxelSet& voxels, double voxel_size, const ImageJob& job);
-/// The exact two-level walk over bricks, `cast_ray`.
-void brick_hash_dda(const OccupancyMap& map, const ImageJob& job);
 /// OctoMap's own.
 void octomap_cast_ray(const octomap::OcTree& tree, const ImageJob& job);
-
-/// Sixteen rays of a column in lockstep over the dense block, words fetched by gathers.
-void packet_dda(const DenseBits& bits, const ImageJob& job);
 
 /// Calls `visit` with the index of each occupied voxel, in the order of the map's bricks.
 template <class Visit>

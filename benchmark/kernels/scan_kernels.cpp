@@ -3,6 +3,7 @@
 
 #include "benchmark/kernels/registration.h"
 #include "benchmark/kernels/workloads.h"
+#include "core/simd/instruction_set_scope.h"
 #include "methods/raymoval/map_reference.h"
 
 namespace raymoval::kernels_bench {
@@ -11,8 +12,9 @@ namespace {
 void project_scan(benchmark::State& state, const Workload& workload, InstructionSet set) {
   const Scan& scan = workload.sequence->scans[workload.sequence->scans.size() / 2];
   ProjectedScan projected;
+  const InstructionSetScope scope(set);
   for (auto _ : state) {
-    project(scan, paper_grid(), kPaperLimits.minimum_range, 1, projected, set);
+    project(scan, paper_grid(), kPaperLimits.minimum_range, 1, projected);
     benchmark::DoNotOptimize(projected.bin.data());
   }
 }
@@ -24,9 +26,10 @@ void references(benchmark::State& state, Workload& workload, InstructionSet set)
   const FirstHitImage image =
       cast_first_hits(workload.map, scan.T_world_sensor, paper_grid(), kPaperLimits, 1);
   WindowPercentiles percentiles;
+  const InstructionSetScope scope(set);
   for (auto _ : state) {
     windowed_percentiles(image.range, projected.minimum_range, paper_grid(), 1, {0.9, 0.1}, 1,
-                         percentiles, set);
+                         percentiles);
     benchmark::DoNotOptimize(percentiles.first.data());
   }
 }

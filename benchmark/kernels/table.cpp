@@ -1,109 +1,140 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/kernels/table.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "benchmark/kernels/goals.h"
-#include "benchmark/kernels/series.h"
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files/files.h"
 
 namespace raymoval::kernels_bench {
 namespace {
 
-/// Kernels that ran on a workload.
-std::vector<std::string> slowest_first(const Results& results, const std::string& workload) {
-  std::vector<std::pair<double, std::string>> timed;
-  for (const std::string& kernel : results.kernels) {
-    const Series* series = results.find(kernel, workload);
-    if (series == nullptr || series->milliseconds.empty()) continue;
-    timed.emplace_back(-series->median(), kernel);
+using Json = nlohmann::json;
+
+/// The median of one benchmark on one workload, or why there is none.
+struct Timed {
+  std::string kernel, workload;
+  double milliseconds = 0.0;  ///< An iteration.
+  std::map<std::string, double> counters;
+  std::string error;
+
+  [[nodiscard]] bool casts_images() const { return counters.contains("images_per_iteration"); }
+  /// Milliseconds an image or a scan where an iteration has several of them.
+  [[nodiscard]] double each() const {
+    double count = 1.0;
+    for (const char* name : {"images_per_iteration", "scans_per_iteration"}) {
+      const auto found = counters.find(name);
+      if (found != counters.end()) count = found->second;
+    }
+    return milliseconds / count;
   }
-  std::sort(timed.begin(), timed.end());
-  std::vector<std::string> names;
-  for (const auto& [time, name] : timed) names.push_back(name);
-  return names;
+  [[nodiscard]] std::string counter(const char* name, int digits) const {
+    const auto found = counters.find(name);
+    return found == counters.end() ? "" : fmt::format("{:.{}f}", found->second, digits);
+  }
+};
+
+/// Whether a record stands for all repetitions: their median, or the only one, or a failure.
+bool stands_for_all(const Json& run) {
+  if (run.value("error_occurred", false)) return run.value("repetition_index", 0) == 0;
+  if (run.value("run_type", "") == "aggregate") return run.at("aggregate_name") == "median";
+  return run.value("repetitions", 1) <= 1;
 }
 
-std::string image_table(const Results& results, const std::string& workload) {
-  const Series* yardstick = results.find("dense_bitset_dda", workload);
-  if (yardstick == nullptr || yardstick->milliseconds.empty()) return "";
-  std::string text = "\n## First-hit images, " + workload + "\n\n" +
-                     "| kernel | ms an image, median | times as fast as dense_bitset_dda | steps a "
-                     "ray | bins off by 1 mm |\n| --- | ---: | ---: | ---: | ---: |\n";
-  for (const std::string& kernel : slowest_first(results, workload)) {
-    const Series* series = results.find(kernel, workload);
-    if (series->counter("images_per_iteration", 0.0) == 0.0) continue;
-    const double steps = series->counter("steps_per_ray", 0.0);
-    const double off = series->counter("bins_off_by_1_mm", -1.0);
-    text += "| " + kernel + " | " +
-            number(series->median() / series->counter("images_per_iteration", 1.0), 3) + " | " +
-            number(yardstick->median() / series->median(), 2) + " | " +
-            (steps > 0.0 ? number(steps, 1) : "") + " | " + (off < 0.0 ? "" : number(off, 0)) +
-            " |\n";
+Timed timed_of(const Json& run) {
+  Timed timed;
+  // "kernel/workload", and what Google Benchmark adds to it.
+  const std::string name = run.at("run_name");
+  const std::size_t slash = name.find('/');
+  timed.kernel = name.substr(0, slash);
+  timed.workload = name.substr(slash + 1, name.find('/', slash + 1) - slash - 1);
+  timed.error = run.value("error_message", "");
+  if (!timed.error.empty()) return timed;
+  const std::string unit = run.at("time_unit");
+  const double scale = unit == "ns" ? 1e-6 : unit == "us" ? 1e-3 : unit == "ms" ? 1.0 : 1e3;
+  // Other programs hardly change the processor time of one thread; where several are at work it
+  // says nothing.
+  const bool threaded = timed.kernel.ends_with("_2_threads") || timed.kernel.ends_with("line_2");
+  timed.milliseconds = run.at(threaded ? "real_time" : "cpu_time").get<double>() * scale;
+  for (const auto& [key, value] : run.items()) {
+    if (value.is_number()) timed.counters[key] = value.get<double>();
+  }
+  return timed;
+}
+
+std::vector<Timed> read_all(const std::vector<std::string>& json_files) {
+  std::vector<Timed> all;
+  for (const std::string& path : json_files) {
+    try {
+      for (const Json& run : Json::parse(read_text(path)).at("benchmarks")) {
+        if (stands_for_all(run)) all.push_back(timed_of(run));
+      }
+    } catch (const Json::exception& error) {
+      throw DataError(
+          fmt::format("{}: this is not the JSON of Google Benchmark ({}).", path, error.what()));
+    }
+  }
+  return all;
+}
+
+/// First-hit images, the slowest first.
+std::string image_table(std::vector<Timed> images) {
+  std::stable_sort(images.begin(), images.end(), [](const Timed& a, const Timed& b) {
+    return a.workload != b.workload ? a.workload < b.workload : a.each() > b.each();
+  });
+  std::map<std::string, double> yardsticks;
+  for (const Timed& image : images) {
+    if (image.kernel == "dense_bitset_dda") yardsticks[image.workload] = image.each();
+  }
+  std::string text =
+      "\n## First-hit images\n\n| map | kernel | ms an image, median | times as fast as "
+      "dense_bitset_dda | steps a ray | bins off by 1 mm |\n"
+      "| --- | --- | ---: | ---: | ---: | ---: |\n";
+  for (const Timed& image : images) {
+    text += fmt::format("| {} | {} | {:.3f} | {:.2f} | {} | {} |\n", image.workload, image.kernel,
+                        image.each(), yardsticks[image.workload] / image.each(),
+                        image.counter("steps_per_ray", 1), image.counter("bins_off_by_1_mm", 0));
   }
   return text;
 }
 
-std::string scan_table(const Results& results) {
-  std::string text;
-  for (const std::string& kernel : results.kernels) {
-    for (const std::string& workload : results.workloads) {
-      const Series* series = results.find(kernel, workload);
-      if (series == nullptr || series->milliseconds.empty()) continue;
-      if (kernel.rfind("map_", 0) == 0 || series->counters.contains("images_per_iteration")) {
-        continue;
-      }
-      std::string stages;
-      for (const auto& [key, value] : series->counters) {
-        if (key.rfind("ms_", 0) != 0) continue;
-        stages += (stages.empty() ? "" : ", ") + key.substr(3) + " " + number(value, 2);
-      }
-      text += "| " + kernel + " | " + workload + " | " +
-              number(series->median() / series->counter("scans_per_iteration", 1.0), 3) + " | " +
-              stages + " |\n";
+/// Everything else: the stages of a scan and the maps by size.
+std::string other_table(const std::vector<Timed>& others) {
+  std::string text =
+      "\n## Scans and maps\n\n| kernel | sequence, or voxels of the map | ms an iteration or a "
+      "scan, median | stages, ms of wall time | ns an operation | bytes a voxel |\n"
+      "| --- | --- | ---: | --- | ---: | ---: |\n";
+  for (const Timed& other : others) {
+    if (!other.error.empty()) {
+      text += fmt::format("| {} | {} | | {} | | |\n", other.kernel, other.workload, other.error);
+      continue;
     }
+    std::string stages;
+    for (const auto& [key, value] : other.counters) {
+      if (!key.starts_with("ms_")) continue;
+      stages += fmt::format("{}{} {:.2f}", stages.empty() ? "" : ", ", key.substr(3), value);
+    }
+    const auto operation = other.counters.find("per_operation");
+    text += fmt::format(
+        "| {} | {} | {:.3f} | {} | {} | {} |\n", other.kernel, other.workload, other.each(), stages,
+        operation == other.counters.end() ? "" : fmt::format("{:.1f}", operation->second * 1e9),
+        other.counter("bytes_per_voxel", 2));
   }
-  if (text.empty()) return "";
-  return "\n## Scans\n\n| kernel | sequence | ms a scan, median | of which, wall time |\n| --- | "
-         "--- | ---: | "
-         "--- |\n" +
-         text;
-}
-
-std::string map_table(const Results& results) {
-  std::string text;
-  for (const std::string& size : results.workloads) {
-    const auto cell = [&](const char* kernel, bool per_operation) -> std::string {
-      const Series* series = results.find(kernel, size);
-      if (series == nullptr) return "";
-      if (series->milliseconds.empty()) return series->error;
-      return per_operation ? number(series->median() * 1e6 / 25000.0, 1)
-                           : number(series->median(), 3);
-    };
-    const Series* any = results.find("map_insert", size);
-    if (any == nullptr) continue;
-    text += "| " + size + " | " + cell("map_insert", true) + " | " + cell("map_erase", true) +
-            " | " + cell("map_lookup", true) + " | " + cell("map_upkeep", false) + " | " +
-            cell("map_image", false) + " | " + number(any->counter("bytes_per_voxel", 0.0), 2) +
-            " |\n";
-  }
-  if (text.empty()) return "";
-  return "\n## Maps by size\n\n| voxels | insert, ns | erase, ns | look up, ns | boxes after "
-         "25,000 "
-         "insertions, ms | image, ms | bytes a voxel |\n| ---: | ---: | ---: | ---: | ---: | ---: "
-         "| "
-         "---: |\n" +
-         text;
+  return text;
 }
 
 }  // namespace
 
 std::string tables_of(const std::vector<std::string>& json_files) {
-  const Results results = read_results(json_files);
-  std::string text =
-      "# Kernels\n\nMedians of processor time; of wall time where two threads are at work.\n";
-  text += goals_table(results);
-  for (const std::string& workload : results.workloads) text += image_table(results, workload);
-  return text + scan_table(results) + map_table(results);
+  std::vector<Timed> all = read_all(json_files);
+  const auto others = std::stable_partition(
+      all.begin(), all.end(), [](const Timed& timed) { return timed.casts_images(); });
+  return "# Kernels\n\nMedians of processor time; of wall time where two threads are at work.\n" +
+         image_table({all.begin(), others}) + other_table({others, all.end()});
 }
 
 }  // namespace raymoval::kernels_bench

@@ -10,6 +10,8 @@
 
 namespace raymoval::kernels_bench {
 
+using namespace raymoval_method;
+
 /// Scans held in memory.
 struct HeldSequence {
   std::vector<Scan> scans;

@@ -11,14 +11,14 @@
 
 namespace raymoval {
 
-/// @throws MethodError for an unknown scan, a wrong size, or a value that is neither 0 nor 1.
+/// @throws MethodError for an unknown scan, a wrong size, or a value that is neither 0 nor 1
 void check_answer(const std::string& method, const TimedSource& scans, std::size_t scan,
                   const Mask& mask);
 [[noreturn]] void throw_second_answer(const std::string& method, std::size_t scan);
 [[noreturn]] void throw_missing_answer(const std::string& method, std::size_t scan,
                                        std::size_t scans);
 
-/// Keeps a method's masks and holds it to its contract.
+/// Keeps a method's masks and checks that the method keeps to its contract.
 class CheckedSink : public RemovalSink {
  public:
   /// @param method name for messages
@@ -29,7 +29,7 @@ class CheckedSink : public RemovalSink {
   /// neither 0 nor 1.
   void accept(std::size_t scan, const Mask& mask) override;
 
-  /// The masks, once every scan has one. @throws MethodError naming the first scan without.
+  /// The masks. @throws MethodError that names the first scan without a mask
   [[nodiscard]] const MaskStore& finish() const;
 
  private:
@@ -39,7 +39,7 @@ class CheckedSink : public RemovalSink {
   MaskStore masks_;
 };
 
-/// Hash of all masks: two runs gave the same answer exactly if these are equal.
+/// Hash of all masks. Two methods gave the same answer exactly if their hashes are equal.
 std::string mask_digest(const MaskStore& masks);
 
 }  // namespace raymoval

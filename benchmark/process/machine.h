@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
+
+#include "benchmark/result/run_record.h"
 
 namespace raymoval {
 
 /// Version, compiler and build type of this program.
-nlohmann::ordered_json build_record();
+BuildRecord build_record();
 
-/// Cores, processor and memory; nothing that names the machine or its user.
-nlohmann::ordered_json machine_record();
+/// Processor, cores and memory, but nothing that names the machine or its user.
+/// @param threads that the run uses
+MachineRecord machine_record(int threads);
 
-/// Forgets the largest memory use so far, so that `peak_memory_mib` is that since now.
+/// Forgets the largest memory so far, so that `peak_memory_mib` gives the largest from now on.
 /// @return false if the system does not allow it
 bool reset_peak_memory();
 
-/// Largest resident memory of the whole process in MiB, nothing if the system does not tell.
+/// The largest resident memory of this process in MiB; no value if the system does not tell.
 std::optional<double> peak_memory_mib();
 
 }  // namespace raymoval

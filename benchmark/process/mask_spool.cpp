@@ -11,7 +11,9 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "core/error.h"
+#include "core/files/descriptor_io.h"
 #include "core/files/part_name.h"
+#include "core/scan/packed_mask.h"
 
 namespace raymoval {
 
@@ -19,15 +21,11 @@ MaskSpool::MaskSpool(std::string method, const TimedSource& scans,
                      const std::filesystem::path& beside)
     : method_(std::move(method)),
       scans_(scans),
-      path_(new_part_name(beside.string() + ".masks")),
+      path_(new_part_name(beside)),
       file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)),
       entries_(scans.size()) {
-  if (file_ < 0) fail("cannot be made");
+  if (!file_.valid()) fail("cannot be made");
   ::unlink(path_.c_str());  // It lives as long as it is open, however the program ends.
-}
-
-MaskSpool::~MaskSpool() {
-  if (file_ >= 0) ::close(file_);
 }
 
 void MaskSpool::fail(const char* what) const {
@@ -38,19 +36,10 @@ void MaskSpool::fail(const char* what) const {
 
 void MaskSpool::accept(std::size_t scan, const Mask& mask) {
   check_answer(method_, scans_, scan, mask);
-  std::vector<std::uint8_t> bits((mask.size() + 7) / 8, 0);
-  for (std::size_t i = 0; i < mask.size(); ++i) {
-    bits[i / 8] = static_cast<std::uint8_t>(bits[i / 8] | mask[i] << (i % 8));
-  }
+  const std::string bits = packed_mask(mask);
   const std::lock_guard lock(mutex_);
   if (entries_[scan].filled) throw_second_answer(method_, scan);
-  for (std::size_t done = 0; done < bits.size();) {
-    const ssize_t put =
-        ::pwrite(file_, bits.data() + done, bits.size() - done, static_cast<off_t>(size_ + done));
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) fail("cannot be written");
-    done += static_cast<std::size_t>(put);
-  }
+  if (!write_at(file_.get(), bits, size_)) fail("cannot be written");
   entries_[scan] = {true, size_, mask.size()};
   size_ += bits.size();
   removed_ += static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
@@ -64,19 +53,9 @@ void MaskSpool::check_complete() const {
 
 Mask MaskSpool::get(std::size_t scan) const {
   const Entry& entry = entries_[scan];
-  std::vector<std::uint8_t> bits((entry.points + 7) / 8);
-  for (std::size_t done = 0; done < bits.size();) {
-    const ssize_t got = ::pread(file_, bits.data() + done, bits.size() - done,
-                                static_cast<off_t>(entry.offset + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) fail("cannot be read");
-    done += static_cast<std::size_t>(got);
-  }
-  Mask mask(entry.points);
-  for (std::size_t i = 0; i < mask.size(); ++i) {
-    mask[i] = static_cast<std::uint8_t>(bits[i / 8] >> (i % 8) & 1);
-  }
-  return mask;
+  const std::string bits = read_at(file_.get(), (entry.points + 7) / 8, entry.offset);
+  if (bits.size() < (entry.points + 7) / 8) fail("cannot be read");
+  return unpacked_mask(bits, entry.points);
 }
 
 std::uint64_t MaskSpool::point_count() const {

@@ -8,21 +8,19 @@
 #include <vector>
 
 #include "benchmark/process/timed_source.h"
+#include "core/files/descriptor.h"
 #include "methods/remover.h"
 
 namespace raymoval {
 
-/// Keeps a method's masks in a file without a name, one bit per point, and holds the method to its
-/// contract as `CheckedSink` does. Memory: three numbers per scan.
+/// Keeps a method's masks in a file without a name, one bit per point, and checks them as
+/// `CheckedSink` does. In memory it keeps three numbers per scan.
 class MaskSpool : public RemovalSink {
  public:
   /// @param method name for messages
-  /// @param beside the file is made in this path's folder
+  /// @param beside a path; the file is made in its folder
   /// @throws DataError if it cannot be made
   MaskSpool(std::string method, const TimedSource& scans, const std::filesystem::path& beside);
-  ~MaskSpool() override;
-  MaskSpool(const MaskSpool&) = delete;
-  MaskSpool& operator=(const MaskSpool&) = delete;
 
   /// @throws MethodError as `CheckedSink::accept`; DataError if the disk is full
   void accept(std::size_t scan, const Mask& mask) override;
@@ -43,7 +41,7 @@ class MaskSpool : public RemovalSink {
   std::string method_;
   const TimedSource& scans_;
   std::filesystem::path path_;  ///< For messages; the file itself has no name.
-  int file_ = -1;
+  Descriptor file_;
   std::mutex mutex_;
   std::vector<Entry> entries_;
   std::uint64_t size_ = 0;

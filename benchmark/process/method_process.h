@@ -6,18 +6,18 @@
 
 namespace raymoval {
 
-/// Name of the command that a child process is started with; users never see it.
+/// The name of the command that a child process is started with. Users never see it.
 inline constexpr const char* kMethodCommand = "run-method";
 
-/// Runs a method in a child process (this program with `kMethodCommand`). Whatever the method does
-/// there, crash, hang or leak, is an answer with a status, a reason and the end of what it printed.
+/// Runs a method in a child process (this program with `kMethodCommand`). If the method crashes,
+/// hangs or leaks there, the answer has a status, a reason and the end of what it printed.
 /// @param place where the child opens the sequence
-/// @throws Cancelled, or DataError if no process can be started
+/// @throws Cancelled; DataError if no process can be started
 MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& place,
                               const ChildLimits& limits);
 
-/// The child's side: reads the task from the descriptors that `run_method_apart` gives it, and
-/// answers there. @throws UsageError if there are none, since somebody typed the command.
+/// The child's side: reads the order from the descriptors that `run_method_apart` gives it, and
+/// answers there. @throws UsageError if there are none because somebody typed the command
 void serve_method(const MethodRegistry& registry);
 
 }  // namespace raymoval

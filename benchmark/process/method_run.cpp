@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/process/method_run.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
-#include "benchmark/run/sequence_bench.h"
 #include "core/scan/local_frame.h"
 #include "methods/controls/controls.h"
 
 namespace raymoval {
 namespace {
-
-using nlohmann::ordered_json;
 
 /// Value below which `share` of the sorted values lie (nearest rank); nothing without values.
 std::optional<double> quantile(const std::vector<double>& sorted, double share) {
@@ -66,7 +63,7 @@ Measurement measure(const StageTimes& times, const TimedSource& scans, double se
   measured.total_seconds = seconds;
   measured.load_seconds = scans.waited_seconds();
   for (const StageTimes::Stage& stage : times.stages()) {
-    measured.stages.emplace_back(stage.name, stage.seconds);
+    measured.stages.push_back({stage.name, stage.seconds});
   }
   return measured;
 }
@@ -96,58 +93,11 @@ void answer_task(const MethodTask& task, MethodAnswer& answer) {
   answer.reasons = reasons.finish();
 }
 
-ordered_json number_or_null(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : nullptr;
-}
-
-std::optional<double> number_or_nothing(const ordered_json& json) {
-  if (json.is_null()) return std::nullopt;
-  return json.get<double>();
-}
-
 }  // namespace
-
-ordered_json to_json(const Measurement& measured) {
-  ordered_json record;
-  record["threads"] = measured.threads;
-  record["seconds_per_scan"]["mean"] = measured.mean_seconds;
-  record["seconds_per_scan"]["median"] = number_or_null(measured.median_seconds);
-  record["seconds_per_scan"]["p90"] = number_or_null(measured.p90_seconds);
-  record["seconds_per_scan"]["early"] = number_or_null(measured.early_seconds);
-  record["seconds_per_scan"]["late"] = number_or_null(measured.late_seconds);
-  record["seconds_total"] = measured.total_seconds;
-  record["seconds_load"] = measured.load_seconds;
-  record["stages"] = ordered_json::array();
-  for (const auto& [name, seconds] : measured.stages) {
-    record["stages"].push_back({{"name", name}, {"seconds", seconds}});
-  }
-  record["peak_memory_mib"] = number_or_null(measured.peak_memory_mib);
-  return record;
-}
-
-Measurement measurement_from(const ordered_json& json) {
-  Measurement measured;
-  measured.threads = json.at("threads").get<int>();
-  const ordered_json& by_scan = json.at("seconds_per_scan");
-  measured.mean_seconds = by_scan.at("mean").get<double>();
-  measured.median_seconds = number_or_nothing(by_scan.at("median"));
-  measured.p90_seconds = number_or_nothing(by_scan.at("p90"));
-  // Not in files of earlier versions.
-  measured.early_seconds = number_or_nothing(by_scan.value("early", ordered_json()));
-  measured.late_seconds = number_or_nothing(by_scan.value("late", ordered_json()));
-  measured.total_seconds = json.at("seconds_total").get<double>();
-  measured.load_seconds = json.at("seconds_load").get<double>();
-  for (const ordered_json& stage : json.at("stages")) {
-    measured.stages.emplace_back(stage.at("name").get<std::string>(),
-                                 stage.at("seconds").get<double>());
-  }
-  measured.peak_memory_mib = number_or_nothing(json.at("peak_memory_mib"));
-  return measured;
-}
 
 MethodAnswer run_method(const MethodTask& task) {
   MethodAnswer answer;
-  const auto fail = [&](const char* status, const std::string& reason) {
+  const auto fail = [&](CellStatus status, const std::string& reason) {
     answer = {};
     answer.status = status;
     answer.reason = reason;
@@ -157,15 +107,23 @@ MethodAnswer run_method(const MethodTask& task) {
   } catch (const Cancelled&) {
     throw;
   } catch (const DataError& error) {
-    fail("bad_data", error.what());
+    fail(CellStatus::kBadData, error.what());
   } catch (const std::bad_alloc&) {
-    fail("out_of_memory", "there was not enough memory");
+    fail(CellStatus::kOutOfMemory, "there was not enough memory");
   } catch (const std::exception& error) {
-    fail("failed", error.what());
+    fail(CellStatus::kFailed, error.what());
   } catch (...) {
-    fail("failed", "the method threw something that is no std::exception");
+    fail(CellStatus::kFailed, "the method threw something that is no std::exception");
   }
   return answer;
+}
+
+void check_has_labels(const Sequence& sequence) {
+  if (sequence.labels != nullptr) return;
+  throw DataError(
+      fmt::format("sequence '{}' has no labels, so nothing can be scored on it; expected a folder "
+                  "labels/ beside the scans. To clean a map without labels use `raymoval clean`.",
+                  sequence.name));
 }
 
 std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence) {

@@ -10,11 +10,11 @@
 
 namespace raymoval {
 
-/// Passes scans through and keeps the time that reading them takes, so that a method's own time can
-/// be told from that of the disk, and how many points each had.
+/// Hands on the scans of a source. It measures the time that reading them takes, so that a method's
+/// own time can be told from that of the disk, and it keeps the number of points of each scan.
 class TimedSource : public ScanSource {
  public:
-  /// The calling thread is the one whose waiting is taken off the method's time.
+  /// The calling thread becomes the owner: the time that it waits is not counted as the method's.
   explicit TimedSource(const ScanSource& source)
       : source_(source), owner_(std::this_thread::get_id()), counts_(source.size()) {}
   [[nodiscard]] std::size_t size() const override { return source_.size(); }
@@ -22,9 +22,9 @@ class TimedSource : public ScanSource {
   [[nodiscard]] Pose pose(std::size_t index) const override { return source_.pose(index); }
   [[nodiscard]] const SensorModel& sensor() const override { return source_.sensor(); }
 
-  /// Seconds the owning thread spent in `load`.
+  /// The seconds that the owning thread has spent in `load`.
   [[nodiscard]] double waited_seconds() const;
-  /// Points of scan `index`; reads it only if nobody has yet.
+  /// The number of points of scan `index`. Reads the scan only if nobody has read it yet.
   [[nodiscard]] std::size_t point_count(std::size_t index) const;
 
  private:

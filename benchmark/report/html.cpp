@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/report/html.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
-#include "benchmark/picture/charts/svg.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
+
+/// Whether a text begins with a number: "98.123 (4/5)", "1,234".
+bool begins_with_number(const std::string& text) {
+  std::string number = text.substr(0, text.find(' '));
+  std::erase(number, ',');
+  return parse_number<double>(number).has_value();
+}
 
 /// Whether column `place` holds numbers and, maybe, words for their lack.
 bool holds_numbers(const TextTable& table, std::size_t place) {
   bool any = false;
   for (const TableRow& row : table.rows) {
     const std::string& text = row.cells[place].text;
-    if (leading_number(text)) {
+    if (begins_with_number(text)) {
       any = true;
     } else if (text.find(' ') != std::string::npos || text.size() > 13) {
       return false;
@@ -27,31 +36,30 @@ bool holds_numbers(const TextTable& table, std::size_t place) {
   return any;
 }
 
-std::vector<bool> number_columns(const TextTable& table) {
-  std::vector<bool> numbers;
+/// How the cells of a column look.
+struct ColumnLook {
+  bool number = false, start = false;  ///< It holds numbers; it begins a group.
+
+  [[nodiscard]] std::string classes(bool with_lines) const {
+    const bool line = start && with_lines;
+    if (!number && !line) return "";
+    return fmt::format(" class=\"{}\"", number && line ? "number start"
+                                        : number       ? "number"
+                                                       : "start");
+  }
+};
+
+std::vector<ColumnLook> column_looks(const TextTable& table) {
+  std::vector<ColumnLook> looks;
   for (const TableGroup& group : table.groups) {
     for (std::size_t i = 0; i < group.columns.size(); ++i) {
-      numbers.push_back(holds_numbers(table, numbers.size()));
+      looks.push_back({holds_numbers(table, looks.size()), i == 0});
     }
   }
-  return numbers;
+  return looks;
 }
 
-std::vector<bool> group_starts(const TextTable& table) {
-  std::vector<bool> starts;
-  for (const TableGroup& group : table.groups) {
-    for (std::size_t i = 0; i < group.columns.size(); ++i) starts.push_back(i == 0);
-  }
-  return starts;
-}
-
-std::string classes(bool number, bool start) {
-  if (!number && !start) return "";
-  return std::string(" class=\"") + (number ? "number" : "") + (number && start ? " " : "") +
-         (start ? "start" : "") + "\"";
-}
-
-std::string head_html(const TextTable& table) {
+std::string head_html(const TextTable& table, const std::vector<ColumnLook>& looks) {
   const bool grouped = std::any_of(table.groups.begin(), table.groups.end(),
                                    [](const TableGroup& group) { return !group.heading.empty(); });
   const std::string corner = html_text(table.corner);
@@ -59,21 +67,20 @@ std::string head_html(const TextTable& table) {
   if (grouped) {
     html += "<tr><th scope=\"col\" rowspan=\"2\">" + corner + "</th>";
     for (const TableGroup& group : table.groups) {
-      const std::string span = "colspan=\"" + std::to_string(group.columns.size()) + "\">";
-      html += group.heading.empty() ? "<td " + span + "</td>"
-                                    : "<th scope=\"colgroup\" class=\"group\" " + span +
-                                          html_text(group.heading) + "</th>";
+      html +=
+          fmt::format(fmt::runtime(group.heading.empty() ? "<td colspan=\"{}\"></td>"
+                                                         : "<th scope=\"colgroup\" class=\"group\" "
+                                                           "colspan=\"{}\">{}</th>"),
+                      group.columns.size(), html_text(group.heading));
     }
     html += "</tr>\n";
   }
   html += grouped ? "<tr>" : "<tr><th scope=\"col\">" + corner + "</th>";
-  const std::vector<bool> numbers = number_columns(table), starts = group_starts(table);
-  std::size_t place = 0;
+  auto look = looks.begin();
   for (const TableGroup& group : table.groups) {
     for (const std::string& column : group.columns) {
-      html += "<th scope=\"col\"" + classes(numbers[place], grouped && starts[place]) + ">" +
-              html_text(column) + "</th>";
-      ++place;
+      html +=
+          fmt::format("<th scope=\"col\"{}>{}</th>", look++->classes(grouped), html_text(column));
     }
   }
   return html + "</tr></thead>\n";
@@ -88,14 +95,13 @@ std::string marked(const TableCell& cell) {
 
 /// The ground of a cell by its percents, so that 1 % can be seen and 50 % is not all.
 std::string heat_of(const TableCell& cell) {
-  const auto percent = leading_number(cell.text);
-  if (!percent) return "";
-  const double share = std::clamp(std::sqrt(*percent / 100.0), 0.0, 1.0) * 0.75;
+  if (!cell.value) return "";
+  const double share = std::clamp(std::sqrt(*cell.value / 100.0), 0.0, 1.0) * 0.75;
   return " style=\"--share:" + fixed_text(share, 2) + "\"";
 }
 
-std::string rows_html(const TextTable& table, const RowRange& range, bool summary, bool heat) {
-  const std::vector<bool> numbers = number_columns(table), starts = group_starts(table);
+std::string rows_html(const TextTable& table, const std::vector<ColumnLook>& looks,
+                      const RowRange& range, bool summary, bool heat) {
   const bool lines = table.groups.size() > 1;
   std::string html;
   for (std::size_t r = range.first; r < range.end; ++r) {
@@ -103,46 +109,43 @@ std::string rows_html(const TextTable& table, const RowRange& range, bool summar
     if (row.summary != summary) continue;
     html += "<tr><th scope=\"row\">" + html_text(row.label) + "</th>";
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
-      if (heat && i > 0) {
-        html += "<td class=\"number heat\"" + heat_of(row.cells[i]) + ">";
-      } else {
-        html += "<td" + classes(numbers[i], lines && starts[i]) + ">";
-      }
-      html += marked(row.cells[i]) + "</td>";
+      const std::string look = heat && i > 0 ? " class=\"number heat\"" + heat_of(row.cells[i])
+                                             : looks[i].classes(lines);
+      html += fmt::format("<td{}>{}</td>", look, marked(row.cells[i]));
     }
     html += "</tr>\n";
   }
   return html;
 }
 
-/// A <tbody> for each block; a block with a name has a row with it above its own.
-std::string bodies_html(const TextTable& table, bool heat) {
-  const std::string span = std::to_string(number_columns(table).size() + 1);
+/// A <tbody> for each block. If a block has a name, the first row of its <tbody> shows it.
+std::string bodies_html(const TextTable& table, const std::vector<ColumnLook>& looks, bool heat) {
   std::string html;
   for (const RowRange& block : blocks_of(table)) {
     const std::string& heading = table.rows[block.first].block;
     html += "<tbody>";
     if (!heading.empty()) {
-      html += "<tr class=\"block\"><th scope=\"rowgroup\" colspan=\"" + span + "\">" +
-              html_text(heading) + "</th></tr>\n";
+      html +=
+          fmt::format("<tr class=\"block\"><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>\n",
+                      looks.size() + 1, html_text(heading));
     }
-    html += rows_html(table, block, false, heat) + "</tbody>";
+    html += rows_html(table, looks, block, false, heat) + "</tbody>";
   }
   return html.empty() ? "<tbody></tbody>" : html;
 }
 
 std::string whole_table(const TextTable& table, TableHeight height, bool heat) {
-  const std::string title = html_text(table.title);
-  std::string html = std::string("<div class=\"scroll") +
-                     (height == TableHeight::kScrolled ? " tall" : "") +
-                     "\" tabindex=\"0\" role=\"region\" aria-label=\"" + title +
-                     "\">\n<table class=\"sortable\"><caption>" + title + "</caption>\n" +
-                     head_html(table) + bodies_html(table, heat);
-  const std::string foot = rows_html(table, {0, table.rows.size()}, true, heat);
-  if (!foot.empty()) html += "\n<tfoot>" + foot + "</tfoot>";
-  html += "</table></div>\n";
-  for (const std::string& note : table.notes)
-    html += "<p class=\"note\">" + html_text(note) + "</p>\n";
+  const std::vector<ColumnLook> looks = column_looks(table);
+  const std::string foot = rows_html(table, looks, {0, table.rows.size()}, true, heat);
+  std::string html = fmt::format(
+      "<div class=\"scroll{0}\" tabindex=\"0\" role=\"region\" aria-label=\"{1}\">\n"
+      "<table class=\"sortable\"><caption>{1}</caption>\n{2}{3}{4}</table></div>\n",
+      height == TableHeight::kScrolled ? " tall" : "", html_text(table.title),
+      head_html(table, looks), bodies_html(table, looks, heat),
+      foot.empty() ? "" : "\n<tfoot>" + foot + "</tfoot>");
+  for (const std::string& note : table.notes) {
+    html += fmt::format("<p class=\"note\">{}</p>\n", html_text(note));
+  }
   return html;
 }
 
@@ -165,28 +168,11 @@ std::string html_name(const std::string& name) {
   return html + html_text(piece);
 }
 
-std::string html_id(const std::string& text) {
-  std::string id;
-  for (const char c : text) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-    id += plain ? c : '-';
-  }
-  return id;
-}
-
 std::string script_json(const nlohmann::ordered_json& json) {
   using nlohmann::ordered_json;
   const std::string text = json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "\\u003c";  // Only texts have it.
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
+  const std::vector<std::string_view> pieces = split(text, '<');  // Only texts have it.
+  return fmt::format("{}", fmt::join(pieces, "\\u003c"));
 }
 
 std::string html_table(const TextTable& table, TableHeight height) {
@@ -198,9 +184,10 @@ std::string html_heat_table(const TextTable& table) {
 }
 
 std::string html_section(const PageSection& section) {
-  return "<section id=\"" + section.id + "\" aria-labelledby=\"" + section.id +
-         "-title\">\n<h2 id=\"" + section.id + "-title\">" + html_text(section.title) + "</h2>\n" +
-         section.html + "</section>\n";
+  return fmt::format(
+      "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}</h2>\n"
+      "{2}</section>\n",
+      section.id, html_text(section.title), section.html);
 }
 
 std::string html_list(const std::vector<std::string>& lines) {

@@ -9,25 +9,23 @@
 
 namespace raymoval {
 
-/// Text for an HTML page, also within quotes; what is not UTF-8 is replaced.
+/// Text for an HTML page, also within quotes. Bytes that are not UTF-8 are replaced.
 std::string html_text(const std::string& text);
 
-/// The same for a name, which may be broken into lines behind ':', '_', '/', '=' and ','.
+/// The same for a name. A line may be broken behind its ':', '_', '/', '=' and ','.
 std::string html_name(const std::string& name);
 
-/// Text for an id: letters, digits and '-'.
-std::string html_id(const std::string& text);
-
-/// JSON for a <script> element, which nothing in its texts ends.
+/// JSON for a <script> element. No text in it can end the element.
 std::string script_json(const nlohmann::ordered_json& json);
 
 enum class TableHeight { kWhole, kScrolled };
 
-/// An accessible table with a caption: its heading cells have a scope, those of columns can be
-/// sorted by (web/page.js), the best value is bold, the second underlined, summary rows stay below.
+/// An accessible table with a caption. Its heading cells have a scope, and a click on the heading
+/// of a column sorts by it (web/page.js). The best value is bold and the second one underlined.
+/// Summary rows stay at the bottom.
 std::string html_table(const TextTable& table, TableHeight height = TableHeight::kWhole);
 
-/// A table of what is lost: values in percent, with a ground that grows with them.
+/// A table of what is lost, in percent. The larger a value, the darker its ground.
 std::string html_heat_table(const TextTable& table);
 
 /// A part of the page with its heading.
@@ -37,7 +35,7 @@ struct PageSection {
 
 std::string html_section(const PageSection& section);
 
-/// <ul> of plain texts.
+/// A <ul> of plain texts.
 std::string html_list(const std::vector<std::string>& lines);
 
 }  // namespace raymoval

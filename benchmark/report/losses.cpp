@@ -8,19 +8,17 @@
 namespace raymoval {
 namespace {
 
-/// "range 0-10 m" of "rejection [range 0-10 m]"; "all" of "rejection"; nothing of other columns and
-/// of classes within a band.
+/// The part that a column is about: "range 0-10 m" for "rejection [range 0-10 m]", and "all" for
+/// "rejection". It has no value for other columns and for classes within a band.
 std::optional<std::string> part_of(const std::string& column, const std::string& kind) {
-  if (column == kind) return "all";
-  const std::string start = kind + " [";
-  if (!column.starts_with(start) || !column.ends_with("]")) return std::nullopt;
-  const std::string part = column.substr(start.size(), column.size() - start.size() - 1);
-  if (part.find(", ") != std::string::npos) return std::nullopt;
-  return part;
+  const ColumnName name = parse_column_name(column);
+  if (name.kind != kind || (!name.group.empty() && !name.axis.empty())) return std::nullopt;
+  if (!name.group.empty()) return name.group;
+  return name.axis.empty() ? "all" : name.axis + " " + name.band;
 }
 
-/// What is lost of each part, a column for each method.
-/// @param kind name of the columns with what is not lost
+/// A table of what is lost of each part, with a column for each method.
+/// @param kind the name of the columns that hold what is not lost
 TextTable loss_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
                      const std::string& title) {
   TextTable table{title, "of", {{"", {"points"}}}, {}, {}};
@@ -41,7 +39,7 @@ TextTable loss_table(const std::vector<const MethodColumns*>& methods, const std
         *part_of(column, kind), {{grouped_text(static_cast<std::uint64_t>(points))}}, false};
     for (const MethodColumns* method : methods) {
       const auto kept = method->find(column).percent();
-      row.cells.push_back({kept ? fixed_text(100.0 - *kept, 2) : "n/a"});
+      row.cells.push_back(kept ? number_cell(100.0 - *kept, 2) : TableCell{"n/a"});
     }
     table.rows.push_back(std::move(row));
   }

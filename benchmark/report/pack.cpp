@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <glib.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "benchmark/report/pack.h"
@@ -15,11 +18,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Position bits of a coordinate.
+/// Bits of a point's coordinate.
 constexpr int kBits = 16;
 
-/// Numbers as differences from their forerunner (modulo 2^16), the sign folded into the lowest bit,
-/// first all low bytes, then all high ones: what varies little deflates well.
+/// Appends each number as its difference from the number before it (modulo 2^16), with the sign in
+/// the lowest bit: first all low bytes, then all high ones. Numbers that vary little deflate well
+/// so.
 void append_differences(const std::vector<std::uint16_t>& values, std::string& bytes) {
   const std::size_t start = bytes.size();
   bytes.resize(start + 2 * values.size());
@@ -35,10 +39,10 @@ void append_differences(const std::vector<std::uint16_t>& values, std::string& b
   }
 }
 
-/// Where the points' coordinates start, and how many steps make one of theirs.
+/// Where the points' coordinates start, and how coarse they are.
 struct Frame {
   std::array<std::int32_t, 3> origin{};  ///< Voxels.
-  int shift = 0;
+  int shift = 0;                         ///< 2^shift steps are one unit of a coordinate.
 };
 
 Frame frame_of(const std::vector<ShownPoint>& points) {
@@ -97,7 +101,7 @@ ordered_json cell_record(const SceneCell& cell, const VerdictCounts& counts) {
   return record;
 }
 
-/// To the centimetre, from the frame's origin.
+/// The trajectory in centimetres' precision, from the frame's origin.
 ordered_json trajectory_record(const Scene& scene, const Frame& frame) {
   ordered_json record = ordered_json::array();
   for (const Eigen::Vector3d& position : scene.trajectory) {
@@ -117,27 +121,15 @@ std::string deflated(std::string_view bytes) {
   const int status =
       ::compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
                   reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
-  if (status != Z_OK) throw InternalError("zlib gave status " + std::to_string(status));
+  if (status != Z_OK) throw InternalError(fmt::format("zlib gave status {}", status));
   packed.resize(size);
   return packed;
 }
 
 std::string base64(std::string_view bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t there = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      bits = bits << 8U | (k < there ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= there ? kDigits[bits >> (18U - 6U * k) & 63U] : '=';
-    }
-  }
-  return text;
+  const auto* data = reinterpret_cast<const guchar*>(bytes.data());
+  const std::unique_ptr<gchar, void (*)(void*)> text(g_base64_encode(data, bytes.size()), g_free);
+  return text.get();
 }
 
 PackedScene pack_scene(const Scene& scene, std::size_t number, ordered_json& head) {
@@ -152,7 +144,7 @@ PackedScene pack_scene(const Scene& scene, std::size_t number, ordered_json& hea
   head["shift"] = frame.shift;
   head["origin"] = frame.origin;
   if (!scene.T_upright_world.linear().isIdentity(0.0)) {
-    // Rows of the turn back to the world: by them the page tells positions.
+    // The rows of the rotation back to the world, with which the page shows positions.
     head["turn"] = ordered_json::array();
     for (int column = 0; column < 3; ++column) {
       for (int row = 0; row < 3; ++row) {

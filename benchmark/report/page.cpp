@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/picture/canvas/colours.h"
 #include "benchmark/picture/charts/charts.h"
-#include "benchmark/picture/colours.h"
 #include "benchmark/report/page_files.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/result/reasons.h"
@@ -48,13 +48,11 @@ bool any_kept(const KeptRun& run, const std::string& sequence) {
 }
 
 std::size_t scans_of(const PageRequest& request, const std::string& sequence) {
-  for (const ordered_json& record : request.content.json->at("run").at("suite").at("sequences")) {
-    if (record.at("name") == sequence) return record.at("scans").get<std::size_t>();
-  }
-  return 0;
+  const SequenceRecord* known = find_named(request.content.record->run.sequences, sequence);
+  return known == nullptr ? 0 : known->data.scans;
 }
 
-/// A sequence's share of the page's points: as its share of the scans.
+/// A sequence's share of the page's points, which is its share of the scans.
 std::size_t point_limit(const PageRequest& request, const std::vector<std::string>& sequences,
                         const std::string& sequence) {
   double all = 0.0;

@@ -10,29 +10,29 @@
 
 namespace raymoval {
 
-/// What a page is made of besides the results.
+/// What a page is made of.
 struct PageRequest {
   const KeptRun* run = nullptr;
   ReportContent content;
-  const Comparison* comparison = nullptr;  ///< With a reference; may be null.
-  std::string reference;                   ///< Its name.
+  const Comparison* comparison = nullptr;  ///< With a reference run; may be null.
+  std::string reference;                   ///< The name of the reference run.
   const MethodRegistry* methods = nullptr;
   bool with_points = true;       ///< Whether there is a 3-D view.
-  std::size_t points = 1000000;  ///< At most so many in the whole page.
-  bool points_needed = false;    ///< Whether a sequence that cannot be opened again ends it.
+  std::size_t points = 1000000;  ///< The whole page has at most this many points.
+  bool points_needed = false;    ///< If true, a sequence that cannot be opened again is an error.
   int threads = 1;
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// A page, and what is missing in it.
+/// A page, and what is missing from it.
 struct Page {
   std::string html;
-  std::vector<std::string> warnings;  ///< Such as a sequence whose points are gone.
+  std::vector<std::string> warnings;  ///< What is missing, such as a sequence's points.
 };
 
-/// The report as one HTML file that needs nothing else. @throws Cancelled; DataError where
-/// `points_needed`
+/// Makes the report as one HTML file that needs nothing else.
+/// @throws Cancelled; DataError if `points_needed` and a sequence cannot be opened
 Page make_page(const PageRequest& request);
 
 }  // namespace raymoval

@@ -6,8 +6,8 @@
 namespace raymoval {
 
 /// A file of benchmark/report/web as it was when the program was built: "page.css", "page.js",
-/// "view.html", "view.js", the bundled 3-D view, and "LICENSE", that of three.js. Empty if the
-/// program was built without it.
+/// "view.html", "view.js" (the bundled 3-D view) or "LICENSE" (that of three.js). It is empty if
+/// the program was built without the 3-D view.
 std::string_view page_file(std::string_view name);
 
 }  // namespace raymoval

@@ -15,10 +15,10 @@
 namespace raymoval {
 namespace {
 
-/// Share of the points that may go to wrongly judged ones.
+/// The share of the points that may be wrongly classified ones.
 constexpr double kErrorShare = 0.6;
 
-/// Of a point with all its 16-bit-and-more coordinates: bits in turn, z on top.
+/// The Morton code of a point: the bits of its coordinates in turn, z on top.
 using Morton = std::array<std::uint64_t, 2>;
 
 Morton morton_of(const ShownPoint& point) {
@@ -31,7 +31,7 @@ Morton morton_of(const ShownPoint& point) {
   return code;
 }
 
-/// What a cell says of one scan.
+/// What a method did to one scan.
 struct ScanVerdicts {
   Mask removed;
   std::vector<std::uint8_t> reasons;  ///< Empty if there are none.
@@ -142,7 +142,7 @@ class SceneBuilder {
     return steps;
   }
 
-  /// Both kinds of points in one order, in which neighbours in space are near each other.
+  /// Puts both kinds of points into one order, in which neighbours in space are near each other.
   void gather() {
     const std::size_t count = errors_.size() + others_.size();
     const auto set_of = [&](std::size_t i) -> std::pair<const ThinnedPoints&, std::size_t> {
@@ -174,7 +174,7 @@ class SceneBuilder {
   const Sequence& sequence_;
   std::size_t limit_;
   ThinnedPoints errors_, others_;
-  std::vector<std::uint8_t> bytes_;  ///< Of the present point, by cell.
+  std::vector<std::uint8_t> bytes_;  ///< What each cell did to the present point.
   std::map<std::uint16_t, LabelClass> labels_;
   bool only_controls_ = false;
   Scene scene_;

@@ -12,24 +12,25 @@
 
 namespace raymoval {
 
-/// Edge of the voxels that a page names and thins by, metres: that of the `erasor` protocol.
+/// The edge of the voxels that a page names, and by which it thins points, metres. The `erasor`
+/// protocol uses the same.
 inline constexpr double kPageVoxel = 0.2;
 
 /// A cell whose points can be shown.
 struct SceneCell {
-  std::string name;  ///< Of the method in the suite.
+  std::string name;  ///< The method's name in the suite.
   bool control = false;
   MaskStore masks;
-  std::filesystem::path removals;      ///< Folder of the reasons.
-  std::vector<std::string> sentences;  ///< Of its reasons; empty if it gave none.
+  std::filesystem::path removals;      ///< The folder that holds the reasons.
+  std::vector<std::string> sentences;  ///< What its reasons mean; empty if it gave none.
 };
 
-/// Points of a kept cell by what became of them.
+/// How many points of a cell had each outcome.
 struct VerdictCounts {
   std::uint64_t kept_static = 0, false_positive = 0, true_positive = 0, false_negative = 0;
 };
 
-/// A semantic class that occurs.
+/// A semantic class that occurs in the sequence.
 struct SceneLabel {
   std::uint16_t id = 0;
   std::string name;
@@ -40,34 +41,35 @@ struct SceneLabel {
 struct Scene {
   std::string sequence;
   std::vector<SceneCell> cells;
-  std::vector<VerdictCounts> counts;  ///< Of each cell, over all points within the range limits.
-  std::vector<std::string> scans;     ///< Names.
-  /// Turns the world so that up is z: that is how points and trajectory stand here.
+  std::vector<VerdictCounts> counts;  ///< One for each cell, over all points in range.
+  std::vector<std::string> scans;     ///< The names of the scans.
+  /// The rotation that turns up to z. Points and trajectory here are turned by it.
   Pose T_upright_world = Pose::Identity();
   std::vector<Eigen::Vector3d> trajectory;  ///< Sensor positions, metres.
   std::vector<SceneLabel> labels;           ///< By id.
   std::uint64_t points_in_range = 0;
-  int error_cell = 0, other_cell = 0;  ///< What points were thinned by, in steps; 0: not at all.
-  std::vector<ShownPoint> points;      ///< Along a Morton curve.
-  /// Of each cell, a byte for each point: bit 0 removed, above it 1 + the reason's code, or 0.
+  int error_cell = 0, other_cell = 0;  ///< Cells by which points were thinned, in steps; 0: not.
+  std::vector<ShownPoint> points;      ///< In the order of a Morton curve.
+  /// For each cell a byte for each point. Bit 0 is set if the point was removed; the bits above it
+  /// hold the reason's code plus 1, or 0 if there is no reason.
   std::vector<std::vector<std::uint8_t>> verdicts;
 };
 
-/// Reads scans, labels and removals. Points that a method judged wrongly come first, the others are
-/// one per `kPageVoxel` (moving ones one per scan too), each with larger cells if `limit` asks for
-/// it. Controls, which judge wrongly on purpose, do not make a point wrongly judged.
-/// @throws DataError for damaged reasons
+/// Reads scans, labels and removals, and chooses at most `limit` points. Points that a method
+/// classified wrongly come first. Of the others one is shown in each voxel of `kPageVoxel`; of the
+/// moving ones, one in each voxel and scan. Both are thinned by larger cells if `limit` asks for
+/// it. Controls are wrong on purpose, so their errors do not count.
+/// @throws DataError if reasons are damaged
 Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit,
                   Progress* progress);
 
-/// A scene as a page has it.
+/// The points of a scene as a page holds them.
 struct PackedScene {
-  /// Names, numbers, trajectory, labels, and how to read the rest.
-  std::vector<std::pair<std::string, std::string>> streams;  ///< Id and base64 of deflated bytes.
+  std::vector<std::pair<std::string, std::string>> streams;  ///< Id, and deflated bytes in base64.
 };
 
 /// @param number of the scene in the page, for the ids of its streams
-/// @param head receives what a reader needs besides the streams
+/// @param head receives names, numbers, trajectory, labels, and how to read the streams
 PackedScene pack_scene(const Scene& scene, std::size_t number, nlohmann::ordered_json& head);
 
 }  // namespace raymoval

@@ -6,7 +6,7 @@
 namespace raymoval {
 namespace {
 
-/// First size of cells where every point stayed until then.
+/// The first size of cells if every point stayed until then.
 constexpr int kFirstCell = kStepsPerVoxel / 4;
 constexpr int kLargestCell = 1 << 24;
 
@@ -45,7 +45,7 @@ void ThinnedPoints::reduce(std::size_t limit) {
 }
 
 void ThinnedPoints::grow_cells() {
-  if (cell_ > kLargestCell) {  // A point of each group is left, and there are too many groups.
+  if (cell_ > kLargestCell) {  // One point of each group is left: there are too many groups.
     points_.resize(limit_);
     groups_.resize(limit_);
     bytes_.resize(limit_ * verdicts_);

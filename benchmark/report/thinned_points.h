@@ -12,7 +12,8 @@
 
 namespace raymoval {
 
-/// Steps of a shown point's position in a voxel: positions are whole numbers of them.
+/// The number of steps along the edge of a voxel. Positions of shown points are whole numbers of
+/// steps.
 inline constexpr int kStepsPerVoxel = 16;
 
 /// A point that may be shown.
@@ -22,17 +23,18 @@ struct ShownPoint {
   std::uint16_t label = 0;  ///< Semantic id.
 };
 
-/// Points up to a limit. Where more come, space is divided into cells and the first point of each
-/// cell stays; cells grow until the limit holds. What came first decides, so the same points in the
-/// same order leave the same ones.
+/// Keeps points up to a limit. If more come, it divides space into cells and keeps the first point
+/// of each cell; the cells grow until the limit holds. The same points in the same order always
+/// leave the same ones.
 class ThinnedPoints {
  public:
-  /// @param verdicts bytes beside each point
-  /// @param cell first size of a cell in steps; 0: every point stays as long as there is room
+  /// @param verdicts how many bytes stand beside each point
+  /// @param cell the first size of a cell in steps. If 0, every point stays as long as there is
+  /// room
   ThinnedPoints(std::size_t limit, std::size_t verdicts, int cell)
       : limit_(limit), verdicts_(verdicts), cell_(cell) {}
 
-  /// @param group only points of one group are thinned among each other
+  /// @param group points thin out only points of the same group
   void add(const ShownPoint& point, std::uint64_t group, std::span<const std::uint8_t> verdict);
   /// Thins to `limit` or fewer.
   void reduce(std::size_t limit);

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Where a report's numbers come from: failures, changes, configuration.
-#include <nlohmann/json.hpp>
-
 #include "benchmark/report/sections.h"
+#include "benchmark/result/cell_json.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
 
-using nlohmann::ordered_json;
-
-std::string plain_text(const ordered_json& value) {
-  if (value.is_null()) return "none";
-  return value.is_string() ? value.get<std::string>()
-                           : value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+/// A value as it stands in result files, a text without its quotes.
+std::string plain_text(const ParameterValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? *text : value_text(value);
 }
 
 /// The parameter's table entry, if this program knows the method.
@@ -28,15 +25,15 @@ const ParameterSpec* spec_of(const MethodRegistry& methods, const std::string& m
   return nullptr;
 }
 
-TextTable parameter_table(const ordered_json& method, const MethodRegistry& methods) {
-  const auto full = method.at("method").get<std::string>();
-  TextTable table{"Parameters of " + method.at("name").get<std::string>(),
+TextTable parameter_table(const SuiteMethodRecord& method, const MethodRegistry& methods) {
+  TextTable table{"Parameters of " + method.name,
                   "parameter",
                   {{"", {"value", "default", "unit", "meaning"}}},
                   {},
                   {}};
-  for (const auto& [key, value] : method.at("parameters").items()) {
-    const ParameterSpec* spec = spec_of(methods, full.substr(0, full.find(':')), key);
+  const std::string without_variant = method.method.substr(0, method.method.find(':'));
+  for (const auto& [key, value] : method.parameters) {
+    const ParameterSpec* spec = spec_of(methods, without_variant, key);
     TableRow row{key, {{plain_text(value)}, {}, {}, {}}, false};
     if (spec != nullptr) {
       row.cells[1].text = parameter_text(spec->default_value);
@@ -49,28 +46,34 @@ TextTable parameter_table(const ordered_json& method, const MethodRegistry& meth
   return table;
 }
 
-std::string methods_part(const ordered_json& json, const MethodRegistry& methods) {
+std::string methods_part(const RunRecord& run, const MethodRegistry& methods) {
   std::string html =
       "<h3>Methods</h3>\n<p class=\"note\">Every parameter as it was used; bold where "
       "it is not the method's default.</p>\n";
-  for (const ordered_json& method : json.at("run").at("suite").at("methods")) {
-    const auto name = method.at("name").get<std::string>();
-    const auto full = method.at("method").get<std::string>();
-    html += "<details><summary>" + html_text(name) + "</summary>\n<p>" + html_text(full) +
-            ", version " + html_text(method.at("version").get<std::string>()) + "</p>\n";
-    if (!method.at("parameters").empty()) html += html_table(parameter_table(method, methods));
+  for (const SuiteMethodRecord& method : run.methods) {
+    html += "<details><summary>" + html_text(method.name) + "</summary>\n<p>" +
+            html_text(method.method) + ", version " + html_text(method.version) + "</p>\n";
+    if (!method.parameters.empty()) html += html_table(parameter_table(method, methods));
     html += "</details>\n";
   }
   return html;
 }
 
-std::string range_text(const ordered_json& range) {
-  if (!range.is_object()) return "";
-  const ordered_json& max = range.at("max");
-  return plain_text(range.at("min")) + " m to " + (max.is_null() ? "any" : plain_text(max) + " m");
+std::string range_text(const RangeLimits& range) {
+  const bool unlimited = range.max >= RangeLimits{}.max;
+  return plain_text(range.min) + " m to " + (unlimited ? "any" : plain_text(range.max) + " m");
 }
 
-std::string sequences_part(const ordered_json& json) {
+/// The fingerprint of a sequence as its cells have it.
+std::string fingerprint_text(const ResultsRecord& results, const std::string& sequence) {
+  std::string fingerprint = "not read";
+  for (const Cell& cell : results.cells) {
+    if (cell.sequence == sequence && cell.data) fingerprint = cell.data->fingerprint;
+  }
+  return fingerprint;
+}
+
+std::string sequences_part(const ResultsRecord& results) {
   TextTable table{"Sequences",
                   "sequence",
                   {{"",
@@ -78,60 +81,59 @@ std::string sequences_part(const ordered_json& json) {
                      "origin", "fingerprint"}}},
                   {},
                   {}};
-  for (const ordered_json& sequence : json.at("run").at("suite").at("sequences")) {
-    const auto name = sequence.at("name").get<std::string>();
-    std::string fingerprint = "not read";
-    for (const ordered_json& cell : json.at("cells")) {
-      if (cell.at("sequence") != name || cell.at("data").is_null()) continue;
-      fingerprint = cell.at("data").at("fingerprint").get<std::string>();
+  for (const SequenceRecord& sequence : results.run.sequences) {
+    const DataRecord& data = sequence.data;
+    TableRow row{data.name, {}, false};
+    for (const std::string& text :
+         {data.layout, data.frames, std::to_string(data.scans), data.poses, data.sensor,
+          range_text(data.range_m), data.label_rule ? data.label_rule->name : "none", data.source,
+          fingerprint_text(results, data.name)}) {
+      row.cells.push_back({text});
     }
-    const ordered_json& rule = sequence.at("label_rule");
-    TableRow row{name, {}, false};
-    for (const char* key : {"layout", "frames", "scans", "poses", "sensor"}) {
-      row.cells.push_back({plain_text(sequence.at(key))});
-    }
-    row.cells.push_back({range_text(sequence.at("range_m"))});
-    row.cells.push_back({rule.is_null() ? "none" : plain_text(rule.at("name"))});
-    row.cells.push_back({plain_text(sequence.at("source"))});
-    row.cells.push_back({fingerprint});
     table.rows.push_back(std::move(row));
   }
   return html_table(table);
 }
 
-std::string protocols_part(const ordered_json& json) {
+std::string protocols_part(const RunRecord& run) {
   TextTable table{"Protocols", "protocol", {{"", {"kind", "options"}}}, {}, {}};
-  for (const ordered_json& protocol : json.at("run").at("suite").at("protocols")) {
-    std::string options;
-    for (const auto& [key, value] : protocol.at("options").items()) {
-      options += (options.empty() ? "" : ", ") + key + " " + plain_text(value);
+  for (const ProtocolRecord& protocol : run.protocols) {
+    std::vector<std::string> options;
+    for (const auto& [key, value] : protocol.options) {
+      options.push_back(key + " " + plain_text(value));
     }
-    table.rows.push_back({protocol.at("name").get<std::string>(),
-                          {{protocol.at("protocol").get<std::string>()}, {options}},
-                          false});
+    table.rows.push_back({protocol.name, {{protocol.protocol}, {join(options)}}, false});
   }
   return html_table(table);
 }
 
-std::string machine_part(const ordered_json& json) {
+std::string machine_part(const RunRecord& run) {
   TextTable table{"Program and machine", "what", {{"", {"value"}}}, {}, {}};
-  for (const char* part : {"build", "machine"}) {
-    if (!json.at("run").contains(part) || json.at("run").at(part).is_null()) continue;
-    for (const auto& [key, value] : json.at("run").at(part).items()) {
-      std::string name = key;
-      for (char& c : name) c = c == '_' ? ' ' : c;
-      table.rows.push_back({name, {{plain_text(value)}}, false});
-    }
+  const auto add = [&](const char* name, const std::string& value) {
+    table.rows.push_back({name, {{value}}, false});
+  };
+  if (run.build) {
+    add("version", run.build->version);
+    if (!run.build->commit.empty()) add("commit", run.build->commit);
+    if (!run.build->source_tree.empty()) add("source tree", run.build->source_tree);
+    add("compiler", run.build->compiler);
+    add("build type", run.build->build_type);
+  }
+  if (run.machine) {
+    const auto& memory = run.machine->memory_gib;
+    add("processor", run.machine->processor);
+    add("cores", std::to_string(run.machine->cores));
+    add("memory gib", memory ? std::to_string(*memory) : "none");
+    add("threads", std::to_string(run.machine->threads));
   }
   return table.rows.empty() ? "" : html_table(table);
 }
 
-TextTable key_table(const ordered_json& json) {
+TextTable key_table(const ResultsRecord& results) {
   TextTable table{"Keys of the cells", "sequence", {{"", {"method", "key"}}}, {}, {}};
-  for (const ordered_json& cell : json.at("cells")) {
-    table.rows.push_back({cell.at("sequence").get<std::string>(),
-                          {{cell.at("name").get<std::string>()}, {plain_text(cell.at("key"))}},
-                          false});
+  for (const Cell& cell : results.cells) {
+    const std::string key = cell.key.empty() ? "none" : cell.key;
+    table.rows.push_back({cell.sequence, {{cell.name}, {key}}, false});
   }
   table.notes.push_back(
       "The key is a hash of method, version, parameters, data and protocols: two cells with the "
@@ -144,18 +146,14 @@ TextTable key_table(const ordered_json& json) {
 
 std::string failures_html(const ReportContent& content) {
   std::string html;
-  for (const ordered_json& cell : content.json->at("cells")) {
-    const auto status = cell.at("status").get<std::string>();
-    if (status == "ok") continue;
-    const auto tail = cell.at("output_tail").get<std::string>();
-    html += "<div class=\"failure\"><h3>" +
-            html_text(cell.at("sequence").get<std::string>() + " / " +
-                      cell.at("name").get<std::string>()) +
-            " <span class=\"badge bad\">" + html_text(status) + "</span></h3>\n<p>" +
-            html_text(cell.at("reason").get<std::string>()) + "</p>\n";
-    if (!tail.empty()) {
-      html += "<details open><summary>The end of what it printed</summary><pre>" + html_text(tail) +
-              "</pre></details>\n";
+  for (const Cell& cell : content.record->cells) {
+    if (cell.ok()) continue;
+    html += "<div class=\"failure\"><h3>" + html_text(cell.title()) +
+            " <span class=\"badge bad\">" + status_name(cell.status) + "</span></h3>\n<p>" +
+            html_text(cell.reason) + "</p>\n";
+    if (!cell.output_tail.empty()) {
+      html += "<details open><summary>The end of what it printed</summary><pre>" +
+              html_text(cell.output_tail) + "</pre></details>\n";
     }
     html += "</div>\n";
   }
@@ -194,11 +192,11 @@ std::string comparison_html(const Comparison& comparison, const std::string& nam
 }
 
 std::string configuration_html(const ReportContent& content, const MethodRegistry& methods) {
-  const ordered_json& json = *content.json;
-  return methods_part(json, methods) + "<h3>Data and measure</h3>\n" + sequences_part(json) +
-         protocols_part(json) + machine_part(json) +
+  const ResultsRecord& results = *content.record;
+  return methods_part(results.run, methods) + "<h3>Data and measure</h3>\n" +
+         sequences_part(results) + protocols_part(results.run) + machine_part(results.run) +
          "<details><summary>Keys of the cells</summary>\n" +
-         html_table(key_table(json), TableHeight::kScrolled) + "</details>\n";
+         html_table(key_table(results), TableHeight::kScrolled) + "</details>\n";
 }
 
 }  // namespace raymoval

@@ -1,68 +1,131 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
-#include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "benchmark/process/method_run.h"
-#include "benchmark/run/sequence_bench.h"
-#include "benchmark/suite/suite.h"
-#include "core/process/child_process.h"
+#include "core/parameters.h"
+#include "datasets/sequence_record.h"
+#include "eval/columns/columns.h"
+#include "eval/protocol.h"
 
 namespace raymoval {
 
 /// Version of the layout of cell.json, run.json and results.json.
 inline constexpr int kSchemaVersion = 1;
 
-/// A cell: one sequence, one method with one set of parameters, scored by every protocol.
-struct CellTask {
-  SequenceBench* bench = nullptr;
-  const MethodRequest* request = nullptr;
-  std::filesystem::path removals;  ///< Folder for label files; empty: none are written.
-  const std::atomic<bool>* cancel = nullptr;
-  const SequenceRequest* place = nullptr;  ///< Where a process of its own opens the sequence; null:
-                                           ///< the method runs in this process.
-  ChildLimits limits;
+/// How a cell ended.
+enum class CellStatus { kOk, kFailed, kTimeout, kOutOfMemory, kBadData };
+
+/// "ok", "failed", "timeout", "out_of_memory", "bad_data".
+const char* status_name(CellStatus status);
+/// The status with this name; no value if there is none.
+std::optional<CellStatus> status_called(const std::string& name);
+
+/// The method of a cell with all parameters as used.
+struct MethodRecord {
+  std::string name;     ///< Name of the method in the registry, "raymoval".
+  std::string variant;  ///< "offline".
+  std::string version;
+  bool online = false;
+  bool control = false;
+  Configuration parameters = {};
 };
 
-/// All that the counts of a cell depend on: method with its parameters and version, data, protocols
-/// with their options and versions.
-nlohmann::ordered_json cell_identity(SequenceBench& bench, const MethodRequest& request);
+/// A protocol as a suite asks for it.
+struct ProtocolRecord {
+  std::string name;      ///< Unique in the suite: "erasor", or what "as" says.
+  std::string protocol;  ///< Name in the registry.
+  std::string version;   ///< Empty in the suite of files of earlier versions.
+  Configuration options = {};
+};
 
-/// Hash of the identity. Any change changes the key.
-std::string cell_key(SequenceBench& bench, const MethodRequest& request);
+/// What one protocol says of one cell.
+struct Score {
+  ProtocolRecord protocol;
+  std::vector<std::pair<std::string, std::int64_t>> counts = {};
+  std::vector<Rate> rates = {};
+  std::vector<std::string> warnings = {};
+  std::optional<Intervals> intervals = std::nullopt;
 
-/// Why a cell with the parts `stored` of an identity is not one with `wanted`: "parameter tau0 was
-/// 0.2, is 0.4"; empty if nothing differs.
-std::string identity_difference(const nlohmann::ordered_json& stored,
-                                const nlohmann::ordered_json& wanted);
+  /// The value of a rate; no value if it is undefined or not part of this protocol.
+  [[nodiscard]] std::optional<double> rate(const std::string& name) const;
+};
 
-/// "parameter tau0 was 0.2, is 0.4" for the first part of two records that differs; empty if none
-/// does. @param what stands before the part's name
-std::string record_difference(const std::string& what, const nlohmann::ordered_json& stored,
-                              const nlohmann::ordered_json& wanted);
+/// Shares of points by class, range and height.
+struct ColumnRecord {
+  std::string version;
+  std::vector<ColumnValue> values;
+};
 
-/// The same of two lists of protocols, by their names. What only `stored` has of a protocol, such
-/// as counts and rates, does not matter.
-std::string protocol_difference(const nlohmann::ordered_json& stored,
-                                const nlohmann::ordered_json& wanted);
+/// What a method removed.
+struct MaskRecord {
+  std::string digest;        ///< Equal masks have equal digests.
+  std::int64_t removed = 0;  ///< Points.
+};
 
-/// Runs the method, checks its answer and scores it. Never throws for a fault of the method or the
-/// data: that is a cell with a status and a reason.
-/// @return the content of cell.json; all that varies from run to run stands below "measured"
-/// @throws Cancelled, or DataError if the removals cannot be written
-nlohmann::ordered_json execute_cell(const CellTask& task);
+/// The time that a method spent in one of its stages, summed over threads.
+struct StageSeconds {
+  std::string name;
+  double seconds = 0.0;
+};
 
-/// The method once more, for its time. @throws Cancelled
-MethodAnswer repeat_cell(const CellTask& task);
+/// What running a method costs. It is all of a cell that differs from run to run.
+struct Measurement {
+  int threads = 1;
+  double mean_seconds = 0.0;  ///< Per scan, without waiting for scans.
+  std::optional<double> median_seconds = std::nullopt, p90_seconds = std::nullopt;
+  /// Mean of scans 50 to 149 and of the last 100, where the sequence has 300 scans or more: whether
+  /// a method gets slower the more it has seen.
+  std::optional<double> early_seconds = std::nullopt, late_seconds = std::nullopt;
+  double total_seconds = 0.0;  ///< Without waiting for scans.
+  double load_seconds = 0.0;   ///< Waiting for scans.
+  std::vector<StageSeconds> stages = {};
+  std::optional<double> peak_memory_mib = std::nullopt;
+  /// Mean seconds per scan of each run, in a run with repeats; the other values are those of the
+  /// run of median time. Empty without repeats.
+  std::vector<double> repeats = {};
+};
 
-/// The cell of a sequence that cannot be read: status "bad_data".
-nlohmann::ordered_json unreadable_cell(const std::string& sequence, const MethodRequest& request,
-                                       const std::string& reason);
+/// The result of one sequence with one method and one set of parameters, scored by every protocol
+/// of the suite. This is what cell.json holds (results/schema/cell.schema.json).
+struct Cell {
+  std::string sequence;
+  std::string name;  ///< Name of the method in the suite, "raymoval:online".
+  std::string key;   ///< See `cell_key`; empty if the data could not be read.
+  CellStatus status = CellStatus::kOk;
+  std::string reason = {};       ///< Why there is no result.
+  std::string output_tail = {};  ///< What a method that ran in its own process printed last.
+  MethodRecord method = {};
+  std::optional<DataRecord> data = std::nullopt;  ///< No value if the data could not be read.
+  std::vector<Score> scores = {};  ///< One for each protocol; empty unless the status is kOk.
+  std::optional<ColumnRecord> columns = std::nullopt;
+  std::optional<MaskRecord> masks = std::nullopt;
+  std::optional<Measurement> measured = std::nullopt;  ///< No value in a reference without times.
 
-/// Counts and rates as JSON; an undefined rate is null, its reason stands below "undefined".
-nlohmann::ordered_json to_json(const ProtocolResult& result);
+  [[nodiscard]] bool ok() const { return status == CellStatus::kOk; }
+  /// Gives the cell a status without a result: its scores and columns are dropped.
+  void fail(CellStatus why, const std::string& text);
+  /// "town / raymoval:online", for messages.
+  [[nodiscard]] std::string title() const { return sequence + " / " + name; }
+};
+
+/// All that the counts of a cell depend on.
+struct CellIdentity {
+  MethodRecord method;
+  DataRecord data;
+  std::vector<ProtocolRecord> protocols;
+};
+
+/// A further run of a cell's method for its time (results/schema/timing.schema.json).
+struct RepeatRecord {
+  std::string key;     ///< Key of the cell.
+  int number = 2;      ///< The run that made the cell is number 1.
+  std::string digest;  ///< Of the masks.
+  Measurement measured = {};
+};
 
 }  // namespace raymoval

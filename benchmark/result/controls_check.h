@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmark/result/cell.h"
+
 namespace raymoval {
 
-/// Compares the controls' rates with what they must be: noop PR 100 RR 0 (SA 100 DA 0), remove-all
-/// PR 0 RR 100 (SA 0 DA 100), oracle RR 100 (SA 100). Undefined rates are passed over.
-/// @param cells contents of cell.json
-/// @return a sentence for each that is off or did not finish; empty if all is well
-std::vector<std::string> check_controls(const std::vector<nlohmann::ordered_json>& cells);
+/// Compares the rates of the controls with what their protocols say that they must be. A rate that
+/// is undefined is not checked.
+/// @return a sentence for each rate that is off and each control that did not finish; empty if all
+/// is well
+std::vector<std::string> check_controls(const std::vector<Cell>& cells);
 
 }  // namespace raymoval

@@ -2,56 +2,70 @@
 #include "benchmark/result/results.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "benchmark/result/cell.h"
-#include "benchmark/result/score_json.h"
+#include "benchmark/result/cell_json.h"
 #include "benchmark/suite/cell_selection.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
-using nlohmann::ordered_json;
-
-std::optional<double> optional_number(const ordered_json& json) {
-  if (json.is_null()) return std::nullopt;
-  return json.get<double>();
-}
-
-ResultRow row_head(const ordered_json& cell) {
+ResultRow row_head(const Cell& cell) {
   ResultRow row;
-  row.sequence = cell.at("sequence").get<std::string>();
-  row.cell = cell.at("name").get<std::string>();
-  row.method = cell.at("method").at("name").get<std::string>();
-  row.variant = cell.at("method").at("variant").get<std::string>();
-  row.control = cell.at("method").at("control").get<bool>();
-  row.status = cell.at("status").get<std::string>();
-  if (cell.contains("masks") && cell.at("masks").contains("digest")) {
-    row.mask_digest = cell.at("masks").at("digest").get<std::string>();
-  }
-  const ordered_json& measured = cell.at("measured");
-  if (!measured.is_null()) {
-    row.seconds_per_scan = optional_number(measured.at("seconds_per_scan").at("mean"));
-    row.peak_memory_mib = optional_number(measured.at("peak_memory_mib"));
+  row.sequence = cell.sequence;
+  row.cell = cell.name;
+  row.method = cell.method.name;
+  row.variant = cell.method.variant;
+  row.control = cell.method.control;
+  row.status = status_name(cell.status);
+  if (cell.masks) row.mask_digest = cell.masks->digest;
+  if (cell.measured) {
+    row.seconds_per_scan = cell.measured->mean_seconds;
+    row.peak_memory_mib = cell.measured->peak_memory_mib;
   }
   return row;
 }
 
 /// One row for each protocol of the suite, also where the cell failed.
-void add_rows(const ordered_json& cell, RunResults& results) {
+void add_rows(const Cell& cell, RunResults& results) {
   for (const std::string& protocol : results.protocols) {
     ResultRow row = row_head(cell);
     row.protocol = protocol;
-    for (const ordered_json& scored : cell.at("protocols")) {
-      if (scored.at("name") != protocol) continue;
-      for (const auto& [name, value] : scored.at("rates").items()) {
-        row.rates[name] = optional_number(value);
+    for (const Score& score : cell.scores) {
+      if (score.protocol.name != protocol) continue;
+      for (const Rate& rate : score.rates) row.rates[rate.name] = rate.value;
+      if (!score.intervals) continue;
+      for (const Interval& interval : score.intervals->rates) {
+        if (interval.low) row.intervals[interval.name] = {*interval.low, *interval.high};
       }
-      add_intervals(scored, row);
     }
     results.rows.push_back(std::move(row));
+  }
+}
+
+/// The item of a list that is about a cell; it is added if there is none.
+template <class Item>
+Item& item_of(std::vector<Item>& list, const std::string& cell) {
+  for (Item& known : list) {
+    if (known.cell == cell) return known;
+  }
+  list.push_back({});
+  list.back().cell = cell;
+  return list.back();
+}
+
+void add_columns(const Cell& cell, RunResults& results) {
+  if (!cell.columns) return;
+  MethodColumns& method = item_of(results.columns, cell.name);
+  method.control = cell.method.control;
+  ++method.sequences;
+  for (const ColumnValue& column : cell.columns->values) {
+    auto found = std::find_if(method.values.begin(), method.values.end(),
+                              [&](const auto& known) { return known.first == column.name; });
+    if (found == method.values.end()) found = method.values.insert(found, {column.name, Share{}});
+    found->second.part += column.share.part;
+    found->second.whole += column.share.whole;
   }
 }
 
@@ -65,27 +79,18 @@ void add_stage(MethodTimes& times, const std::string& name, double seconds) {
   times.stages.emplace_back(name, seconds);
 }
 
-void add_times(const ordered_json& cell, RunResults& results) {
-  const ordered_json& measured = cell.at("measured");
-  if (cell.at("status") != "ok" || measured.is_null() || cell.at("method").at("control")) return;
-  const auto name = cell.at("name").get<std::string>();
-  MethodTimes* times = nullptr;
-  for (MethodTimes& known : results.times) {
-    if (known.cell == name) times = &known;
+void add_times(const Cell& cell, RunResults& results) {
+  if (!cell.ok() || !cell.measured || !cell.data || cell.method.control) return;
+  MethodTimes& times = item_of(results.times, cell.name);
+  times.scans += cell.data->scans;
+  times.seconds += cell.measured->total_seconds;
+  times.load_seconds += cell.measured->load_seconds;
+  times.threads = std::max(times.threads, cell.measured->threads);
+  if (!cell.measured->repeats.empty()) {
+    times.repeats = static_cast<int>(cell.measured->repeats.size());
   }
-  if (times == nullptr) {
-    results.times.push_back({name, 0, 0.0, 0.0, {}, 1, 1});
-    times = &results.times.back();
-  }
-  times->scans += cell.at("data").at("scans").get<std::size_t>();
-  times->seconds += measured.at("seconds_total").get<double>();
-  times->load_seconds += measured.at("seconds_load").get<double>();
-  times->threads = std::max(times->threads, measured.value("threads", 1));
-  if (measured.contains("repeats")) {
-    times->repeats = static_cast<int>(measured.at("repeats").size());
-  }
-  for (const ordered_json& stage : measured.at("stages")) {
-    add_stage(*times, stage.at("name").get<std::string>(), stage.at("seconds").get<double>());
+  for (const StageSeconds& stage : cell.measured->stages) {
+    add_stage(times, stage.name, stage.seconds);
   }
 }
 
@@ -96,48 +101,6 @@ std::string last_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
   return text;
-}
-
-void add_failure(const ordered_json& cell, RunResults& results) {
-  const auto status = cell.at("status").get<std::string>();
-  if (status == "ok") return;
-  results.failures.push_back(
-      {cell.at("sequence").get<std::string>(), cell.at("name").get<std::string>(), status,
-       cell.at("reason").get<std::string>(), last_line(cell.at("output_tail").get<std::string>())});
-}
-
-SweptCell swept_cell(const ordered_json& method) {
-  SweptCell swept{
-      method.at("name").get<std::string>(), method.at("sweep").at("of").get<std::string>(), {}};
-  for (const auto& [key, value] : method.at("sweep").at("values").items()) {
-    swept.values.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
-  }
-  return swept;
-}
-
-RunResults parse(const ordered_json& json) {
-  RunResults results;
-  const ordered_json& suite = json.at("run").at("suite");
-  results.name = suite.at("name").get<std::string>();
-  for (const ordered_json& item : suite.at("sequences")) {
-    results.sequences.push_back(item.at("name").get<std::string>());
-  }
-  for (const ordered_json& item : suite.at("methods")) {
-    results.cells.push_back(item.at("name").get<std::string>());
-    if (item.contains("sweep")) results.sweeps.push_back(swept_cell(item));
-  }
-  for (const ordered_json& item : suite.at("protocols")) {
-    results.protocols.push_back(item.at("name").get<std::string>());
-  }
-  for (const ordered_json& cell : json.at("cells")) {
-    add_rows(cell, results);
-    add_columns(cell, results);
-    add_times(cell, results);
-    add_failure(cell, results);
-  }
-  if (json.contains("missing")) json.at("missing").get_to(results.missing);
-  results.control_problems = json.at("controls").at("problems").get<std::vector<std::string>>();
-  return results;
 }
 
 std::string csv_text(const std::string& text) {
@@ -151,6 +114,26 @@ std::string csv_text(const std::string& text) {
 }
 
 }  // namespace
+
+std::optional<double> ResultRow::rate(const std::string& name) const {
+  const auto found = rates.find(name);
+  return status != "ok" || found == rates.end() ? std::nullopt : found->second;
+}
+
+const std::string& RunResults::kind_of(const std::string& protocol) const {
+  const auto found = protocol_kinds.find(protocol);
+  return found == protocol_kinds.end() ? protocol : found->second;
+}
+
+SegmentValues RunResults::values(const std::string& cell, const std::string& protocol,
+                                 const std::string& rate) const {
+  SegmentValues list;
+  for (const std::string& sequence : sequences) {
+    const ResultRow* row = find(sequence, cell, protocol);
+    list.push_back(row == nullptr ? std::nullopt : row->rate(rate));
+  }
+  return list;
+}
 
 const ResultRow* RunResults::find(const std::string& sequence, const std::string& cell,
                                   const std::string& protocol) const {
@@ -192,6 +175,7 @@ std::optional<double> RunResults::peak_mib(const std::string& cell) const {
 std::vector<std::string> RunResults::rates_of(const std::string& protocol) const {
   std::vector<std::string> rates;
   for (const RateSpec& spec : rate_specs()) {
+    if (spec.role == RateRole::kSecondary) continue;
     const bool there = std::any_of(rows.begin(), rows.end(), [&](const ResultRow& row) {
       return row.protocol == protocol && row.rates.contains(spec.name);
     });
@@ -219,27 +203,49 @@ std::string SweptCell::point() const {
   return join(pairs);
 }
 
-RunResults parse_results(const ordered_json& results, const std::string& where) {
-  try {
-    if (results.at("schema_version") != kSchemaVersion) {
-      throw DataError(where + ": schema version " + results.at("schema_version").dump() +
-                      ", expected " + std::to_string(kSchemaVersion) +
-                      ". Run `raymoval run` again with this version.");
-    }
-    return parse(results);
-  } catch (const ordered_json::exception& error) {
-    throw DataError(where + ": not the results of a run (" + error.what() +
-                    "). Run `raymoval run` again with the same --out.");
+Share MethodColumns::find(const std::string& name) const {
+  for (const auto& [column, share] : values) {
+    if (column == name) return share;
   }
+  return {};
 }
 
-std::string rate_text(const std::string& rate, double value) {
-  return fixed_text(value, rate_spec(rate).decimals);
+RunResults shown_results(const ResultsRecord& results) {
+  RunResults shown;
+  shown.name = results.run.suite;
+  shown.sequences = names_of(results.run.sequences);
+  shown.cells = names_of(results.run.methods);
+  shown.protocols = names_of(results.run.protocols);
+  for (const ProtocolRecord& protocol : results.run.protocols) {
+    shown.protocol_kinds[protocol.name] = protocol.protocol;
+  }
+  for (const SuiteMethodRecord& method : results.run.methods) {
+    if (method.sweep.empty()) continue;
+    SweptCell swept{method.name, method.sweep_of, {}};
+    for (const auto& [key, value] : method.sweep) {
+      const auto* text = std::get_if<std::string>(&value);
+      swept.values.emplace_back(key, text != nullptr ? *text : value_text(value));
+    }
+    shown.sweeps.push_back(std::move(swept));
+  }
+  for (const Cell& cell : results.cells) {
+    add_rows(cell, shown);
+    add_columns(cell, shown);
+    add_times(cell, shown);
+    if (cell.ok()) continue;
+    shown.failures.push_back({cell.sequence, cell.name, status_name(cell.status), cell.reason,
+                              last_line(cell.output_tail)});
+  }
+  shown.missing = results.missing;
+  shown.control_problems = results.control_problems;
+  return shown;
 }
 
 std::string results_csv(const RunResults& results) {
   std::vector<std::string> rates;
-  for (const RateSpec& spec : rate_specs()) rates.push_back(spec.name);
+  for (const RateSpec& spec : rate_specs()) {
+    if (spec.role != RateRole::kSecondary) rates.push_back(spec.name);
+  }
   std::string csv = "sequence,method,variant,protocol,status," + join(rates, ",") +
                     ",seconds_per_scan,peak_memory_mib,name\n";
   for (const ResultRow& row : results.rows) {
@@ -257,33 +263,25 @@ std::string results_csv(const RunResults& results) {
   return csv;
 }
 
-void choose_cells(ordered_json& results, const std::vector<std::string>& only) {
+void choose_cells(ResultsRecord& results, const std::vector<std::string>& only) {
   if (only.empty()) return;
   std::vector<std::string> names;
-  ordered_json& cells = results.at("cells");
-  for (const ordered_json& cell : cells) {
-    names.push_back(cell.at("sequence").get<std::string>() + "/" +
-                    cell.at("name").get<std::string>());
-  }
+  for (const Cell& cell : results.cells) names.push_back(cell.sequence + "/" + cell.name);
   const std::vector<bool> chosen = select_cells({only}, names, "run");
-  ordered_json left = ordered_json::array();
+  std::vector<Cell> left;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (chosen[i]) left.push_back(cells[i]);
+    if (chosen[i]) left.push_back(std::move(results.cells[i]));
   }
-  ordered_json& suite = results.at("run").at("suite");
-  for (const auto& [list, key] :
-       {std::pair("sequences", "sequence"), std::pair("methods", "name")}) {
-    ordered_json kept = ordered_json::array();
-    for (const ordered_json& item : suite.at(list)) {
-      const bool there = std::any_of(left.begin(), left.end(), [&, key = key](const auto& cell) {
-        return cell.at(key) == item.at("name");
-      });
-      if (there) kept.push_back(item);
-    }
-    suite.at(list) = std::move(kept);
-  }
-  cells = std::move(left);
-  results.erase("missing");  // Those are of the whole run.
+  results.cells = std::move(left);
+  const auto has_cell = [&](std::string Cell::*part, const std::string& name) {
+    return std::any_of(results.cells.begin(), results.cells.end(),
+                       [&](const Cell& cell) { return cell.*part == name; });
+  };
+  std::erase_if(results.run.sequences,
+                [&](const auto& item) { return !has_cell(&Cell::sequence, name_of(item)); });
+  std::erase_if(results.run.methods,
+                [&](const auto& item) { return !has_cell(&Cell::name, name_of(item)); });
+  results.missing.clear();  // Those are of the whole run.
 }
 
 void choose_protocols(RunResults& results, const std::vector<std::string>& protocols) {

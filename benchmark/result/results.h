@@ -2,13 +2,13 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "eval/columns/columns.h"
+#include "benchmark/result/run_record.h"
+#include "eval/averages.h"
 
 namespace raymoval {
 
@@ -30,6 +30,9 @@ struct ResultRow {
   std::optional<double> seconds_per_scan;
   std::optional<double> peak_memory_mib;
   std::string mask_digest = {};  ///< Of what was removed; equal masks have equal digests.
+
+  /// The value of a rate; nothing if it is undefined or the cell has no result.
+  [[nodiscard]] std::optional<double> rate(const std::string& name) const;
 };
 
 /// Time of a method over all sequences that it finished.
@@ -76,7 +79,7 @@ struct MethodColumns {
   [[nodiscard]] Share find(const std::string& name) const;
 };
 
-/// What tables are made of, read from results.json.
+/// What tables are made of: results.json by rows, and added up over sequences.
 struct RunResults {
   std::string name;
   std::vector<std::string> sequences;
@@ -89,10 +92,17 @@ struct RunResults {
   std::vector<FailedCell> failures;
   std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.
   std::vector<std::string> control_problems;
+  /// Names in the registry of the protocols that the suite calls otherwise, by their names in it.
+  std::map<std::string, std::string> protocol_kinds = {};
 
+  /// The name in the registry of what the suite calls `protocol`.
+  [[nodiscard]] const std::string& kind_of(const std::string& protocol) const;
   /// The row of a sequence, cell and protocol; null if there is none.
   [[nodiscard]] const ResultRow* find(const std::string& sequence, const std::string& cell,
                                       const std::string& protocol) const;
+  /// The values of a rate on each sequence.
+  [[nodiscard]] SegmentValues values(const std::string& cell, const std::string& protocol,
+                                     const std::string& rate) const;
   /// The point of a sweep that a cell is; null if it is none.
   [[nodiscard]] const SweptCell* swept(const std::string& cell) const;
   [[nodiscard]] bool is_swept(const std::string& cell) const { return swept(cell) != nullptr; }
@@ -103,24 +113,20 @@ struct RunResults {
   [[nodiscard]] std::optional<double> peak_mib(const std::string& cell) const;
   /// Names of the rates that `protocol` gives and that are shown without being asked for, in order.
   [[nodiscard]] std::vector<std::string> rates_of(const std::string& protocol) const;
-  /// The rate by which methods are ranked, F1 or HA; empty if `protocol` gives none.
+  /// The rate by which methods are ranked; empty if `protocol` gives none.
   [[nodiscard]] std::string headline_of(const std::string& protocol) const;
 };
 
-/// @param results content of results.json
-/// @throws DataError if a field is missing or of the wrong type, or the schema is another
-RunResults parse_results(const nlohmann::ordered_json& results, const std::string& where);
+/// What tables show of a run.
+RunResults shown_results(const ResultsRecord& results);
 
 /// results.csv: rates in percent with 3 decimals, F1 with 4, empty where undefined.
 std::string results_csv(const RunResults& results);
 
-/// A rate as it stands in tables: "98.123", F1 "0.9812".
-std::string rate_text(const std::string& rate, double value);
-
-/// Leaves only the cells "SEQUENCE/NAME" of a results.json that fit one of the patterns, and only
+/// Leaves only the cells "SEQUENCE/NAME" that fit one of the patterns, and only
 /// the sequences and methods that still have one; all if there are none.
 /// @throws UsageError if a pattern fits no cell
-void choose_cells(nlohmann::ordered_json& results, const std::vector<std::string>& only);
+void choose_cells(ResultsRecord& results, const std::vector<std::string>& only);
 
 /// Leaves only what was scored by `protocols`; all of it if there are none.
 /// @throws UsageError if the run was not scored by one of them

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/run/cell_store.h"
 
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "benchmark/process/checked_sink.h"
-#include "benchmark/result/cell.h"
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/differences.h"
 #include "benchmark/result/removal_files.h"
-#include "benchmark/result/sealed_json.h"
+#include "benchmark/run/cell_run.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
@@ -16,7 +16,6 @@
 namespace raymoval {
 namespace {
 
-using nlohmann::ordered_json;
 using std::filesystem::path;
 
 constexpr const char* kRemovals = "removals";
@@ -26,16 +25,16 @@ path repeat_file(const path& folder, int number) {
 }
 
 /// Whether the kept removals are those that the cell was scored by.
-bool has_removals(const path& folder, const ordered_json& cell, const ScanSource& scans) {
+bool has_removals(const path& folder, const Cell& cell, const ScanSource& scans) {
+  if (!cell.masks) return false;
   try {
-    const MaskStore masks = read_removals(folder / kRemovals, scans, [] {});
-    return mask_digest(masks) == cell.at("masks").at("digest");
+    return mask_digest(read_removals(folder / kRemovals, scans, [] {})) == cell.masks->digest;
   } catch (const DataError&) {
     return false;
   }
 }
 
-/// What a result file says about itself, without the repetition of its path and the remedy.
+/// Why a result file is not used.
 std::string damage(const path& file) {
   return file.filename().string() + " is damaged or was changed by hand";
 }
@@ -46,7 +45,7 @@ bool is_cell_file(const path& name) {
          (name.string().starts_with("timing-") && name.extension() == ".json");
 }
 
-/// What a killed run left in a cell's folder. Names that only runs give, nothing else.
+/// Removes what a killed run left in a cell's folder: files with names that only runs give.
 void sweep_cell(const path& folder) {
   for (const path& entry : entries_of(folder)) {
     const path name = name_of_part(entry);
@@ -68,69 +67,64 @@ void make_folder(const path& folder) {
   }
 }
 
-path CellStore::folder(const std::string& sequence, const std::string& name) const {
-  return out_ / "cells" / folder_name(sequence) / folder_name(name);
+path CellStore::folder(const CellName& cell) const {
+  return out_ / "cells" / folder_name(cell.sequence) / folder_name(cell.name);
 }
 
-path CellStore::new_removals(const path& folder) const {
-  return new_part_name(folder / kRemovals);
+path CellStore::new_removals(const CellName& cell) const {
+  return new_part_name(folder(cell) / kRemovals);
 }
 
-StoredCell CellStore::find(SequenceBench& bench, const MethodRequest& request,
+StoredCell CellStore::find(ScoredSequence& scored, const MethodRequest& request,
                            bool with_removals) const {
   using State = StoredCell::State;
-  const path place = folder(bench.sequence().name, request);
+  const path place = folder({scored.sequence().name, request.name});
   const path file = place / "cell.json";
   if (!has_file(file)) return {State::kMissing, "is not there yet", {}};
   try {
-    auto cell = std::make_shared<ordered_json>(read_sealed(file));
-    const auto status = cell->at("status").get<std::string>();
-    const bool same = cell->value("key", ordered_json()) == cell_key(bench, request);
-    if (status != "ok") {
-      const std::string why = "failed last time: " + cell->at("reason").get<std::string>();
-      return {same ? State::kFailed : State::kStale, why, same ? cell : nullptr};
+    Cell cell = read_cell(file);
+    const CellIdentity wanted = cell_identity(scored, request);
+    const bool same = cell.key == cell_key(wanted);
+    if (!cell.ok()) {
+      const std::string why = "failed last time: " + cell.reason;
+      if (!same) return {State::kStale, why, {}};
+      return {State::kFailed, why, std::move(cell)};
     }
-    if (!same) {
-      return {State::kStale, identity_difference(*cell, cell_identity(bench, request)), nullptr};
+    if (!same) return {State::kStale, identity_difference(cell, wanted), {}};
+    if (with_removals && !has_removals(place, cell, *scored.sequence().scans)) {
+      return {State::kStale, "its removals are asked for and not there, or not whole", {}};
     }
-    if (with_removals && !has_removals(place, *cell, *bench.sequence().scans)) {
-      return {State::kStale, "its removals are asked for and not there, or not whole", nullptr};
-    }
-    return {State::kFresh, "", cell};
+    return {State::kFresh, "", std::move(cell)};
   } catch (const DataError&) {
-    return {State::kStale, damage(file), nullptr};
-  } catch (const ordered_json::exception&) {
-    return {State::kStale, damage(file), nullptr};
+    return {State::kStale, damage(file), {}};
   }
 }
 
-std::optional<StoredRepeat> CellStore::find_repeat(const std::string& sequence,
-                                                   const std::string& name, int number,
+std::optional<RepeatRecord> CellStore::find_repeat(const CellName& cell, int number,
                                                    const std::string& key) const {
   try {
-    const ordered_json json = read_sealed(repeat_file(folder(sequence, name), number));
-    if (json.at("key") != key) return std::nullopt;
-    return StoredRepeat{json.at("digest").get<std::string>(),
-                        measurement_from(json.at("measured"))};
+    RepeatRecord repeat = read_repeat(repeat_file(folder(cell), number));
+    if (repeat.key == key) return repeat;
   } catch (const DataError&) {
-    return std::nullopt;
-  } catch (const ordered_json::exception&) {
-    return std::nullopt;
+    // It is not there, or damaged: the method is run once more.
   }
+  return std::nullopt;
 }
 
-void CellStore::prepare(const path& folder) const {
-  make_folder(folder);
-  sweep_cell(folder);
+void CellStore::prepare(const CellName& cell) const {
+  make_folder(folder(cell));
+  sweep_cell(folder(cell));
 }
 
-void CellStore::keep(const path& folder, const ordered_json& cell, const path& removals) const {
-  const path place = folder / kRemovals;
+void CellStore::keep(const Cell& cell, const path& removals) const {
+  const path cell_folder = folder({cell.sequence, cell.name});
+  const path place = cell_folder / kRemovals;
+  make_folder(cell_folder);
   std::error_code error;
   const bool has = !removals.empty() && has_folder(removals);
   if (has || is_there(place)) {
     // A cell never stands beside removals of another one.
-    std::filesystem::remove(folder / "cell.json", error);
+    std::filesystem::remove(cell_folder / "cell.json", error);
     if (!remove_removals(place)) {
       throw DataError(place.string() +
                       ": holds files that no run writes, so it is not replaced. Move them away.");
@@ -140,18 +134,11 @@ void CellStore::keep(const path& folder, const ordered_json& cell, const path& r
     std::filesystem::rename(removals, place, error);
     if (error) throw DataError(place.string() + ": cannot be made (" + error.message() + ").");
   }
-  write_sealed(folder / "cell.json", cell);
+  write_cell(cell_folder / "cell.json", cell);
 }
 
-void CellStore::keep_repeat(const path& folder, int number, const std::string& key,
-                            const StoredRepeat& repeat) const {
-  ordered_json json;
-  json["schema_version"] = kSchemaVersion;
-  json["key"] = key;
-  json["repeat"] = number;
-  json["digest"] = repeat.digest;
-  json["measured"] = to_json(repeat.measured);
-  write_sealed(repeat_file(folder, number), std::move(json));
+void CellStore::keep_repeat(const CellName& cell, const RepeatRecord& repeat) const {
+  write_repeat(repeat_file(folder(cell), repeat.number), repeat);
 }
 
 void CellStore::sweep() const {

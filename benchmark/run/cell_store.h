@@ -2,14 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "benchmark/process/method_run.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/result/cell.h"
+#include "benchmark/result/run_record.h"
+#include "benchmark/run/scored_sequence.h"
 #include "benchmark/suite/suite.h"
 
 namespace raymoval {
@@ -23,53 +21,37 @@ struct StoredCell {
     kFresh,    ///< It is this very cell, and whole.
   };
   State state = State::kMissing;
-  std::string why;                               ///< A reader's reason to run it; none if fresh.
-  std::shared_ptr<nlohmann::ordered_json> cell;  ///< Where it failed or is fresh.
+  std::string why;           ///< Why it has to be run, in words for a reader; empty if it is fresh.
+  std::optional<Cell> cell;  ///< The cell, if it failed or is fresh.
 };
 
-/// A further run of a method for its time.
-struct StoredRepeat {
-  std::string digest;  ///< Of its masks.
-  Measurement measured;
-};
-
-/// The folder cells/ of a run: what is there, and how it gets there so that whatever is ended at
-/// any moment leaves either the old or the new.
+/// The folder cells/ of a run. A process that is ended at any moment leaves either the old cell or
+/// the new one.
 class CellStore {
  public:
   explicit CellStore(std::filesystem::path out) : out_(std::move(out)) {}
 
-  [[nodiscard]] std::filesystem::path folder(const std::string& sequence,
-                                             const MethodRequest& request) const {
-    return folder(sequence, request.name);
-  }
-  /// @param name of the method in the suite
-  [[nodiscard]] std::filesystem::path folder(const std::string& sequence,
-                                             const std::string& name) const;
-  /// A new name in a cell's folder, where removals are written before `keep`.
-  [[nodiscard]] std::filesystem::path new_removals(const std::filesystem::path& folder) const;
+  [[nodiscard]] std::filesystem::path folder(const CellName& cell) const;
+  /// A new name in the cell's folder, where removals are written before `keep`.
+  [[nodiscard]] std::filesystem::path new_removals(const CellName& cell) const;
 
-  /// @param with_removals kept removals have to be there and to be those of the cell
-  [[nodiscard]] StoredCell find(SequenceBench& bench, const MethodRequest& request,
+  /// @param with_removals whether the cell's removals have to be there too
+  [[nodiscard]] StoredCell find(ScoredSequence& scored, const MethodRequest& request,
                                 bool with_removals) const;
-  /// Repeat `number` (2, 3 ...) of the cell with `key`; nothing if it is not there.
-  /// @param name of the method in the suite
-  [[nodiscard]] std::optional<StoredRepeat> find_repeat(const std::string& sequence,
-                                                        const std::string& name, int number,
+  /// Repeat `number` (2, 3 ...) of the cell with `key`; no value if it is not there.
+  [[nodiscard]] std::optional<RepeatRecord> find_repeat(const CellName& cell, int number,
                                                         const std::string& key) const;
 
   /// Makes the cell's folder and removes what a killed run left there. @throws DataError
-  void prepare(const std::filesystem::path& folder) const;
+  void prepare(const CellName& cell) const;
   /// Puts a cell, and new removals if there are any, in the place of what was there.
-  /// @param removals of `new_removals`; empty, or not there: none were kept
+  /// @param removals the folder of `new_removals`; none were kept if it is empty or not there
   /// @throws DataError if something cannot be written, or would be lost that no run made
-  void keep(const std::filesystem::path& folder, const nlohmann::ordered_json& cell,
-            const std::filesystem::path& removals = {}) const;
-  void keep_repeat(const std::filesystem::path& folder, int number, const std::string& key,
-                   const StoredRepeat& repeat) const;
+  void keep(const Cell& cell, const std::filesystem::path& removals = {}) const;
+  void keep_repeat(const CellName& cell, const RepeatRecord& repeat) const;
 
   /// Removes half-written files of killed runs from the cells' folders, by names that only runs
-  /// give (see `is_part_name`). Only for who holds the folder's lock.
+  /// give (see `is_part_name`). The caller holds the folder's lock.
   void sweep() const;
 
  private:

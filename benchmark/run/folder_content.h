@@ -2,8 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,19 +10,9 @@
 
 namespace raymoval {
 
-/// A cell that belongs to a run folder: its file may be there or not.
-struct FolderCell {
-  std::string sequence;
-  std::string name;  ///< Of the method in the suite.
-};
-
-/// run.json of `out`; null if there is none.
+/// The content of run.json in `out`; no value if there is none.
 /// @throws DataError if it is damaged or of another version, pointing to --overwrite
-nlohmann::ordered_json read_run_record(const std::filesystem::path& out);
-
-/// The cells of a run.json. Earlier versions did not list them: there each sequence goes with each
-/// method. @throws nlohmann::json::exception
-std::vector<FolderCell> folder_cells(const nlohmann::ordered_json& record);
+std::optional<RunRecord> present_record(const std::filesystem::path& out);
 
 /// Why cells of the run `asked` cannot stand in one table with those of the folder's `present`
 /// run.json: empty if they can. Results belong together if
@@ -31,50 +20,44 @@ std::vector<FolderCell> folder_cells(const nlohmann::ordered_json& record);
 /// - sequences of one name were read in the same way (frames, poses, sensor, range, label rule),
 /// - protocols and their options are the same,
 /// - no two names would share a folder.
-std::string why_not_together(const nlohmann::ordered_json& present,
-                             const nlohmann::ordered_json& asked);
+std::string why_not_together(const RunRecord& present, const RunRecord& asked);
 
 /// The same for a sequence's `fingerprint`, which takes reading all of its data.
-std::string why_other_data(const nlohmann::ordered_json& present, const std::string& sequence,
+std::string why_other_data(const RunRecord& present, const std::string& sequence,
                            const std::string& fingerprint);
 
 /// @throws UsageError with `why` and what to do, unless it is empty
 void refuse_other_results(const std::filesystem::path& out, const std::string& why);
 
 /// The fingerprint that a run.json has of a sequence; empty if it has none.
-std::string known_fingerprint(const nlohmann::ordered_json& record, const std::string& sequence);
-/// Puts it there. @return whether that changed the record
-bool note_fingerprint(nlohmann::ordered_json& record, const std::string& sequence,
-                      const std::string& fingerprint);
+std::string known_fingerprint(const RunRecord& record, const std::string& sequence);
+/// Puts a fingerprint into the record. @return whether that changed it
+bool set_fingerprint(RunRecord& record, const std::string& sequence,
+                     const std::string& fingerprint);
 
 /// run.json of a folder to which the run `asked` is added: the sequences, methods and cells of
-/// both; where both have one, and for build and machine, it is that of `asked`.
-nlohmann::ordered_json merged_run_record(const nlohmann::ordered_json& present,
-                                         const nlohmann::ordered_json& asked);
+/// both. Where both have one, it is that of `asked`; so are build and machine.
+RunRecord merged_run_record(const RunRecord& present, const RunRecord& asked);
 
 /// Cells of earlier runs that a run did not ask for and that stay in the folder's tables.
 struct EarlierCells {
-  struct Kept {
-    FolderCell cell;
-    std::shared_ptr<const nlohmann::ordered_json> json;  ///< As cell.json.
-  };
-  std::vector<Kept> kept;
+  std::vector<Cell> kept;
   /// "sequence / method: reason" of those that are there and do not fit the others any more: the
   /// method has other parameters or another version now, or a protocol has.
   std::vector<std::string> left_out;
 
   /// Null if it is not there.
-  [[nodiscard]] const nlohmann::ordered_json* find(const FolderCell& cell) const;
+  [[nodiscard]] const Cell* find(const CellName& cell) const;
   /// A line for each sequence with what is kept, and one for each cell that is left out.
   [[nodiscard]] std::vector<std::string> lines() const;
 };
 
 /// Reads those of the cells of `record` that `asked` does not have, with their repeats.
-EarlierCells read_earlier_cells(const CellStore& store, const nlohmann::ordered_json& record,
-                                const nlohmann::ordered_json& asked);
+EarlierCells read_earlier_cells(const CellStore& store, const RunRecord& record,
+                                const RunRecord& asked);
 
 /// Lets the run of median time among `cell` and its further runs stand for all of them; the others'
 /// times stand beside it.
-void merge_repeats(nlohmann::ordered_json& cell, std::vector<Measurement> further);
+void merge_repeats(Cell& cell, const std::vector<Measurement>& further);
 
 }  // namespace raymoval

@@ -2,13 +2,12 @@
 #include "benchmark/run/kept_run.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/removal_files.h"
 #include "benchmark/result/result_sets.h"
-#include "benchmark/result/sealed_json.h"
-#include "benchmark/suite/sequence_place.h"
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/run/cell_store.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
@@ -18,52 +17,37 @@
 namespace raymoval {
 namespace {
 
-using nlohmann::ordered_json;
 using std::filesystem::path;
 
-std::string text_at(const ordered_json& json, const char* key) {
-  return json.is_object() && json.contains(key) && json.at(key).is_string()
-             ? json.at(key).get<std::string>()
-             : "";
-}
-
-KeptCell kept_cell(const ordered_json& cell, const path& folder) {
-  KeptCell kept;
-  kept.sequence = cell.at("sequence").get<std::string>();
-  kept.name = cell.at("name").get<std::string>();
-  kept.control = cell.at("method").at("control").get<bool>();
-  kept.status = cell.at("status").get<std::string>();
-  kept.reason = cell.at("reason").get<std::string>();
-  kept.fingerprint = text_at(cell.at("data"), "fingerprint");
-  kept.digest = text_at(cell.at("masks"), "digest");
-  kept.removals =
-      folder / "cells" / folder_name(kept.sequence) / folder_name(kept.name) / "removals";
-  return kept;
-}
-
-/// Every sequence x method of the suite; what is not among `cells` was not run.
-std::vector<KeptCell> all_cells(const RunResults& results, const ordered_json& json,
-                                const path& folder) {
-  std::vector<KeptCell> there;
-  for (const ordered_json& cell : json.at("cells")) there.push_back(kept_cell(cell, folder));
+/// Every sequence x method of the suite; some may not have been run.
+std::vector<KeptCell> all_cells(const ResultsRecord& record, const path& folder) {
   std::vector<KeptCell> all;
-  for (const std::string& sequence : results.sequences) {
-    for (const std::string& name : results.cells) {
-      const auto found = std::find_if(there.begin(), there.end(), [&](const KeptCell& cell) {
-        return cell.sequence == sequence && cell.name == name;
-      });
-      if (found != there.end()) {
-        all.push_back(*found);
-        continue;
-      }
-      KeptCell missing;
-      missing.sequence = sequence;
-      missing.name = name;
-      missing.status = "not run";
-      all.push_back(missing);
+  for (const CellName& name : record.run.all_cells()) {
+    KeptCell kept{name.sequence,
+                  name.name,
+                  false,
+                  "not run",
+                  "",
+                  record.find(name),
+                  CellStore(folder).folder(name) / "removals"};
+    if (kept.cell != nullptr) {
+      kept.control = kept.cell->method.control;
+      kept.status = status_name(kept.cell->status);
+      kept.reason = kept.cell->reason;
     }
+    all.push_back(std::move(kept));
   }
   return all;
+}
+
+/// Puts the places of the sequences, which only run.json says, into the record.
+void add_places(const path& run_json, ResultsRecord& record) {
+  if (!has_file(run_json)) return;  // Only --data helps then.
+  const RunRecord run = read_run_record(run_json);
+  for (SequenceRecord& sequence : record.run.sequences) {
+    const SequenceRecord* known = find_named(run.sequences, name_of(sequence));
+    if (known != nullptr) sequence.place = known->place;
+  }
 }
 
 /// Where a sequence that was opened at `given` may be below `data`, likeliest first.
@@ -111,24 +95,10 @@ KeptRun::KeptRun(const std::string& run, const std::string& data) {
   const path file = find_results(run);
   if (!data.empty()) data_ = data_folder(data);
   folder_ = file.parent_path();
-  const ordered_json json = read_sealed(file);
-  results_ = parse_results(json, file.string());
-  try {
-    cells_ = all_cells(results_, json, folder_);
-    for (const ordered_json& sequence : json.at("run").at("suite").at("sequences")) {
-      frames_[sequence.at("name").get<std::string>()] = text_at(sequence, "frames");
-    }
-    if (!has_file(folder_ / "run.json")) return;  // Only --data helps then.
-    const ordered_json record = read_sealed(folder_ / "run.json");
-    if (!record.contains("places")) return;  // Of an earlier version.
-    for (std::size_t i = 0; i < results_.sequences.size(); ++i) {
-      const ordered_json& place = record.at("places").at(i);
-      if (!place.is_null()) places_[results_.sequences[i]] = place.dump();
-    }
-  } catch (const ordered_json::exception& error) {
-    throw DataError(file.string() + ": not the results of a run (" + error.what() +
-                    "). Run `raymoval run` again with the same --out.");
-  }
+  record_ = read_results(file);
+  add_places(folder_ / "run.json", record_);
+  results_ = shown_results(record_);
+  cells_ = all_cells(record_, folder_);
 }
 
 const KeptCell& KeptRun::cell(const std::string& sequence, const std::string& name) const {
@@ -153,25 +123,31 @@ std::vector<const KeptCell*> KeptRun::cells_of(const std::string& sequence) cons
 }
 
 SequenceRequest KeptRun::place_of(const std::string& sequence) const {
-  const auto known = places_.find(sequence);
-  if (known != places_.end()) return place_from(ordered_json::parse(known->second));
+  const SequenceRecord* known = find_named(record_.run.sequences, sequence);
+  if (known != nullptr && known->place) return *known->place;
   if (data_.empty()) {
     throw DataError(folder_.string() + ": run.json does not say where sequence '" + sequence +
                     "' is (it is missing, or of an earlier version). Say it with --data.");
   }
   SequenceRequest place;
-  const std::string& frames = frames_.at(sequence);
-  if (!frames.empty()) place.options.frames = parse_frame_range(frames);
+  if (known != nullptr && !known->data.frames.empty()) {
+    place.options.frames = parse_frame_range(known->data.frames);
+  }
   place.options.name = sequence;
   return place;
 }
 
+/// Fingerprint of a sequence's data; empty if it could not be read.
+std::string KeptRun::fingerprint_of(const std::string& sequence) const {
+  for (const Cell& cell : record_.cells) {
+    if (cell.sequence == sequence && cell.data) return cell.data->fingerprint;
+  }
+  return "";
+}
+
 Sequence KeptRun::open(const std::string& sequence, const OpenContext& context) const {
   const SequenceRequest place = place_of(sequence);
-  std::string wanted;
-  for (const KeptCell* cell : cells_of(sequence)) {
-    if (wanted.empty()) wanted = cell->fingerprint;
-  }
+  const std::string wanted = fingerprint_of(sequence);
   std::vector<std::string> tried = {place.path};
   if (!data_.empty()) tried = places_below(data_, place.path, sequence);
   std::string problem;
@@ -200,7 +176,7 @@ MaskStore KeptRun::masks(const KeptCell& cell, const Sequence& sequence) const {
   }
   if (!cell.has_removals()) throw DataError(keep_removals_remedy(cell));
   MaskStore masks = read_removals(cell.removals, *sequence.scans, [] {});
-  if (mask_digest(masks) != cell.digest) {
+  if (!cell.cell->masks || mask_digest(masks) != cell.cell->masks->digest) {
     throw DataError(cell.removals.string() +
                     ": does not hold what the method was scored by; it was changed. Remove the "
                     "folder and run the same command again with --keep-removals.");

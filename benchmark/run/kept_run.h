@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -14,18 +12,17 @@
 
 namespace raymoval {
 
-/// A cell of a run, as far as its points can be looked at.
+/// A cell of a run folder, whose points can be looked at if its removals were kept.
 struct KeptCell {
   std::string sequence;
-  std::string name;  ///< Of the method in the suite.
+  std::string name;  ///< Name of the method in the suite.
   bool control = false;
-  std::string status;              ///< As in cell.json; "not run" if there is no such cell.
+  std::string status;              ///< Of the cell; "not run" if there is no such cell.
   std::string reason;              ///< Why there is no result.
-  std::string fingerprint;         ///< Of the data; empty if the data could not be read.
-  std::string digest;              ///< Of the masks; empty unless the status is "ok".
+  const Cell* cell = nullptr;      ///< Null if it was not run.
   std::filesystem::path removals;  ///< Folder of label files.
 
-  [[nodiscard]] bool has_result() const { return status == "ok"; }
+  [[nodiscard]] bool has_result() const { return cell != nullptr && cell->ok(); }
   /// Whether `run --keep-removals` left what it removed.
   [[nodiscard]] bool has_removals() const;
 };
@@ -40,6 +37,13 @@ class KeptRun {
   ///   damaged
   KeptRun(const std::string& run, const std::string& data);
 
+  /// Copies would refer to the cells of the original.
+  KeptRun(const KeptRun&) = delete;
+  KeptRun& operator=(const KeptRun&) = delete;
+
+  /// What results.json holds.
+  [[nodiscard]] const ResultsRecord& record() const { return record_; }
+  /// The same as tables show it.
   [[nodiscard]] const RunResults& results() const { return results_; }
   /// Every sequence x method of the suite in the run's order, also those without a result.
   [[nodiscard]] const std::vector<KeptCell>& cells() const { return cells_; }
@@ -47,24 +51,24 @@ class KeptRun {
   [[nodiscard]] const KeptCell& cell(const std::string& sequence, const std::string& name) const;
   [[nodiscard]] std::vector<const KeptCell*> cells_of(const std::string& sequence) const;
 
-  /// Opens a sequence as the run did, and makes sure that its data is still the same.
+  /// Opens a sequence as the run did, and checks that its data is still the same.
   /// @throws DataError saying where it was looked for, or that the data changed; Cancelled
   [[nodiscard]] Sequence open(const std::string& sequence, const OpenContext& context) const;
 
-  /// What a method removed of the sequence, made sure to be what it was scored by.
+  /// What a method removed of the sequence. It is checked to be what the method was scored by.
   /// @throws DataError if the removals were not kept, are damaged, or are another run's
   [[nodiscard]] MaskStore masks(const KeptCell& cell, const Sequence& sequence) const;
 
  private:
   /// @throws DataError if neither run.json nor --data says it
   [[nodiscard]] SequenceRequest place_of(const std::string& sequence) const;
+  [[nodiscard]] std::string fingerprint_of(const std::string& sequence) const;
 
   std::filesystem::path folder_;
   std::string data_;
+  ResultsRecord record_;  ///< Its sequences have the places of run.json.
   RunResults results_;
   std::vector<KeptCell> cells_;
-  std::map<std::string, std::string> places_;  ///< JSON of the place by sequence.
-  std::map<std::string, std::string> frames_;  ///< Frames as used, by sequence.
 };
 
 /// What to do about a cell without kept removals.

@@ -3,25 +3,23 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/process/machine.h"
-#include "benchmark/result/cell.h"
+#include "benchmark/result/json_fields.h"
 #include "benchmark/result/results.h"
-#include "benchmark/result/sealed_json.h"
+#include "benchmark/result/run_record_json.h"
 #include "benchmark/run/cell_store.h"
-#include "benchmark/suite/sequence_place.h"
+#include "benchmark/suite/suite_json.h"
 #include "benchmark/tables/tables.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
 #include "core/text.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
-using nlohmann::ordered_json;
 using std::filesystem::path;
 
 constexpr const char* kMarkerText =
@@ -69,11 +67,13 @@ bool may_be_ours(const path& entry) {
 /// Whether a run.json was written by a run and not changed since.
 bool is_run_record(const path& file) {
   try {
-    const ordered_json record = read_sealed(file);
-    return record.contains("suite") && record.contains("build");
+    (void)read_run_record(file);
+  } catch (const SchemaVersionError&) {
+    return true;
   } catch (const DataError&) {
     return false;
   }
+  return true;
 }
 
 /// @throws UsageError for a folder that may belong to somebody else
@@ -96,41 +96,6 @@ void check_is_run_folder(const path& out) {
   }
 }
 
-ordered_json method_record(const MethodRequest& request) {
-  ordered_json method;
-  method["name"] = request.name;
-  method["method"] = request.method.full_name();
-  method["version"] = request.method.entry->version;
-  method["parameters"] = to_json(request.method.configuration);
-  if (!request.sweep.empty()) {
-    method["sweep"]["of"] = request.sweep_of;
-    method["sweep"]["values"] = to_json(request.sweep);
-  }
-  return method;
-}
-
-ordered_json suite_record(const Suite& suite, const std::vector<Sequence>& sequences) {
-  ordered_json record;
-  record["name"] = suite.name;
-  record["sequences"] = ordered_json::array();
-  for (const Sequence& sequence : sequences) record["sequences"].push_back(sequence.record());
-  record["methods"] = ordered_json::array();
-  for (const MethodRequest& request : suite.methods) {
-    record["methods"].push_back(method_record(request));
-  }
-  record["protocols"] = ordered_json::array();
-  for (const ProtocolRequest& request : suite.protocols) {
-    ordered_json protocol;
-    protocol["name"] = request.name;
-    protocol["protocol"] = request.protocol;
-    protocol["version"] = make_protocol(request.protocol, request.options)->version();
-    protocol["options"] = to_json(request.options);
-    record["protocols"].push_back(std::move(protocol));
-  }
-  record["controls"] = suite.controls;
-  return record;
-}
-
 }  // namespace
 
 void prepare_run_folder(const path& out) {
@@ -146,42 +111,33 @@ void sweep_run_folder(const path& out) {
   }
 }
 
-ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads) {
-  ordered_json record;
-  record["schema_version"] = kSchemaVersion;
-  record["suite"] = suite_record(suite, sequences);
-  record["cells"] = ordered_json::array();
-  for (const Sequence& sequence : sequences) {
-    for (const MethodRequest& request : suite.methods) {
-      record["cells"].push_back({{"sequence", sequence.name}, {"name", request.name}});
-    }
+RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads) {
+  RunRecord run{suite.name};
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    run.sequences.push_back({sequences[i].record(), absolute_place(suite.sequences[i])});
   }
-  record["build"] = build_record();
-  record["machine"] = machine_record();
-  record["machine"]["threads"] = threads;
-  for (const SequenceRequest& request : suite.sequences) {
-    record["places"].push_back(place_record(absolute_place(request)));
+  for (const MethodRequest& request : suite.methods) {
+    run.methods.push_back({request.name, request.method.full_name(), request.method.entry->version,
+                           request.method.configuration, request.sweep_of, request.sweep});
   }
-  return record;
+  for (const ProtocolRequest& request : suite.protocols) {
+    run.protocols.push_back({request.name, request.protocol,
+                             protocol_entry(request.protocol).version, request.options});
+  }
+  run.controls = suite.controls;
+  run.cells = run.all_cells();
+  run.build = build_record();
+  run.machine = machine_record(threads);
+  return run;
 }
 
-RunResults write_results(const path& out, const RunContent& content) {
-  ordered_json results;
-  results["schema_version"] = kSchemaVersion;
-  results["run"] = *content.record;
-  results["run"].erase("places");  // Results have no paths: they are copied and compared.
-  results["run"].erase("cells");   // They have the cells themselves.
-  results["controls"]["checked"] = content.controls_checked;
-  results["controls"]["problems"] = content.control_problems;
-  if (!content.missing.empty()) results["missing"] = content.missing;
-  results["cells"] = *content.cells;
-  RunResults parsed = parse_results(results, "results");
-  const std::vector<TextTable> tables = make_tables(parsed);
-  write_atomically(out / "results.csv", results_csv(parsed));
-  write_atomically(out / "table.md", tables_markdown(parsed, tables));
+void write_result_files(const path& out, const ResultsRecord& results) {
+  const RunResults shown = shown_results(results);
+  const std::vector<TextTable> tables = make_tables(shown);
+  write_atomically(out / "results.csv", results_csv(shown));
+  write_atomically(out / "table.md", tables_markdown(shown, tables));
   write_atomically(out / "table.tex", tables_latex(tables));
-  write_sealed(out / "results.json", std::move(results));
-  return parsed;
+  write_results(out / "results.json", results);
 }
 
 }  // namespace raymoval

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "benchmark/result/results.h"
+#include "benchmark/result/run_record.h"
 #include "benchmark/suite/suite.h"
 
 namespace raymoval {
@@ -22,27 +21,15 @@ inline constexpr const char* kRunMarker = ".raymoval-run";
 /// @throws UsageError for any other folder, in which nothing is changed; DataError
 void prepare_run_folder(const std::filesystem::path& out);
 
-/// Removes half-written results of killed runs, by names that only runs give. Only for who holds
-/// the folder's lock.
+/// Removes half-written results of killed runs, by names that only runs give. The caller holds the
+/// folder's lock.
 void sweep_run_folder(const std::filesystem::path& out);
 
-/// Content of run.json: the suite as resolved, its cells, build and machine, and the places where
-/// its sequences are. What else the folder holds is added by `merged_run_record`.
-nlohmann::ordered_json run_record(const Suite& suite, const std::vector<Sequence>& sequences,
-                                  int threads);
+/// What run.json says of a run: the suite as resolved, its cells, build and machine, and the places
+/// where its sequences are. `merged_run_record` adds what else the folder holds.
+RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads);
 
-/// What results.json is made of.
-struct RunContent {
-  const nlohmann::ordered_json* record = nullptr;
-  const std::vector<nlohmann::ordered_json>* cells = nullptr;
-  bool controls_checked = true;
-  std::vector<std::string> control_problems;
-  std::vector<std::string> missing;  ///< "sequence / method".
-};
-
-/// Writes results.csv, table.md, table.tex and, last, results.json. @return what the tables are
-/// made of
-/// @throws DataError
-RunResults write_results(const std::filesystem::path& out, const RunContent& content);
+/// Writes results.csv, table.md, table.tex and, last, results.json. @throws DataError
+void write_result_files(const std::filesystem::path& out, const ResultsRecord& results);
 
 }  // namespace raymoval

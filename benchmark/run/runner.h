@@ -1,34 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
-#include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "benchmark/run/folder_content.h"
-#include "benchmark/suite/cell_selection.h"
+#include "benchmark/run/run_options.h"
 #include "benchmark/suite/suite.h"
-#include "core/progress.h"
 
 namespace raymoval {
 
-/// How a suite is run, besides what it runs.
-struct RunOptions {
-  std::filesystem::path out;   ///< Run folder; made if missing.
-  bool keep_removals = false;  ///< Whether label files are kept beside each cell.
-  Progress* progress = nullptr;
-  const std::atomic<bool>* cancel = nullptr;
-  /// Whether each method runs in a child process, with the suite's limits. The child is this very
-  /// program, which has to know `kMethodCommand` (benchmark/process/method_process.h).
-  bool isolate = false;
-  CellSelection selection = {};
-  bool collect = false;  ///< Nothing is run: results are made of the cells that are there.
-  /// Whether results of another suite or on other data give way; else the run is refused.
-  bool overwrite = false;
-};
-
+/// What a run says at its end.
 struct RunSummary {
   std::size_t cells = 0;
   std::size_t reused = 0;                ///< Cells that were there already and are right.
@@ -54,29 +35,5 @@ RunSummary run_suite(const Suite& suite, const RunOptions& options);
 /// @param cell its key, or "SEQUENCE/NAME"
 /// @throws as run_suite; UsageError if the suite has no such cell, or somebody else runs it
 RunSummary run_one_cell(const Suite& suite, const RunOptions& options, const std::string& cell);
-
-/// What a run would do with a cell.
-struct PlannedCell {
-  std::string key;  ///< Empty if the sequence cannot be read.
-  std::string sequence;
-  std::string name;
-  std::string method;            ///< With its variant.
-  std::filesystem::path folder;  ///< Within the run folder.
-  std::size_t scans = 0;
-  bool to_run = true;
-  std::string why;  ///< Why it has to be run; why it is not selected.
-};
-
-/// What a run would do.
-struct SuitePlan {
-  std::vector<PlannedCell> cells;  ///< Those of the suite, in their order.
-  std::vector<FolderCell> earlier;
-  std::vector<std::string> left_out;  ///< Of earlier runs, with the reason.
-  std::string refused;                ///< Why the run would be refused; empty if it would not.
-};
-
-/// Nothing is run and nothing written (but simulated scenes go to the cache). Without `options.out`
-/// every cell is to be run.
-SuitePlan plan_suite(const Suite& suite, const RunOptions& options);
 
 }  // namespace raymoval

@@ -6,23 +6,23 @@
 
 namespace raymoval {
 
-/// Which cells of a suite a run is about; all if nothing is said.
+/// Which cells of a suite a run is about: all of them by default.
 struct CellSelection {
-  std::vector<std::string> only;  ///< Patterns with * and ?; a cell is in if one fits.
-  std::size_t shard = 1;          ///< This part ...
-  std::size_t shards = 1;         ///< ... of so many.
+  std::vector<std::string> only;  ///< Patterns with * and ?; a cell is chosen if one fits it.
+  std::size_t shard = 1;          ///< The number of the part, counted from 1.
+  std::size_t shards = 1;         ///< The number of parts.
 
   [[nodiscard]] bool everything() const { return only.empty() && shards == 1; }
 };
 
-/// "2/3". @throws UsageError saying what the form is
+/// Reads "2/3", the second of three parts. @throws UsageError that says what the form is
 void parse_shard(const std::string& text, CellSelection& selection);
 
-/// Which of the cells are in, in their order. `--shard` cuts what `--only` leaves into parts of
-/// neighbours, so that a part reads few sequences; the parts differ by one cell at most, and every
-/// cell is in exactly one.
+/// Tells for each of the cells whether it is chosen. `--shard` cuts the cells that `--only` leaves
+/// into parts of neighbours, so that a part reads few sequences. Parts differ by at most one cell,
+/// and every cell is in exactly one of them.
 /// @param cells "SEQUENCE/NAME"
-/// @param of what they are the cells of, for messages
+/// @param of what the cells belong to, for messages
 /// @throws UsageError if a pattern fits no cell
 std::vector<bool> select_cells(const CellSelection& selection,
                                const std::vector<std::string>& cells,

@@ -6,9 +6,10 @@
 
 namespace raymoval {
 
-/// Folder `name` ("suites", "published") of what is shipped beside the program: ../share/raymoval
-/// seen from its folder where it is installed, share/raymoval where it was built, else the place it
-/// was configured for. Empty if it is nowhere.
+/// The folder `name` ("suites", "published") of the data that comes with the program. It is looked
+/// for in ../share/raymoval, seen from the folder of an installed program, then in share/raymoval,
+/// where the program was built, then where it was configured to be installed. Empty if it is in
+/// none of these.
 std::filesystem::path shipped_data(const std::string& name);
 
 /// "none of A, B, C is there. Install raymoval again."

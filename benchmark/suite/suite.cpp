@@ -3,17 +3,23 @@
 
 #include <algorithm>
 
+#include "core/files/file_kind.h"
 #include "core/parameter_condition.h"
 #include "core/text.h"
-#include "eval/protocol.h"
+#include "datasets/open_sequence.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
-/// Says that a setting is for a protocol: `erasor` is the name of a method too.
+/// Marks a setting for a protocol, since `erasor` is the name of a method too.
 const std::string kProtocolPrefix = "protocol:";
 
-/// A name that appears in folders and tables.
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Checks a name that appears in folders and tables.
 void check_cell_name(const std::string& name) {
   const bool legal = !name.empty() && name.front() != '.' && name.size() <= 100 &&
                      std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -27,6 +33,12 @@ void check_cell_name(const std::string& name) {
   }
 }
 
+/// "town" of "town:scans=60": a scene that the program brings along.
+bool is_built_in(const std::string& path) {
+  const std::string name = path.substr(0, path.find(':'));
+  return contains(scene_names(), name);
+}
+
 }  // namespace
 
 Setting parse_setting(const std::string& text) {
@@ -38,6 +50,23 @@ Setting parse_setting(const std::string& text) {
                      "protocol:NAME.key=value, such as protocol:erasor.lift=0.");
   }
   return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
+}
+
+SequenceRequest absolute_place(const SequenceRequest& place) {
+  SequenceRequest absolute = place;
+  const auto make_absolute = [&](const std::filesystem::path& path) {
+    std::error_code error;
+    const auto made = std::filesystem::absolute(path, error);
+    return error ? path : made.lexically_normal();
+  };
+  if (!is_built_in(place.path)) absolute.path = make_absolute(place.path).string();
+  SequenceOptions& options = absolute.options;
+  // A pose file may also be a name in the sequence folder.
+  if (options.poses && has_file(*options.poses)) {
+    options.poses = make_absolute(*options.poses).string();
+  }
+  if (options.label_rule) options.label_rule = make_absolute(*options.label_rule);
+  return absolute;
 }
 
 MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
@@ -81,15 +110,6 @@ std::vector<std::string> expanded_methods(const std::string& name, const MethodR
   return names;
 }
 
-const std::vector<ParameterSpec>& protocol_parameters(const std::string& name) {
-  std::vector<std::string> names;
-  for (const ProtocolEntry& entry : protocol_entries()) {
-    if (entry.name == name) return entry.parameters;
-    names.push_back(entry.name);
-  }
-  throw UsageError("protocol '" + name + "' is unknown." + suggestion(name, names));
-}
-
 ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as) {
   ProtocolRequest request{as.empty() ? protocol : as, protocol, protocol_defaults(protocol)};
   check_cell_name(request.name);
@@ -105,12 +125,8 @@ ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const s
 
 namespace {
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// Sets `setting` where it names `target` of a method. @return whether it did
-bool apply_setting(const Setting& setting, MethodRequest& request) {
+/// Sets the parameter of a method that `setting` names. @throws UsageError if the suite sweeps it
+void apply_setting(const Setting& setting, MethodRequest& request) {
   const MethodEntry& entry = *request.method.entry;
   const ParameterSpec& spec = find_parameter(entry.name, entry.parameters, setting.key);
   for (const auto& [key, value] : request.sweep) {
@@ -121,7 +137,6 @@ bool apply_setting(const Setting& setting, MethodRequest& request) {
   set_parameter(request.method.configuration, setting.key,
                 checked_value_from_text(entry.name, spec, setting.value));
   if (!contains(request.given, setting.key)) request.given.push_back(setting.key);
-  return true;
 }
 
 void check_given_once(const std::vector<Setting>& settings) {
@@ -135,11 +150,7 @@ void check_given_once(const std::vector<Setting>& settings) {
   }
 }
 
-}  // namespace
-
-namespace {
-
-/// What a setting may name, as far as `given` is near to it.
+/// Suggests the names that a setting may be for and that are near to `given`.
 [[noreturn]] void throw_no_target(const Suite& suite, const std::string& given) {
   std::vector<std::string> names;
   for (const MethodRequest& request : suite.methods) {
@@ -174,9 +185,9 @@ void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
         const bool names_method = settings[i].target == request.method.entry->name;
         const bool names_cell = !names_method && (settings[i].target == request.name ||
                                                   settings[i].target == request.method.full_name());
-        if (whole_method ? names_method : names_cell) {
-          used[i] = apply_setting(settings[i], request) || used[i];
-        }
+        if (whole_method ? !names_method : !names_cell) continue;
+        apply_setting(settings[i], request);
+        used[i] = true;
       }
     }
   }
@@ -234,8 +245,7 @@ const std::vector<std::string>& control_names() {
 }
 
 bool is_control(const std::string& method) {
-  const auto& names = control_names();
-  return std::find(names.begin(), names.end(), method) != names.end();
+  return contains(control_names(), method);
 }
 
 void add_controls(Suite& suite, const MethodRegistry& registry) {
@@ -259,6 +269,13 @@ std::string folder_name(const std::string& name) {
   }
   if (folder.empty() || folder.front() == '.') folder.insert(0, "_");
   return folder;
+}
+
+std::optional<KnownAnswer> known_answer(const std::string& method) {
+  if (method == "noop") return KnownAnswer::kNothingRemoved;
+  if (method == "remove-all") return KnownAnswer::kEverythingRemoved;
+  if (method == "oracle") return KnownAnswer::kMovingPointsRemoved;
+  return std::nullopt;
 }
 
 }  // namespace raymoval

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/parameters.h"
 #include "datasets/sequence.h"
+#include "eval/rate.h"
 #include "methods/registry.h"
 
 namespace raymoval {
@@ -18,7 +19,11 @@ struct SequenceRequest {
   SequenceOptions options;
 };
 
-/// A method of a suite: the rows of cells it fills are called `name`.
+/// The same place for whoever stands in another folder: paths become absolute, scenes keep their
+/// names.
+SequenceRequest absolute_place(const SequenceRequest& place);
+
+/// A method of a suite. Its cells have its `name`.
 struct MethodRequest {
   std::string name;  ///< Unique in the suite: "raymoval:online", or what "as" says.
   ConfiguredMethod method;
@@ -34,8 +39,8 @@ struct ProtocolRequest {
   Configuration options;
 };
 
-/// Name of a suite that has none: its sequences and methods were named one by one. A suite file
-/// that gives this name counts as one without.
+/// The name of a suite whose sequences and methods were named one by one. A suite file that gives
+/// this name counts as one without a name.
 inline constexpr const char* kUnnamedSuite = "run";
 
 /// What one run does: every sequence with every method, scored by every protocol.
@@ -45,13 +50,13 @@ struct Suite {
   std::vector<MethodRequest> methods;
   std::vector<ProtocolRequest> protocols;
   bool controls = true;           ///< Whether the controls are added and checked.
-  int threads = 0;                ///< 0: as many as the machine has.
+  int threads = 0;                ///< 0 means as many as the machine has.
   int repeats = 1;                ///< How often each method runs, for its time; controls run once.
-  double time_limit_s = 0.0;      ///< Of a cell; 0: the usual, by the number of scans.
-  double memory_limit_mib = 0.0;  ///< Of a cell; 0: the usual, by what the machine has.
+  double time_limit_s = 0.0;      ///< Of a cell; 0 means the usual limit for its number of scans.
+  double memory_limit_mib = 0.0;  ///< Of a cell; 0 means the usual limit of the machine.
 };
 
-/// `--set raymoval:online.tau0=0.2`, taken apart.
+/// The parts of `--set raymoval:online.tau0=0.2`.
 struct Setting {
   /// Method ("raymoval"), method and variant, cell name, or protocol ("protocol:erasor").
   std::string target;
@@ -59,7 +64,7 @@ struct Setting {
   std::string value;
 };
 
-/// @throws UsageError saying what the form is.
+/// @throws UsageError that says what the form is
 Setting parse_setting(const std::string& text);
 
 /// Reads a suite file (JSON with comments). Relative paths are looked up beside the suite file
@@ -69,43 +74,46 @@ Setting parse_setting(const std::string& text);
 Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry,
                  const std::string& data = "");
 
-/// Adds "raymoval:online" under its own name, or under `as` if that is not empty.
-/// @throws UsageError if the name is taken or unknown.
+/// Adds a method such as "raymoval:online" under its own name, or under `as` if that is not empty.
+/// @throws UsageError if the name is taken or unknown
 MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
                           const MethodRegistry& registry);
 
-/// Names of methods with their variants: "all" stands for the default variant of each method of the
-/// registry but the controls, "raymoval:all" for all variants of one. Anything else is itself.
+/// The methods that a name stands for, with their variants: "all" for the default variant of each
+/// method of the registry but the controls, "raymoval:all" for all variants of one method, and any
+/// other name for itself.
 /// @throws UsageError if there is no such method
 std::vector<std::string> expanded_methods(const std::string& name, const MethodRegistry& registry);
-
-/// Options of a protocol. @throws UsageError suggesting the nearest protocol
-const std::vector<ParameterSpec>& protocol_parameters(const std::string& name);
 
 /// Adds a protocol with its default options. @throws UsageError if the name is taken or unknown.
 ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as);
 
-/// Applies settings: those for protocols, those for a method to all its variants, then those that
-/// name a cell.
-/// @throws UsageError if one names nothing of the suite, or the same value is set twice.
+/// Applies settings: first those for protocols, then those for all variants of a method, then those
+/// that name a cell.
+/// @throws UsageError if one names nothing of the suite, or the same value is set twice
 void apply_settings(Suite& suite, const std::vector<Setting>& settings);
 
-/// A sentence for each parameter that was set for a method but has no effect there, see
-/// `without_effect`. A swept one counts if it has none at any point of the sweep.
+/// A sentence for each parameter that was set for a method but has no effect there (see
+/// `without_effect`). A swept parameter has a sentence if it has no effect at any point of the
+/// sweep.
 std::vector<std::string> settings_without_effect(const Suite& suite);
 
 /// Sets an option of the protocol that `setting` names, with or without "protocol:" before it.
 /// @throws UsageError if it is not among `protocols`, ConfigurationError for a key or value
 void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting);
 
-/// Puts `noop`, `remove-all` and `oracle` in front, unless listed already.
+/// Puts `noop`, `remove-all` and `oracle` in front, unless the suite lists them already.
 void add_controls(Suite& suite, const MethodRegistry& registry);
 
-/// Names of the controls that `add_controls` knows.
+/// The names of the controls that `add_controls` knows.
 const std::vector<std::string>& control_names();
 bool is_control(const std::string& method);
 
-/// Folder name of a cell: ':' becomes '-', and what a file system may not like becomes '_'.
+/// The name of a cell's folder: ':' becomes '-', and characters that a file system may not accept
+/// become '_'.
 std::string folder_name(const std::string& name);
+
+/// What a control answers; nothing if `method` is no control.
+std::optional<KnownAnswer> known_answer(const std::string& method);
 
 }  // namespace raymoval

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/tables/accuracy_tables.h"
-
+// The rates of methods and controls of a run, and those of papers.
 #include <algorithm>
 
 #include "benchmark/tables/rate_grid.h"
+#include "benchmark/tables/rate_tables.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
-
-constexpr const char* kErasor = "erasor";
-constexpr const char* kDynamicmap = "dynamicmap";
-
-bool among(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 std::vector<MethodRates> run_methods(const RunResults& results, const std::string& protocol,
                                      bool controls) {
@@ -41,7 +34,7 @@ std::vector<MethodRates> run_methods(const RunResults& results, const std::strin
 
 MethodRates outside_rates(const std::vector<std::string>& sequences, const OutsideColumn& given) {
   MethodRates method{given.heading};
-  method.printed_digits = given.protocol == kErasor ? 3 : 2;
+  method.printed_digits = published_form(given.protocol).decimals;
   for (const std::string& sequence : sequences) {
     method.by_sequence.push_back(given.find(sequence));
     method.status.emplace_back("-");
@@ -50,69 +43,80 @@ MethodRates outside_rates(const std::vector<std::string>& sequences, const Outsi
   return method;
 }
 
-/// Whether published numbers are of the protocol that a run calls `protocol`. The strict variant of
-/// dynamicmap has the same rates by other rules.
-bool is_of(const OutsideColumn& given, const std::string& protocol, const RunResults& results) {
-  if (given.protocol != kErasor) return given.protocol == protocol;
-  const std::vector<std::string> rates = results.rates_of(protocol);
-  return among(rates, "PR") && among(rates, "RR");
+/// Whether `given` has rates of a sequence by a protocol of the run.
+bool is_beside(const OutsideColumn& given, const std::string& sequence, const RunResults& results) {
+  return given.find(sequence) != nullptr &&
+         std::any_of(
+             results.protocols.begin(), results.protocols.end(),
+             [&](const std::string& name) { return results.kind_of(name) == given.protocol; });
 }
 
 bool shares_sequence(const OutsideColumn& given, const RunResults& results) {
   return std::any_of(results.sequences.begin(), results.sequences.end(),
-                     [&](const std::string& name) { return given.find(name) != nullptr; });
+                     [&](const std::string& name) { return is_beside(given, name, results); });
 }
 
+/// What the rates of a table are, below it.
 std::string rate_words(const RateGrid& grid, const TableOptions& options) {
-  std::vector<std::string> fractions;
-  for (const std::string& rate : grid.rates) {
-    if (rate_spec(rate).unit == RateUnit::kFraction) fractions.push_back(rate);
-  }
-  std::string text = "Rates in percent";
-  if (!fractions.empty()) text += ", " + join(fractions, " and ") + " as a fraction";
-  text += ".";
-  if (among(grid.rates, "AA")) {
-    text += " AA is the geometric and HA the harmonic mean of SA and DA.";
-  }
+  std::string text = rate_units_text(grid.rates);
   const bool averages = grid.sequences.size() > 1 || options.layout == TableLayout::kSequenceRows;
-  if (averages && among(grid.rates, "F1")) {
-    text += " mean_F1 is the mean of the F1 values; F1_of_means is the F1 of mean PR and mean RR.";
+  for (const std::string& rate : grid.rates) {
+    const RateSpec spec = rate_spec(rate);
+    if (!spec.note.empty()) text += " " + spec.note;
+    if (!averages || !spec.formula || !spec.formula->shown_of_means) continue;
+    text += " mean_" + rate + " is the mean of the " + rate + " values; " + rate +
+            "_of_means is the " + rate + " of mean " + spec.formula->first + " and mean " +
+            spec.formula->second + ".";
   }
   text += " n/a: undefined or not run";
   if (averages) text += "; (4/5): the mean is over the 4 of 5 sequences that have a value";
   return text + ".";
 }
 
-/// All published numbers of a protocol. Those of dynamicmap are on different kinds of data, over
-/// which no mean is taken.
-std::vector<TextTable> published_of(const std::vector<OutsideColumn>& outside,
-                                    const std::string& protocol, const TableOptions& options) {
+/// All published numbers of a protocol.
+std::vector<TextTable> published_of(const std::string& protocol, const TableOptions& options) {
+  const PublishedForm& form = published_form(protocol);
   RateGrid grid;
-  const bool erasor = protocol == kErasor;
-  grid.title = erasor ? "Published" : "Published, DynamicMap benchmark";
-  grid.ranked = erasor;
-  grid.rates = erasor ? std::vector<std::string>{"PR", "RR", "F1"}
-                      : std::vector<std::string>{"SA", "DA", "AA", "HA"};
-  if (!options.rates.empty()) {
-    std::erase_if(grid.rates, [&](const auto& rate) { return !among(options.rates, rate); });
-  }
-  for (const OutsideColumn& given : outside) {
-    for (const auto& [name, rates] : given.sequences) {
-      if (given.protocol == protocol && !among(grid.sequences, name))
-        grid.sequences.push_back(name);
+  grid.title = form.title;
+  grid.ranked = form.comparable;
+  for (const RateSpec& spec : protocol_entry(protocol).rates) {
+    if (spec.role == RateRole::kSecondary) continue;  // Papers print none.
+    if (options.rates.empty() || is_among(options.rates, spec.name)) {
+      grid.rates.push_back(spec.name);
     }
   }
-  for (const OutsideColumn& given : outside) {
+  if (grid.rates.empty()) return {};
+  for (const OutsideColumn& given : options.outside) {
+    if (given.protocol != protocol) continue;
+    for (const auto& [name, rates] : given.sequences) add_once(grid.sequences, name);
+  }
+  for (const OutsideColumn& given : options.outside) {
     if (given.protocol == protocol) grid.methods.push_back(outside_rates(grid.sequences, given));
   }
-  if (grid.rates.empty()) return {};
   std::vector<TextTable> tables = rate_tables(grid, options);
-  tables.back().notes.push_back(
-      erasor ? "Values as printed (Raymoval paper, Table 2); the means are computed from them, "
-               "since two of the printed means are misprints."
-             : "As printed by the benchmark, DUFOMap and BeautyMap, to 2 decimals; -: not printed. "
-               "KITTI at every frame, without a range limit; which frames lie behind 01 is not "
-               "known. More in results/published/.");
+  tables.back().notes.emplace_back(form.note);
+  return tables;
+}
+
+/// The rates of the run's methods, or of its controls.
+RateGrid run_grid(const RunResults& results, const std::string& protocol,
+                  const TableOptions& options, bool controls) {
+  RateGrid grid;
+  grid.title = (controls ? "Controls by protocol " : "Accuracy by protocol ") + protocol;
+  grid.sequences = results.sequences;
+  grid.methods = run_methods(results, protocol, controls);
+  grid.rates = chosen_rates(options, results, protocol);
+  grid.ranked = !controls;
+  return grid;
+}
+
+std::vector<TextTable> run_tables(const RateGrid& grid, const RunResults& results,
+                                  const std::string& protocol, const TableOptions& options,
+                                  const std::string& note) {
+  const bool none_chosen = grid.rates.empty() && !results.rates_of(protocol).empty();
+  if (grid.methods.empty() || none_chosen) return {};
+  std::vector<TextTable> tables = rate_tables(grid, options);
+  tables.back().notes.push_back(note);
   return tables;
 }
 
@@ -120,67 +124,41 @@ std::vector<TextTable> published_of(const std::vector<OutsideColumn>& outside,
 
 std::vector<TextTable> accuracy_tables(const RunResults& results, const std::string& protocol,
                                        const TableOptions& options) {
-  RateGrid grid;
-  grid.title = "Accuracy by protocol " + protocol;
-  grid.sequences = results.sequences;
-  grid.methods = run_methods(results, protocol, false);
-  grid.rates = chosen_rates(options, results, protocol);
+  RateGrid grid = run_grid(results, protocol, options, false);
   grid.timed = shows_time(options) && options.layout == TableLayout::kMethodRows;
   for (const OutsideColumn& given : options.outside) {
-    if (!is_of(given, protocol, results) || !shares_sequence(given, results)) continue;
+    if (given.protocol != results.kind_of(protocol) || !shares_sequence(given, results)) continue;
     grid.methods.push_back(outside_rates(results.sequences, given));
   }
-  if (grid.methods.empty() || (grid.rates.empty() && !results.rates_of(protocol).empty()))
-    return {};
-  std::vector<TextTable> tables = rate_tables(grid, options);
-  tables.back().notes.push_back(rate_words(grid, options));
-  return tables;
+  return run_tables(grid, results, protocol, options, rate_words(grid, options));
 }
 
 std::vector<TextTable> control_tables(const RunResults& results, const std::string& protocol,
                                       const TableOptions& options) {
-  RateGrid grid;
-  grid.title = "Controls by protocol " + protocol;
-  grid.sequences = results.sequences;
-  grid.methods = run_methods(results, protocol, true);
-  grid.rates = chosen_rates(options, results, protocol);
-  grid.ranked = false;
-  if (grid.methods.empty() || (grid.rates.empty() && !results.rates_of(protocol).empty()))
-    return {};
-  std::vector<TextTable> tables = rate_tables(grid, options);
-  tables.back().notes.push_back(controls_text(results));
-  return tables;
+  return run_tables(run_grid(results, protocol, options, true), results, protocol, options,
+                    controls_text(results));
 }
 
 std::vector<TextTable> published_tables(const RunResults& results, const TableOptions& options) {
   std::vector<TextTable> tables;
-  for (const char* published : {kErasor, kDynamicmap}) {
-    const bool wanted =
-        std::any_of(options.outside.begin(), options.outside.end(), [&](const auto& given) {
-          return given.protocol == published && shares_sequence(given, results) &&
-                 std::any_of(
-                     results.protocols.begin(), results.protocols.end(),
-                     [&](const std::string& protocol) { return is_of(given, protocol, results); });
+  for (const ProtocolEntry& entry : protocol_entries()) {
+    const bool wanted = std::any_of(
+        options.outside.begin(), options.outside.end(), [&](const OutsideColumn& given) {
+          return given.protocol == entry.name && shares_sequence(given, results);
         });
     if (!wanted) continue;
-    for (TextTable& table : published_of(options.outside, published, options)) {
-      tables.push_back(std::move(table));
-    }
+    for (TextTable& table : published_of(entry.name, options)) tables.push_back(std::move(table));
   }
   return tables;
 }
 
 std::vector<std::string> unpublished_sequences(const RunResults& results,
                                                const std::vector<OutsideColumn>& outside) {
-  std::vector<std::string> names;
-  for (const std::string& name : results.sequences) {
-    const bool known = std::any_of(outside.begin(), outside.end(), [&](const auto& given) {
-      return given.find(name) != nullptr &&
-             std::any_of(results.protocols.begin(), results.protocols.end(),
-                         [&](const auto& protocol) { return is_of(given, protocol, results); });
-    });
-    if (!known) names.push_back(name);
-  }
+  std::vector<std::string> names = results.sequences;
+  std::erase_if(names, [&](const std::string& name) {
+    return std::any_of(outside.begin(), outside.end(),
+                       [&](const auto& given) { return is_beside(given, name, results); });
+  });
   return names;
 }
 

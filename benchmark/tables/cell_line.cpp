@@ -2,17 +2,14 @@
 #include "benchmark/tables/cell_line.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/result/results.h"
 #include "benchmark/tables/text_table.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr std::size_t kMostSequence = 20;
 constexpr std::size_t kMostMethod = 40;
@@ -25,22 +22,22 @@ std::size_t widest(const std::vector<std::string>& names, std::size_t most) {
 }
 
 /// "F1 0.9443", in the width of a perfect rate.
-std::string rate_piece(const RateSpec& spec, const ordered_json& value) {
-  const std::string full = fixed_text(spec.full(), spec.decimals);
-  const std::string text = value.is_null() ? "n/a" : rate_text(spec.name, value.get<double>());
+std::string rate_piece(const RateSpec& spec, const std::optional<double>& value) {
+  const std::string full = fixed_text(spec.largest(), spec.decimals);
+  const std::string text = value ? rate_text(spec.name, *value) : "n/a";
   return spec.name + " " + padded_left(text, full.size());
 }
 
 /// The main rates of a cell: those that methods are ranked by are in `headlines`, what is kept and
 /// removed in `others`, the first protocol's first.
-void collect_rates(const ordered_json& cell, std::vector<std::string>& headlines,
+void collect_rates(const Cell& cell, std::vector<std::string>& headlines,
                    std::vector<std::string>& others) {
-  for (const ordered_json& protocol : cell.at("protocols")) {
-    for (const auto& [name, value] : protocol.at("rates").items()) {
-      const RateSpec spec = rate_spec(name);
-      if (spec.role == RateRole::kHeadline) headlines.push_back(rate_piece(spec, value));
+  for (const Score& score : cell.scores) {
+    for (const Rate& rate : score.rates) {
+      const RateSpec spec = rate_spec(rate.name);
+      if (spec.role == RateRole::kHeadline) headlines.push_back(rate_piece(spec, rate.value));
       if (spec.role == RateRole::kKept || spec.role == RateRole::kRemoved) {
-        others.push_back(rate_piece(spec, value));
+        others.push_back(rate_piece(spec, rate.value));
       }
     }
   }
@@ -54,25 +51,26 @@ CellLines::CellLines(const std::vector<std::string>& sequences,
       sequence_width_(widest(sequences, kMostSequence)),
       method_width_(widest(methods, kMostMethod)) {}
 
-std::string CellLines::line(std::size_t number, const ordered_json& cell, bool kept) const {
+std::string CellLines::line(std::size_t number, const Cell& cell, bool kept) const {
   const std::string of = std::to_string(cells_);
-  const auto name = [&](const char* key, std::size_t width) {
-    return padded(shortened_middle(cell.at(key).get<std::string>(), width), width);
+  const auto fitted = [](const std::string& name, std::size_t width) {
+    return padded(shortened_middle(name, width), width);
   };
   std::string text = "[" + padded_left(std::to_string(number), of.size()) + "/" + of + "] " +
-                     name("sequence", sequence_width_) + "  " + name("name", method_width_);
-  if (cell.at("status") != "ok") {
-    text +=
-        "  " + cell.at("status").get<std::string>() + ": " + cell.at("reason").get<std::string>();
+                     fitted(cell.sequence, sequence_width_) + "  " +
+                     fitted(cell.name, method_width_);
+  if (!cell.ok()) {
+    text += std::string("  ") + status_name(cell.status) + ": " + cell.reason;
     std::replace(text.begin(), text.end(), '\n', ' ');
     return shortened_end(text, kTerminalWidth);
   }
   std::vector<std::string> headlines, others;
   collect_rates(cell, headlines, others);
-  const double seconds = cell.at("measured").at("seconds_per_scan").at("mean").get<double>();
   std::vector<std::string> pieces;
   if (!headlines.empty()) pieces.push_back(headlines.front());
-  pieces.push_back(padded_left(fixed_text(1000.0 * seconds, 1), 7) + " ms");
+  if (cell.measured) {
+    pieces.push_back(padded_left(fixed_text(1000.0 * cell.measured->mean_seconds, 1), 7) + " ms");
+  }
   for (std::size_t i = 0; i + 1 < others.size(); i += 2) {  // One says little without the other.
     pieces.push_back(others[i] + "  " + others[i + 1]);
   }

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include "benchmark/result/cell.h"
 
 namespace raymoval {
 
@@ -20,10 +21,8 @@ class CellLines {
   /// characters: the rate that methods are ranked by, the time per scan, then as many of the other
   /// main rates as there is room for; or what went wrong.
   /// @param number of the cell, from 1
-  /// @param cell content of cell.json
   /// @param kept whether an earlier run made it
-  [[nodiscard]] std::string line(std::size_t number, const nlohmann::ordered_json& cell,
-                                 bool kept = false) const;
+  [[nodiscard]] std::string line(std::size_t number, const Cell& cell, bool kept = false) const;
 
  private:
   std::size_t cells_, sequence_width_ = 0, method_width_ = 0;

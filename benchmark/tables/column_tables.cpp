@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -22,25 +23,16 @@ std::vector<const MethodColumns*> shown_methods(const RunResults& results, bool 
   return shown;
 }
 
-/// The class in "rejection [moving-car]"; nothing for bands, and for the bands of a class.
-std::optional<std::string> class_in(const std::string& column, const std::string& kind) {
-  const std::string start = kind + " [";
-  if (!column.starts_with(start)) return std::nullopt;
-  const std::string inner = column.substr(start.size(), column.size() - start.size() - 1);
-  const bool band = inner.starts_with("range ") || inner.starts_with("height ");
-  if (band || inner.find(',') != std::string::npos) return std::nullopt;
-  return inner;
-}
-
 /// "moving-person 63.200": the class of which the smallest share was dealt with rightly.
 std::string worst_class(const MethodColumns& method, const std::string& kind) {
   std::string text = "-";
   double worst = 101.0;
   for (const auto& [column, share] : method.values) {
-    const auto name = class_in(column, kind);
-    if (!name || share.whole < kNamedClassPoints || *share.percent() >= worst) continue;
+    const ColumnName name = parse_column_name(column);
+    if (name.kind != kind || name.group.empty() || !name.axis.empty()) continue;
+    if (share.whole < kNamedClassPoints || *share.percent() >= worst) continue;
     worst = *share.percent();
-    text = *name + " " + percent_text(share);
+    text = name.group + " " + percent_text(share);
   }
   return text;
 }
@@ -49,50 +41,9 @@ std::string worst_class(const MethodColumns& method, const std::string& kind) {
 std::vector<std::string> column_names(const std::vector<const MethodColumns*>& methods) {
   std::vector<std::string> names;
   for (const MethodColumns* method : methods) {
-    for (const auto& [name, share] : method->values) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
+    for (const auto& [name, share] : method->values) add_once(names, name);
   }
   return names;
-}
-
-/// A column's name in parts: "rejection [moving-car, range 0-10 m]".
-struct ColumnName {
-  std::string kind;   ///< "rejection".
-  std::string group;  ///< "moving-car"; empty: all points.
-  std::string axis;   ///< "range" or "height"; empty: neither.
-  std::string band;   ///< "0-10 m".
-};
-
-ColumnName parts_of(const std::string& name) {
-  const std::size_t open = name.find(" [");
-  ColumnName parts{name.substr(0, open), "", "", ""};
-  if (open == std::string::npos) return parts;
-  parts.group = name.substr(open + 2, name.size() - open - 3);
-  for (const std::string axis : {"range", "height"}) {
-    // Alone, or behind the class; a class may have any name.
-    const std::size_t comma = parts.group.rfind(", " + axis + " ");
-    const bool alone = parts.group.starts_with(axis + " ");
-    if (!alone && comma == std::string::npos) continue;
-    const std::size_t at = comma == std::string::npos ? 0 : comma + 2;
-    parts.axis = axis;
-    parts.band = parts.group.substr(at + axis.size() + 1);
-    parts.group = comma == std::string::npos ? "" : parts.group.substr(0, comma);
-    break;
-  }
-  return parts;
-}
-
-/// Adds `name` unless it is there.
-void add_once(std::vector<std::string>& names, const std::string& name) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
-std::string column_text(const std::string& kind, const std::string& group, const std::string& axis,
-                        const std::string& band) {
-  const std::string where =
-      group + (group.empty() || axis.empty() ? "" : ", ") + (axis.empty() ? "" : axis + " " + band);
-  return where.empty() ? kind : kind + " [" + where + "]";
 }
 
 /// Rejection or preservation by range or height: in all, then by band.
@@ -100,7 +51,7 @@ TextTable band_table(const std::vector<const MethodColumns*>& methods, const std
                      const std::string& axis) {
   std::vector<std::string> bands, groups = {""};
   for (const std::string& name : column_names(methods)) {
-    const ColumnName parts = parts_of(name);
+    const ColumnName parts = parse_column_name(name);
     if (parts.kind != kind) continue;
     if (parts.axis == axis) add_once(bands, parts.band);
     add_once(groups, parts.group);
@@ -108,9 +59,9 @@ TextTable band_table(const std::vector<const MethodColumns*>& methods, const std
   TextTable table{"Columns: " + kind + " by " + axis, "method", {{"", {"all"}}}, {}, {}};
   for (const std::string& band : bands) table.groups[0].columns.push_back(band);
   const auto add_row = [&](const std::string& label, const std::string& group, auto&& text) {
-    TableRow row{label, {{text(column_text(kind, group, "", ""))}}, label == "points", {}};
+    TableRow row{label, {{text(ColumnName{kind, group}.text())}}, label == "points", {}};
     for (const std::string& band : bands) {
-      row.cells.push_back({text(column_text(kind, group, axis, band))});
+      row.cells.push_back({text(ColumnName{kind, group, axis, band}.text())});
     }
     row.block = group.empty() ? "all classes" : group;
     table.rows.push_back(std::move(row));
@@ -138,7 +89,7 @@ TextTable band_table(const std::vector<const MethodColumns*>& methods, const std
 TextTable whole_table(const std::vector<const MethodColumns*>& methods) {
   TextTable table{"Columns", "method", {{"", {}}}, {}, {}};
   for (const std::string& name : column_names(methods)) {
-    if (name.find(" [") == std::string::npos) table.groups[0].columns.push_back(name);
+    if (name == parse_column_name(name).kind) table.groups[0].columns.push_back(name);
   }
   for (const MethodColumns* method : methods) {
     TableRow row{method->cell, {}, false};

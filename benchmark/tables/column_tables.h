@@ -21,11 +21,4 @@ inline constexpr std::int64_t kNamedClassPoints = 100;
 /// and for each class; then the intervals of every rate.
 std::vector<TextTable> full_column_tables(const RunResults& results);
 
-/// Where the order of the methods depends on the protocol: the rank of each method by the F1 or HA
-/// of each protocol, and how far it moves from the first protocol to the one where it moves most.
-/// What is displayed alike has the same rank. Ranks are by the mean over the sequences; with
-/// `options.disagreements` also by each sequence, and each pair that changes places is named. None
-/// for fewer than two protocols or methods.
-std::vector<TextTable> ranking_tables(const RunResults& results, const TableOptions& options = {});
-
 }  // namespace raymoval

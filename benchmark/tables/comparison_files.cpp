@@ -5,16 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "benchmark/picture/charts/svg.h"
-#include "benchmark/result/cell.h"
 #include "benchmark/result/sealed_json.h"
+#include "benchmark/tables/comparison_json.h"
+#include "benchmark/tables/text_table.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
-
-using nlohmann::ordered_json;
 
 bool only_in_run(const ScoreComparison& score) {
   return score.change == Change::kMoved && score.rates.empty() && !score.reasons.empty();
@@ -176,82 +175,6 @@ std::string comparison_junit(const Comparison& comparison) {
   return xml + "</testsuites>\n";
 }
 
-// JSON.
-
-template <class Value>
-ordered_json value_or_null(const std::optional<Value>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
-ordered_json options_record(const ComparisonOptions& options) {
-  ordered_json record;
-  record["tolerances"] = ordered_json::object();
-  for (const auto& [rate, tolerance] : options.tolerances) record["tolerances"][rate] = tolerance;
-  record["time_band"] = value_or_null(options.time_band);
-  record["across"] = ordered_json::array();
-  if (options.across_parameters) record["across"].push_back("parameters");
-  if (options.across_version) record["across"].push_back("version");
-  return record;
-}
-
-ordered_json score_record(const ScoreComparison& score) {
-  ordered_json record;
-  record["sequence"] = score.sequence;
-  record["name"] = score.name;
-  record["protocol"] =
-      score.protocol.empty() ? ordered_json(nullptr) : ordered_json(score.protocol);
-  record["verdict"] = change_name(score.change);
-  record["reasons"] = score.reasons;
-  record["across"] = score.across;
-  record["rates"] = ordered_json::array();
-  for (const RateChange& rate : score.rates) {
-    record["rates"].push_back({{"name", rate.name},
-                               {"reference", value_or_null(rate.before)},
-                               {"run", value_or_null(rate.after)},
-                               {"tolerance", value_or_null(rate.tolerance)},
-                               {"verdict", change_name(rate.change)}});
-  }
-  record["counts"] = ordered_json::array();
-  for (const CountChange& count : score.counts) {
-    record["counts"].push_back({{"name", count.name},
-                                {"reference", value_or_null(count.before)},
-                                {"run", value_or_null(count.after)}});
-  }
-  return record;
-}
-
-std::string comparison_json(const Comparison& comparison, const ComparisonSubject& subject) {
-  ordered_json record;
-  record["schema_version"] = kSchemaVersion;
-  record["run"] = subject.run;
-  record["reference"] = subject.reference;
-  record["verdict"] = comparison.verdict_words();
-  record["exit_code"] = static_cast<int>(comparison.verdict());
-  record["cells"] = comparison.cells;
-  record["same_cells"] = comparison.same_cells;
-  record["options"] = options_record(subject.options);
-  record["problems"] = ordered_json::array();
-  for (const ComparisonLine& line : comparison.lines) {
-    if (!line.sequence.empty()) continue;
-    record["problems"].push_back({{"verdict", change_name(line.change)}, {"text", line.text}});
-  }
-  record["scores"] = ordered_json::array();
-  for (const ScoreComparison& score : comparison.scores) {
-    record["scores"].push_back(score_record(score));
-  }
-  record["times"] = ordered_json::array();
-  for (const TimeChange& time : comparison.time_changes) {
-    const bool both = time.change != Change::kIncomparable;
-    record["times"].push_back({{"sequence", time.sequence},
-                               {"name", time.name},
-                               {"reference", value_or_null(time.before)},
-                               {"run", value_or_null(time.after)},
-                               {"ratio", both ? ordered_json(time.ratio()) : ordered_json(nullptr)},
-                               {"verdict", change_name(time.change)}});
-  }
-  return json_text(record);
-}
-
 }  // namespace
 
 const std::vector<std::string>& comparison_formats() {
@@ -264,7 +187,7 @@ std::string comparison_in(const std::string& format, const Comparison& compariso
   if (format == "text") return comparison_text(comparison);
   if (format == "md") return comparison_markdown(comparison, subject);
   if (format == "junit") return comparison_junit(comparison);
-  if (format == "json") return comparison_json(comparison, subject);
+  if (format == "json") return json_text(to_json(comparison, subject));
   throw UsageError("--format " + format + ": is no way to write a comparison." +
                    suggestion(format, comparison_formats()));
 }

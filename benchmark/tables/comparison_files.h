@@ -19,7 +19,7 @@ const std::vector<std::string>& comparison_formats();
 
 /// The comparison in one of these formats:
 /// - "text": as `comparison_text`;
-/// - "md": a table in Markdown of what is not the same, and how it is judged;
+/// - "md": a table in Markdown of what is not the same, with a verdict;
 /// - "junit": XML with a test suite for each sequence and a test case for each method and protocol.
 ///   What is worse has failed, what is not comparable is an error, and what is not compared because
 ///   only the run has it is skipped. Problems of the whole run stand in the suite "run", times that

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "benchmark/tables/column_tables.h"
+#include "benchmark/tables/rate_tables.h"
 #include "core/text.h"
 #include "eval/averages.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -13,36 +14,29 @@ namespace {
 struct Ranking {
   std::string protocol;
   std::string rate;
-  std::vector<std::optional<double>> scores;      ///< Of each method, as displayed.
+  SegmentValues scores;                           ///< Of each method, as displayed.
   std::vector<std::optional<std::size_t>> ranks;  ///< From 1; methods that tie share one.
 };
-
-std::optional<double> score_of(const RunResults& results, const std::string& sequence,
-                               const std::string& cell, const Ranking& ranking) {
-  const ResultRow* row = results.find(sequence, cell, ranking.protocol);
-  if (row == nullptr || row->status != "ok") return std::nullopt;
-  const auto found = row->rates.find(ranking.rate);
-  return found == row->rates.end() ? std::nullopt : found->second;
-}
 
 /// @param sequences one, or all for the mean; a method that misses one of them has no rank
 Ranking ranking_of(const RunResults& results, const std::vector<std::string>& sequences,
                    const std::vector<std::string>& methods, const std::string& protocol) {
   Ranking ranking{protocol, results.headline_of(protocol), {}, {}};
+  const RateSpec spec = rate_spec(ranking.rate);
   for (const std::string& method : methods) {
-    std::vector<std::optional<double>> values;
+    SegmentValues values;
     for (const std::string& sequence : sequences) {
-      values.push_back(score_of(results, sequence, method, ranking));
+      const ResultRow* row = results.find(sequence, method, protocol);
+      values.push_back(row == nullptr ? std::nullopt : row->rate(ranking.rate));
     }
     const Mean mean = mean_of(values);
     const bool whole = mean.value && mean.segments == sequences.size();
-    ranking.scores.push_back(whole ? parse_number<double>(rate_text(ranking.rate, *mean.value))
-                                   : std::nullopt);
+    ranking.scores.push_back(whole ? number_cell(*mean.value, spec.decimals).value : std::nullopt);
   }
   for (const auto& score : ranking.scores) {
-    const auto better =
-        std::count_if(ranking.scores.begin(), ranking.scores.end(),
-                      [&](const auto& other) { return other && score && *other > *score; });
+    const auto better = std::count_if(
+        ranking.scores.begin(), ranking.scores.end(),
+        [&](const auto& other) { return other && score && spec.is_better(*other, *score); });
     ranking.ranks.push_back(score ? std::optional(static_cast<std::size_t>(better) + 1)
                                   : std::nullopt);
   }

@@ -3,35 +3,52 @@
 
 #include <algorithm>
 
-#include "benchmark/tables/accuracy_tables.h"
 #include "core/text.h"
-#include "eval/averages.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
-constexpr const char* kTimeHeading = "ms per scan";
-constexpr const char* kF1OfMeans = "F1_of_means";
-
-std::string time_cell_text(const std::optional<double>& ms) {
-  return ms ? fixed_text(*ms, 1) : "-";
+TableCell grid_time_cell(const RateGrid& grid, const std::optional<double>& ms) {
+  return ms ? number_cell(*ms, 1) : TableCell{grid.no_time};
 }
 
-/// The text of a rate, or the word for its lack.
-std::string rate_cell_text(const MethodRates& method, std::size_t sequence, const std::string& rate,
-                           const TableOptions& options) {
+/// A rate on a sequence, or the word for its lack.
+TableCell grid_rate_cell(const MethodRates& method, std::size_t sequence, const std::string& rate,
+                         const TableOptions& options) {
   const auto value = method.rate(sequence, rate);
-  if (value) return option_text(options, rate, *value, method.printed_digits);
+  if (value) return rate_cell(options, rate, *value, method.printed_digits);
   const std::string& status = method.status[sequence];
-  return status.empty() || status == "ok" ? "n/a" : status;
+  return {status.empty() || status == "ok" ? "n/a" : status};
 }
 
-bool has_f1_of_means(const RateGrid& grid) {
-  const auto has = [&](const char* rate) {
+/// The rates of the grid for which the formula's value of the means is shown too.
+std::vector<RateSpec> rates_of_means(const RateGrid& grid) {
+  const auto has = [&](const std::string& rate) {
     return std::find(grid.rates.begin(), grid.rates.end(), rate) != grid.rates.end();
   };
-  return has("PR") && has("RR") && has("F1");
+  std::vector<RateSpec> specs;
+  for (const std::string& rate : grid.rates) {
+    const RateSpec spec = rate_spec(rate);
+    if (!spec.formula || !spec.formula->shown_of_means) continue;
+    if (has(spec.formula->first) && has(spec.formula->second)) specs.push_back(spec);
+  }
+  return specs;
+}
+
+/// F1 of the mean PR and the mean RR, over the sequences with both.
+TableCell of_means_cell(const RateSpec& spec, const MethodRates& method,
+                        const TableOptions& options) {
+  const RateFormula& formula = *spec.formula;
+  const Mean mean =
+      combined_means(method.values(formula.first), method.values(formula.second), formula.combine);
+  return mean_cell(options, spec.name, mean, method.by_sequence.size(), method.printed_digits);
+}
+
+TableCell grid_mean_cell(const MethodRates& method, const std::string& rate,
+                         const TableOptions& options) {
+  return mean_cell(options, rate, mean_of(method.values(rate)), method.by_sequence.size(),
+                   method.printed_digits);
 }
 
 std::vector<std::string> mean_names(const RateGrid& grid) {
@@ -40,23 +57,30 @@ std::vector<std::string> mean_names(const RateGrid& grid) {
   return names;
 }
 
-/// Marks the cells of each column within a block.
-void mark_columns(TextTable& table, const RowRange& block, const RateGrid& grid) {
-  const std::size_t columns = table.rows[block.first].cells.size();
-  for (std::size_t place = 0; place < columns; ++place) {
-    std::vector<TableCell*> cells;
-    for (std::size_t i = block.first; i < block.end; ++i) {
-      cells.push_back(&table.rows[i].cells[place]);
-    }
-    const bool is_rate = place < grid.rates.size();
-    const bool is_time = grid.timed && place + 1 == columns;
-    mark_best(cells, is_rate ? rate_spec(grid.rates[place]).higher_is_better : !is_time);
+/// What a column of a table holds.
+struct GridColumn {
+  std::string key;  ///< By which a user may sort.
+  bool higher_is_better = true;
+};
+
+/// The columns of a table with a row for each method.
+/// @param of_means whether it has columns of `rates_of_means`
+std::vector<GridColumn> grid_columns(const RateGrid& grid, bool of_means) {
+  std::vector<GridColumn> columns;
+  for (const std::string& rate : grid.rates) {
+    columns.push_back({rate, rate_spec(rate).higher_is_better});
   }
+  if (of_means) {
+    for (const RateSpec& spec : rates_of_means(grid)) {
+      columns.push_back({spec.name + "_of_means", spec.higher_is_better});
+    }
+  }
+  if (grid.timed) columns.push_back({kTimeRate, false});
+  return columns;
 }
 
 /// Sorts the rows of a block, best first; those without a value come last.
-/// @param keys of each column, by which a user may sort
-void sort_block(TextTable& table, const RowRange& block, const std::vector<std::string>& keys,
+void sort_block(TextTable& table, const RowRange& block, const std::vector<GridColumn>& columns,
                 const std::string& by) {
   const auto begin = table.rows.begin() + static_cast<std::ptrdiff_t>(block.first);
   const auto end = table.rows.begin() + static_cast<std::ptrdiff_t>(block.end);
@@ -64,28 +88,27 @@ void sort_block(TextTable& table, const RowRange& block, const std::vector<std::
     std::stable_sort(begin, end, [](const auto& a, const auto& b) { return a.label < b.label; });
     return;
   }
-  const auto place =
-      static_cast<std::size_t>(std::find(keys.begin(), keys.end(), by) - keys.begin());
-  if (place == keys.size()) return;
-  const bool higher = by != kTimeRate && rate_spec(by).higher_is_better;
+  const auto column = std::find_if(columns.begin(), columns.end(),
+                                   [&](const GridColumn& one) { return one.key == by; });
+  if (column == columns.end()) return;
+  const auto place = static_cast<std::size_t>(column - columns.begin());
   std::stable_sort(begin, end, [&](const TableRow& a, const TableRow& b) {
-    const auto left = leading_number(a.cells[place].text);
-    const auto right = leading_number(b.cells[place].text);
+    const auto left = a.cells[place].value, right = b.cells[place].value;
     if (!left || !right) return left.has_value() && !right;
-    return higher ? *left > *right : *left < *right;
+    return column->higher_is_better ? *left > *right : *left < *right;
   });
 }
 
 /// Sorts and marks each block.
-void finish_blocks(TextTable& table, const RateGrid& grid, const TableOptions& options) {
-  std::vector<std::string> keys = grid.rates;
-  if (table.groups.front().columns.size() > grid.rates.size() + (grid.timed ? 1 : 0)) {
-    keys.emplace_back(kF1OfMeans);
-  }
-  if (grid.timed) keys.emplace_back(kTimeRate);
+void finish_blocks(TextTable& table, const RateGrid& grid, const TableOptions& options,
+                   bool of_means) {
+  const std::vector<GridColumn> columns = grid_columns(grid, of_means);
   for (const RowRange& block : blocks_of(table)) {
-    sort_block(table, block, keys, options.sort);
-    if (grid.ranked) mark_columns(table, block, grid);
+    sort_block(table, block, columns, options.sort);
+    if (!grid.ranked) continue;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      mark_best(column_cells(table, i, block), columns[i].higher_is_better);
+    }
   }
 }
 
@@ -96,15 +119,10 @@ TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options) {
     for (const MethodRates& method : grid.methods) {
       // What others printed stands beside their own sequences only.
       if (method.printed_digits > 0 && method.by_sequence[i] == nullptr) continue;
-      TableRow row{method.heading, {}, false, grid.sequences[i]};
-      for (const std::string& rate : grid.rates) {
-        row.cells.push_back({rate_cell_text(method, i, rate, options)});
-      }
-      if (grid.timed) row.cells.push_back({time_cell_text(method.ms[i])});
-      table.rows.push_back(std::move(row));
+      table.rows.push_back(sequence_row(grid, method, i, options));
     }
   }
-  finish_blocks(table, grid, options);
+  finish_blocks(table, grid, options, false);
   return table;
 }
 
@@ -120,20 +138,21 @@ TextTable mean_block(const RateGrid& grid, const TableOptions& options) {
       {{"", mean_names(grid)}},
       {},
       {}};
-  const bool both_averages = has_f1_of_means(grid);
-  if (both_averages) table.groups[0].columns.emplace_back(kF1OfMeans);
+  const std::vector<RateSpec> of_means = rates_of_means(grid);
+  for (const RateSpec& spec : of_means) {
+    table.groups[0].columns.push_back(spec.name + "_of_means");
+  }
   if (grid.timed) table.groups[0].columns.emplace_back(kTimeHeading);
   for (const MethodRates& method : grid.methods) {
     if (method.printed_digits > 0 && !is_complete(method)) continue;
-    TableRow row{method.heading, {}, false};
-    for (const std::string& rate : grid.rates) {
-      row.cells.push_back({mean_text(options, rate, method.values(rate), method.printed_digits)});
+    TableRow row = mean_row(grid, method, options);
+    auto after_rates = row.cells.begin() + static_cast<std::ptrdiff_t>(grid.rates.size());
+    for (const RateSpec& spec : of_means) {
+      after_rates = std::next(row.cells.insert(after_rates, of_means_cell(spec, method, options)));
     }
-    if (both_averages) row.cells.push_back({method.f1_of_means_text(options)});
-    if (grid.timed) row.cells.push_back({time_cell_text(method.mean_ms)});
     table.rows.push_back(std::move(row));
   }
-  finish_blocks(table, grid, options);
+  finish_blocks(table, grid, options, true);
   return table;
 }
 
@@ -170,60 +189,25 @@ void mark_row(TableRow& row, const std::vector<std::string>& rates) {
 void add_mean_rows(const RateGrid& grid, const std::vector<const MethodRates*>& methods,
                    const TableOptions& options, TextTable& table) {
   TableRow means{join(mean_names(grid)), {}, true};
-  TableRow f1_of_means{kF1OfMeans, {}, true};
   for (const MethodRates* method : methods) {
     for (const std::string& rate : grid.rates) {
-      means.cells.push_back(
-          {mean_text(options, rate, method->values(rate), method->printed_digits)});
-      f1_of_means.cells.push_back({rate == "F1" ? method->f1_of_means_text(options) : ""});
+      means.cells.push_back(grid_mean_cell(*method, rate, options));
     }
   }
   table.rows.push_back(std::move(means));
-  if (has_f1_of_means(grid)) table.rows.push_back(std::move(f1_of_means));
-}
-
-}  // namespace
-
-std::optional<double> MethodRates::rate(std::size_t sequence, const std::string& name) const {
-  if (by_sequence[sequence] == nullptr) return std::nullopt;
-  const auto found = by_sequence[sequence]->find(name);
-  return found == by_sequence[sequence]->end() ? std::nullopt : found->second;
-}
-
-std::vector<std::optional<double>> MethodRates::values(const std::string& name) const {
-  std::vector<std::optional<double>> list;
-  for (std::size_t i = 0; i < by_sequence.size(); ++i) list.push_back(rate(i, name));
-  return list;
-}
-
-std::string MethodRates::f1_of_means_text(const TableOptions& options) const {
-  std::vector<SegmentRates> segments;
-  for (std::size_t i = 0; i < by_sequence.size(); ++i) {
-    segments.push_back({rate(i, "PR"), rate(i, "RR"), rate(i, "F1")});
+  for (const RateSpec& spec : rates_of_means(grid)) {
+    TableRow row{spec.name + "_of_means", {}, true};
+    for (const MethodRates* method : methods) {
+      for (const std::string& rate : grid.rates) {
+        row.cells.push_back(rate == spec.name ? of_means_cell(spec, *method, options)
+                                              : TableCell{""});
+      }
+    }
+    table.rows.push_back(std::move(row));
   }
-  const Mean mean = average_rates(segments).F1_of_means;
-  if (!mean.value) return "n/a";
-  const std::string text = option_text(options, "F1", *mean.value, printed_digits);
-  return mean.segments == segments.size() ? text
-                                          : text + " (" + std::to_string(mean.segments) + "/" +
-                                                std::to_string(segments.size()) + ")";
 }
 
-std::string mean_text(const TableOptions& options, const std::string& rate,
-                      const std::vector<std::optional<double>>& values, int printed) {
-  const Mean mean = mean_of(values);
-  if (!mean.value) return "n/a";
-  const std::string text = option_text(options, rate, *mean.value, printed);
-  if (mean.segments == values.size()) return text;
-  return text + " (" + std::to_string(mean.segments) + "/" + std::to_string(values.size()) + ")";
-}
-
-std::vector<TextTable> method_rows(const RateGrid& grid, const TableOptions& options) {
-  std::vector<TextTable> tables = {sequence_blocks(grid, options)};
-  if (grid.ranked && grid.sequences.size() > 1) tables.push_back(mean_block(grid, options));
-  return tables;
-}
-
+/// The paper's Table 2.
 TextTable methods_side_by_side(const RateGrid& grid, const TableOptions& options) {
   TextTable table{grid.title, "sequence", {}, {}, {}};
   const std::vector<const MethodRates*> methods = sorted_methods(grid, options);
@@ -232,7 +216,7 @@ TextTable methods_side_by_side(const RateGrid& grid, const TableOptions& options
     TableRow row{grid.sequences[i], {}, false};
     for (const MethodRates* method : methods) {
       for (const std::string& rate : grid.rates) {
-        row.cells.push_back({rate_cell_text(*method, i, rate, options)});
+        row.cells.push_back(grid_rate_cell(*method, i, rate, options));
       }
     }
     table.rows.push_back(std::move(row));
@@ -243,9 +227,44 @@ TextTable methods_side_by_side(const RateGrid& grid, const TableOptions& options
   return table;
 }
 
+}  // namespace
+
+std::optional<double> MethodRates::rate(std::size_t sequence, const std::string& name) const {
+  if (by_sequence[sequence] == nullptr) return std::nullopt;
+  const auto found = by_sequence[sequence]->find(name);
+  return found == by_sequence[sequence]->end() ? std::nullopt : found->second;
+}
+
+SegmentValues MethodRates::values(const std::string& name) const {
+  SegmentValues list;
+  for (std::size_t i = 0; i < by_sequence.size(); ++i) list.push_back(rate(i, name));
+  return list;
+}
+
+TableRow sequence_row(const RateGrid& grid, const MethodRates& method, std::size_t sequence,
+                      const TableOptions& options) {
+  TableRow row{method.heading, {}, false, grid.sequences[sequence]};
+  for (const std::string& rate : grid.rates) {
+    row.cells.push_back(grid_rate_cell(method, sequence, rate, options));
+  }
+  if (grid.timed) row.cells.push_back(grid_time_cell(grid, method.ms[sequence]));
+  return row;
+}
+
+TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options) {
+  TableRow row{method.heading, {}, false};
+  for (const std::string& rate : grid.rates) {
+    row.cells.push_back(grid_mean_cell(method, rate, options));
+  }
+  if (grid.timed) row.cells.push_back(grid_time_cell(grid, method.mean_ms));
+  return row;
+}
+
 std::vector<TextTable> rate_tables(const RateGrid& grid, const TableOptions& options) {
-  if (options.layout == TableLayout::kMethodRows) return method_rows(grid, options);
-  return {methods_side_by_side(grid, options)};
+  if (options.layout == TableLayout::kSequenceRows) return {methods_side_by_side(grid, options)};
+  std::vector<TextTable> tables = {sequence_blocks(grid, options)};
+  if (grid.ranked && grid.sequences.size() > 1) tables.push_back(mean_block(grid, options));
+  return tables;
 }
 
 }  // namespace raymoval

@@ -8,6 +8,7 @@
 #include "benchmark/result/results.h"
 #include "benchmark/tables/table_options.h"
 #include "benchmark/tables/text_table.h"
+#include "eval/averages.h"
 
 namespace raymoval {
 
@@ -21,29 +22,30 @@ struct MethodRates {
   int printed_digits = 0;  ///< Decimals that were printed elsewhere; 0: rates of the run.
 
   [[nodiscard]] std::optional<double> rate(std::size_t sequence, const std::string& name) const;
-  /// The values of a rate over the sequences.
-  [[nodiscard]] std::vector<std::optional<double>> values(const std::string& name) const;
-  /// Those of PR and RR in one: F1 of the mean PR and the mean RR, over the sequences with both.
-  [[nodiscard]] std::string f1_of_means_text(const TableOptions& options) const;
+  /// The values of a rate on the sequences.
+  [[nodiscard]] SegmentValues values(const std::string& name) const;
 };
 
-/// Sequences x methods x rates, of which a table is made by one layout or the other.
+/// Sequences x methods x rates. A table is made of it by one layout or the other.
 struct RateGrid {
   std::string title;
   std::vector<std::string> sequences;
   std::vector<MethodRates> methods;
   std::vector<std::string> rates;
-  bool ranked = true;  ///< Whether best and second are marked and means are shown.
-  bool timed = false;  ///< Whether times stand beside the rates.
+  bool ranked = true;         ///< Whether best and second are marked and means are shown.
+  bool timed = false;         ///< Whether times stand beside the rates.
+  const char* no_time = "-";  ///< Stands where a time is not known.
 };
 
-/// By rows: one table with a block for each sequence, then one of the means.
-std::vector<TextTable> method_rows(const RateGrid& grid, const TableOptions& options);
+/// A method's rates on a sequence, and its time if the grid has times.
+TableRow sequence_row(const RateGrid& grid, const MethodRates& method, std::size_t sequence,
+                      const TableOptions& options);
 
-/// The paper's Table 2: a row for each sequence, methods side by side, means below.
-TextTable methods_side_by_side(const RateGrid& grid, const TableOptions& options);
+/// The means of a method's rates over the sequences, and its time if the grid has times.
+TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options);
 
-/// Either, as the options say.
+/// In the layout of the options. By rows: a table with a block for each sequence, then one of the
+/// means. As in the paper's Table 2: a row for each sequence, methods side by side, means below.
 std::vector<TextTable> rate_tables(const RateGrid& grid, const TableOptions& options);
 
 }  // namespace raymoval

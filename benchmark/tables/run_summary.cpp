@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "benchmark/tables/accuracy_tables.h"
+#include "benchmark/tables/rate_tables.h"
 #include "benchmark/tables/text_table.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -21,16 +21,10 @@ struct SummaryColumn {
   std::string protocol, rate;
 };
 
-std::vector<std::optional<double>> values_by_sequence(const RunResults& results,
-                                                      const std::string& cell,
-                                                      const SummaryColumn& column) {
-  std::vector<std::optional<double>> values;
-  for (const std::string& sequence : results.sequences) {
-    const ResultRow* row = results.find(sequence, cell, column.protocol);
-    const bool there = row != nullptr && row->rates.contains(column.rate);
-    values.push_back(there ? row->rates.at(column.rate) : std::nullopt);
-  }
-  return values;
+TableCell summary_cell(const RunResults& results, const std::string& cell,
+                       const SummaryColumn& column) {
+  return mean_cell({}, column.rate, mean_of(results.values(cell, column.protocol, column.rate)),
+                   results.sequences.size());
 }
 
 /// The methods, best first by the first protocol; the controls if there is nothing else.
@@ -45,8 +39,7 @@ std::vector<std::string> summary_methods(const RunResults& results) {
                            results.headline_of(results.protocols.front())};
   const double sign = rate_spec(main.rate).higher_is_better ? 1.0 : -1.0;
   const auto value_of = [&](const std::string& cell) {
-    const auto mean =
-        leading_number(mean_text({}, main.rate, values_by_sequence(results, cell, main)));
+    const auto mean = summary_cell(results, cell, main).value;
     return mean ? sign * *mean : -1e9;
   };
   std::stable_sort(methods.begin(), methods.end(),
@@ -85,12 +78,6 @@ std::string fitting_text(TextTable table) {
   return text;
 }
 
-void mark_column_of(TextTable& table, std::size_t place, bool higher_is_better) {
-  std::vector<TableCell*> cells;
-  for (TableRow& row : table.rows) cells.push_back(&row.cells[place]);
-  mark_best(cells, higher_is_better);
-}
-
 /// A row for each method: rates, time, memory.
 TextTable method_summary(const RunResults& results, const std::vector<std::string>& methods) {
   const std::vector<SummaryColumn> columns = summary_columns(results);
@@ -100,24 +87,23 @@ TextTable method_summary(const RunResults& results, const std::vector<std::strin
     const bool other = several && columns[i].protocol != results.protocols.front();
     table.groups[0].columns.push_back((other ? columns[i].protocol + " " : "") + columns[i].rate);
   }
-  table.groups[0].columns.insert(table.groups[0].columns.end(), {"ms per scan", "peak MiB"});
+  table.groups[0].columns.insert(table.groups[0].columns.end(), {kTimeHeading, "peak MiB"});
   for (const std::string& method : methods) {
     TableRow row{shortened_middle(method, kMostName), {}, false};
     for (const SummaryColumn& column : columns) {
-      row.cells.push_back(
-          {mean_text({}, column.rate, values_by_sequence(results, method, column))});
+      row.cells.push_back(summary_cell(results, method, column));
     }
     const auto ms = results.ms_per_scan(method);
-    row.cells.push_back({ms ? fixed_text(*ms, 1) : "-"});
+    row.cells.push_back(ms ? number_cell(*ms, 1) : TableCell{"-"});
     const auto memory = results.peak_mib(method);
-    row.cells.push_back({memory ? fixed_text(*memory, 0) : "-"});
+    row.cells.push_back(memory ? number_cell(*memory, 0) : TableCell{"-"});
     table.rows.push_back(std::move(row));
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    mark_column_of(table, i, rate_spec(columns[i].rate).higher_is_better);
+    mark_best(column_cells(table, i), rate_spec(columns[i].rate).higher_is_better);
   }
-  mark_column_of(table, columns.size(), false);
-  mark_column_of(table, columns.size() + 1, false);
+  mark_best(column_cells(table, columns.size()), false);
+  mark_best(column_cells(table, columns.size() + 1), false);
   return table;
 }
 
@@ -130,17 +116,19 @@ TextTable sequence_summary(const RunResults& results, const std::vector<std::str
     TableRow row{shortened_middle(method, kMostName), {}, false};
     for (const std::string& sequence : results.sequences) {
       const ResultRow* found = results.find(sequence, method, main.protocol);
-      const bool scored = found != nullptr && found->rates.contains(main.rate) &&
-                          found->rates.at(main.rate).has_value();
-      row.cells.push_back({scored             ? rate_text(main.rate, *found->rates.at(main.rate))
-                           : found == nullptr ? "-"
-                           : found->status == "ok" ? "n/a"
-                                                   : found->status});
+      const auto value = found == nullptr ? std::nullopt : found->rate(main.rate);
+      if (value) {
+        row.cells.push_back(rate_cell({}, main.rate, *value));
+      } else {
+        row.cells.push_back({found == nullptr        ? "-"
+                             : found->status == "ok" ? "n/a"
+                                                     : found->status});
+      }
     }
     table.rows.push_back(std::move(row));
   }
   for (std::size_t i = 0; i < results.sequences.size(); ++i) {
-    mark_column_of(table, i, rate_spec(main.rate).higher_is_better);
+    mark_best(column_cells(table, i), rate_spec(main.rate).higher_is_better);
   }
   return table;
 }

@@ -1,35 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/tables/table_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
 constexpr int kMostDecimals = 9;
 
-bool holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// All rates that any row has, the usual ones first.
 std::vector<std::string> known_rates(const RunResults& results) {
   std::vector<std::string> known;
   for (const std::string& protocol : results.protocols) {
-    for (const std::string& rate : results.rates_of(protocol)) {
-      if (!holds(known, rate)) known.push_back(rate);
-    }
+    for (const std::string& rate : results.rates_of(protocol)) add_once(known, rate);
   }
   for (const ResultRow& row : results.rows) {
-    for (const auto& [rate, value] : row.rates) {
-      if (!holds(known, rate)) known.push_back(rate);
-    }
+    for (const auto& [rate, value] : row.rates) add_once(known, rate);
   }
   return known;
 }
@@ -59,21 +53,42 @@ void check_different(const std::vector<std::string>& shown) {
 
 }  // namespace
 
-const RateValues* OutsideColumn::find(const std::string& name) const {
-  const std::string prefix = protocol == "erasor" ? "kitti-" : "kth-";
-  for (const auto& [sequence, values] : sequences) {
-    if (sequence == name || prefix + sequence == name) return &values;
-  }
-  return nullptr;
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string option_text(const TableOptions& options, const std::string& rate, double value,
-                        int printed) {
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (!is_among(names, name)) names.push_back(name);
+}
+
+TableCell rate_cell(const TableOptions& options, const std::string& rate, double value,
+                    int printed) {
   const auto own = options.decimals_of.find(rate);
   std::optional<int> wanted = options.decimals;
   if (own != options.decimals_of.end()) wanted = own->second;
-  if (printed > 0) return fixed_text(value, std::min(printed, wanted.value_or(printed)));
-  return wanted ? fixed_text(value, *wanted) : rate_text(rate, value);
+  if (printed > 0) return number_cell(value, std::min(printed, wanted.value_or(printed)));
+  return number_cell(value, wanted.value_or(rate_spec(rate).decimals));
+}
+
+TableCell mean_cell(const TableOptions& options, const std::string& rate, const Mean& mean,
+                    std::size_t of, int printed) {
+  if (!mean.value) return {"n/a"};
+  TableCell cell = rate_cell(options, rate, *mean.value, printed);
+  if (mean.segments != of) cell.text += fmt::format(" ({}/{})", mean.segments, of);
+  return cell;
+}
+
+std::string rate_units_text(const std::vector<std::string>& rates) {
+  std::vector<std::string> fractions, lower;
+  for (const std::string& rate : rates) {
+    const RateSpec spec = rate_spec(rate);
+    if (spec.unit == RateUnit::kFraction) add_once(fractions, rate);
+    if (!spec.higher_is_better) add_once(lower, rate);
+  }
+  std::string text = "Rates in percent";
+  if (!fractions.empty()) text += ", " + join(fractions, " and ") + " as a fraction";
+  if (!lower.empty()) text += "; lower is better for " + join(lower, " and ");
+  return text + ".";
 }
 
 std::vector<std::string> chosen_rates(const TableOptions& options, const RunResults& results,
@@ -87,14 +102,14 @@ std::vector<std::string> chosen_rates(const TableOptions& options, const RunResu
 }
 
 bool shows_time(const TableOptions& options) {
-  return holds(options.rates, kTimeRate);
+  return is_among(options.rates, kTimeRate);
 }
 
 void check_rates(const TableOptions& options, const RunResults& results) {
   std::vector<std::string> known = known_rates(results);
   known.emplace_back(kTimeRate);
   const auto check = [&](const std::string& option, const std::string& rate) {
-    if (holds(known, rate)) return;
+    if (is_among(known, rate)) return;
     throw UsageError(option + " " + rate + ": no protocol of this run gives such a rate." +
                      suggestion(rate, known));
   };
@@ -124,7 +139,7 @@ void parse_display_names(const std::string& text, const RunResults& results, Dis
   const std::vector<std::string> known = run_names(results);
   const auto add = [&](const std::string& line, const std::string& where, bool must_be_known) {
     std::size_t equals = line.find('=');
-    while (equals != std::string::npos && !holds(known, line.substr(0, equals))) {
+    while (equals != std::string::npos && !is_among(known, line.substr(0, equals))) {
       equals = line.find('=', equals + 1);
     }
     const std::size_t first = line.find('=');

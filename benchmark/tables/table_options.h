@@ -9,43 +9,49 @@
 #include <vector>
 
 #include "benchmark/result/results.h"
+#include "benchmark/tables/published_columns.h"
+#include "benchmark/tables/text_table.h"
+#include "eval/averages.h"
 
 namespace raymoval {
-
-/// Rates that do not come from the run, such as a method's row of a paper.
-struct OutsideColumn {
-  std::string heading;
-  std::string protocol;  ///< "erasor" or "dynamicmap".
-  std::vector<std::pair<std::string, RateValues>> sequences;
-
-  /// Rates of what a run calls `name`, which may be called "05" elsewhere instead of "kitti-05"
-  /// (erasor) or "kth-05" (dynamicmap); null if there are none.
-  [[nodiscard]] const RateValues* find(const std::string& name) const;
-};
 
 enum class TableLayout {
   kMethodRows,   ///< A row for each method, a column for each rate, a block for each sequence.
   kSequenceRows  ///< A row for each sequence, methods side by side: the paper's Table 2.
 };
 
-/// The column of times beside rates, by the name that users choose it by.
+/// The column of times beside rates: the name by which users choose it, and its heading.
 inline constexpr const char* kTimeRate = "ms";
+inline constexpr const char* kTimeHeading = "ms per scan";
 
 /// How tables of rates are to look.
 struct TableOptions {
   TableLayout layout = TableLayout::kMethodRows;
   std::vector<std::string> rates = {};  ///< In this order, also kTimeRate; empty: the main ones.
-  std::optional<int> decimals = {};     ///< Of every rate; none: what is usual for the rate.
-  std::map<std::string, int> decimals_of = {};  ///< Of one rate; comes before `decimals`.
+  std::optional<int> decimals = {};  ///< Of every rate; nothing: as many as the rate's spec says.
+  std::map<std::string, int> decimals_of = {};  ///< Of one rate; overrides `decimals`.
   std::string sort = "none";                    ///< A rate, kTimeRate, "name" or "none".
   bool disagreements = false;  ///< Whether each pair that protocols rank otherwise is named.
   std::vector<OutsideColumn> outside = {};  ///< Set beside the run where a sequence is in both.
 };
 
 /// A rate as the options want it: "98.123".
-/// @param printed digits that were printed elsewhere, of which none are added; 0: any number
-std::string option_text(const TableOptions& options, const std::string& rate, double value,
-                        int printed = 0);
+/// @param printed digits that were printed elsewhere, to which none are added; 0: any number
+TableCell rate_cell(const TableOptions& options, const std::string& rate, double value,
+                    int printed = 0);
+
+/// A mean as the options want it: "98.123", or "98.123 (4/5)" if sequences without a value are left
+/// out; "n/a" if all are. @param of how many sequences there are
+TableCell mean_cell(const TableOptions& options, const std::string& rate, const Mean& mean,
+                    std::size_t of, int printed = 0);
+
+/// "Rates in percent, F1 as a fraction.", and for which of the rates lower is better, if for any.
+std::string rate_units_text(const std::vector<std::string>& rates);
+
+bool is_among(const std::vector<std::string>& names, const std::string& name);
+
+/// Adds `name` unless it is there.
+void add_once(std::vector<std::string>& names, const std::string& name);
 
 /// The rates of a protocol that are to be shown, without the time.
 std::vector<std::string> chosen_rates(const TableOptions& options, const RunResults& results,

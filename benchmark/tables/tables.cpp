@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "benchmark/tables/accuracy_tables.h"
 #include "benchmark/tables/column_tables.h"
-#include "benchmark/tables/sweep_tables.h"
+#include "benchmark/tables/rate_tables.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
@@ -15,9 +15,7 @@ namespace {
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 200;
   if (text.size() <= kMost) return text;
-  std::size_t end = kMost;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return text.substr(0, end) + " ...";
+  return cut_text(text, kMost) + " ...";
 }
 
 /// What became of the cells that have no result.
@@ -38,22 +36,18 @@ TextTable failure_table(const RunResults& results) {
 
 /// Time and memory of every method, the least marked.
 std::vector<TextTable> cost_tables(const RunResults& results) {
-  TextTable table{"Time of each method", "method", {{"", {"ms per scan", "peak MiB"}}}, {}, {}};
-  std::vector<std::vector<TableCell*>> columns(2);
+  TextTable table{"Time of each method", "method", {{"", {kTimeHeading, "peak MiB"}}}, {}, {}};
   for (const MethodTimes& times : results.times) {
     if (results.is_swept(times.cell)) continue;
     const auto ms = results.ms_per_scan(times.cell);
     const auto memory = results.peak_mib(times.cell);
-    table.rows.push_back(
-        {times.cell,
-         {{ms ? fixed_text(*ms, 1) : "-"}, {memory ? fixed_text(*memory, 0) : "-"}},
-         false});
+    table.rows.push_back({times.cell,
+                          {ms ? number_cell(*ms, 1) : TableCell{"-"},
+                           memory ? number_cell(*memory, 0) : TableCell{"-"}},
+                          false});
   }
   if (table.rows.size() < 2) return {};
-  for (TableRow& row : table.rows) {
-    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(&row.cells[i]);
-  }
-  for (const auto& column : columns) mark_best(column, false);
+  for (const std::size_t place : {0U, 1U}) mark_best(column_cells(table, place), false);
   table.notes.push_back("Over all scans, without reading them; the most memory on any sequence.");
   return {table};
 }
@@ -66,7 +60,7 @@ TextTable stage_table(const MethodTimes& times) {
   const bool overlap = named > times.seconds;
   const double whole = overlap ? named : times.seconds;
   const double scans = static_cast<double>(std::max<std::size_t>(times.scans, 1));
-  TextTable table{"Time of " + times.cell, "stage", {{"", {"ms per scan", "share in %"}}}, {}, {}};
+  TextTable table{"Time of " + times.cell, "stage", {{"", {kTimeHeading, "share in %"}}}, {}, {}};
   const auto add = [&](const std::string& name, double seconds, bool summary) {
     const double share = whole > 0.0 ? 100.0 * seconds / whole : 0.0;
     table.rows.push_back(

@@ -6,13 +6,10 @@
 #include <set>
 
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
-
-bool begins_character(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-}
 
 /// Where character `number` of a UTF-8 text begins, from 0.
 std::size_t character_at(const std::string& text, std::size_t number) {
@@ -21,6 +18,23 @@ std::size_t character_at(const std::string& text, std::size_t number) {
     if (begins_character(text[at]) && number-- == 0) break;
   }
   return at;
+}
+
+/// Bytes of the UTF-8 sequence that starts at `at`; 0 if it is none that XML may hold.
+std::size_t sequence_length(const std::string& text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
+  const std::size_t length = first >= 0xF0 ? 4 : (first >= 0xE0 ? 3 : 2);
+  if (first < 0xC2 || first > 0xF4 || at + length > text.size()) return 0;
+  std::uint32_t code = first & (0x7FU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    const auto next = static_cast<unsigned char>(text[at + i]);
+    if ((next & 0xC0U) != 0x80U) return 0;
+    code = code << 6U | (next & 0x3FU);
+  }
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return overlong || surrogate || code > 0x10FFFF || (code & 0xFFFEU) == 0xFFFEU ? 0 : length;
 }
 
 std::string markdown_escaped(const std::string& text) {
@@ -88,31 +102,40 @@ std::string rule_text(const std::vector<std::size_t>& widths) {
 
 }  // namespace
 
-std::optional<double> leading_number(const std::string& text) {
-  std::string number = text.substr(0, text.find(' '));
-  std::erase(number, ',');
-  return parse_number<double>(number);
+TableCell number_cell(double number, int decimals, const std::string& more) {
+  const std::string text = fixed_text(number, decimals);
+  // Rounded in the same way as the text.
+  return {text + more, Mark::kNone, parse_number<double>(text)};
+}
+
+std::vector<TableCell*> column_cells(TextTable& table, std::size_t place) {
+  return column_cells(table, place, {0, table.rows.size()});
+}
+
+std::vector<TableCell*> column_cells(TextTable& table, std::size_t place, const RowRange& rows) {
+  std::vector<TableCell*> cells;
+  for (std::size_t i = rows.first; i < rows.end; ++i) {
+    if (!table.rows[i].summary) cells.push_back(&table.rows[i].cells[place]);
+  }
+  return cells;
 }
 
 void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better) {
   std::set<double, std::greater<>> ranks;  // The largest is the best.
-  std::size_t numbers = 0;
   const auto rank_of = [&](const TableCell& cell) {
-    const auto value = leading_number(cell.text);
-    return value && !higher_is_better ? std::optional(-*value) : value;
+    return higher_is_better ? *cell.value : -*cell.value;
   };
+  std::size_t numbers = 0;
   for (const TableCell* cell : cells) {
-    const auto rank = rank_of(*cell);
-    if (!rank) continue;
-    ranks.insert(*rank);
+    if (!cell->value) continue;
+    ranks.insert(rank_of(*cell));
     ++numbers;
   }
   if (numbers < 2) return;
   for (TableCell* cell : cells) {
-    const auto rank = rank_of(*cell);
-    if (!rank) continue;
-    if (*rank == *ranks.begin()) cell->mark = Mark::kBest;
-    if (ranks.size() > 1 && *rank == *std::next(ranks.begin())) cell->mark = Mark::kSecond;
+    if (!cell->value) continue;
+    if (rank_of(*cell) == *ranks.begin()) cell->mark = Mark::kBest;
+    if (ranks.size() > 1 && rank_of(*cell) == *std::next(ranks.begin())) cell->mark = Mark::kSecond;
   }
 }
 
@@ -148,6 +171,36 @@ std::string shortened_middle(const std::string& text, std::size_t most) {
 std::string shortened_end(const std::string& text, std::size_t most) {
   if (shown_length(text) <= most) return text;
   return text.substr(0, character_at(text, most - 3)) + "...";
+}
+
+std::string xml_escaped(const std::string& text) {
+  std::string escaped;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = sequence_length(text, at);
+    if (length == 0) {
+      escaped += static_cast<unsigned char>(text[at]) < 0x20 ? " " : "\xEF\xBF\xBD";
+      ++at;
+      continue;
+    }
+    switch (text[at]) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += text.substr(at, length);
+    }
+    at += length;
+  }
+  return escaped;
 }
 
 std::string wrapped(const std::string& text, std::size_t most) {

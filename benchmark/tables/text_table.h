@@ -13,7 +13,13 @@ enum class Mark { kNone, kBest, kSecond };
 struct TableCell {
   std::string text;
   Mark mark = Mark::kNone;
+  /// The number that the text shows, as displayed; nothing in a cell whose number is not compared.
+  std::optional<double> value = {};
 };
+
+/// A cell with `number`, rounded to `decimals` digits behind the point. @param more stands behind
+/// it
+TableCell number_cell(double number, int decimals, const std::string& more = "");
 
 struct TableRow {
   std::string label;
@@ -37,18 +43,21 @@ struct TextTable {
   std::vector<std::string> notes;
 };
 
-/// The number that the text of a cell starts with: 98.123 of "98.123 (4/5)", 1234 of "1,234".
-std::optional<double> leading_number(const std::string& text);
-
-/// Marks the best and the second best of the cells, as displayed: what looks equal is marked alike.
-/// Fewer than two numbers are not marked.
-void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better);
-
-/// Rows of one block: [first, end) for each block, in their order.
+/// Rows [first, end) of a table.
 struct RowRange {
   std::size_t first = 0, end = 0;
 };
+
+/// The rows of each block, in their order.
 std::vector<RowRange> blocks_of(const TextTable& table);
+
+/// The cells of column `place` that are no summary, in all rows or in some.
+std::vector<TableCell*> column_cells(TextTable& table, std::size_t place);
+std::vector<TableCell*> column_cells(TextTable& table, std::size_t place, const RowRange& rows);
+
+/// Marks the best and the second best of the cells by their values; cells that look equal are
+/// marked alike. If fewer than two cells have a value, none is marked.
+void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better);
 
 /// Characters of a UTF-8 text.
 std::size_t shown_length(const std::string& text);
@@ -65,6 +74,9 @@ std::string shortened_end(const std::string& text, std::size_t most);
 
 /// Lines of at most `most` characters, broken between words, each with its end of line.
 std::string wrapped(const std::string& text, std::size_t most);
+
+/// Text for XML: markup is escaped, and characters that XML does not have are replaced.
+std::string xml_escaped(const std::string& text);
 
 /// How wide text for a terminal is at most.
 inline constexpr std::size_t kTerminalWidth = 100;

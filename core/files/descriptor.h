@@ -24,9 +24,11 @@ class Descriptor {
   }
   [[nodiscard]] bool valid() const { return value_ >= 0; }
   [[nodiscard]] int get() const { return value_; }
-  void close() {
-    if (value_ >= 0) ::close(value_);
-    value_ = -1;
+  /// Closes the descriptor, if there is one. @return false, with the reason in errno, if what was
+  /// written to it is not certain to be in the file
+  bool close() {
+    const int value = std::exchange(value_, -1);
+    return value < 0 || ::close(value) == 0;
   }
 
  private:

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/files/descriptor_io.h"
 #include "core/files/part_name.h"
 
 namespace raymoval {
@@ -18,11 +19,10 @@ FileWriter::FileWriter(std::filesystem::path path)
     : path_(std::move(path)),
       temporary_(new_part_name(path_)),
       file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644)) {
-  if (file_ < 0) fail();
+  if (!file_.valid()) fail();
 }
 
 FileWriter::~FileWriter() {
-  if (file_ >= 0) ::close(file_);
   if (!committed_) ::unlink(temporary_.c_str());
 }
 
@@ -34,14 +34,7 @@ void FileWriter::fail() const {
 
 void FileWriter::put(std::string_view content, std::uint64_t offset) {
   synced_ = false;
-  while (!content.empty()) {
-    const ssize_t done =
-        ::pwrite(file_, content.data(), content.size(), static_cast<off_t>(offset));
-    if (done < 0 && errno == EINTR) continue;
-    if (done < 0) fail();
-    content.remove_prefix(static_cast<std::size_t>(done));
-    offset += static_cast<std::uint64_t>(done);
-  }
+  if (!write_at(file_.get(), content, offset)) fail();
 }
 
 void FileWriter::append(std::string_view content) {
@@ -57,24 +50,21 @@ void FileWriter::overwrite(std::uint64_t offset, std::string_view content) {
 }
 
 void FileWriter::sync() {
-  if (!synced_ && ::fsync(file_) != 0) fail();
+  if (!synced_ && ::fsync(file_.get()) != 0) fail();
   synced_ = true;
 }
 
 void FileWriter::commit() {
   sync();
-  const int file = std::exchange(file_, -1);
-  if (::close(file) != 0) fail();
+  if (!file_.close()) fail();
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
   committed_ = true;
   sync_folder(path_.has_parent_path() ? path_.parent_path() : std::filesystem::path("."));
 }
 
 void sync_folder(const std::filesystem::path& folder) {
-  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return;
-  ::fsync(file);  // A file system that cannot do this has its own ways.
-  ::close(file);
+  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.valid()) ::fsync(opened.get());  // A file system that cannot do this has its own ways.
 }
 
 }  // namespace raymoval

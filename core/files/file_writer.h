@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/files/descriptor.h"
+
 namespace raymoval {
 
 /// Writes a file piece by piece so that its path either keeps what it held or, from `commit` on,
@@ -32,7 +34,7 @@ class FileWriter {
   void put(std::string_view content, std::uint64_t offset);
 
   std::filesystem::path path_, temporary_;
-  int file_ = -1;
+  Descriptor file_;
   std::uint64_t size_ = 0;
   bool synced_ = false, committed_ = false;
 };

@@ -13,7 +13,7 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "core/files/descriptor.h"
+#include "core/files/descriptor_io.h"
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
 #include "core/files/strict_json.h"
@@ -50,19 +50,12 @@ OpenFile open_plain(const std::filesystem::path& path) {
 template <class Container>
 void read_into(const OpenFile& opened, std::uintmax_t offset, Container& content,
                const std::filesystem::path& path) {
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t got = ::pread(opened.file.get(), content.data() + done, content.size() - done,
-                                static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw DataError(path.string() + ": reading failed (" + system_reason() + ").");
-    if (got == 0) {
-      throw DataError(path.string() +
-                      ": has become shorter while it was read. Wait until whatever writes it has "
-                      "ended.");
-    }
-    done += static_cast<std::size_t>(got);
-  }
+  const auto got = read_at(opened.file.get(), content.data(), content.size(), offset);
+  if (!got) throw DataError(path.string() + ": reading failed (" + system_reason() + ").");
+  if (*got == content.size()) return;
+  throw DataError(path.string() +
+                  ": has become shorter while it was read. Wait until whatever writes it has "
+                  "ended.");
 }
 
 template <class Container>

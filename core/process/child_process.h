@@ -2,52 +2,59 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace raymoval {
 
-/// What a child process may use; 0 = as much as it likes.
+/// What a child process may use. 0 means that there is no limit.
 struct ChildLimits {
-  double seconds = 0.0;     ///< Wall time from its start.
-  double memory_mib = 0.0;  ///< Resident memory that is no file's, all its descendants included.
+  double seconds = 0.0;  ///< Wall time from its start.
+  /// Resident memory of the child and its descendants in MiB, without that of files.
+  double memory_mib = 0.0;
 };
+
+/// The program that calls this.
+inline constexpr const char* kThisProgram = "/proc/self/exe";
 
 /// How a child process is started.
 struct ChildSetup {
-  std::vector<std::string> arguments;  ///< After the program's own name.
+  std::string program = kThisProgram;  ///< The path of its file.
+  std::vector<std::string> arguments;  ///< The first one is the program's own name.
+  std::filesystem::path folder = {};   ///< Its working folder; empty: that of this process.
+  /// Variables besides those of this process, or in place of them.
+  std::vector<std::pair<std::string, std::string>> environment = {};
   /// {this process's, the child's}: 3 and above, or 1 and 2 for output that is not to be caught.
-  std::vector<std::pair<int, int>> descriptors;
-  ChildLimits limits;
-  const std::atomic<bool>* cancel = nullptr;  ///< Set: the child is ended.
+  std::vector<std::pair<int, int>> descriptors = {};
+  ChildLimits limits = {};
+  const std::atomic<bool>* cancel = nullptr;  ///< The child is ended when this becomes true.
 };
 
 /// How a child process ended.
 struct ChildEnd {
-  enum class Kind { kExited, kSignalled, kTimeout, kOutOfMemory, kCancelled };
+  enum class Kind { kNotStarted, kExited, kSignalled, kTimeout, kOutOfMemory, kCancelled };
   Kind kind = Kind::kExited;
-  int code = 0;              ///< Exit code, or number of the signal.
-  std::string output_tail;   ///< End of what it printed on standard output and error.
-  double largest_mib = 0.0;  ///< Largest memory that was seen.
+  int code = 0;              ///< Exit code, number of the signal, or system's error number.
+  std::string output_tail;   ///< The end of what it printed on standard output and error.
+  double largest_mib = 0.0;  ///< The largest memory that was seen.
 };
 
-/// Runs this very program (/proc/self/exe) with other arguments and waits for its end.
+/// Runs a program as a child process, waits for its end, and ends all that it has started and left
+/// behind, as it does when a limit is exceeded or the child is cancelled.
 ///
 /// The child is a new program and not a mere fork, since threads of this process (TBB's) would be
-/// missing in a fork, and its memory would count as the child's. It gets a session of its own, so
-/// that it can be ended with all that it started, no standard input, and no core file; it dies with
-/// the thread that called this. Memory is watched from here every 20 ms and not limited by
-/// RLIMIT_AS or RLIMIT_DATA, which count what is mapped and never touched (thread stacks, arenas,
-/// a sanitizer's shadow).
-/// @throws DataError if no process can be started
+/// missing in a fork, and its memory would count as the child's. It gets a session of its own, no
+/// standard input, no descriptor that `setup` does not name, the default for each signal, and no
+/// core file; it dies with the thread that called this. Memory is watched from here every 20 ms and
+/// not limited by RLIMIT_AS or RLIMIT_DATA, which count what is mapped and never touched (thread
+/// stacks, arenas, a sanitizer's shadow).
 ChildEnd run_child(const ChildSetup& setup);
 
-/// Memory of the machine in MiB, or of the control group if that is less; 0 if it is not told.
-double machine_memory_mib();
-
-/// The memory limit where a user says none: nine tenths of `machine_memory_mib`.
-double usual_memory_limit_mib();
+/// Why a child could not be started, and what to do about it: "no process can be started (Resource
+/// temporarily unavailable). End other programs, or raise the limit of processes (ulimit -u)."
+std::string not_started_text(int reason);
 
 /// "signal 11 (Segmentation fault)".
 std::string signal_text(int signal);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Which instruction sets kernels are compiled for; before the first Highway header.
+// Says for which instruction sets kernels are compiled. The source of a kernel includes it before
+// the first Highway header.
 #pragma once
 
-/// The plain version too, although the whole program may assume more.
+/// The plain version is compiled too, even if the whole program may assume more.
 #define HWY_COMPILE_ALL_ATTAINABLE
-/// Hardly any processor has this and not SSE4; vectors without a fixed size cannot be held in
+/// Hardly any processor has SSSE3 and not SSE4. Vectors without a fixed size cannot be held in
 /// arrays.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// For the sources of kernels, after HWY_EXPORT: how the rest of a program gets at what was compiled
+// once for each instruction set.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +10,8 @@
 
 namespace raymoval {
 
-/// Highway's bits for the vectors that `set` allows on this processor; 0 = none, the plain version.
+/// Highway's bits for the vectors that `set` allows on this processor. 0 stands for none, the plain
+/// version.
 std::int64_t highway_targets(InstructionSet set);
 
 }  // namespace raymoval
@@ -20,3 +23,6 @@ std::int64_t highway_targets(InstructionSet set);
     chosen.Update(::raymoval::highway_targets(chosen_set)); \
     return HWY_DISPATCH_TABLE(KERNEL)[chosen.GetIndex()];   \
   }(SET))
+
+/// The version for the best set that this processor has, or for that of an `InstructionSetScope`.
+#define RAYMOVAL_BEST_KERNEL(KERNEL) RAYMOVAL_KERNEL_FOR(KERNEL, ::raymoval::InstructionSet::kBest)

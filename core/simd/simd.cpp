@@ -1,19 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "core/simd/simd.h"
 
+#include <atomic>
+
+#include "core/simd/instruction_set_scope.h"
 #include "core/simd/instruction_sets.h"
 
 namespace raymoval {
 namespace {
 
-/// Everything up to and including a set. In Highway's bits the best target is the lowest.
+/// The set of the innermost InstructionSetScope.
+std::atomic<InstructionSet> scoped_set{InstructionSet::kBest};
+
+/// The bits of all sets up to and including `target`. In Highway's bits the best target is the
+/// lowest.
 std::int64_t up_to(std::int64_t target) {
   return ~(target - 1);
 }
 
 }  // namespace
 
+InstructionSetScope::InstructionSetScope(InstructionSet set) : outer_(scoped_set.exchange(set)) {}
+InstructionSetScope::~InstructionSetScope() {
+  scoped_set = outer_;
+}
+
 std::int64_t highway_targets(InstructionSet set) {
+  if (set == InstructionSet::kBest) set = scoped_set;
   if (set == InstructionSet::kPlain) return 0;
   static const std::int64_t here = hwy::SupportedTargets();  // Slow to find out.
 #if HWY_ARCH_X86

@@ -11,30 +11,33 @@
 
 namespace raymoval {
 
-/// What a kernel runs on. Kernels are compiled once for each; all give the same numbers.
+/// The vectors that a kernel uses. Kernels are compiled once for each set, and all versions give
+/// the same numbers.
 enum class InstructionSet {
-  kBest,   ///< The best that this processor has, found at run time.
-  kPlain,  ///< One number at a time, nothing beyond what the whole program is compiled for.
+  kBest,   ///< The best set that this processor has, found at run time.
+  kPlain,  ///< No vectors, and nothing beyond what the whole program is compiled for.
   kSse4,
   kAvx2,
   kAvx512,
 };
 
-/// "AVX2" and the like.
+/// The name of a set, such as "AVX2".
 const char* instruction_set_name(InstructionSet set);
 
-/// Those that this program was compiled with and this processor has, plainest first.
+/// The sets that this program was compiled for and this processor has, the plainest first.
 std::vector<InstructionSet> supported_instruction_sets();
 
+/// The alignment of the widest vectors, bytes.
 inline constexpr std::size_t kSimdAlignment = 64;
 
-/// Numbers for vectors of any width: grown as needed and not initialised.
+/// An array that vectors of any width can be loaded from. It grows as needed, and its values are
+/// not initialised.
 template <class Value>
 class AlignedArray {
   static_assert(std::is_trivially_copyable_v<Value>);
 
  public:
-  /// Makes room for at least `size` values; what is there stays.
+  /// Makes room for at least `size` values and keeps those that are there.
   void require(std::size_t size) {
     if (size <= size_) return;
     const std::size_t wanted = size + size / 2;

@@ -14,12 +14,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kCell = 0.8;         // metres, edge of the cells that points are gathered in
-constexpr std::size_t kFewest = 6;    // points of a surfel
-constexpr double kThickness = 0.05;   // metres, standard deviation across a surface
-constexpr double kBreadth = 0.12;     // metres, standard deviation along a plane's short side
-constexpr double kLookup = 1.6;       // metres, edge of the cells that surfels are found in
-constexpr double kSameNormal = 0.85;  // cosine between surfels that may be the same surface
+constexpr double kCell = 0.8;             // metres, edge of the cells that points are gathered in
+constexpr std::size_t kFewestPoints = 6;  // points of a surfel
+constexpr double kMostSpread = 0.05;      // metres, standard deviation across a surface
+constexpr double kBreadth = 0.12;         // metres, standard deviation along a plane's short side
+constexpr double kLookup = 1.6;           // metres, edge of the cells that surfels are found in
+constexpr double kSameNormal = 0.85;      // cosine between surfels that may be the same surface
 constexpr std::size_t kFewestOfGroup = 12;
 constexpr std::size_t kGroups = 4;
 
@@ -62,14 +62,14 @@ Surfel::Group group_of(const Vector3d& normal) {
 /// A line of points that lies flat is one beam on the ground, which moves with the sensor; only
 /// planes and upright lines say where things are.
 bool make_surfel(const Moments& moments, Surfel& surfel) {
-  if (moments.count < kFewest) return false;
+  if (moments.count < kFewestPoints) return false;
   const auto count = static_cast<double>(moments.count);
   const Vector3d mean = moments.sum / count;
   Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
   solver.computeDirect(moments.squares / count - mean * mean.transpose());
   const Vector3d spread = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   surfel.mean = moments.origin + mean;
-  if (spread[0] < kThickness && spread[1] > kBreadth) {
+  if (spread[0] < kMostSpread && spread[1] > kBreadth) {
     surfel.axis = solver.eigenvectors().col(0);
     surfel.group = group_of(surfel.axis);
     return true;

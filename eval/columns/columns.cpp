@@ -111,6 +111,31 @@ std::vector<Column> make_general_columns() {
 
 }  // namespace
 
+std::string ColumnName::text() const {
+  std::string where = group;
+  if (!axis.empty()) where += (group.empty() ? "" : ", ") + axis + " " + band;
+  return where.empty() ? kind : kind + " [" + where + "]";
+}
+
+ColumnName parse_column_name(const std::string& name) {
+  const std::size_t open = name.find(" [");
+  ColumnName parts{name.substr(0, open)};
+  if (open == std::string::npos) return parts;
+  parts.group = name.substr(open + 2, name.size() - open - 3);
+  for (const std::string axis : {"range", "height"}) {
+    // Alone, or behind the class; a class may have any name.
+    const std::size_t comma = parts.group.rfind(", " + axis + " ");
+    const bool alone = parts.group.starts_with(axis + " ");
+    if (!alone && comma == std::string::npos) continue;
+    const std::size_t at = comma == std::string::npos ? 0 : comma + 2;
+    parts.axis = axis;
+    parts.band = parts.group.substr(at + axis.size() + 1);
+    parts.group = comma == std::string::npos ? "" : parts.group.substr(0, comma);
+    break;
+  }
+  return parts;
+}
+
 std::optional<double> Share::percent() const {
   if (whole == 0) return std::nullopt;
   return 100.0 * static_cast<double>(part) / static_cast<double>(whole);

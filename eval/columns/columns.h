@@ -18,11 +18,23 @@ struct Share {
   std::int64_t part = 0;
   std::int64_t whole = 0;
 
-  /// Percent; none of nothing.
+  /// The share in percent. It has no value if `whole` is 0.
   [[nodiscard]] std::optional<double> percent() const;
 };
 
-/// A figure beside the protocols' rates: a share of points, by what a method removed.
+/// The parts of a column's name, "rejection [moving-car, range 0-10 m]".
+struct ColumnName {
+  std::string kind;        ///< "rejection".
+  std::string group = {};  ///< Class of points, "moving-car"; empty: all points.
+  std::string axis = {};   ///< "range" or "height"; empty: the column is of no band.
+  std::string band = {};   ///< "0-10 m".
+
+  [[nodiscard]] std::string text() const;
+};
+
+ColumnName parse_column_name(const std::string& name);
+
+/// A share of points that says what a method removed. Columns stand beside the protocols' rates.
 struct Column {
   std::string name;
   std::string description;
@@ -35,15 +47,17 @@ struct Column {
 inline constexpr const char* kColumnsVersion = "1";
 
 /// The columns of any sequence, in order:
-/// - `precision` and `recall` of the set of removed points (moving = positive), and `residue`,
-///   the share of moving points in what is kept;
-/// - `rejection`, moving points that are removed (= recall), and `preservation`, static points that
-///   are kept: in total, by range band and by height band, "rejection [0-10 m]".
+/// - `precision` and `recall` of the set of removed points (moving points are the positive ones),
+/// and
+///   `residue`, the share of moving points among those that are kept;
+/// - `rejection`, the share of moving points that are removed (this is the recall), and
+///   `preservation`, the share of static points that are kept: in total, by range band and by
+///   height band, "rejection [range 0-10 m]".
 const std::vector<Column>& general_columns();
 
-/// The columns of the classes that occur in `tally`: `rejection` of moving and `preservation` of
-/// static ones, each in total, then by those range and height bands in which it has points,
-/// "rejection [moving-car, 0-10 m]".
+/// The columns of the classes that occur in `tally`: `rejection` of moving classes and
+/// `preservation` of static ones. Each has a column for all of its points, then one for each range
+/// and height band in which it has points, "rejection [moving-car, range 0-10 m]".
 std::vector<Column> class_columns(const RemovalTally& tally);
 
 /// A column with its value.

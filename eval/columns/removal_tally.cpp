@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/parallel.h"
 #include "core/text.h"
 #include "eval/points/checked_scan.h"
 #include "eval/points/labelled_voxels.h"
+#include "eval/points/scan_loops.h"
 
 namespace raymoval {
 namespace {
@@ -86,12 +86,8 @@ RemovalTally tally_removals(const EvaluationInput& input, const MaskStore& masks
   check_mask_count(input, masks);
   const LabelClasses classes(input.label_rule);
   std::vector<RemovalTally> scans(input.scans->size());
-  if (input.progress != nullptr) input.progress->begin("points by class", scans.size());
-  parallel_for(input.threads, scans.size(), 1, [&](std::size_t i) {
-    scans[i] = tally_scan(input, classes, masks, i);
-    if (input.progress != nullptr) input.progress->advance();
-  });
-  if (input.progress != nullptr) input.progress->end();
+  for_each_scan(input, "points by class",
+                [&](std::size_t i) { scans[i] = tally_scan(input, classes, masks, i); });
   RemovalTally all;
   all.label_rule = input.label_rule;
   for (const RemovalTally& scan : scans) add(scan, all);

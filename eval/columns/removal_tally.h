@@ -25,21 +25,21 @@ struct PointTally {
 inline constexpr std::size_t kRangeBands = 6;
 inline constexpr std::size_t kHeightBands = 5;
 
-/// Lower edges in metres of 3-D distance from the sensor; the first band has the rest below.
+/// Lower edges of the bands, in metres of 3-D distance from the sensor.
 inline constexpr std::array<double, kRangeBands> kRangeEdges = {0, 10, 20, 30, 40, 50};
 /// Lower edges in metres of height, which is z in the sensor frame plus `kHeightOffset`.
 inline constexpr std::array<double, kHeightBands> kHeightEdges = {
     -std::numeric_limits<double>::infinity(), 0.3, 1, 2, 4};
 /// The ERASOR protocol's lift, the height of its sensor above the road.
 inline constexpr double kHeightOffset = 1.73;
-/// Its crop: points nearer to the sensor's z axis are not counted.
+/// The ERASOR protocol's crop: points nearer to the sensor's z axis are not counted.
 inline constexpr double kMinimumHorizontalRange = 2.7;
 
 /// "0-10 m", "50 m and more", "below 0.3 m".
 std::string range_band_name(std::size_t band);
 std::string height_band_name(std::size_t band);
 
-/// A semantic class of the truth: by range and by height the same points once each.
+/// A semantic class of the truth. Its points are counted twice: by range, and by height.
 struct ClassTally {
   bool moving = false;
   std::array<PointTally, kRangeBands> by_range;

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/text.h"
-#include "eval/comparison/score_judgement.h"
+#include "eval/comparison/score_comparison.h"
 
 namespace raymoval {
 namespace {
@@ -30,8 +30,8 @@ std::string title(const ComparedCell& cell) {
   return cell.sequence + " / " + cell.name;
 }
 
-/// What of `run` and `reference` differs, as name and text; with `common_only`, facts that one
-/// lacks are passed over.
+/// The facts of `run` and `reference` that differ, as name and text.
+/// @param common_only facts that one of them lacks are left out
 std::vector<std::pair<std::string, std::string>> fact_differences(const Facts& run,
                                                                   const Facts& reference,
                                                                   bool common_only) {
@@ -64,23 +64,23 @@ class Comparer {
 
   Comparison compare(const ResultSet& run, const ResultSet& reference) {
     result_.cells = reference.cells.size();
-    if (reference.cells.empty()) tell(Change::kIncomparable, {}, "the reference has no cell");
+    if (reference.cells.empty()) add_line(Change::kIncomparable, {}, "the reference has no cell");
     check_times(reference);
     for (const std::string& problem : reference.control_problems) {
-      tell(Change::kIncomparable, {}, "the reference is unsound: " + problem);
+      add_line(Change::kIncomparable, {}, "the reference is unsound: " + problem);
     }
-    for (const std::string& problem : run.control_problems) tell(Change::kWorse, {}, problem);
+    for (const std::string& problem : run.control_problems) add_line(Change::kWorse, {}, problem);
     for (const ComparedCell& cell : reference.cells) {
       const ComparedCell* found = find_cell(run, cell);
       if (found == nullptr) {
-        tell_cell(Change::kIncomparable, cell, cell, "missing in the run");
+        add_cell_line(Change::kIncomparable, cell, cell, "missing in the run");
       } else {
         compare_cell(*found, cell);
       }
     }
     for (const ComparedCell& cell : run.cells) {
       if (find_cell(reference, cell) != nullptr) continue;
-      tell_cell(Change::kMoved, cell, cell, "not in the reference, not compared");
+      add_cell_line(Change::kMoved, cell, cell, "not in the reference, not compared");
     }
     if (!result_.times.empty() && run.machine != reference.machine) {
       result_.times.push_back("the times are of different machines: " + run.machine +
@@ -96,13 +96,13 @@ class Comparer {
     timeless_ = std::none_of(reference.cells.begin(), reference.cells.end(),
                              [](const auto& cell) { return cell.seconds_per_scan.has_value(); });
     if (!timeless_) return;
-    tell(Change::kIncomparable, {},
-         "the reference has no times to judge by --time-band; make it again with --update "
-         "--with-times, or leave --time-band out");
+    add_line(Change::kIncomparable, {},
+             "the reference has no times for --time-band; make it again with --update "
+             "--with-times, or leave --time-band out");
   }
 
-  /// Adds a sentence to its list; `of` says which cell and protocol it is about, if any.
-  void tell(Change change, const ScoreComparison& of, const std::string& text) {
+  /// Adds a sentence to its list. `of` says which cell and protocol the sentence is about, if any.
+  void add_line(Change change, const ScoreComparison& of, const std::string& text) {
     std::vector<std::string>& list = change == Change::kIncomparable ? result_.incomparable
                                      : change == Change::kWorse      ? result_.worse
                                      : change == Change::kBetter     ? result_.better
@@ -111,13 +111,13 @@ class Comparer {
     if (!of.protocol.empty()) where += ", " + of.protocol;
     list.push_back(where.empty() ? text : where + ": " + text);
     result_.lines.push_back({change, of.sequence, of.name, of.protocol, text});
-    if (change == Change::kIncomparable && !telling_parameters_) more_differs_ = true;
+    if (change == Change::kIncomparable && !adding_parameters_) more_differs_ = true;
   }
 
-  /// Says the same of a cell as a whole, and of each score that `scored` has of it.
-  void tell_cell(Change change, const ComparedCell& cell, const ComparedCell& scored,
-                 const std::string& text) {
-    tell(change, {cell.sequence, cell.name, "", change, {}, {}, {}, {}}, text);
+  /// Adds the same sentence for a cell as a whole, and for each score that `scored` has of it.
+  void add_cell_line(Change change, const ComparedCell& cell, const ComparedCell& scored,
+                     const std::string& text) {
+    add_line(change, {cell.sequence, cell.name, "", change, {}, {}, {}, {}}, text);
     if (scored.scores.empty()) {
       result_.scores.push_back({cell.sequence, cell.name, "", change, {text}, {}, {}, {}});
     }
@@ -144,7 +144,7 @@ class Comparer {
       const std::string text = "not in the reference, not compared";
       result_.scores.push_back(
           {run.sequence, run.name, score.protocol, Change::kMoved, {text}, {}, {}, {}});
-      tell(Change::kMoved, result_.scores.back(), text);
+      add_line(Change::kMoved, result_.scores.back(), text);
     }
     if (same) ++result_.same_cells;
     compare_time(run, reference);
@@ -163,9 +163,9 @@ class Comparer {
       parameters &= is_parameter(name);
     }
     if (!wrong.empty()) {
-      parameters_differ_ |= telling_parameters_ = parameters;
-      tell_cell(Change::kIncomparable, run, reference, join(wrong, "; "));
-      telling_parameters_ = false;
+      parameters_differ_ |= adding_parameters_ = parameters;
+      add_cell_line(Change::kIncomparable, run, reference, join(wrong, "; "));
+      adding_parameters_ = false;
       return false;
     }
     const ScoreComparison cell{run.sequence, run.name, "", Change::kMoved, {}, {}, {}, {}};
@@ -173,10 +173,10 @@ class Comparer {
       const std::string text =
           "method version " + reference.method_version + " -> " + run.method_version;
       if (options_.across_version) across.push_back(text);
-      tell(Change::kMoved, cell, text);
+      add_line(Change::kMoved, cell, text);
     }
     for (const std::string& text : across) {
-      if (is_parameter(text)) tell(Change::kMoved, cell, text);
+      if (is_parameter(text)) add_line(Change::kMoved, cell, text);
     }
     return true;
   }
@@ -187,11 +187,11 @@ class Comparer {
         (run.reason.empty() || run.status == "ok" ? "" : " (" + run.reason + ")");
     const ComparedCell& scored = reference.scores.empty() ? run : reference;
     if (run.status == "ok") {
-      tell_cell(Change::kBetter, run, scored, change);
+      add_cell_line(Change::kBetter, run, scored, change);
     } else if (reference.status == "ok") {
-      tell_cell(Change::kWorse, run, scored, change);
+      add_cell_line(Change::kWorse, run, scored, change);
     } else {
-      tell_cell(Change::kMoved, run, scored, "failed in both (" + run.reason + ")");
+      add_cell_line(Change::kMoved, run, scored, "failed in both (" + run.reason + ")");
     }
   }
 
@@ -208,11 +208,11 @@ class Comparer {
       }
     }
     if (score.reasons.empty()) {
-      const std::string changes = judge_score(cell, *run, reference, options_, score);
-      if (!changes.empty()) tell(score.change, score, changes);
+      const std::string changes = compare_scores(cell, *run, reference, options_, score);
+      if (!changes.empty()) add_line(score.change, score, changes);
     } else {
       score.change = Change::kIncomparable;
-      tell(score.change, score, join(score.reasons, "; "));
+      add_line(score.change, score, join(score.reasons, "; "));
     }
     result_.scores.push_back(std::move(score));
     return result_.scores.back().change == Change::kSame;
@@ -233,16 +233,17 @@ class Comparer {
     if (both) result_.times.push_back(title(run) + ": " + text);
     result_.time_changes.push_back(time);
     if (time.change == Change::kSame) return;
-    tell(time.change, {run.sequence, run.name, "", {}, {}, {}, {}, {}},
-         both ? text + ", more than " + number_text(*options_.time_band) + " times" : text);
+    add_line(time.change, {run.sequence, run.name, "", {}, {}, {}, {}, {}},
+             both ? text + ", more than " + number_text(*options_.time_band) + " times" : text);
   }
 
   const ComparisonOptions& options_;
   Comparison result_;
-  bool timeless_ = false;            ///< The reference has no time at all.
-  bool parameters_differ_ = false;   ///< Somewhere nothing but parameters stood in the way.
-  bool more_differs_ = false;        ///< Somewhere something else did.
-  bool telling_parameters_ = false;  ///< What is being told is about parameters only.
+  bool timeless_ = false;  ///< The reference has no time at all.
+  bool parameters_differ_ =
+      false;                   ///< At least one cell is not comparable for its parameters only.
+  bool more_differs_ = false;  ///< At least one cell is not comparable for another reason.
+  bool adding_parameters_ = false;  ///< The line that is being added is about parameters only.
 };
 
 void check_tolerances(const ResultSet& reference, const ComparisonOptions& options) {
@@ -257,10 +258,10 @@ void check_tolerances(const ResultSet& reference, const ComparisonOptions& optio
       throw UsageError("--tolerance " + name + ": the reference has no such metric." +
                        suggestion(name, {known.begin(), known.end()}));
     }
-    if (!higher_is_better(name)) {
+    if (!has_known_direction(name)) {
       throw UsageError("--tolerance " + name +
-                       ": it is not known whether more of this rate is better, so it is told and "
-                       "not judged; leave it out.");
+                       ": it is not known which direction of this rate is better, so it decides "
+                       "nothing; leave it out.");
     }
   }
 }

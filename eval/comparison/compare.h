@@ -45,21 +45,22 @@ struct ResultSet {
 };
 
 struct ComparisonOptions {
-  /// Metric and by how much it may fall, in its own unit (PR in percent, F1 a fraction). Where a
-  /// protocol has any of them, these rates are judged instead of all counts.
+  /// Rates, each with how much worse it may get, in its own unit (PR in percent, F1 a fraction). If
+  /// a protocol has any of them, these rates decide instead of all counts.
   std::map<std::string, double> tolerances;
-  /// Slower than the reference by more than this factor is worse; without it time is only told.
+  /// A run that is slower than the reference by more than this factor is worse. Without the factor
+  /// times are shown and decide nothing.
   std::optional<double> time_band;
-  /// Cells that differ in parameters are compared by their rates, which may not fall by more than
-  /// their tolerance; where a protocol has no tolerance, none of its rates may fall. Without it
-  /// such cells are not comparable.
+  /// Cells that differ in parameters are compared by their rates, none of which may get worse by
+  /// more than its tolerance; if no rate of a protocol has one, none may get worse at all. Without
+  /// this option such cells are not comparable.
   bool across_parameters = false;
   /// The same for cells that differ in the method's version. Without it, their counts must be
   /// equal.
   bool across_version = false;
 };
 
-/// What became of something, in the order of how bad that is.
+/// What became of something, from good to bad.
 enum class Change { kSame, kBetter, kMoved, kWorse, kIncomparable };
 
 /// "same", "better", "moved", "worse", "not comparable".
@@ -69,8 +70,9 @@ const char* change_name(Change change);
 struct RateChange {
   std::string name;
   std::optional<double> before, after;  ///< Nothing where it is undefined.
-  std::optional<double> tolerance;      ///< By how much it may fall; nothing: it is not judged.
-  Change change = Change::kSame;        ///< kMoved: nobody knows whether more of it is better.
+  std::optional<double> tolerance;      ///< How much worse it may get; nothing: it decides nothing.
+  /// kMoved if it decides nothing, or if it is not known which direction is better.
+  Change change = Change::kSame;
 };
 
 /// A count that changed; nothing where one side lacks it.
@@ -87,7 +89,7 @@ struct ScoreComparison {
   Change change = Change::kSame;
   std::vector<std::string> reasons;  ///< Why, besides rates and counts: "missing in the run".
   std::vector<std::string> across;   ///< Parameters or version that differ and were to differ.
-  std::vector<RateChange> rates;     ///< All of the reference, if both sides have them.
+  std::vector<RateChange> rates;     ///< All of the reference, if both sides have a score.
   std::vector<CountChange> counts;
 };
 
@@ -96,21 +98,21 @@ struct TimeChange {
   std::string sequence;
   std::string name;
   std::optional<double> before, after;  ///< Seconds per scan.
-  /// kWorse: beyond the time band; kIncomparable: it is to be judged, and one side has none.
+  /// kWorse: it is beyond the time band; kIncomparable: there is a band and one side has no time.
   Change change = Change::kSame;
 
   /// How many times slower the run is; only where both sides have a time.
   [[nodiscard]] double ratio() const { return *after / *before; }
 };
 
-/// Something to tell, and the cell it is about.
+/// A sentence of a comparison, and the cell that it is about.
 struct ComparisonLine {
   Change change = Change::kSame;
   std::string sequence, name, protocol;  ///< Empty where it is about more than that.
   std::string text;
 };
 
-/// All that is not the same, twice: as sentences, and in parts for whoever writes it otherwise.
+/// All that is not the same, in two forms: as sentences, and in parts for other formats.
 struct Comparison {
   std::vector<std::string> incomparable;
   std::vector<std::string> worse;
@@ -132,17 +134,17 @@ struct Comparison {
   [[nodiscard]] std::string verdict_words() const;
 };
 
-/// Compares `run` with `reference` cell by cell. Changed counts are better only if a rate rose,
-/// none fell, and every count that masks cannot change is the same; else they are worse. Cells that
-/// only the run has are told and not judged. A rate of which nobody knows whether more is better is
-/// told and not judged.
-/// @throws UsageError if a tolerance names a rate that the reference does not have, or one that
-/// cannot be judged; if times are to be judged and the reference has none
+/// Compares `run` with `reference` cell by cell. Changed counts are better only if a rate improved,
+/// none got worse, and every count that masks cannot change is the same; else they are worse. Cells
+/// that only the run has are shown and decide nothing, and so do rates of which it is not known
+/// which direction is better.
+/// @throws UsageError if a tolerance names a rate that the reference does not have, or one whose
+/// better direction is not known; if there is a time band and the reference has no times
 Comparison compare_results(const ResultSet& run, const ResultSet& reference,
                            const ComparisonOptions& options);
 
-/// The comparison as lines for a reader; what holds for several cells is said once, and the last
-/// line is a summary.
+/// The comparison as lines for a reader. A sentence that holds for several cells appears once, and
+/// the last line is a summary.
 std::string comparison_text(const Comparison& comparison);
 
 /// "F1 0.9368 -> 0.9400 (+0.0032)", "RR 90.0000 -> undefined".

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "eval/comparison/compare.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -27,8 +28,8 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
   names.push_back(name);
 }
 
-/// Cells of which the same is told: every one of `sequences` with every one of `names`.
-struct ToldTogether {
+/// A sentence that holds for each of `sequences` with each of `names`.
+struct CommonLine {
   std::vector<std::string> sequences, names;
   std::string protocol, text;
 
@@ -41,12 +42,12 @@ struct ToldTogether {
 };
 
 /// Puts together first the methods of each sequence, then sequences with the same methods.
-std::vector<ToldTogether> told_together(const std::vector<ComparisonLine>& lines, Change change) {
-  std::vector<ToldTogether> by_sequence;
+std::vector<CommonLine> lines_in_common(const std::vector<ComparisonLine>& lines, Change change) {
+  std::vector<CommonLine> by_sequence;
   for (const ComparisonLine& line : lines) {
     if (line.change != change) continue;
-    ToldTogether* found = nullptr;
-    for (ToldTogether& known : by_sequence) {
+    CommonLine* found = nullptr;
+    for (CommonLine& known : by_sequence) {
       const bool here = line.sequence.empty() ? known.sequences.empty()
                                               : known.sequences == std::vector{line.sequence};
       if (here && known.protocol == line.protocol && known.text == line.text) found = &known;
@@ -58,10 +59,10 @@ std::vector<ToldTogether> told_together(const std::vector<ComparisonLine>& lines
     }
     if (!line.name.empty()) add_once(found->names, line.name);
   }
-  std::vector<ToldTogether> groups;
-  for (const ToldTogether& one : by_sequence) {
-    ToldTogether* found = nullptr;
-    for (ToldTogether& known : groups) {
+  std::vector<CommonLine> groups;
+  for (const CommonLine& one : by_sequence) {
+    CommonLine* found = nullptr;
+    for (CommonLine& known : groups) {
       if (known.names == one.names && known.protocol == one.protocol && known.text == one.text) {
         found = &known;
       }
@@ -83,7 +84,8 @@ std::string change_text(const RateChange& rate) {
   const double change = *rate.after - *rate.before;
   text += std::string(" (") + (change > 0 ? "+" : "") + fixed_text(change, 4);
   if (rate.tolerance && rate.change == Change::kWorse && *rate.tolerance > 0.0) {
-    text += ", at most -" + number_text(*rate.tolerance) + " is allowed";
+    const char* worse = rate_spec(rate.name).higher_is_better ? "-" : "+";
+    text += std::string(", at most ") + worse + number_text(*rate.tolerance) + " is allowed";
   }
   return text + ")";
 }
@@ -111,9 +113,9 @@ std::string comparison_text(const Comparison& comparison) {
   }};
   std::string text;
   for (const auto& [heading, change] : kParts) {
-    const std::vector<ToldTogether> groups = told_together(comparison.lines, change);
+    const std::vector<CommonLine> groups = lines_in_common(comparison.lines, change);
     if (!groups.empty()) text += std::string(heading) + ":\n";
-    for (const ToldTogether& group : groups) text += "  " + group.line() + "\n";
+    for (const CommonLine& group : groups) text += "  " + group.line() + "\n";
   }
   if (!comparison.times.empty()) text += "Time:\n";
   for (const std::string& line : comparison.times) text += "  " + line + "\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/dynamicmap/dynamicmap.h"
 
+#include "eval/dynamicmap/accuracy.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/presence.h"
 #include "eval/points/cloud_masks.h"
@@ -9,9 +10,6 @@ namespace raymoval {
 namespace {
 
 using namespace dynamicmap;
-
-/// Nothing is prepared but the certainty that there is something to score against.
-class DynamicMapTruth : public TruthMap {};
 
 /// What the rates are made of.
 std::vector<std::int64_t> counts_of(const ScanPresence& presence) {
@@ -23,43 +21,30 @@ std::vector<Rate> rates_of(const std::vector<std::int64_t>& counts) {
   return accuracy_rates(counts[0], counts[1], counts[2], counts[3], "point");
 }
 
-class DynamicMapProtocol : public Protocol {
+class DynamicMapScorer : public Scorer {
  public:
-  explicit DynamicMapProtocol(const Options& options) : options_(options) {}
-  [[nodiscard]] std::string name() const override { return "dynamicmap"; }
-  [[nodiscard]] std::string version() const override { return "1"; }
-  [[nodiscard]] Configuration options() const override { return option_table().write(options_); }
-
-  [[nodiscard]] std::unique_ptr<TruthMap> prepare(const EvaluationInput& input) const override {
-    check_input(input, name());
-    (void)truth_points(input).count("ground truth points");
-    return std::make_unique<DynamicMapTruth>();
+  DynamicMapScorer(const EvaluationInput& input, const Options& options)
+      : input_(input),
+        options_(options),
+        truth_(input_, options_.maximum_range, options_.ego_range) {
+    (void)truth_.count("ground truth points");  // Throws if there is nothing to score against.
   }
 
-  [[nodiscard]] ProtocolResult score(const EvaluationInput& input, const TruthMap& /*truth*/,
-                                     const MaskStore& masks) const override {
-    check_input(input, name());
-    check_mask_count(input, masks);
-    return result_of(measure_presence(truth_points(input), masks, options_));
+  [[nodiscard]] ProtocolResult score(const MaskStore& masks) const override {
+    check_mask_count(input_, masks);
+    return result_of(measure_presence(truth_, masks, options_));
   }
 
-  [[nodiscard]] ProtocolResult score_cloud(const EvaluationInput& input, const TruthMap& /*truth*/,
-                                           const CloudEstimate& cloud) const override {
-    check_input(input, name());
-    const MaskStore& masks = cloud.masks(input, options_.distance);
-    return result_of(presence_by_index(truth_points(input), masks));
+  [[nodiscard]] ProtocolResult score_cloud(const CloudEstimate& cloud) const override {
+    return result_of(presence_by_index(truth_, cloud.masks(input_, options_.distance)));
   }
 
  private:
-  [[nodiscard]] TruthPoints truth_points(const EvaluationInput& input) const {
-    return {input, options_.maximum_range, options_.ego_range};
-  }
-
-  [[nodiscard]] ProtocolResult result_of(const std::vector<ScanPresence>& scans) const {
+  [[nodiscard]] static ProtocolResult result_of(const std::vector<ScanPresence>& scans) {
     ScanPresence all;
     for (const ScanPresence& scan : scans) all += scan;
     ProtocolResult result;
-    result.protocol = name();
+    result.protocol = "dynamicmap";
     result.counts = {{"static_points", all.points.static_points},
                      {"dynamic_points", all.points.dynamic_points},
                      {"present_static_points", all.present_static},
@@ -79,19 +64,34 @@ class DynamicMapProtocol : public Protocol {
     return result;
   }
 
+  EvaluationInput input_;
   Options options_;
+  TruthPoints truth_;
 };
 
 }  // namespace
 
 ProtocolEntry dynamicmap_protocol_entry() {
-  return {"dynamicmap",
-          "Static and dynamic accuracy over points (KTH DynamicMap benchmark): SA, DA, AA, HA.",
-          option_table().specs()};
-}
-
-std::unique_ptr<Protocol> make_dynamicmap_protocol(const Configuration& options) {
-  return std::make_unique<DynamicMapProtocol>(option_table().read(options));
+  return {.name = "dynamicmap",
+          .version = "1",
+          .sentence =
+              "Static and dynamic accuracy over points (KTH DynamicMap benchmark): SA, DA, "
+              "AA, HA.",
+          .parameters = option_table().specs(),
+          .rates = accuracy_rate_list(),
+          .counts = {{"static_points", true},
+                     {"dynamic_points", true},
+                     {"present_static_points"},
+                     {"removed_dynamic_points"},
+                     {"kept_static_points"},
+                     {"flagged_dynamic_points"},
+                     {"ego_points", true},
+                     {"out_of_range_points", true},
+                     {"ignored_points", true}},
+          .open = [](const EvaluationInput& input,
+                     const Configuration& options) -> std::unique_ptr<Scorer> {
+            return std::make_unique<DynamicMapScorer>(input, option_table().read(options));
+          }};
 }
 
 }  // namespace raymoval

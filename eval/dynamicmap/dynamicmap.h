@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -27,6 +25,5 @@ namespace raymoval {
 /// @note Distances are computed in double from float32 sensor coordinates, not in float32 as by the
 /// public code: a difference of rounding only, and none depends on how far away the origin is.
 ProtocolEntry dynamicmap_protocol_entry();
-std::unique_ptr<Protocol> make_dynamicmap_protocol(const Configuration& options);
 
 }  // namespace raymoval

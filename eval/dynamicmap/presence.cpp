@@ -6,11 +6,12 @@
 #include "core/parallel.h"
 #include "core/scan/voxel_key.h"
 #include "eval/points/nearby_points.h"
+#include "eval/points/scan_loops.h"
 
 namespace raymoval::dynamicmap {
 namespace {
 
-/// Edge of the cells that tell which kept points are worth keeping, at least.
+/// The smallest edge of the cells that say which kept points have to stay in memory.
 constexpr double kSmallestEdge = 0.2;
 
 Eigen::Vector3d placed(const Scan& scan, std::size_t point) {
@@ -37,10 +38,10 @@ ScanPresence count_by_index(const TruthPoints& truth, const MaskStore& masks, st
 struct FlaggedPoints {
   std::vector<Eigen::Vector3d> points;  ///< World frame.
   std::vector<std::uint8_t> moving;
-  std::vector<std::size_t> first = {0};  ///< Of each scan, and the end.
+  std::vector<std::size_t> first = {0};  ///< Where the points of each scan begin, and the end.
 };
 
-/// Cells with flagged points in or beside them; what lies elsewhere is near none of them.
+/// Cells with flagged points in or beside them. A point in another cell is near no flagged point.
 class CellsAround {
  public:
   CellsAround(const std::vector<Eigen::Vector3d>& points, double distance)
@@ -98,7 +99,8 @@ class Measurement {
       std::vector<std::uint8_t> moving;
     };
     FlaggedPoints all;
-    const auto read = [&](std::size_t scan_index, Part& part) {
+    const auto read = [&](std::size_t scan_index) {
+      Part part;
       ScanPresence& counts = scans_[scan_index];
       counts = count_by_index(truth_, masks_, scan_index,
                               [&](const Scan& scan, std::size_t p, Kind kind, bool removed) {
@@ -106,8 +108,9 @@ class Measurement {
                                 part.points.push_back(placed(scan, p));
                                 part.moving.push_back(kind == Kind::kDynamic ? 1 : 0);
                               });
+      return part;
     };
-    in_batches<Part>("points that are gone", read, [&](const Part& part) {
+    in_scan_order<Part>(truth_.input(), "points that are gone", read, [&](const Part& part) {
       all.points.insert(all.points.end(), part.points.begin(), part.points.end());
       all.moving.insert(all.moving.end(), part.moving.begin(), part.moving.end());
       all.first.push_back(all.points.size());
@@ -119,16 +122,18 @@ class Measurement {
   std::vector<Eigen::Vector3d> collect_kept(const CellsAround& cells) {
     using Part = std::vector<Eigen::Vector3d>;
     Part all;
-    const auto read = [&](std::size_t scan_index, Part& part) {
+    const auto read = [&](std::size_t scan_index) {
+      Part part;
       (void)truth_.read(scan_index, &masks_,
                         [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
                           if (!in_estimate(kind, removed)) return;
                           const Eigen::Vector3d point = placed(scan, p);
                           if (cells.contains(point)) part.push_back(point);
                         });
+      return part;
     };
-    in_batches<Part>("points near those gone", read,
-                     [&](const Part& part) { all.insert(all.end(), part.begin(), part.end()); });
+    in_scan_order<Part>(truth_.input(), "points near those gone", read,
+                        [&](const Part& part) { all.insert(all.end(), part.begin(), part.end()); });
     return all;
   }
 
@@ -144,23 +149,6 @@ class Measurement {
     } else {
       ++counts.present_static;
     }
-  }
-
-  /// Calls `read(scan, part)` for all scans, a batch at a time, and `take(part)` in their order.
-  template <class Part, class Read, class Take>
-  void in_batches(const char* task, Read&& read, Take&& take) {
-    const EvaluationInput& input = truth_.input();
-    if (input.progress != nullptr) input.progress->begin(task, scans_.size());
-    const auto batch = static_cast<std::size_t>(std::max(1, input.threads)) * 4;
-    for (std::size_t first = 0; first < scans_.size(); first += batch) {
-      std::vector<Part> parts(std::min(batch, scans_.size() - first));
-      parallel_for(input.threads, parts.size(), 1, [&](std::size_t i) {
-        read(first + i, parts[i]);
-        if (input.progress != nullptr) input.progress->advance();
-      });
-      for (const Part& part : parts) take(part);
-    }
-    if (input.progress != nullptr) input.progress->end();
   }
 
   const TruthPoints& truth_;

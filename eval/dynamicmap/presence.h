@@ -9,7 +9,7 @@
 
 namespace raymoval::dynamicmap {
 
-/// What a scan's points of the truth came to.
+/// What became of the points of a scan.
 struct ScanPresence {
   PointCounts points;
   std::int64_t kept_static = 0;      ///< Static and not flagged.
@@ -20,17 +20,17 @@ struct ScanPresence {
   ScanPresence& operator+=(const ScanPresence& other);
 };
 
-/// For each scan, how many of its points are kept, and how many have any kept point of any scan,
-/// themselves included, at `options.distance` metres or less.
+/// Counts for each scan how many of its points are kept, and how many have a kept point of any scan
+/// (the point itself included) at `options.distance` metres or less.
 ///
-/// A kept point is its own partner, so only flagged ones are searched for. They and the kept points
-/// around them stay in memory, all else streams by, and time grows with the points times the
-/// logarithm of their number, however often a place was seen.
+/// A kept point is its own partner, so partners are searched for flagged points only. These points
+/// and the kept ones around them stay in memory, all others are read and forgotten. The time grows
+/// with n log n for n points, however often a place was seen.
 /// @throws MethodError, DataError as `load_checked`; DataError beyond the lattice
 std::vector<ScanPresence> measure_presence(const TruthPoints& truth, const MaskStore& masks,
                                            const Options& options);
 
-/// The same where the masks already say what is present.
+/// The same counts for masks that already say which points are present.
 std::vector<ScanPresence> presence_by_index(const TruthPoints& truth, const MaskStore& masks);
 
 }  // namespace raymoval::dynamicmap

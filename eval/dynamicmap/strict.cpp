@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
-#include "core/parallel.h"
-#include "core/text.h"
+#include "eval/dynamicmap/accuracy.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/truth_points.h"
 #include "eval/points/cloud_masks.h"
+#include "eval/points/scan_loops.h"
 
 namespace raymoval {
 namespace {
@@ -20,119 +21,88 @@ using namespace dynamicmap;
 constexpr std::uint8_t kStatic = 1;
 constexpr std::uint8_t kDynamic = 2;
 
-/// Cells of the truth: where each stands in a list, and what it holds.
-class StrictTruth : public TruthMap {
+class StrictScorer : public Scorer {
  public:
-  VoxelMap<std::uint32_t> positions;
-  std::vector<std::uint8_t> classes;  ///< kStatic, kDynamic or both.
-  PointCounts points;
-};
-
-class StrictProtocol : public Protocol {
- public:
-  explicit StrictProtocol(const StrictOptions& options) : options_(options) {}
-  [[nodiscard]] std::string name() const override { return "dynamicmap-strict"; }
-  [[nodiscard]] std::string version() const override { return "1"; }
-  [[nodiscard]] Configuration options() const override {
-    return strict_option_table().write(options_);
-  }
-
-  [[nodiscard]] std::unique_ptr<TruthMap> prepare(const EvaluationInput& input) const override {
-    check_input(input, name());
-    const TruthPoints points = truth_points(input);
-    auto truth = std::make_unique<StrictTruth>();
-    for (const PointCounts& scan : points.count("ground truth points")) truth->points += scan;
-    if (input.progress != nullptr) input.progress->begin("ground truth cells", input.scans->size());
-    for (std::size_t i = 0; i < input.scans->size(); ++i) {
-      (void)points.read(i, nullptr, [&](std::size_t p, const Scan& scan, Kind kind, bool) {
-        if (is_truth(kind)) add_cell(key_of(scan, p), kind == Kind::kDynamic, *truth);
+  StrictScorer(const EvaluationInput& input, const StrictOptions& options)
+      : input_(input),
+        voxel_size_(options.voxel_size),
+        points_(input_, options.maximum_range, options.ego_range) {
+    for (const PointCounts& scan : points_.count("ground truth points")) point_counts_ += scan;
+    using Part = std::vector<std::pair<VoxelKey, bool>>;  // Cell, and whether the point moves.
+    const auto read = [&](std::size_t i) {
+      Part part;
+      (void)points_.read(i, nullptr, [&](std::size_t p, const Scan& scan, Kind kind, bool) {
+        if (is_truth(kind)) part.emplace_back(key_of(scan, p), kind == Kind::kDynamic);
       });
-      if (input.progress != nullptr) input.progress->advance();
-    }
-    if (input.progress != nullptr) input.progress->end();
-    return truth;
+      return part;
+    };
+    in_scan_order<Part>(input_, "ground truth cells", read, [&](const Part& part) {
+      for (const auto& [key, moving] : part) add_cell(key, moving);
+    });
   }
 
-  [[nodiscard]] ProtocolResult score(const EvaluationInput& input, const TruthMap& truth_map,
-                                     const MaskStore& masks) const override {
-    check_input(input, name());
-    check_mask_count(input, masks);
-    const auto* truth = dynamic_cast<const StrictTruth*>(&truth_map);
-    if (truth == nullptr) {
-      throw InternalError("protocol " + name() + " was given a truth that it did not prepare");
-    }
-    return result_of(*truth, kept_cells(input, *truth, masks));
+  [[nodiscard]] ProtocolResult score(const MaskStore& masks) const override {
+    check_mask_count(input_, masks);
+    return result_of(kept_cells(masks));
   }
 
-  [[nodiscard]] ProtocolResult score_cloud(const EvaluationInput& input, const TruthMap& truth,
-                                           const CloudEstimate& cloud) const override {
-    return score(input, truth, cloud.masks(input, kCloudDistance));
+  [[nodiscard]] ProtocolResult score_cloud(const CloudEstimate& cloud) const override {
+    return score(cloud.masks(input_, kCloudDistance));
   }
 
  private:
-  [[nodiscard]] TruthPoints truth_points(const EvaluationInput& input) const {
-    return {input, options_.maximum_range, options_.ego_range};
-  }
-
   [[nodiscard]] VoxelKey key_of(const Scan& scan, std::size_t point) const {
     const Eigen::Vector3d world = scan.T_world_sensor * scan.points[point].cast<double>();
-    return voxel_key(voxel_index(world, 1.0 / options_.voxel_size));
+    return voxel_key(voxel_index(world, 1.0 / voxel_size_));
   }
 
-  static void add_cell(VoxelKey key, bool moving, StrictTruth& truth) {
-    const auto next = static_cast<std::uint32_t>(truth.classes.size());
-    const auto [cell, added] = truth.positions.insert({key, next});
-    if (added) truth.classes.push_back(0);
-    if (truth.classes.size() == std::numeric_limits<std::uint32_t>::max()) {
+  void add_cell(VoxelKey key, bool moving) {
+    const auto next = static_cast<std::uint32_t>(classes_.size());
+    const auto [cell, added] = positions_.insert({key, next});
+    if (added) classes_.push_back(0);
+    if (classes_.size() == std::numeric_limits<std::uint32_t>::max()) {
       throw DataError(
           "the map has too many cells: expected fewer than 4,294,967,295. Use fewer "
           "scans or larger voxels.");
     }
-    truth.classes[cell->second] |= moving ? kDynamic : kStatic;
+    classes_[cell->second] |= moving ? kDynamic : kStatic;
   }
 
   /// For each cell of the truth the classes of its kept points.
-  [[nodiscard]] std::vector<std::uint8_t> kept_cells(const EvaluationInput& input,
-                                                     const StrictTruth& truth,
-                                                     const MaskStore& masks) const {
-    const TruthPoints points = truth_points(input);
-    std::vector<std::uint8_t> kept(truth.classes.size(), 0);
-    if (input.progress != nullptr) input.progress->begin("kept cells", input.scans->size());
-    parallel_for(input.threads, input.scans->size(), 1, [&](std::size_t i) {
+  [[nodiscard]] std::vector<std::uint8_t> kept_cells(const MaskStore& masks) const {
+    std::vector<std::uint8_t> kept(classes_.size(), 0);
+    for_each_scan(input_, "kept cells", [&](std::size_t i) {
       const auto visit = [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
         if (removed || !is_truth(kind)) return;
-        std::uint8_t& cell = kept[truth.positions.at(key_of(scan, p))];
+        std::uint8_t& cell = kept[positions_.at(key_of(scan, p))];
         std::atomic_ref<std::uint8_t>(cell).fetch_or(kind == Kind::kDynamic ? kDynamic : kStatic,
                                                      std::memory_order_relaxed);
       };
-      (void)points.read(i, &masks, visit);
-      if (input.progress != nullptr) input.progress->advance();
+      (void)points_.read(i, &masks, visit);
     });
-    if (input.progress != nullptr) input.progress->end();
     return kept;
   }
 
-  [[nodiscard]] ProtocolResult result_of(const StrictTruth& truth,
-                                         const std::vector<std::uint8_t>& kept) const {
+  [[nodiscard]] ProtocolResult result_of(const std::vector<std::uint8_t>& kept) const {
     const auto count = [](const std::vector<std::uint8_t>& cells, std::uint8_t wanted) {
       return static_cast<std::int64_t>(
           std::count_if(cells.begin(), cells.end(),
                         [wanted](std::uint8_t cell) { return (cell & wanted) == wanted; }));
     };
-    const std::int64_t static_voxels = count(truth.classes, kStatic);
-    const std::int64_t dynamic_voxels = count(truth.classes, kDynamic);
+    const std::int64_t static_voxels = count(classes_, kStatic);
+    const std::int64_t dynamic_voxels = count(classes_, kDynamic);
     const std::int64_t preserved = count(kept, kStatic);
     const std::int64_t remaining = count(kept, kDynamic);
     ProtocolResult result;
-    result.protocol = name();
+    result.protocol = "dynamicmap-strict";
     result.counts = {{"static_voxels", static_voxels},
                      {"dynamic_voxels", dynamic_voxels},
                      {"preserved_static", preserved},
                      {"remaining_dynamic", remaining},
-                     {"mixed_voxels", count(truth.classes, kStatic | kDynamic)},
-                     {"ego_points", truth.points.ego},
-                     {"out_of_range_points", truth.points.out_of_range},
-                     {"ignored_points", truth.points.ignored}};
+                     {"mixed_voxels", count(classes_, kStatic | kDynamic)},
+                     {"ego_points", point_counts_.ego},
+                     {"out_of_range_points", point_counts_.out_of_range},
+                     {"ignored_points", point_counts_.ignored}};
     result.rates = accuracy_rates(preserved, static_voxels, dynamic_voxels - remaining,
                                   dynamic_voxels, "voxel");
     if (preserved + remaining == 0) {
@@ -141,20 +111,36 @@ class StrictProtocol : public Protocol {
     return result;
   }
 
-  StrictOptions options_;
+  EvaluationInput input_;
+  double voxel_size_;
+  TruthPoints points_;
+  PointCounts point_counts_;
+  VoxelMap<std::uint32_t> positions_;  ///< Where each cell of the truth stands in `classes_`.
+  std::vector<std::uint8_t> classes_;  ///< kStatic, kDynamic or both.
 };
 
 }  // namespace
 
 ProtocolEntry strict_protocol_entry() {
-  return {"dynamicmap-strict",
-          "Static and dynamic accuracy over sets of cells, by index, without any search: SA, DA, "
-          "AA, HA.",
-          strict_option_table().specs()};
-}
-
-std::unique_ptr<Protocol> make_strict_protocol(const Configuration& options) {
-  return std::make_unique<StrictProtocol>(strict_option_table().read(options));
+  return {.name = "dynamicmap-strict",
+          .version = "1",
+          .sentence =
+              "Static and dynamic accuracy over sets of cells, by index, without any search: SA, "
+              "DA, AA, HA.",
+          .parameters = strict_option_table().specs(),
+          .rates = accuracy_rate_list(),
+          .counts = {{"static_voxels", true},
+                     {"dynamic_voxels", true},
+                     {"preserved_static"},
+                     {"remaining_dynamic"},
+                     {"mixed_voxels", true},
+                     {"ego_points", true},
+                     {"out_of_range_points", true},
+                     {"ignored_points", true}},
+          .open = [](const EvaluationInput& input,
+                     const Configuration& options) -> std::unique_ptr<Scorer> {
+            return std::make_unique<StrictScorer>(input, strict_option_table().read(options));
+          }};
 }
 
 }  // namespace raymoval

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-
 #include "eval/protocol.h"
 
 namespace raymoval {
 
-/// SA, DA, AA, HA over sets of cells, without a search: nothing depends on a neighbour, an order,
-/// or a tie.
+/// SA, DA, AA and HA over sets of cells. There is no search, so nothing depends on a neighbour, an
+/// order or a tie.
 ///
 /// The truth of the `dynamicmap` protocol, as two sets of cells on the lattice anchored at the
 /// world origin: those that hold a static point and those that hold a dynamic one (a cell may be in
@@ -17,9 +15,8 @@ namespace raymoval {
 /// within reach nor a kept point of the other class helps.
 /// A cleaned cloud keeps the points that lie within 0.05 m of it.
 ///
-/// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic, mixed_voxels (in
-/// both sets); ego_points, out_of_range_points, ignored_points.
+/// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic; mixed_voxels, which
+/// are in both sets; ego_points, out_of_range_points, ignored_points.
 ProtocolEntry strict_protocol_entry();
-std::unique_ptr<Protocol> make_strict_protocol(const Configuration& options);
 
 }  // namespace raymoval

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "eval/dynamicmap/truth_points.h"
 
-#include <cmath>
 #include <limits>
 
 #include "core/error.h"
-#include "core/parallel.h"
-#include "core/text.h"
-#include "eval/rates.h"
+#include "eval/points/scan_loops.h"
 
 namespace raymoval::dynamicmap {
 
@@ -52,12 +49,9 @@ Kind TruthPoints::kind_of(const Eigen::Vector3f& point, std::uint32_t word,
 
 std::vector<PointCounts> TruthPoints::count(const std::string& task) const {
   std::vector<PointCounts> counts(input_.scans->size());
-  if (input_.progress != nullptr) input_.progress->begin(task, counts.size());
-  parallel_for(input_.threads, counts.size(), 1, [&](std::size_t i) {
+  for_each_scan(input_, task, [&](std::size_t i) {
     counts[i] = read(i, nullptr, [](std::size_t, const Scan&, Kind, bool) {});
-    if (input_.progress != nullptr) input_.progress->advance();
   });
-  if (input_.progress != nullptr) input_.progress->end();
   PointCounts all;
   for (const PointCounts& scan : counts) all += scan;
   if (all.static_points + all.dynamic_points > 0) return counts;
@@ -65,23 +59,6 @@ std::vector<PointCounts> TruthPoints::count(const std::string& task) const {
                   " points are out of range and " + std::to_string(all.ignored) +
                   " have ignored labels; expected at least one that is left. Check range_m, "
                   "maximum_range and the label rule.");
-}
-
-std::vector<Rate> accuracy_rates(std::int64_t present_static, std::int64_t static_count,
-                                 std::int64_t removed_dynamic, std::int64_t dynamic_count,
-                                 const std::string& unit) {
-  const Rate SA =
-      percent_rate("SA", present_static, static_count, "the ground truth has no static " + unit);
-  const Rate DA =
-      percent_rate("DA", removed_dynamic, dynamic_count, "the ground truth has no dynamic " + unit);
-  const std::string& reason = SA.value ? DA.undefined_reason : SA.undefined_reason;
-  Rate AA{"AA", std::nullopt, reason};
-  Rate HA{"HA", std::nullopt, reason};
-  if (SA.value && DA.value) {
-    AA.value = std::sqrt(*SA.value * *DA.value);
-    HA.value = harmonic_mean(*SA.value, *DA.value);
-  }
-  return {SA, DA, AA, HA};
 }
 
 }  // namespace raymoval::dynamicmap

@@ -10,25 +10,26 @@
 
 namespace raymoval::dynamicmap {
 
-/// Points of a scan by class and fate; they add up to the points read.
+/// The points of a scan by what they are. Static, dynamic, out-of-range and ignored points add up
+/// to the points that were read.
 struct PointCounts {
   std::int64_t static_points = 0;
   std::int64_t dynamic_points = 0;  ///< Ego points included.
-  std::int64_t ego = 0;             ///< Unlabelled and near the sensor, hence dynamic.
+  std::int64_t ego = 0;             ///< Unlabelled points near the sensor, which are dynamic.
   std::int64_t out_of_range = 0;
   std::int64_t ignored = 0;
 
   PointCounts& operator+=(const PointCounts& other);
 };
 
-/// What a point is to the protocol. An ignored one is of no class, but may stand in a map.
+/// What a point is to the protocol. An ignored point has no class, but it may stand in a map.
 enum class Kind { kOutOfRange, kIgnored, kStatic, kDynamic };
 
 inline bool is_truth(Kind kind) {
   return kind == Kind::kStatic || kind == Kind::kDynamic;
 }
 
-/// Which points the benchmark's ground truth holds, and which of them move.
+/// Says which points belong to the benchmark's ground truth, and which of them move.
 class TruthPoints {
  public:
   TruthPoints(const EvaluationInput& input, double maximum_range, double ego_range);
@@ -46,7 +47,7 @@ class TruthPoints {
     return counts;
   }
 
-  /// Counts of all scans, one each; progress is shown as `task`.
+  /// The counts of each scan. Progress is shown as `task`.
   /// @throws DataError if no point at all is left
   [[nodiscard]] std::vector<PointCounts> count(const std::string& task) const;
 
@@ -55,16 +56,10 @@ class TruthPoints {
  private:
   Kind kind_of(const Eigen::Vector3f& point, std::uint32_t word, PointCounts& counts) const;
 
-  const EvaluationInput& input_;
+  const EvaluationInput& input_;  ///< Outlives this object.
   LabelClasses classes_;
   double maximum_range_;
   double ego_range_;
 };
-
-/// SA, DA, AA and HA in percent, SA and DA first; undefined where a class is empty.
-/// SA = present / static, DA = gone / dynamic, AA = sqrt(SA DA), HA = 2 SA DA / (SA + DA).
-std::vector<Rate> accuracy_rates(std::int64_t present_static, std::int64_t static_count,
-                                 std::int64_t removed_dynamic, std::int64_t dynamic_count,
-                                 const std::string& unit);
 
 }  // namespace raymoval::dynamicmap

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "core/parallel.h"
 #include "eval/erasor/frame.h"
 #include "eval/points/checked_scan.h"
+#include "eval/points/scan_loops.h"
 
 namespace raymoval::erasor {
 namespace {
@@ -89,26 +89,17 @@ DenseMap accumulate(const EvaluationInput& input, const Options& options,
     LabelledVoxels voxels;
     PointCounts points;
   };
-  const std::size_t scans = input.scans->size();
-  if (input.progress != nullptr) input.progress->begin(task, scans);
   DenseMap dense;
-  // A batch at a time: at most that many raw scans are in memory.
-  const auto batch = static_cast<std::size_t>(std::max(1, input.threads)) * 4;
-  for (std::size_t first = 0; first < scans; first += batch) {
-    std::vector<Part> parts(std::min(batch, scans - first));
-    parallel_for(input.threads, parts.size(), 1, [&](std::size_t i) {
-      const PlacedScan placed = place_scan(input, options, classes, masks, first + i);
-      parts[i] = {voxelise(placed.cloud, options.voxel_size, classes, 1), placed.points};
-      if (input.progress != nullptr) input.progress->advance();
-    });
-    for (const Part& part : parts) {
-      dense.cloud.append(part.voxels.cloud);
-      dense.mixed_label_ties += part.voxels.mixed_label_ties;
-      dense.points += part.points;
-      dense.scan_ends.push_back(dense.cloud.size());
-    }
-  }
-  if (input.progress != nullptr) input.progress->end();
+  const auto read = [&](std::size_t scan) {
+    const PlacedScan placed = place_scan(input, options, classes, masks, scan);
+    return Part{voxelise(placed.cloud, options.voxel_size, classes, 1), placed.points};
+  };
+  in_scan_order<Part>(input, task, read, [&](const Part& part) {
+    dense.cloud.append(part.voxels.cloud);
+    dense.mixed_label_ties += part.voxels.mixed_label_ties;
+    dense.points += part.points;
+    dense.scan_ends.push_back(dense.cloud.size());
+  });
   return dense;
 }
 

@@ -12,20 +12,21 @@
 
 namespace raymoval::erasor {
 
-/// What became of the points of all scans; the four counts add up to the points read.
+/// What became of the points of all scans. The first four counts add up to the points that were
+/// read.
 struct PointCounts {
   std::int64_t out_of_range = 0;  ///< Outside the range limits.
   std::int64_t ignored = 0;       ///< Of an ignored label class.
   std::int64_t cropped = 0;       ///< Too near to the sensor's z axis.
   std::int64_t evaluated = 0;     ///< Everything else.
-  std::int64_t removed = 0;       ///< Evaluated, but flagged by the mask.
-  std::int64_t trucks = 0;        ///< Evaluated, of label id 258.
+  std::int64_t removed = 0;       ///< Evaluated points that the mask flags.
+  std::int64_t trucks = 0;        ///< Evaluated points of label id 258.
 
   PointCounts& operator+=(const PointCounts& other);
 };
 
-/// The dense map: scan by scan the voxelised cloud of the points that are evaluated and not
-/// flagged, one after the other in the order of the scans.
+/// The dense map: the points of each scan that are evaluated and not flagged, voxelised scan by
+/// scan, one scan after the other.
 struct DenseMap {
   LabelledCloud cloud;
   std::int64_t mixed_label_ties = 0;
@@ -36,13 +37,12 @@ struct DenseMap {
   [[nodiscard]] std::uint32_t scan_of(std::uint32_t point) const;
 };
 
-/// The label rule as the options want it: without id 258 among the moving ones unless
-/// `truck_is_moving`.
+/// The label rule as the options want it: id 258 moves only with `truck_is_moving`.
 LabelRule effective_rule(const LabelRule& rule, const Options& options);
 
 /// Steps 1 to 5 of the ground truth: crop, lift in the sensor frame, pose, label-preserving
 /// voxelisation of each scan, append.
-/// @param masks flagged points are left out; null = none is
+/// @param masks flagged points are left out; null: no point is flagged
 /// @param task shown as progress
 /// @throws MethodError if a mask is missing or has the wrong length
 /// @throws DataError if a scan's labels do not fit it

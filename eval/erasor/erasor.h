@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-
 #include "eval/protocol.h"
 
 namespace raymoval {
 
-/// The protocol of the ERASOR paper (PR, RR, F1 over voxels of the map), which most papers of the
-/// field use.
+/// The protocol of the ERASOR paper, which most papers of the field use: PR, RR and F1 over voxels
+/// of the map.
 ///
 /// Truth: all points, cropped, lifted, posed, voxelised scan by scan and once more as a whole, one
 /// label per voxel. Estimate: the same of the points that a method kept. Each truth voxel looks for
@@ -16,10 +14,10 @@ namespace raymoval {
 /// static, a moving one remains if that moves. PR = preserved / static, RR = 1 - remaining /
 /// moving (percent), F1 their harmonic mean (fraction).
 ///
-/// Intervals of PR, RR and F1: block bootstrap over scans, for which each voxel of the truth
-/// belongs to the one scan whose point gave it its label, that is the point nearest to its
-/// centroid. Among the scans that saw a voxel this is none in particular, so voxels spread over
-/// them; each counts once, and the counts of all scans add up to those of the map.
+/// The intervals of PR, RR and F1 come from a block bootstrap over scans. For this each voxel of
+/// the truth belongs to one scan: the scan of the point that gave the voxel its label, which is the
+/// point nearest to the centroid. So each voxel counts once, the voxels that several scans saw
+/// spread over these scans, and the counts of all scans add up to those of the map.
 ///
 /// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic; estimate_voxels;
 /// estimate_voxels_without_partner (no truth voxel within the same reach; never penalised);
@@ -34,6 +32,5 @@ namespace raymoval {
 /// away. Static voxels beside removed objects so become dynamic and RR has a ceiling below 100:
 /// score the cloud of an oracle to see it. `cloud_points` then stands for `removed_points`.
 ProtocolEntry erasor_protocol_entry();
-std::unique_ptr<Protocol> make_erasor_protocol(const Configuration& options);
 
 }  // namespace raymoval

@@ -16,13 +16,13 @@ inline constexpr std::uint32_t kNoPartner = std::numeric_limits<std::uint32_t>::
 /// 3 s^2 / 4 (0.03 m^2 for 0.2 m). The comparison is strict.
 double matching_bound(double voxel_size);
 
-/// For each voxel of `from` the voxel of `to` that stands for it, or `kNoPartner`: the nearest one
-/// (exact, in double; the lowest index on equal squared distance) if its squared distance is below
-/// `matching_bound`, or the one of the same cell.
+/// Finds for each voxel of `from` its partner in `to`, or `kNoPartner`. By radius the partner is
+/// the nearest voxel if its squared distance is below `matching_bound`; of several at the same
+/// distance it is the one with the lowest index. By cell it is the voxel of the same cell.
 std::vector<std::uint32_t> find_partners(const LabelledVoxels& from, const LabelledVoxels& to,
                                          double voxel_size, MatchingOption matching, int threads);
 
-/// S, D, Ps and Rd.
+/// The counts that the rates follow from (S, D, Ps and Rd).
 struct MatchCounts {
   std::int64_t static_voxels = 0;
   std::int64_t dynamic_voxels = 0;
@@ -32,15 +32,15 @@ struct MatchCounts {
   bool operator==(const MatchCounts&) const = default;
 };
 
-/// Counts the voxels of the truth by their class and their partners. With both-side labels a
+/// Counts the voxels of the truth by their class and their partners. With the label rule "both" a
 /// static voxel is preserved if its partner is static, and a moving one remains if its partner
-/// moves; by geometry any partner will do.
+/// moves. With "geometry" any partner will do.
 /// @param partners of each truth voxel in the estimate
 MatchCounts count_matches(const LabelledVoxels& truth, const LabelledVoxels& estimate,
                           const std::vector<std::uint32_t>& partners, const LabelClasses& classes,
                           const Options& options);
 
-/// The same, apart for each scan.
+/// The same counts for each scan.
 /// @param scan_of_voxel scan to which each voxel of the truth belongs, below `scans`
 std::vector<MatchCounts> count_matches_by_scan(const LabelledVoxels& truth,
                                                const LabelledVoxels& estimate,

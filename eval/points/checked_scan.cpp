@@ -44,15 +44,6 @@ CheckedScan load_checked(const EvaluationInput& input, const MaskStore* masks, s
   return loaded;
 }
 
-void check_input(const EvaluationInput& input, const std::string& protocol) {
-  if (input.scans == nullptr) throw InternalError("protocol " + protocol + " was given no scans");
-  if (input.labels == nullptr) {
-    throw DataError("protocol " + protocol +
-                    " needs a label for each point and the sequence has none: expected label "
-                    "files. Choose labelled data.");
-  }
-}
-
 void check_mask_count(const EvaluationInput& input, const MaskStore& masks) {
   if (masks.size() == input.scans->size()) return;
   throw MethodError(std::to_string(masks.size()) + " masks for " +

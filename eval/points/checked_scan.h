@@ -11,7 +11,7 @@
 
 namespace raymoval {
 
-/// A scan with its label words and, if masks are scored, its mask; all of one length.
+/// A scan with its label words and, if masks are scored, its mask. All have the same length.
 struct CheckedScan {
   Scan scan;
   std::vector<std::uint32_t> labels;
@@ -21,13 +21,10 @@ struct CheckedScan {
 };
 
 /// Loads scan `index` with what belongs to it.
-/// @param masks null: none are looked at
+/// @param masks null: the scan gets no mask
 /// @throws MethodError if the mask is missing or has the wrong length
 /// @throws DataError if the labels do not fit the scan
 CheckedScan load_checked(const EvaluationInput& input, const MaskStore* masks, std::size_t index);
-
-/// @throws DataError if `input` has no labels
-void check_input(const EvaluationInput& input, const std::string& protocol);
 
 /// @throws MethodError unless there is a mask for each scan
 void check_mask_count(const EvaluationInput& input, const MaskStore& masks);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/points/cloud_masks.h"
 
-#include "core/parallel.h"
 #include "eval/points/nearby_points.h"
+#include "eval/points/scan_loops.h"
 
 namespace raymoval {
 
@@ -10,17 +10,14 @@ MaskStore masks_of_cloud(const EvaluationInput& input, const std::vector<Eigen::
                          double distance) {
   const NearbyPoints near(cloud, distance);
   MaskStore masks(input.scans->size());
-  if (input.progress != nullptr) input.progress->begin("points of the cloud", masks.size());
-  parallel_for(input.threads, masks.size(), 1, [&](std::size_t i) {
+  for_each_scan(input, "points of the cloud", [&](std::size_t i) {
     const Scan scan = input.scans->load(i);
     Mask mask(scan.size(), 0);
     for (std::size_t p = 0; p < mask.size(); ++p) {
       mask[p] = near.has_near(scan.T_world_sensor * scan.points[p].cast<double>()) ? 0 : 1;
     }
     masks.set(i, mask);
-    if (input.progress != nullptr) input.progress->advance();
   });
-  if (input.progress != nullptr) input.progress->end();
   return masks;
 }
 

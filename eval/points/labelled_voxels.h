@@ -11,8 +11,8 @@
 
 namespace raymoval {
 
-/// Distances that differ by at most this many metres are equal when a label is handed on; the
-/// lowest input index then decides.
+/// Distances that differ by at most this many metres count as equal when a point takes the label of
+/// its nearest point. Then the point with the lowest input index gives the label.
 inline constexpr double kLabelTieMargin = 1e-9;
 
 /// Points of the world frame (metres), each with its label word.
@@ -37,7 +37,7 @@ struct LabelledVoxels {
   [[nodiscard]] std::size_t size() const { return keys.size(); }
 };
 
-/// Class of a semantic id by table: a label rule made fast.
+/// A label rule as a table, for a fast look-up of the class of a semantic id.
 class LabelClasses {
  public:
   explicit LabelClasses(const LabelRule& rule);
@@ -53,7 +53,7 @@ class LabelClasses {
 /// point in the whole of `cloud`. Among points within `kLabelTieMargin` of the nearest the one with
 /// the lowest index gives the label.
 /// @param voxel_size edge of a cell in metres
-/// @param classes says which ties are mixed; changes nothing else
+/// @param classes say which ties are mixed, and change nothing else
 /// @throws DataError if a point lies beyond the lattice or there are 2^32 points or more
 /// Source: ERASOR's public evaluation, which uses a voxel grid filter and a 1-NN search.
 LabelledVoxels voxelise(const LabelledCloud& cloud, double voxel_size, const LabelClasses& classes,

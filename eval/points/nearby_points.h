@@ -7,8 +7,9 @@
 
 namespace raymoval {
 
-/// Points of the world frame (metres) that can be asked whether any lies within one fixed reach of
-/// a query: a k-d tree, so that a query costs little more where thousands of scans saw one place.
+/// Answers whether any of many points lies within a fixed reach of a query point. The points are in
+/// the world frame, in metres. They stand in a k-d tree, so that a query costs little more at a
+/// place that thousands of scans saw.
 /// @tparam Point Eigen::Vector3d or Eigen::Vector3f; distances are in double
 template <class Point>
 class NearbyPoints {

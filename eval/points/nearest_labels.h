@@ -9,7 +9,7 @@
 
 namespace raymoval {
 
-/// Hands on labels by exact nearest neighbour, however far away it is.
+/// Gives query points the label of their exact nearest neighbour, however far away that is.
 class NearestLabels {
  public:
   /// Keeps `cloud`, which needs at least one point.
@@ -18,8 +18,9 @@ class NearestLabels {
   NearestLabels(const NearestLabels&) = delete;
   NearestLabels& operator=(const NearestLabels&) = delete;
 
-  /// For each query point the label of its nearest point; among points within `kLabelTieMargin` of
-  /// the nearest, that of the lowest index. The number of threads does not change the answer.
+  /// The label of the nearest point of each query point. Among points within `kLabelTieMargin` of
+  /// the nearest one, the point with the lowest index gives the label. The number of threads does
+  /// not change the answer.
   [[nodiscard]] std::vector<std::uint32_t> labels_of(const std::vector<Eigen::Vector3d>& queries,
                                                      int threads) const;
 

@@ -7,14 +7,23 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
 using Json = nlohmann::json;
 
-const std::vector<std::string> kNumbers = {
-    "PR", "RR", "F1", "SA", "DA", "AA", "HA", "milliseconds_per_scan", "share", "seconds_per_scan"};
+/// The rates of all protocols, and what papers print of times.
+std::vector<std::string> number_names() {
+  std::vector<std::string> names;
+  for (const RateSpec& spec : rate_specs()) {
+    if (spec.role != RateRole::kSecondary) names.push_back(spec.name);
+  }
+  names.insert(names.end(), {"milliseconds_per_scan", "share", "seconds_per_scan"});
+  return names;
+}
+
 const std::vector<std::string> kTexts = {"method", "sequence", "stage", "poses", "reported_by"};
 
 [[noreturn]] void fail(const std::string& where, const std::string& expected) {
@@ -41,7 +50,7 @@ std::string optional_text(const Json& json, const std::string& key, const std::s
   return json.contains(key) ? text_of(json.at(key), where + "." + key) : std::string{};
 }
 
-/// Reads the list `key` of `json` item by item; an absent one is empty.
+/// Reads the list `key` of `json` item by item. The result is empty if there is no such key.
 template <class Item, class Read>
 std::vector<Item> read_list(const Json& json, const std::string& key, const std::string& where,
                             Read&& read) {
@@ -56,8 +65,9 @@ std::vector<Item> read_list(const Json& json, const std::string& key, const std:
 }
 
 PublishedRow read_row(const Json& json, const std::string& where) {
+  const std::vector<std::string> numbers = number_names();
   std::vector<std::string> allowed = kTexts;
-  allowed.insert(allowed.end(), kNumbers.begin(), kNumbers.end());
+  allowed.insert(allowed.end(), numbers.begin(), numbers.end());
   check_keys(json, allowed, where);
   PublishedRow row;
   row.method = text_of(member(json, "method", where), where + ".method");
@@ -65,13 +75,13 @@ PublishedRow read_row(const Json& json, const std::string& where) {
   row.stage = optional_text(json, "stage", where);
   row.poses = optional_text(json, "poses", where);
   row.reported_by = optional_text(json, "reported_by", where);
-  for (const std::string& name : kNumbers) {
+  for (const std::string& name : numbers) {
     if (!json.contains(name)) continue;
     const Json& value = json.at(name);
     row.values[name] =
         value.is_null() ? std::nullopt : std::optional(number_of(value, where + "." + name));
   }
-  if (row.values.empty()) fail(where, "at least one number, such as " + join(kNumbers));
+  if (row.values.empty()) fail(where, "at least one number, such as " + join(numbers));
   return row;
 }
 
@@ -84,7 +94,7 @@ Misprint read_misprint(const Json& json, const std::string& where) {
 }
 
 std::map<std::string, std::string> read_units(const Json& json, const std::string& where) {
-  check_keys(json, kNumbers, where);
+  check_keys(json, number_names(), where);
   std::map<std::string, std::string> units;
   for (const auto& [name, unit] : json.items()) units[name] = text_of(unit, where + "." + name);
   return units;

@@ -10,9 +10,8 @@
 
 namespace raymoval {
 
-/// A line of a published table: who and where as texts ("method", "sequence", "stage", "poses",
-/// "reported_by"; empty if not given), and the numbers by name. A number printed as missing has no
-/// value.
+/// A line of a published table: texts that say who and where (they are empty if not given), and the
+/// numbers by name. A number that is printed as missing has no value.
 struct PublishedRow {
   std::string method, sequence, stage, poses, reported_by;
   std::map<std::string, std::optional<double>> values;
@@ -58,10 +57,10 @@ struct ArithmeticCheck {
   [[nodiscard]] double deviation() const { return printed - recomputed; }
 };
 
-/// Recomputes every number that follows from others: F1 from PR and RR, HA and AA from SA and DA,
-/// averages of PR and RR, the average F1 by both rules (`mean_F1` and `F1_of_means`, of which a
-/// paper follows one), and totals of stages. Returns all comparisons; the caller judges the
-/// deviations by the digits that were printed.
+/// Recomputes every number that follows from others: rates with a formula (F1 from PR and RR, AA
+/// and HA from SA and DA), averages of rates, the average F1 by both rules (`mean_F1` and
+/// `F1_of_means`, of which a paper follows one), and totals of stages. Returns all comparisons; how
+/// large a deviation may be depends on the digits that were printed, which the caller knows.
 std::vector<ArithmeticCheck> check_arithmetic(const PublishedTable& table);
 
 }  // namespace raymoval

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
 #include "eval/averages.h"
+#include "eval/protocol_registry.h"
 #include "eval/published/published.h"
-#include "eval/rates.h"
 
 namespace raymoval {
 namespace {
@@ -18,43 +16,48 @@ void add(Checks& checks, const PublishedRow& row, const std::string& place,
   checks.push_back({row.method, place, metric, rule, *printed, *recomputed});
 }
 
+/// What a formula gives for two printed numbers.
+std::optional<double> combined(const RateFormula& formula, const PublishedRow& row) {
+  const auto first = row.value(formula.first), second = row.value(formula.second);
+  if (!first || !second) return std::nullopt;
+  return formula.combine(*first, *second);
+}
+
 void check_row(const PublishedRow& row, Checks& checks) {
-  const auto preservation = row.value("PR");
-  const auto rejection = row.value("RR");
-  if (preservation && rejection) {
-    add(checks, row, row.sequence, "F1", "harmonic_mean",
-        f1_from_percent(*preservation, *rejection));
-  }
-  const auto static_accuracy = row.value("SA");
-  const auto dynamic_accuracy = row.value("DA");
-  if (static_accuracy && dynamic_accuracy) {
-    add(checks, row, row.sequence, "HA", "harmonic_mean",
-        harmonic_mean(*static_accuracy, *dynamic_accuracy));
-    add(checks, row, row.sequence, "AA", "geometric_mean",
-        std::sqrt(*static_accuracy * *dynamic_accuracy));
+  for (const RateSpec& spec : rate_specs()) {
+    if (!spec.formula) continue;
+    add(checks, row, row.sequence, spec.name, spec.formula->rule, combined(*spec.formula, row));
   }
 }
 
-/// Rates of a method's rows. F1 is taken from PR and RR, which have more digits than the F1 that
-/// is printed beside them.
-std::vector<SegmentRates> segments_of(const PublishedTable& table, const std::string& method) {
-  std::vector<SegmentRates> segments;
+/// The values of a rate in a method's rows. A rate that follows from two others is computed from
+/// them if tables show its value of means too: PR and RR have more digits than the F1 beside them.
+SegmentValues segments_of(const PublishedTable& table, const std::string& method,
+                          const std::string& rate) {
+  const RateSpec spec = rate_spec(rate);
+  const bool computed = spec.formula && spec.formula->shown_of_means;
+  SegmentValues values;
   for (const PublishedRow& row : table.rows) {
     if (row.method != method) continue;
-    SegmentRates rates{row.value("PR"), row.value("RR"), std::nullopt};
-    if (rates.PR && rates.RR) rates.F1 = f1_from_percent(*rates.PR, *rates.RR);
-    segments.push_back(rates);
+    values.push_back(computed ? combined(*spec.formula, row) : row.value(rate));
   }
-  return segments;
+  return values;
 }
 
 void check_average(const PublishedTable& table, const PublishedRow& row, const std::string& place,
                    Checks& checks) {
-  const AverageRates averages = average_rates(segments_of(table, row.method));
-  add(checks, row, place, "PR", "mean", averages.PR.value);
-  add(checks, row, place, "RR", "mean", averages.RR.value);
-  add(checks, row, place, "F1", "mean_F1", averages.mean_F1.value);
-  add(checks, row, place, "F1", "F1_of_means", averages.F1_of_means.value);
+  for (const RateSpec& spec : rate_specs()) {
+    const bool of_means = spec.formula && spec.formula->shown_of_means;
+    const auto segments = [&](const std::string& rate) {
+      return segments_of(table, row.method, rate);
+    };
+    add(checks, row, place, spec.name, of_means ? "mean_" + spec.name : "mean",
+        mean_of(segments(spec.name)).value);
+    if (!of_means) continue;
+    const RateFormula& formula = *spec.formula;
+    add(checks, row, place, spec.name, spec.name + "_of_means",
+        combined_means(segments(formula.first), segments(formula.second), formula.combine).value);
+  }
 }
 
 void check_total(const PublishedTable& table, const PublishedRow& total, Checks& checks) {

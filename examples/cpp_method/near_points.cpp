@@ -4,7 +4,7 @@
 
 #include "core/scan/mask_store.h"
 #include "datasets/open_sequence.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 #include "methods/registry.h"
 
 using namespace raymoval;
@@ -52,7 +52,7 @@ int main() {
   input.scans = street.scans.get();
   input.labels = street.labels.get();
   const auto protocol = make_protocol("erasor", protocol_defaults("erasor"));
-  const ProtocolResult result = protocol->score(input, *protocol->prepare(input), sink.masks);
+  const ProtocolResult result = protocol->open(input)->score(sink.masks);
   const auto rate = result.rate("PR");
   std::printf("removed %zu points, PR %.3f\n", sink.masks.removed_count(), rate.value_or(-1.0));
   return sink.masks.removed_count() > 0 && rate && *rate > 0.0 && *rate < 100.0 ? 0 : 1;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,46 +13,105 @@
 
 namespace raymoval {
 
-enum class ScanOrder { kForward, kBackward };
+/// Which scans of a source a pass goes through, and in which order.
+struct ScanSelection {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  std::ptrdiff_t step = 1;  ///< From a scan's number to the next one's; -1 goes backward.
 
-/// One pass: calls `visit(Scan)` with each scan, one after the other; shows progress, stops when
-/// asked to and books the time of the visit, without loading, to the scan.
+  [[nodiscard]] std::size_t operator[](std::size_t i) const {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(first) +
+                                    static_cast<std::ptrdiff_t>(i) * step);
+  }
+};
+
+inline ScanSelection all_scans(const ScanSource& scans) {
+  return {0, scans.size(), 1};
+}
+
+inline ScanSelection all_scans_backward(const ScanSource& scans) {
+  return {scans.size() == 0 ? 0 : scans.size() - 1, scans.size(), -1};
+}
+
+/// The scans first, first + step, ... below `end`.
+inline ScanSelection every_nth_scan(std::size_t first, std::size_t end, std::size_t step) {
+  return {first, end > first ? (end - first - 1) / step + 1 : 0, static_cast<std::ptrdiff_t>(step)};
+}
+
+/// One pass: calls `visit(Scan)` with each selected scan, one after the other. It shows progress,
+/// stops when it is asked to, and books the time of the visit, without loading, to the scan.
 /// @param what names the pass in progress lines
 template <class Visit>
-void for_each_scan(const char* what, const ScanSource& scans, const RunContext& context,
-                   Visit&& visit, ScanOrder order = ScanOrder::kForward) {
-  context.begin_pass(what, scans.size());
-  for (std::size_t i = 0; i < scans.size(); ++i) {
+void for_each_scan(const char* what, const ScanSource& scans, const ScanSelection& selection,
+                   const RunContext& context, Visit&& visit) {
+  context.begin_pass(what, selection.count);
+  for (std::size_t i = 0; i < selection.count; ++i) {
     context.check_cancelled();
-    const std::size_t index = order == ScanOrder::kForward ? i : scans.size() - 1 - i;
-    Scan scan = scans.load(index);
-    const ScanScope timed(context.times, index);
+    Scan scan = scans.load(selection[i]);
+    const ScanScope timed(context.times, selection[i]);
     visit(std::move(scan));
     context.advance();
   }
 }
 
-/// One pass of visits that know nothing of each other: as many scans at a time as there are
-/// threads, each visited on one of them. The time is booked to the scans in equal parts and, with
-/// several threads, to `stage`, since what goes on side by side within a visit cannot be told
-/// apart.
+/// The same with all scans, first to last.
 template <class Visit>
-void for_scans_at_once(const char* what, const char* stage, const ScanSource& scans,
-                       const RunContext& context, Visit&& visit) {
+void for_each_scan(const char* what, const ScanSource& scans, const RunContext& context,
+                   Visit&& visit) {
+  for_each_scan(what, scans, all_scans(scans), context, visit);
+}
+
+/// One pass in which every thread loads and visits chunks of `grain` scans that follow each other.
+/// `visit_chunk(each_scan)` is called for each chunk; it prepares what the chunk needs and calls
+/// `each_scan(visit)` once, which calls `visit(Scan)` with the scans of the chunk in turn. Visits
+/// must not depend on other chunks. The time of each visit, without loading, is booked to its scan;
+/// stages add up over the threads.
+template <class VisitChunk>
+void for_scan_chunks(const char* what, const ScanSource& scans, const ScanSelection& selection,
+                     std::size_t grain, const RunContext& context, VisitChunk&& visit_chunk) {
+  context.begin_pass(what, selection.count);
+  parallel_chunks(context.threads, selection.count, grain, [&](std::size_t begin, std::size_t end) {
+    visit_chunk([&](auto&& visit) {
+      for (std::size_t i = begin; i < end; ++i) {
+        context.check_cancelled();
+        Scan scan = scans.load(selection[i]);
+        const ScanScope timed(context.times, selection[i]);
+        visit(std::move(scan));
+        context.advance();
+      }
+    });
+  });
+}
+
+/// The same for visits that do not depend on each other at all: `visit(Scan)`, on any thread.
+template <class Visit>
+void for_scans_in_parallel(const char* what, const ScanSource& scans,
+                           const ScanSelection& selection, const RunContext& context,
+                           Visit&& visit) {
+  for_scan_chunks(what, scans, selection, 1, context, [&](auto&& each_scan) { each_scan(visit); });
+}
+
+/// How many scans `for_scan_batches` takes at a time: one for each thread.
+inline std::size_t scans_in_a_batch(const ScanSource& scans, const RunContext& context) {
+  return std::min(static_cast<std::size_t>(std::clamp(context.threads, 1, 64)), scans.size());
+}
+
+/// One pass in batches: loads as many scans at a time as there are threads and calls
+/// `visit_batch(std::span<Scan>)`. The time of a batch, without loading, is booked to its scans in
+/// equal parts.
+template <class VisitBatch>
+void for_scan_batches(const char* what, const ScanSource& scans, const RunContext& context,
+                      VisitBatch&& visit_batch) {
   context.begin_pass(what, scans.size());
-  const auto width = static_cast<std::size_t>(std::clamp(context.threads, 1, 64));
-  std::vector<Scan> batch(std::min(width, scans.size()));
-  for (std::size_t first = 0; first < scans.size(); first += width) {
-    const std::size_t count = std::min(width, scans.size() - first);
+  std::vector<Scan> batch(scans_in_a_batch(scans, context));
+  for (std::size_t first = 0; first < scans.size(); first += batch.size()) {
+    const std::size_t count = std::min(batch.size(), scans.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
       context.check_cancelled();
       batch[i] = scans.load(first + i);
     }
     const auto started = std::chrono::steady_clock::now();
-    {
-      const StageScope timed(width > 1 ? context.times : nullptr, stage);
-      parallel_for(context.threads, count, 1, [&](std::size_t i) { visit(batch[i]); });
-    }
+    visit_batch(std::span(batch).first(count));
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
     for (std::size_t i = 0; i < count; ++i) {
       if (context.times != nullptr) {
@@ -60,6 +120,18 @@ void for_scans_at_once(const char* what, const char* stage, const ScanSource& sc
       context.advance();
     }
   }
+}
+
+/// One pass in batches of visits that do not depend on each other: `visit(Scan&)`, each on one of
+/// the threads. With several threads the time is also booked to `stage`, since what goes on side by
+/// side within a visit cannot be told apart.
+template <class Visit>
+void for_scans_at_once(const char* what, const char* stage, const ScanSource& scans,
+                       const RunContext& context, Visit&& visit) {
+  for_scan_batches(what, scans, context, [&](std::span<Scan> batch) {
+    const StageScope timed(context.threads > 1 ? context.times : nullptr, stage);
+    parallel_for(context.threads, batch.size(), 1, [&](std::size_t i) { visit(batch[i]); });
+  });
 }
 
 }  // namespace raymoval

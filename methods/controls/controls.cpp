@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "methods/controls/controls.h"
 
-#include <utility>
-
+#include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 
 namespace raymoval {
 namespace {
 
-class Replay : public Remover {
- public:
-  explicit Replay(std::function<Mask(const Scan&)> mask_of) : mask_of_(std::move(mask_of)) {}
+using MaskOf = std::function<Mask(const Scan&)>;
 
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    for_each_scan("masks", scans, context,
-                  [&](const Scan& scan) { sink.accept(scan.index, mask_of_(scan)); });
-  }
+void replay(const MaskOf& mask_of, const ScanSource& scans, RemovalSink& sink,
+            const RunContext& context) {
+  for_each_scan("masks", scans, context,
+                [&](const Scan& scan) { sink.accept(scan.index, mask_of(scan)); });
+}
 
- private:
-  std::function<Mask(const Scan&)> mask_of_;
-};
-
-std::function<Mask(const Scan&)> constant_mask(std::uint8_t value) {
+MaskOf constant_mask(std::uint8_t value) {
   return [value](const Scan& scan) { return Mask(scan.size(), value); };
 }
 
@@ -36,8 +30,8 @@ MethodEntry control(const char* name, const char* sentence) {
 
 }  // namespace
 
-std::unique_ptr<Remover> make_replay(std::function<Mask(const Scan&)> mask_of) {
-  return std::make_unique<Replay>(std::move(mask_of));
+std::unique_ptr<Remover> make_replay(const std::function<Mask(const Scan&)>& mask_of) {
+  return remover_from(mask_of, replay);
 }
 
 MethodEntry noop_entry() {

@@ -6,19 +6,12 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "methods/common/diamond_angle.h"
 #include "methods/dufomap/cell_walk.h"
 #include "methods/dufomap/free_walk.h"
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 namespace {
-
-/// Grows with the azimuth of (x, y) from 0 to 4; stands in for an arc tangent.
-double diamond_angle(double x, double y) {
-  const double sum = std::abs(x) + std::abs(y);
-  if (sum == 0.0) return 0.0;
-  const double slope = y / sum;
-  return x >= 0.0 ? (y >= 0.0 ? slope : 4.0 + slope) : 2.0 - slope;
-}
 
 /// Sorts voxels into sectors around the sensor, keeping their order within a sector.
 std::vector<VoxelIndex> by_sector(const std::vector<VoxelIndex>& voxels,
@@ -127,4 +120,4 @@ void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends,
   }
 }
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

@@ -7,7 +7,7 @@
 #include "methods/dufomap/parameters.h"
 #include "methods/dufomap/scan_grid.h"
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 
 /// Voxel of each point of `scan`. @throws DataError beyond the lattice.
 std::vector<VoxelIndex> voxels_of(const Scan& scan, double voxel_size);
@@ -23,4 +23,4 @@ std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex
 void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends,
                 const DufomapParameters& parameters, ScanGrid& grid);
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 namespace {
 
 using Fixed = std::int64_t;  ///< Voxels times 2^40.
@@ -141,4 +141,4 @@ VoxelIndex FreeWalk::mark_free(const Eigen::Vector3d& direction, double length) 
   return Walk(grid_, stopping_hits_, sensor_block_, sensor_, direction, length).run();
 }
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

@@ -3,7 +3,7 @@
 
 #include "methods/dufomap/scan_grid.h"
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 
 /// Marks the voxels that beams of one scan pass through (first part of step 3).
 class FreeWalk {
@@ -29,4 +29,4 @@ class FreeWalk {
   Eigen::Vector3d sensor_;  ///< Voxels from the low corner of the sensor's block.
 };
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 
 ScanBlock& ScanGrid::add_block(const VoxelIndex& at, VoxelKey key) {
   if (used_ >= kMostBlocks) {
@@ -22,4 +22,4 @@ ScanBlock& ScanGrid::add_block(const VoxelIndex& at, VoxelKey key) {
   return block;
 }
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

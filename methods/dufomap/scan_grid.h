@@ -7,7 +7,7 @@
 
 #include "core/scan/voxel_key.h"
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 
 /// Voxels come in blocks of 32 x 32 upright columns of 64. A word holds a column: the beams of a
 /// LiDAR run mostly level, so that neighbours on a beam lie in different words and marking one does
@@ -95,4 +95,4 @@ class ScanGrid {
   ScanBlock* last_ = nullptr;  ///< Asked for last: mostly asked for again.
 };
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 namespace {
 
 constexpr int kMostInflation = 8;
@@ -127,4 +127,4 @@ std::vector<std::uint8_t> VoidMap::contain(const std::vector<VoxelIndex>& voxels
   return inside;
 }
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

@@ -8,7 +8,7 @@
 
 #include "methods/dufomap/scan_grid.h"
 
-namespace raymoval::dufomap {
+namespace raymoval::dufomap_method {
 
 /// Void voxels of a block, a word for each column.
 using VoidBits = std::array<std::uint64_t, kColumns>;
@@ -31,4 +31,4 @@ class VoidMap {
   VoxelMap<std::unique_ptr<VoidBits>> blocks_;
 };
 
-}  // namespace raymoval::dufomap
+}  // namespace raymoval::dufomap_method

@@ -7,12 +7,16 @@
 
 #include "core/parallel.h"
 #include "core/text.h"
+#include "methods/common/remover_from.h"
+#include "methods/common/scan_passes.h"
+#include "methods/common/thinned_points.h"
 #include "methods/erasor/ground_fit.h"
 #include "methods/erasor/naive_map.h"
 #include "methods/erasor/polar_bins.h"
 #include "methods/erasor/scan_ratio_test.h"
 
 namespace raymoval {
+namespace erasor_method {
 namespace {
 
 /// The points of a query by bin, after thinning.
@@ -32,12 +36,6 @@ struct MapBins {
   std::vector<std::vector<Member>> members;  ///< Chunk by chunk, in order.
 };
 
-/// Points of one voxel of a scan that is thinned.
-struct ThinnedPoint {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int points = 0;
-};
-
 class ErasorRun {
  public:
   ErasorRun(const ErasorParameters& parameters, const ScanSource& scans, const RunContext& context)
@@ -50,16 +48,11 @@ class ErasorRun {
   /// The map of all scans.
   NaiveMap collect_naive_map() {
     NaiveMapBuilder builder;
-    context_.begin_pass("erasor, naive map", scans_.size());
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(i);
-      const ScanScope of_scan(context_.times, i);
+    for_each_scan("erasor, naive map", scans_, context_, [&](const Scan& scan) {
       const StageScope timed(context_.times, "naive map");
       locate(scan, parameters_.minimum_range);
       builder.add(keys_, world_);
-      context_.advance();
-    }
+    });
     const StageScope timed(context_.times, "naive map");
     return builder.finish();
   }
@@ -69,37 +62,22 @@ class ErasorRun {
     const auto interval = static_cast<std::size_t>(parameters_.removal_interval);
     const std::size_t first =
         parameters_.phase < 0 ? interval - 1 : static_cast<std::size_t>(parameters_.phase);
-    const std::size_t queries =
-        scans_.size() > first ? (scans_.size() - first - 1) / interval + 1 : 0;
-    context_.begin_pass("erasor, queries", queries);
-    for (std::size_t i = first; i < scans_.size(); i += interval) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(i);
-      const ScanScope of_scan(context_.times, i);
-      process(scan, map);
-      context_.advance();
-    }
+    for_each_scan("erasor, queries", scans_, every_nth_scan(first, scans_.size(), interval),
+                  context_, [&](const Scan& scan) { process(scan, map); });
   }
 
   /// A point is dynamic iff its voxel is out of the map.
   void answer(const NaiveMap& map, RemovalSink& sink) {
-    context_.begin_pass("erasor, answers", scans_.size());
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(i);
+    for_each_scan("erasor, answers", scans_, context_, [&](const Scan& scan) {
+      const StageScope timed(context_.times, "answer");
       Mask removed(scan.size(), 0);
-      {
-        const ScanScope of_scan(context_.times, i);
-        const StageScope timed(context_.times, "answer");
-        const double inverse = 1.0 / parameters_.map_voxel_size;
-        parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
-          const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
-          removed[k] = map.is_out(voxel_key(voxel_index(world, inverse))) ? 1 : 0;
-        });
-      }
-      sink.accept(i, removed);
-      context_.advance();
-    }
+      const double inverse = 1.0 / parameters_.map_voxel_size;
+      parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
+        const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
+        removed[k] = map.is_out(voxel_key(voxel_index(world, inverse))) ? 1 : 0;
+      });
+      sink.accept(scan.index, removed);
+    });
   }
 
  private:
@@ -141,42 +119,23 @@ class ErasorRun {
     QueryBins query;
     query.extents.resize(bins_.size());
     query.bin_of_point.assign(scan.size(), -1);
-    std::vector<int> slot_of_point;
-    const std::vector<ThinnedPoint> thinned = thin(scan, slot_of_point);
+    ThinnedPoints thinned(parameters_.query_voxel_size);
+    std::vector<int> slot_of_point(scan.size(), -1);  // -1: a point of the own car.
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      if (is_own_car(scan.points[k], parameters_.minimum_range)) continue;
+      slot_of_point[k] = static_cast<int>(thinned.add(scan.points[k].cast<double>()));
+    }
     std::vector<int> bin_of_slot(thinned.size());
     for (std::size_t s = 0; s < thinned.size(); ++s) {
-      const Eigen::Vector3d body = body_of(thinned[s].sum / thinned[s].points);
-      bin_of_slot[s] = bins_.bin_of(body);
-      if (bin_of_slot[s] >= 0)
-        query.extents[static_cast<std::size_t>(bin_of_slot[s])].add(body.z());
+      const Eigen::Vector3d body = body_of(thinned.centroid(s));
+      const int bin = bin_of_slot[s] = bins_.bin_of(body);
+      if (bin >= 0) query.extents[static_cast<std::size_t>(bin)].add(body.z());
     }
     for (std::size_t k = 0; k < scan.size(); ++k) {
       if (slot_of_point[k] < 0) continue;
       query.bin_of_point[k] = bin_of_slot[static_cast<std::size_t>(slot_of_point[k])];
     }
     return query;
-  }
-
-  /// One point a voxel of the sensor frame, the own car's left out.
-  /// @param slot_of_point which thinned point stands for each raw one; -1 = none
-  std::vector<ThinnedPoint> thin(const Scan& scan, std::vector<int>& slot_of_point) const {
-    slot_of_point.assign(scan.size(), -1);
-    std::vector<ThinnedPoint> thinned;
-    VoxelMap<int> slots;
-    slots.reserve(scan.size() / 2);
-    const double inverse = 1.0 / parameters_.query_voxel_size;
-    for (std::size_t k = 0; k < scan.size(); ++k) {
-      if (is_own_car(scan.points[k], parameters_.minimum_range)) continue;
-      const Eigen::Vector3d point = scan.points[k].cast<double>();
-      const auto found = slots.try_emplace(voxel_key(voxel_index(point, inverse)),
-                                           static_cast<int>(thinned.size()));
-      if (found.second) thinned.emplace_back();
-      slot_of_point[k] = found.first->second;
-      ThinnedPoint& slot = thinned[static_cast<std::size_t>(slot_of_point[k])];
-      slot.sum += point;
-      ++slot.points;
-    }
-    return thinned;
   }
 
   /// Sorts the voxels that are in the map within the disc around the sensor into bins.
@@ -271,22 +230,16 @@ class ErasorRun {
   std::vector<Eigen::Vector3d> world_;  ///< Of the scan at hand.
 };
 
-class ErasorRemover : public Remover {
- public:
-  explicit ErasorRemover(const ErasorParameters& parameters) : parameters_(parameters) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    ErasorRun run(parameters_, scans, context);
-    NaiveMap map = run.collect_naive_map();
-    run.process_queries(map);
-    run.answer(map, sink);
-  }
-
- private:
-  ErasorParameters parameters_;
-};
+void run(const ErasorParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  ErasorRun erasor(parameters, scans, context);
+  NaiveMap map = erasor.collect_naive_map();
+  erasor.process_queries(map);
+  erasor.answer(map, sink);
+}
 
 }  // namespace
+}  // namespace erasor_method
 
 std::unique_ptr<Remover> make_erasor(const ErasorParameters& parameters) {
   if (!(parameters.minimum_height < parameters.maximum_height)) {
@@ -301,7 +254,7 @@ std::unique_ptr<Remover> make_erasor(const ErasorParameters& parameters) {
         " is not below erasor.max_range = " + number_text(parameters.maximum_range) +
         ", so no point would be tested; raise max_range.");
   }
-  return std::make_unique<ErasorRemover>(parameters);
+  return remover_from(parameters, erasor_method::run);
 }
 
 }  // namespace raymoval

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "methods/erasor/parameters.h"
-#include "methods/registry.h"
+#include "methods/method_entry.h"
 
 namespace raymoval {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 namespace {
 
 /// Mean height of the lowest points after the first few, which may be outliers.
@@ -91,4 +91,4 @@ Mask find_ground(const std::vector<Eigen::Vector3d>& points, const ErasorParamet
   return ground;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

@@ -7,7 +7,7 @@
 #include "core/scan/scan.h"
 #include "methods/erasor/parameters.h"
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 
 /// A plane n.p + d = 0 with a unit normal that does not point down.
 struct Plane {
@@ -27,4 +27,4 @@ Plane fit_plane(const std::vector<Eigen::Vector3d>& points, const Mask& chosen);
 /// @return 1 = ground, 0 = above it
 Mask find_ground(const std::vector<Eigen::Vector3d>& points, const ErasorParameters& parameters);
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 namespace {
 
 constexpr double kTileSize = 5.0;
@@ -110,4 +110,4 @@ NaiveMap NaiveMapBuilder::finish() const {
   return {keys, points};
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

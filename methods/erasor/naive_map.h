@@ -7,7 +7,7 @@
 
 #include "core/scan/voxel_key.h"
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 
 /// Number of a voxel in a NaiveMap.
 using VoxelNumber = std::uint32_t;
@@ -79,4 +79,4 @@ class NaiveMapBuilder {
   std::vector<VoxelOfScan> in_scan_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

@@ -4,12 +4,15 @@
 #include "core/parameters.h"
 
 namespace raymoval {
+namespace erasor_method {
 
 /// What R-GPF takes as the lowest height of a bin that holds too few points to skip outliers.
 enum class SparseGround {
   kLowestPoint,  ///< The height of the lowest point of the bin.
   kZero,         ///< Zero, the road below the sensor, as in the public code.
 };
+
+}  // namespace erasor_method
 
 /// Parameters of ERASOR. The table in parameters.cpp gives them the public code's names, so that
 /// its configuration files carry over. The values are the general set: of the five sets that the
@@ -44,7 +47,7 @@ struct ErasorParameters {
   int plane_iterations = 3;
   double ground_distance = 0.15;
   bool require_upright = false;
-  SparseGround sparse_ground = SparseGround::kLowestPoint;
+  erasor_method::SparseGround sparse_ground = erasor_method::SparseGround::kLowestPoint;
 };
 
 /// The one place where the parameters are named.

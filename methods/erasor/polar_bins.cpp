@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 
 PolarBins::PolarBins(const ErasorParameters& parameters)
     : range_(parameters.maximum_range),
@@ -27,4 +27,4 @@ int PolarBins::bin_of(const Eigen::Vector3d& body) const {
   return ring * sectors_ + sector;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

@@ -8,7 +8,7 @@
 
 #include "methods/erasor/parameters.h"
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 
 /// The volume of interest cut into ring by sector bins (R-POD, region-wise pseudo occupancy
 /// descriptor). Points are in the body frame: the sensor's axes, height 0 at the road below it.
@@ -44,4 +44,4 @@ struct BinExtent {
   [[nodiscard]] double extent() const { return points == 0 ? 0.0 : highest - lowest; }
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

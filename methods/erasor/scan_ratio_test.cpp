@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 
 BinFinding compare_extents(const BinExtent& map, const BinExtent& query,
                            const ErasorParameters& parameters) {
@@ -29,4 +29,4 @@ BinAction action_for(BinFinding finding, const BinExtent& map, const ErasorParam
   return action;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

@@ -3,7 +3,7 @@
 
 #include "methods/erasor/polar_bins.h"
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 
 /// What the scan ratio test finds in a bin.
 enum class BinFinding {
@@ -30,4 +30,4 @@ struct BinAction {
 /// that only the query fills take in the query's points.
 BinAction action_for(BinFinding finding, const BinExtent& map, const ErasorParameters& parameters);
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

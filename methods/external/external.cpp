@@ -11,11 +11,13 @@
 #include "methods/external/working_folder.h"
 
 namespace raymoval {
+namespace external_method {
 namespace {
 
 constexpr std::string_view kPrefix = "external:";
 
-/// Beside what this process has: no more threads than a method may use, no order by random hash.
+/// The variables that hold a program to the threads that a method may use, and to one order of
+/// Python's hashes.
 std::vector<std::pair<std::string, std::string>> environment_for(int threads) {
   std::vector<std::pair<std::string, std::string>> variables = {{"PYTHONHASHSEED", "0"}};
   for (const char* name : {"RAYMOVAL_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS",
@@ -25,7 +27,7 @@ std::vector<std::pair<std::string, std::string>> environment_for(int threads) {
   return variables;
 }
 
-/// For who writes a program and wants to look at what it got and gave.
+/// Keeps the folder for somebody who writes a program and wants to see what it got and gave.
 void keep_if_asked(WorkingFolder& folder, const RunContext& context) {
   const char* asked = std::getenv("RAYMOVAL_KEEP_WORKING_FOLDER");
   if (asked == nullptr || *asked == '\0') return;
@@ -57,7 +59,7 @@ class External : public Remover {
     return write_sequence_files(folder, scans, manifest_, parameters_, context);
   }
 
-  /// As its manifest says, else 30 s for each scan and at least ten minutes.
+  /// The limit of the manifest, else 30 s for each scan but at least ten minutes.
   [[nodiscard]] double time_limit_s(std::size_t scans) const {
     if (manifest_.time_limit_s > 0.0) return manifest_.time_limit_s;
     return std::max(600.0, 30.0 * static_cast<double>(scans));
@@ -77,19 +79,20 @@ class External : public Remover {
 };
 
 }  // namespace
+}  // namespace external_method
 
 std::optional<std::filesystem::path> external_manifest(const std::string& method_name) {
-  if (!method_name.starts_with(kPrefix)) return std::nullopt;
-  return method_name.substr(kPrefix.size());
+  if (!method_name.starts_with(external_method::kPrefix)) return std::nullopt;
+  return method_name.substr(external_method::kPrefix.size());
 }
 
 MethodEntry external_entry(const std::filesystem::path& manifest) {
-  Manifest read = read_manifest(manifest);
+  external_method::Manifest read = external_method::read_manifest(manifest);
   MethodEntry entry;
   entry.name = read.name;
   entry.sentence = read.sentence;
   entry.source = read.source;
-  entry.version = read.version + "+" + program_hash(read).substr(0, 16);
+  entry.version = read.version + "+" + external_method::program_hash(read).substr(0, 16);
   entry.notes = read.notes;
   entry.parameters = read.parameters;
   entry.variants = {{"default",
@@ -99,7 +102,7 @@ MethodEntry external_entry(const std::filesystem::path& manifest) {
                      {}}};
   entry.manifest = read.path.string();
   entry.make = [read = std::move(read)](const Configuration& parameters) {
-    return std::make_unique<External>(read, parameters);
+    return std::make_unique<external_method::External>(read, parameters);
   };
   return entry;
 }

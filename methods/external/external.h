@@ -5,15 +5,16 @@
 #include <optional>
 #include <string>
 
-#include "methods/registry.h"
+#include "methods/method_entry.h"
 
 namespace raymoval {
 
-/// A method that is a program in any language. A manifest names it and its parameters; it gets
-/// scans and parameters as files in a working folder and answers with a label file per scan (see
-/// methods/README.md for the layout).
-///
-/// "external:PATH/manifest.json" -> "PATH/manifest.json"; nothing for the name of another method.
+// An external method is a program in any language. A manifest names it and its parameters. The
+// program gets scans and parameters as files in a working folder and answers with a label file for
+// each scan (see methods/README.md for the layout).
+
+/// "PATH/manifest.json" for the name "external:PATH/manifest.json"; no value for the name of a
+/// method of another kind.
 std::optional<std::filesystem::path> external_manifest(const std::string& method_name);
 
 /// The entry of the method that a manifest describes, with one variant, "default". Its version is
@@ -22,5 +23,8 @@ std::optional<std::filesystem::path> external_manifest(const std::string& method
 /// @throws ConfigurationError for a manifest that is not as it should be; DataError if a file that
 /// belongs to the program cannot be read
 MethodEntry external_entry(const std::filesystem::path& manifest);
+
+/// Removes the working folders that killed processes of this user have left. It never throws.
+void remove_abandoned_working_folders();
 
 }  // namespace raymoval

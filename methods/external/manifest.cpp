@@ -2,64 +2,17 @@
 #include "methods/external/manifest.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/files/config_object.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
 
-namespace raymoval {
+namespace raymoval::external_method {
 namespace {
 
 using nlohmann::json;
-
-[[noreturn]] void throw_wrong(const std::string& where, const std::string& key,
-                              const std::string& expected) {
-  throw ConfigurationError(where + ": '" + key + "' must be " + expected + ".");
-}
-
-std::string text_of(const json& object, const char* key, const std::string& where, bool needed) {
-  if (!object.contains(key)) {
-    if (!needed) return "";
-    throw ConfigurationError(where + ": '" + key + "' is missing.");
-  }
-  if (!object[key].is_string()) throw_wrong(where, key, "a text");
-  auto text = object[key].get<std::string>();
-  if (needed && text.empty()) throw_wrong(where, key, "a text that is not empty");
-  // An argument cannot hold it, and a name or sentence with it would end there.
-  if (text.find('\0') != std::string::npos) throw_wrong(where, key, "a text without zero bytes");
-  return text;
-}
-
-std::vector<std::string> texts_of(const json& object, const char* key, const std::string& where) {
-  std::vector<std::string> texts;
-  if (!object.contains(key)) return texts;
-  const std::string expected = "a list of texts [ \"...\", ... ]";
-  if (!object[key].is_array()) throw_wrong(where, key, expected);
-  for (const json& item : object[key]) {
-    if (!item.is_string() || item.get<std::string>().find('\0') != std::string::npos) {
-      throw_wrong(where, key, expected);
-    }
-    texts.push_back(item.get<std::string>());
-  }
-  return texts;
-}
-
-double positive_of(const json& object, const char* key, const std::string& where, double usual) {
-  if (!object.contains(key)) return usual;
-  const json& value = object[key];
-  if (!value.is_number() || !(value.get<double>() > 0.0) || !std::isfinite(value.get<double>())) {
-    throw_wrong(where, key, "a number greater than 0");
-  }
-  return value.get<double>();
-}
-
-double bound_of(const json& object, const char* key, const std::string& where, double usual) {
-  if (!object.contains(key)) return usual;
-  if (!object[key].is_number()) throw_wrong(where, key, "a number");
-  return object[key].get<double>();
-}
 
 /// Names stand in folders, tables and `--set NAME.key=value`.
 void check_name(const std::string& name, const std::string& where) {
@@ -73,64 +26,57 @@ void check_name(const std::string& name, const std::string& where) {
   }
 }
 
-ParameterValue default_of(const json& item, const std::string& where) {
-  if (!item.contains("default")) throw ConfigurationError(where + ": 'default' is missing.");
-  const json& value = item["default"];
+ParameterValue default_of(const ConfigObject& item) {
+  const json& value = item.member("default");
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_number_integer()) return value.get<std::int64_t>();
   if (value.is_number()) return value.get<double>();
   if (value.is_string()) return value.get<std::string>();
-  throw_wrong(where, "default", "true, false, a number or a text");
+  item.fail("default", "true, false, a number or a text");
 }
 
-ParameterSpec parameter_of(const json& item, const std::string& method, const std::string& where) {
-  check_keys(item,
-             {"name", "default", "unit", "minimum", "maximum", "choices", "source", "sentence"},
-             where);
+ParameterSpec parameter_of(const ConfigObject& item, const std::string& method) {
   ParameterSpec spec;
-  spec.name = text_of(item, "name", where, true);
-  check_name(spec.name, where);
-  spec.default_value = default_of(item, where);
-  spec.notes.unit = text_of(item, "unit", where, false);
-  spec.notes.minimum = bound_of(item, "minimum", where, spec.notes.minimum);
-  spec.notes.maximum = bound_of(item, "maximum", where, spec.notes.maximum);
-  spec.notes.source = text_of(item, "source", where, false);
-  spec.notes.sentence = text_of(item, "sentence", where, true);
-  spec.choices = texts_of(item, "choices", where);
+  spec.name = item.text("name");
+  check_name(spec.name, item.where());
+  spec.default_value = default_of(item);
+  spec.notes.unit = item.text("unit", "");
+  spec.notes.minimum = item.number("minimum", spec.notes.minimum);
+  spec.notes.maximum = item.number("maximum", spec.notes.maximum);
+  spec.notes.source = item.text("source", "");
+  spec.notes.sentence = item.text("sentence");
+  spec.choices = item.texts("choices");
   if (!spec.choices.empty() && !std::holds_alternative<std::string>(spec.default_value)) {
-    throw ConfigurationError(where + ": 'choices' goes with a text as default.");
+    throw ConfigurationError(item.where() + ": 'choices' goes with a text as default.");
   }
   try {
-    (void)checked_value(method, spec, item["default"]);
+    (void)checked_value(method, spec, item.member("default"));
   } catch (const ConfigurationError& error) {
-    throw ConfigurationError(where + ": " + error.what());
+    throw ConfigurationError(item.where() + ": " + error.what());
   }
   return spec;
 }
 
-void read_parameters(const json& file, const std::string& where, Manifest& manifest) {
-  if (!file.contains("parameters")) return;
-  const json& list = file["parameters"];
-  if (!list.is_array()) throw_wrong(where, "parameters", "a list of objects [ { ... }, ... ]");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string place = where + ": parameters[" + std::to_string(i) + "]";
-    ParameterSpec spec = parameter_of(list[i], manifest.name, place);
-    for (const ParameterSpec& known : manifest.parameters) {
-      if (known.name == spec.name) {
-        throw ConfigurationError(place + ": there are two parameters '" + spec.name + "'.");
-      }
+std::vector<ParameterSpec> parameters_of(const ConfigObject& file, const std::string& method) {
+  std::vector<ParameterSpec> specs;
+  for (const auto& [item, where] : file.list("parameters")) {
+    ParameterSpec spec = parameter_of(ConfigObject(*item, where,
+                                                   {"name", "default", "unit", "minimum", "maximum",
+                                                    "choices", "source", "sentence"}),
+                                      method);
+    for (const ParameterSpec& known : specs) {
+      if (known.name != spec.name) continue;
+      throw ConfigurationError(where + ": there are two parameters '" + spec.name + "'.");
     }
-    manifest.parameters.push_back(std::move(spec));
+    specs.push_back(std::move(spec));
   }
+  return specs;
 }
 
-bool online_of(const json& file, const std::string& where) {
-  if (!file.contains("online")) {
-    throw ConfigurationError(where + ": 'online' is missing: true if the answer for a scan comes " +
-                             "from it and earlier scans only.");
-  }
-  if (!file["online"].is_boolean()) throw_wrong(where, "online", "true or false");
-  return file["online"].get<bool>();
+bool online_of(const ConfigObject& file) {
+  if (file.has("online")) return file.flag("online", false);
+  throw ConfigurationError(file.where() + ": 'online' is missing: true if the answer for a scan " +
+                           "comes from it and earlier scans only.");
 }
 
 std::filesystem::path absolute_file(const std::filesystem::path& path) {
@@ -143,8 +89,8 @@ std::filesystem::path absolute_file(const std::filesystem::path& path) {
   return found;
 }
 
-/// "VARIABLE|default" without the braces; nothing that could be a variable leaves the text as it
-/// is.
+/// What "{VARIABLE|default}" stands for.
+/// @param inside "VARIABLE|default"
 std::string from_environment(const std::string& inside, const std::string& where) {
   const std::size_t bar = inside.find('|');
   const std::string variable = inside.substr(0, bar);
@@ -231,27 +177,25 @@ std::vector<std::string> program_files(const Manifest& manifest) {
 Manifest read_manifest(const std::filesystem::path& path) {
   Manifest manifest;
   manifest.path = absolute_file(path);
-  const json file = read_json(manifest.path);
-  const std::string where = manifest.path.string();
-  check_keys(file,
-             {"name", "sentence", "source", "version", "online", "notes", "command", "files",
-              "time_limit_s", "disk_limit_gib", "parameters"},
-             where);
-  manifest.name = text_of(file, "name", where, true);
-  check_name(manifest.name, where);
-  manifest.sentence = text_of(file, "sentence", where, true);
-  manifest.source = text_of(file, "source", where, false);
-  manifest.version = text_of(file, "version", where, true);
-  manifest.online = online_of(file, where);
-  manifest.notes = texts_of(file, "notes", where);
-  manifest.command = texts_of(file, "command", where);
+  const json content = read_json(manifest.path);
+  const ConfigObject file(content, manifest.path.string(),
+                          {"name", "sentence", "source", "version", "online", "notes", "command",
+                           "files", "time_limit_s", "disk_limit_gib", "parameters"});
+  manifest.name = file.text("name");
+  check_name(manifest.name, file.where());
+  manifest.sentence = file.text("sentence");
+  manifest.source = file.text("source", "");
+  manifest.version = file.text("version");
+  manifest.online = online_of(file);
+  manifest.notes = file.texts("notes");
+  manifest.command = file.texts("command");
   if (manifest.command.empty() || manifest.command.front().empty()) {
-    throw_wrong(where, "command", "a list of a program and its arguments [ \"...\", ... ]");
+    file.fail("command", "a list of a program and its arguments [ \"...\", ... ]");
   }
-  manifest.files = texts_of(file, "files", where);
-  manifest.time_limit_s = positive_of(file, "time_limit_s", where, manifest.time_limit_s);
-  manifest.disk_limit_gib = positive_of(file, "disk_limit_gib", where, manifest.disk_limit_gib);
-  read_parameters(file, where, manifest);
+  manifest.files = file.texts("files");
+  manifest.time_limit_s = file.positive("time_limit_s", manifest.time_limit_s);
+  manifest.disk_limit_gib = file.positive("disk_limit_gib", manifest.disk_limit_gib);
+  manifest.parameters = parameters_of(file, manifest.name);
   (void)command_line(manifest);
   return manifest;
 }
@@ -279,4 +223,4 @@ std::string program_hash(const Manifest& manifest) {
   return hasher.digest();
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::external_method

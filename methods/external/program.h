@@ -7,24 +7,20 @@
 #include <utility>
 #include <vector>
 
-namespace raymoval {
+namespace raymoval::external_method {
 
 /// How a program is started.
 struct ProgramCall {
   std::vector<std::string> command;  ///< Program (looked up on PATH without a '/') and arguments.
   std::filesystem::path folder;      ///< Its working folder.
   std::vector<std::pair<std::string, std::string>> environment;  ///< Beside this process's own.
-  double time_limit_s = 0.0;                                     ///< 0: none.
-  const std::atomic<bool>* cancel = nullptr;                     ///< Set: the program is ended.
+  double time_limit_s = 0.0;                                     ///< 0 means no limit.
+  const std::atomic<bool>* cancel = nullptr;  ///< The program is ended when this becomes true.
 };
 
-/// Runs a program to its end. It has no standard input and none of this process's files; what it
-/// prints is kept for messages only, the last 4 KiB of it. If this process dies, so does the
-/// program.
-/// @return the end of what it printed
+/// Runs a program to its end as `run_child` does. What it prints is kept for messages only.
 /// @throws MethodError if it cannot be started, exceeds its time, crashes, or ends with another
-/// exit code than 0 (with the end of what it printed); Cancelled. With all that it started it is
-/// ended first.
-std::string run_program(const ProgramCall& call);
+/// exit code than 0 (with the end of what it printed); Cancelled
+void run_program(const ProgramCall& call);
 
-}  // namespace raymoval
+}  // namespace raymoval::external_method

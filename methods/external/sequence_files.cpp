@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "methods/external/sequence_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -13,7 +15,7 @@
 
 static_assert(std::endian::native == std::endian::little, "files hold little-endian numbers");
 
-namespace raymoval {
+namespace raymoval::external_method {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,18 +56,16 @@ std::string row_text(const Pose& pose) {
 }
 
 ordered_json sensor_record(const SensorModel& sensor) {
-  ordered_json record;
-  record["name"] = sensor.name;
-  record["azimuth_min_rad"] = sensor.azimuth_min;
-  record["azimuth_max_rad"] = sensor.azimuth_max;
-  record["elevation_min_rad"] = sensor.elevation_min;
-  record["elevation_max_rad"] = sensor.elevation_max;
-  record["azimuth_step_rad"] = sensor.azimuth_step;
-  record["elevation_step_rad"] = sensor.elevation_step;
-  record["range_min_m"] = sensor.range_min;
-  record["range_max_m"] = sensor.range_max;
-  record["missing_return_is_meaningful"] = sensor.missing_return_is_meaningful;
-  return record;
+  return {{"name", sensor.name},
+          {"azimuth_min_rad", sensor.azimuth_min},
+          {"azimuth_max_rad", sensor.azimuth_max},
+          {"elevation_min_rad", sensor.elevation_min},
+          {"elevation_max_rad", sensor.elevation_max},
+          {"azimuth_step_rad", sensor.azimuth_step},
+          {"elevation_step_rad", sensor.elevation_step},
+          {"range_min_m", sensor.range_min},
+          {"range_max_m", sensor.range_max},
+          {"missing_return_is_meaningful", sensor.missing_return_is_meaningful}};
 }
 
 void write_descriptions(const fs::path& folder, const SensorModel& sensor,
@@ -73,11 +73,10 @@ void write_descriptions(const fs::path& folder, const SensorModel& sensor,
   // With these keys the folder is itself a sequence that `raymoval` opens.
   const auto known = sensor_model_names();
   const bool named = std::find(known.begin(), known.end(), sensor.name) != known.end();
-  ordered_json sequence;
-  sequence["name"] = "sequence";
-  sequence["poses"] = "poses.txt";
-  sequence["up"] = "z";
-  sequence["sensor"] = named ? sensor.name : "estimated";
+  const ordered_json sequence = {{"name", "sequence"},
+                                 {"poses", "poses.txt"},
+                                 {"up", "z"},
+                                 {"sensor", named ? sensor.name : "estimated"}};
   write_file(folder / "sequence.json", sequence.dump(2) + "\n");
   write_file(folder / "sensor.json", sensor_record(sensor).dump(2) + "\n");
   write_file(folder / "parameters.json", to_json(parameters).dump(2) + "\n");
@@ -91,22 +90,19 @@ void write_descriptions(const fs::path& folder, const SensorModel& sensor,
 
 void check_space(double used_bytes, const Manifest& manifest) {
   if (used_bytes <= manifest.disk_limit_gib * kGib) return;
-  throw MethodError("the working folder would take more than " +
-                    number_text(manifest.disk_limit_gib) + " GiB (20 bytes a point); raise " +
-                    "'disk_limit_gib' in " + manifest.path.string() + " or run on fewer frames");
-}
-
-std::string shown(const std::string& file) {
-  return std::string(kAnswerFolder) + "/" + file;
+  throw MethodError(
+      fmt::format("the working folder would take more than {} GiB (20 bytes a point); "
+                  "raise 'disk_limit_gib' in {} or run on fewer frames",
+                  number_text(manifest.disk_limit_gib), manifest.path.string()));
 }
 
 [[noreturn]] void throw_answer(const std::string& file, const std::string& what) {
-  throw MethodError(shown(file) + ": " + what);
+  throw MethodError(fmt::format("{}/{}: {}", kAnswerFolder, file, what));
 }
 
-/// Label files that no scan has, or a number of them that is not the number of scans.
+/// Checks that each scan has a label file and each label file a scan.
 void check_answer_files(const fs::path& folder, std::size_t scans) {
-  std::vector<std::string> found, unknown;
+  std::vector<std::string> found;
   std::error_code error;
   for (auto item = fs::directory_iterator(folder, error);
        !error && item != fs::directory_iterator(); item.increment(error)) {
@@ -117,8 +113,8 @@ void check_answer_files(const fs::path& folder, std::size_t scans) {
   }
   std::sort(found.begin(), found.end());
   const std::string count =
-      "expected " + std::to_string(scans) + " files, one per scan (" + scan_file_name(0, ".label") +
-      " to " + scan_file_name(scans - 1, ".label") + "), found " + std::to_string(found.size());
+      fmt::format("expected {} files, one per scan ({} to {}), found {}", scans,
+                  scan_file_name(0, ".label"), scan_file_name(scans - 1, ".label"), found.size());
   for (std::size_t i = 0; i < scans; ++i) {
     const std::string name = scan_file_name(i, ".label");
     if (!std::binary_search(found.begin(), found.end(), name))
@@ -132,14 +128,15 @@ Mask read_answer(const fs::path& folder, std::size_t scan, std::size_t points) {
   const std::string name = scan_file_name(scan, ".label");
   const fs::path path = folder / name;
   std::error_code error;
-  // A pipe would be waited for, a device has no end.
+  // Reading a pipe would wait for somebody to write, and a device has no end.
   if (!fs::is_regular_file(path, error)) throw_answer(name, "expected a file of labels");
   const std::uintmax_t size = fs::file_size(path, error);
   const std::uintmax_t expected = 4 * static_cast<std::uintmax_t>(points);
   if (error || size != expected) {
-    throw_answer(name, "expected " + grouped_text(expected) + " bytes (a 32-bit word for each of " +
-                           grouped_text(points) + " points), found " +
-                           (error ? error.message() : grouped_text(size)));
+    throw_answer(name,
+                 fmt::format("expected {} bytes (a 32-bit word for each of {} points), found {}",
+                             grouped_text(expected), grouped_text(points),
+                             error ? error.message() : grouped_text(size)));
   }
   const std::vector<std::byte> bytes = read_bytes(path);
   if (bytes.size() != expected) throw_answer(name, "changed while it was read");
@@ -149,8 +146,8 @@ Mask read_answer(const fs::path& folder, std::size_t scan, std::size_t points) {
     std::memcpy(&word, bytes.data() + 4 * i, sizeof word);
     word &= 0xFFFFU;
     if (word != kKeptWord && word != kRemovedWord) {
-      throw_answer(name, "point " + std::to_string(i) + " has label " + std::to_string(word) +
-                             "; expected 9 (kept) or 251 (removed)");
+      throw_answer(
+          name, fmt::format("point {} has label {}; expected 9 (kept) or 251 (removed)", i, word));
     }
     mask[i] = word == kRemovedWord ? 1 : 0;
   }
@@ -160,9 +157,7 @@ Mask read_answer(const fs::path& folder, std::size_t scan, std::size_t points) {
 }  // namespace
 
 std::string scan_file_name(std::size_t scan, const char* extension) {
-  std::string digits = std::to_string(scan);
-  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
-  return digits + extension;
+  return fmt::format("{:06}{}", scan, extension);
 }
 
 std::vector<std::size_t> write_sequence_files(const fs::path& folder, const ScanSource& scans,
@@ -204,4 +199,4 @@ void read_answers(const fs::path& folder, const std::vector<std::size_t>& points
   }
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::external_method

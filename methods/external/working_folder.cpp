@@ -2,6 +2,7 @@
 #include "methods/external/working_folder.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,38 +12,41 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "methods/external/external.h"
 
 namespace raymoval {
+namespace external_method {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* kFolderPrefix = "raymoval-external-";
 
+[[noreturn]] void throw_no_space(const std::string& what, int reason) {
+  throw DataError(fmt::format("{} ({}); set TMPDIR to a folder with space.", what,
+                              std::generic_category().message(reason)));
+}
+
 /// The lock is a file beside the folder, not in it, so that the program cannot touch it.
 fs::path lock_of(const fs::path& folder) {
   return folder.string() + ".lock";
 }
 
-/// Opens a lock and takes it. @return -1 if it is not there or somebody has it
-int take_lock(const fs::path& path, int flags) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600);
-  if (file < 0) return -1;
-  if (::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
-  ::close(file);
-  return -1;
+/// Opens a lock and takes it. The lock is not valid if it is not there or somebody has it.
+Descriptor take_lock(const fs::path& path, int flags) {
+  Descriptor lock(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600));
+  if (lock.valid() && ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) lock.close();
+  return lock;
 }
 
-/// Makes a lock that nobody sees before it is taken. @return -1 with the reason in errno
-int make_lock(const fs::path& path) {
+/// Makes a lock that nobody sees before it is taken. @throws DataError with the system's reason
+Descriptor make_lock(const fs::path& path) {
   const fs::path unseen = path.string() + ".new";
-  const int file = take_lock(unseen, O_CREAT | O_EXCL);
-  if (file < 0 || ::rename(unseen.c_str(), path.c_str()) == 0) return file;
+  Descriptor lock = take_lock(unseen, O_CREAT | O_EXCL);
+  if (lock.valid() && ::rename(unseen.c_str(), path.c_str()) == 0) return lock;
   const int reason = errno;
-  ::unlink(unseen.c_str());
-  ::close(file);
-  errno = reason;
-  return -1;
+  if (lock.valid()) ::unlink(unseen.c_str());
+  throw_no_space(path.string() + ": cannot be made", reason);
 }
 
 void remove_folder(const fs::path& folder) {
@@ -52,7 +56,8 @@ void remove_folder(const fs::path& folder) {
   fs::remove(lock_of(folder), ignored);
 }
 
-/// Removes what killed processes left. Only what is ours by name, owner and a free lock.
+/// Removes the folders that killed processes left: those with the right name and owner whose lock
+/// is free.
 void sweep(const fs::path& root) {
   std::error_code error;
   for (auto entry = fs::directory_iterator(root, error);
@@ -62,10 +67,8 @@ void sweep(const fs::path& root) {
       continue;
     struct stat status {};
     if (::lstat(lock.c_str(), &status) != 0 || status.st_uid != ::geteuid()) continue;
-    const int file = take_lock(lock, 0);
-    if (file < 0) continue;
-    remove_folder(lock.parent_path() / lock.stem());
-    ::close(file);
+    const Descriptor held = take_lock(lock, 0);
+    if (held.valid()) remove_folder(lock.parent_path() / lock.stem());
   }
 }
 
@@ -79,30 +82,20 @@ fs::path temporary_root() {
 
 }  // namespace
 
-void remove_abandoned_working_folders() {
-  std::error_code error;
-  const fs::path root = fs::temp_directory_path(error);
-  if (!error) sweep(root);
-}
-
 WorkingFolder::WorkingFolder() {
   const fs::path root = temporary_root();
   sweep(root);
   std::string name = (root / (std::string(kFolderPrefix) + "XXXXXX")).string();
   // The folder first: its random name is nobody else's from then on.
   if (::mkdtemp(name.data()) == nullptr) {
-    throw DataError(root.string() + ": no working folder can be made there (" +
-                    std::generic_category().message(errno) +
-                    "); set TMPDIR to a folder with space.");
+    throw_no_space(root.string() + ": no working folder can be made there", errno);
   }
   path_ = name;
-  lock_ = make_lock(lock_of(path_));
-  if (lock_ < 0) {
-    const int reason = errno;
+  try {
+    lock_ = make_lock(lock_of(path_));
+  } catch (...) {
     remove_folder(path_);
-    throw DataError(path_.string() + ".lock: cannot be made (" +
-                    std::generic_category().message(reason) +
-                    "); set TMPDIR to a folder with space.");
+    throw;
   }
 }
 
@@ -113,7 +106,14 @@ WorkingFolder::~WorkingFolder() {
   } else {
     remove_folder(path_);
   }
-  ::close(lock_);
+}
+
+}  // namespace external_method
+
+void remove_abandoned_working_folders() {
+  std::error_code error;
+  const std::filesystem::path root = std::filesystem::temp_directory_path(error);
+  if (!error) external_method::sweep(root);
 }
 
 }  // namespace raymoval

@@ -3,11 +3,14 @@
 
 #include <filesystem>
 
-namespace raymoval {
+#include "core/files/descriptor.h"
 
-/// A folder of its own below the system's folder for temporary files (TMPDIR, else /tmp), for its
-/// owner only. It is gone with this object. A process that is killed leaves its folder behind; its
-/// lock is free then, and `remove_abandoned_working_folders` or the next folder made removes it.
+namespace raymoval::external_method {
+
+/// A new folder below the system's folder for temporary files (TMPDIR, else /tmp) that only its
+/// owner can read. It is removed with this object. A process that is killed leaves its folder
+/// behind; then the lock of the folder is free, and `remove_abandoned_working_folders` or whoever
+/// makes the next folder removes it.
 class WorkingFolder {
  public:
   /// @throws DataError if it cannot be made
@@ -21,11 +24,8 @@ class WorkingFolder {
 
  private:
   std::filesystem::path path_;
-  int lock_ = -1;
+  Descriptor lock_;
   bool kept_ = false;
 };
 
-/// Removes what killed processes of this user left. Never throws.
-void remove_abandoned_working_folders();
-
-}  // namespace raymoval
+}  // namespace raymoval::external_method

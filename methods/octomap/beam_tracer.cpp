@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 namespace {
 
 /// What a walk knows of an axis.
@@ -103,4 +103,4 @@ void BeamTracer::mark_free(const octomap::point3d& end, CellCode last, CellBlock
   } while (cell != last && !(leaves_at > length));
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

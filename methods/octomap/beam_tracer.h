@@ -8,7 +8,7 @@
 
 #include "methods/octomap/cell_blocks.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 
 /// Cells of a tree of depth 16 with leaves of `resolution` metres; the same arithmetic as
 /// liboctomap's `coordToKeyChecked`.
@@ -54,4 +54,4 @@ class BeamTracer {
   std::array<std::array<double, 2>, 3> to_wall_{};
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -8,7 +8,7 @@
 
 #include "methods/octomap/point_filters.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 namespace {
 
 /// PCL's plane nearly perpendicular to an axis. PCL writes a line to standard error for each sample
@@ -56,4 +56,4 @@ Mask find_ground(const std::vector<octomap::point3d>& points, const OctomapParam
   return ground;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

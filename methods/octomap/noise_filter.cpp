@@ -2,45 +2,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nanoflann.hpp>
 
 #include "core/parallel.h"
+#include "methods/common/point_tree.h"
 #include "methods/octomap/point_filters.h"
 
-namespace raymoval {
-namespace {
-
-struct PointTable {
-  const std::vector<octomap::point3d>& points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i](static_cast<unsigned>(axis));
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointTable>,
-                                                 PointTable, 3>;
-
-}  // namespace
-
+namespace raymoval::octomap_method {
 Mask find_noise(const std::vector<octomap::point3d>& points, const OctomapParameters& parameters,
                 int threads) {
   const auto neighbours = static_cast<std::size_t>(parameters.noise_neighbours);
   Mask noise(points.size(), 0);
   if (points.size() <= neighbours) return noise;
-  const PointTable table{points};
-  Tree tree(3, table, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-  tree.buildIndex();
+  const PointTree<octomap::point3d> tree(points);
   std::vector<double> mean_distance(points.size());
   parallel_chunks(threads, points.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> index(neighbours + 1);
     std::vector<float> squared(neighbours + 1);
     for (std::size_t i = begin; i < end; ++i) {
-      const float query[3] = {points[i].x(), points[i].y(), points[i].z()};
-      tree.knnSearch(query, neighbours + 1, index.data(), squared.data());
+      tree.find_nearest(points[i], index, squared);
       double sum = 0.0;  // The first neighbour is the point itself, or one in the same place.
       for (std::size_t k = 1; k <= neighbours; ++k) sum += std::sqrt(squared[k]);
       mean_distance[i] = sum / static_cast<double>(neighbours);
@@ -58,4 +37,4 @@ Mask find_noise(const std::vector<octomap::point3d>& points, const OctomapParame
   return noise;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 namespace {
 
 using Node = OccupancyTree::Node;
@@ -236,4 +236,4 @@ const octomap::OcTreeNode* TreeReader::find(CellCode cell) {
   return node;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

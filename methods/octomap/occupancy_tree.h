@@ -10,7 +10,7 @@
 #include "methods/octomap/cell_blocks.h"
 #include "methods/octomap/parameters.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 
 /// liboctomap's tree, updated a scan at a time. Where `OcTree::insertPointCloud` goes from the root
 /// to a leaf and back for each cell, this goes through the touched part of the tree once per scan,
@@ -65,4 +65,4 @@ class TreeReader {
   const octomap::OcTreeNode* node_ = nullptr;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -7,12 +7,14 @@
 #include "core/parallel.h"
 #include "core/scan/mask_store.h"
 #include "core/text.h"
+#include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/octomap/occupancy_tree.h"
 #include "methods/octomap/point_filters.h"
 #include "methods/octomap/scan_cells.h"
 
 namespace raymoval {
+namespace octomap_method {
 namespace {
 
 /// One run: the cells that matter, a map of all scans, then an answer for each point from the map.
@@ -172,29 +174,23 @@ class OctomapRun {
   std::atomic<std::uint64_t> outside_{0};
 };
 
-class OctomapRemover : public Remover {
- public:
-  explicit OctomapRemover(const OctomapParameters& parameters) : parameters_(parameters) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    OctomapRun octomap_run(parameters_, scans, context);
-    octomap_run.collect_cells();
-    octomap_run.build_map();
-    octomap_run.answer(sink);
-  }
-
- private:
-  OctomapParameters parameters_;
-};
+void run(const OctomapParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  OctomapRun octomap_run(parameters, scans, context);
+  octomap_run.collect_cells();
+  octomap_run.build_map();
+  octomap_run.answer(sink);
+}
 
 }  // namespace
+}  // namespace octomap_method
 
 std::unique_ptr<Remover> make_octomap(const OctomapParameters& parameters) {
   if (parameters.maximum_range == 0.0) {
     throw ConfigurationError(
         "octomap.maximum_range = 0 leaves no beam; give a range in metres, or -1 for unlimited.");
   }
-  return std::make_unique<OctomapRemover>(parameters);
+  return remover_from(parameters, octomap_method::run);
 }
 
 }  // namespace raymoval

@@ -4,12 +4,15 @@
 #include "core/parameters.h"
 
 namespace raymoval {
+namespace octomap_method {
 
 /// What becomes of the points that the noise filter calls outliers.
 enum class NoisePoints {
   kOccupied,  ///< Their cells are hit, but no beam is cast (KTH port, 2023).
   kRemoved,   ///< They leave the scan and the map (KTH port, 2024).
 };
+
+}  // namespace octomap_method
 
 /// Parameters of the octomap method. Defaults are those of liboctomap; the cell size is that of the
 /// "OctoMap 0.2" rows.
@@ -40,7 +43,7 @@ struct OctomapParameters {
   bool noise = false;
   int noise_neighbours = 50;
   double noise_sigma = 1.0;
-  NoisePoints noise_points = NoisePoints::kOccupied;
+  octomap_method::NoisePoints noise_points = octomap_method::NoisePoints::kOccupied;
 };
 
 const ParameterTable<OctomapParameters>& octomap_parameter_table();

@@ -8,7 +8,7 @@
 #include "core/scan/scan.h"
 #include "methods/octomap/parameters.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 
 /// Points on the ground of a scan as the KTH port of OctoMap finds it: one plane by random sample
 /// consensus (Fischler and Bolles, 1981; PCL with its fixed seed) whose normal is within
@@ -24,4 +24,4 @@ Mask find_ground(const std::vector<octomap::point3d>& points, const OctomapParam
 Mask find_noise(const std::vector<octomap::point3d>& points, const OctomapParameters& parameters,
                 int threads);
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -5,7 +5,7 @@
 
 #include "core/parallel.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 namespace {
 
 /// Beams that one part takes at a time, so that each gets near and far ones.
@@ -77,4 +77,4 @@ void ScanCells::add_beam(const octomap::point3d& end, CellCode last, PointRole r
   }
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

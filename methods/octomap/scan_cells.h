@@ -7,7 +7,7 @@
 #include "methods/octomap/beam_tracer.h"
 #include "methods/octomap/parameters.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 
 /// What a point of a scan says about its cell and its beam.
 enum class PointRole : std::uint8_t {
@@ -44,7 +44,6 @@ class ScanCells {
                      const std::vector<PointRole>& roles, const octomap::point3d& origin);
   void add_beam(const octomap::point3d& end, CellCode last, PointRole role,
                 const octomap::point3d& origin);
-  void discretise(const octomap::point3d& origin);
 
   const OctomapParameters& parameters_;
   CellLattice lattice_;
@@ -53,4 +52,4 @@ class ScanCells {
   std::vector<CellBlocks> parts_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

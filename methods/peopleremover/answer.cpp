@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "methods/peopleremover/answer.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
-Mask ScanJudge::judge(const LatticeScan& scan, std::size_t scan_points) {
+Mask ScanVerdicts::of(const LatticeScan& scan, std::size_t scan_points) {
   own_freed_.clear();
   halo_.clear();
   for (std::size_t k = 0; k < scan.size(); ++k) {
@@ -25,4 +25,4 @@ Mask ScanJudge::judge(const LatticeScan& scan, std::size_t scan_points) {
   return dynamic;
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

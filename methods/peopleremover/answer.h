@@ -7,17 +7,17 @@
 #include "methods/peopleremover/lattice_scan.h"
 #include "methods/peopleremover/traversal.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 /// Steps 2.9 and 2.10: the verdicts of a scan from the final freed voxels. One per thread.
 ///
 /// half(x) need not be stored: a point of scan i in voxel x is in it iff scan i has a point in a
 /// freed voxel near x, which the scan's own points tell.
-class ScanJudge {
+class ScanVerdicts {
  public:
   /// @param freed one word per brick of `map`
   /// @param half_voxel_radius voxels (Chebyshev); 0 removes freed voxels only
-  ScanJudge(const BrickMap& map, const std::vector<BrickWord>& freed, int half_voxel_radius)
+  ScanVerdicts(const BrickMap& map, const std::vector<BrickWord>& freed, int half_voxel_radius)
       : freed_(freed),
         radius_(half_voxel_radius),
         finder_(map),
@@ -25,7 +25,7 @@ class ScanJudge {
         halo_(map.size()) {}
 
   /// @param scan_points points of the whole scan, those left out included, which stay static
-  Mask judge(const LatticeScan& scan, std::size_t scan_points);
+  Mask of(const LatticeScan& scan, std::size_t scan_points);
 
  private:
   const std::vector<BrickWord>& freed_;
@@ -35,4 +35,4 @@ class ScanJudge {
   VoxelMarks halo_;       ///< Those and all voxels near them.
 };
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 const std::vector<double>& BeamEnds::find(const std::vector<Eigen::Vector3d>& points) {
   answer_.assign(points.size(), kWholeBeam);
@@ -139,4 +139,4 @@ Eigen::Vector3d surface_normal(const Eigen::Matrix3d& covariance) {
   return solver.eigenvectors().col(0);
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

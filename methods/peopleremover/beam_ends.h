@@ -8,7 +8,7 @@
 #include "methods/peopleremover/direction_index.h"
 #include "methods/peopleremover/parameters.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 inline constexpr double kWholeBeam = std::numeric_limits<double>::infinity();
 
@@ -42,4 +42,4 @@ class BeamEnds {
 /// line (second eigenvalue below 1e-9 of the largest).
 Eigen::Vector3d surface_normal(const Eigen::Matrix3d& covariance);
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 namespace {
 
 VoxelKey block_key(VoxelKey brick) {
@@ -79,4 +79,4 @@ BrickMap BrickCollector::take() {
   return BrickMap(std::move(list));
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

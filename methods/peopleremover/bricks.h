@@ -10,7 +10,7 @@
 
 #include "core/scan/voxel_key.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 /// A brick is 4 x 4 x 4 voxels, one bit each: bit = x + 4 y + 16 z.
 inline constexpr int kBrickBits = 2;
@@ -155,4 +155,4 @@ void for_each_brick_near(BrickFinder& finder, const VoxelIndex& voxel, int radiu
   }
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -4,17 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace raymoval::peopleremover {
-namespace {
+#include "methods/common/diamond_angle.h"
 
-/// Grows with the azimuth of (x, y) from 0 to 4, a quarter turn each; needs no arc tangent.
-double pseudo_azimuth(double x, double y) {
-  const double sum = std::abs(x) + std::abs(y);
-  if (sum == 0.0) return 0.0;
-  const double ratio = y / sum;
-  if (x < 0.0) return 2.0 - ratio;
-  return ratio < 0.0 ? 4.0 + ratio : ratio;
-}
+namespace raymoval::peopleremover_method {
+namespace {
 
 int row_of(double sine) {
   return std::clamp(static_cast<int>((sine + 1.0) * (DirectionIndex::kRows / 2.0)), 0,
@@ -22,7 +15,7 @@ int row_of(double sine) {
 }
 
 int column_of(double x, double y) {
-  return std::clamp(static_cast<int>(pseudo_azimuth(x, y) * (DirectionIndex::kColumns / 4.0)), 0,
+  return std::clamp(static_cast<int>(diamond_angle(x, y) * (DirectionIndex::kColumns / 4.0)), 0,
                     DirectionIndex::kColumns - 1);
 }
 
@@ -80,4 +73,4 @@ DirectionIndex::Window DirectionIndex::window_around(const Eigen::Vector3d& u, d
   return window;
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 /// Points of a scan sorted by direction into rows of equal height (sine of the elevation) and
 /// columns of about equal azimuth. Positions below are in that order: by row, then column, then
@@ -58,4 +58,4 @@ class DirectionIndex {
   std::vector<double> range_of_;
 };
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

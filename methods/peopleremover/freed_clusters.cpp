@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/peopleremover/freed_clusters.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 namespace {
 
 /// A voxel of a map.
@@ -57,4 +57,4 @@ void discard_small_clusters(const BrickMap& map, int minimum, std::vector<BrickW
   }
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -5,10 +5,10 @@
 
 #include "methods/peopleremover/bricks.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 /// Step 2.8: clears the voxels of 26-connected components of fewer than `minimum` freed voxels.
 /// @param freed one word per brick of `map`
 void discard_small_clusters(const BrickMap& map, int minimum, std::vector<BrickWord>& freed);
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/peopleremover/lattice_scan.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 void put_on_lattice(const Scan& scan, const PeopleremoverParameters& parameters,
                     LatticeScan& result) {
@@ -25,4 +25,4 @@ void put_on_lattice(const Scan& scan, const PeopleremoverParameters& parameters,
   }
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

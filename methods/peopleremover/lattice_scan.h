@@ -8,7 +8,7 @@
 #include "core/scan/voxel_key.h"
 #include "methods/peopleremover/parameters.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 /// The points of a scan that take part (farther than the minimum range), in scan order.
 struct LatticeScan {
@@ -25,4 +25,4 @@ struct LatticeScan {
 void put_on_lattice(const Scan& scan, const PeopleremoverParameters& parameters,
                     LatticeScan& result);
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -4,6 +4,7 @@
 #include "core/parameters.h"
 
 namespace raymoval {
+namespace peopleremover_method {
 
 /// Where a beam ends.
 enum class MaxrangeMethod {
@@ -11,10 +12,13 @@ enum class MaxrangeMethod {
   kNormals,  ///< Where it meets the plane that lies one voxel diagonal in front of the surface.
 };
 
+}  // namespace peopleremover_method
+
 /// Parameters of the Peopleremover, named as the options of its public program (3DTK).
 struct PeopleremoverParameters {
   double voxel_size = 0.2;
-  MaxrangeMethod maxrange_method = MaxrangeMethod::kNormals;
+  peopleremover_method::MaxrangeMethod maxrange_method =
+      peopleremover_method::MaxrangeMethod::kNormals;
   double fuzz = 0.0;
   int diff = 0;
   int min_cluster_size = 5;

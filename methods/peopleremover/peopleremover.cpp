@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <deque>
 
-#include "core/parallel.h"
+#include "methods/common/remover_from.h"
+#include "methods/common/scan_passes.h"
 #include "methods/common/workspaces.h"
 #include "methods/peopleremover/answer.h"
 #include "methods/peopleremover/beam_ends.h"
@@ -15,7 +16,7 @@
 #include "methods/peopleremover/traversal.h"
 
 namespace raymoval {
-namespace peopleremover {
+namespace peopleremover_method {
 namespace {
 
 /// The voxels of one scan as words of a map's bricks; a brick may come more than once.
@@ -83,9 +84,9 @@ struct BeamWorkspace {
 
 struct AnswerWorkspace {
   AnswerWorkspace(const BrickMap& map, const std::vector<BrickWord>& freed, int radius)
-      : judge(map, freed, radius) {}
+      : verdicts(map, freed, radius) {}
   LatticeScan points;
-  ScanJudge judge;
+  ScanVerdicts verdicts;
 };
 
 /// One run over a sequence. Scans are read again in each step, never held.
@@ -99,10 +100,8 @@ class Pass {
   BrickMap collect_occupied() {
     BrickCollector collector;
     Workspaces<LatticeScan> workspaces([] { return std::make_unique<LatticeScan>(); });
-    in_chunks("peopleremover, map", 1, workspaces, [&](LatticeScan& points) {
-      return [&](std::size_t i) {
-        const Scan scan = scans_.load(i);
-        const ScanScope of_scan(context_.times, i);
+    for_chunks("peopleremover, map", 1, workspaces, [&](LatticeScan& points, auto&& each_scan) {
+      each_scan([&](const Scan& scan) {
         const StageScope timed(context_.times, "occupancy");
         put_on_lattice(scan, parameters_, points);
         VoxelMap<BrickWord> bricks;
@@ -110,7 +109,7 @@ class Pass {
           bricks[voxel_key(brick_of(voxel))] |= voxel_bit(voxel);
         }
         collector.add(bricks);
-      };
+      });
     });
     const StageScope timed(context_.times, "occupancy");
     return collector.take();
@@ -124,15 +123,15 @@ class Pass {
     // Scans that follow each other share most of their windows.
     const auto diff = static_cast<std::size_t>(parameters_.diff);
     const std::size_t grain = diff == 0 ? 1 : std::max<std::size_t>(8, 4 * diff);
-    in_chunks("peopleremover, beams", grain, workspaces, [&](BeamWorkspace& workspace) {
-      return [&, window = ScanWindow(scans_, parameters_)](std::size_t i) mutable {
-        const Scan scan = scans_.load(i);
-        const ScanScope of_scan(context_.times, i);
-        put_on_lattice(scan, parameters_, workspace.points);
-        window.mark(i, workspace.points, workspace.finder, workspace.own);
-        follow_beams(scan, find_ends(workspace), workspace);
-      };
-    });
+    for_chunks("peopleremover, beams", grain, workspaces,
+               [&](BeamWorkspace& work, auto&& each_scan) {
+                 ScanWindow window(scans_, parameters_);
+                 each_scan([&](const Scan& scan) {
+                   put_on_lattice(scan, parameters_, work.points);
+                   window.mark(scan.index, work.points, work.finder, work.own);
+                   follow_beams(scan, find_ends(work), work);
+                 });
+               });
     return std::move(freed.words());
   }
 
@@ -140,7 +139,7 @@ class Pass {
   void discard_small_clusters(const BrickMap& map, std::vector<BrickWord>& freed) {
     context_.check_cancelled();
     const StageScope timed(context_.times, "clusters");
-    peopleremover::discard_small_clusters(map, parameters_.min_cluster_size, freed);
+    peopleremover_method::discard_small_clusters(map, parameters_.min_cluster_size, freed);
   }
 
   /// Steps 2.9 and 2.10.
@@ -148,35 +147,25 @@ class Pass {
     const int radius = parameters_.subvoxel_accuracy ? parameters_.half_voxel_radius : 0;
     Workspaces<AnswerWorkspace> workspaces(
         [&] { return std::make_unique<AnswerWorkspace>(map, freed, radius); });
-    in_chunks("peopleremover, answers", 1, workspaces, [&](AnswerWorkspace& workspace) {
-      return [&](std::size_t i) {
-        const Scan scan = scans_.load(i);
-        const ScanScope of_scan(context_.times, i);
-        const StageScope timed(context_.times, "answer");
-        put_on_lattice(scan, parameters_, workspace.points);
-        sink.accept(i, workspace.judge.judge(workspace.points, scan.size()));
-      };
-    });
+    for_chunks("peopleremover, answers", 1, workspaces,
+               [&](AnswerWorkspace& work, auto&& each_scan) {
+                 each_scan([&](const Scan& scan) {
+                   const StageScope timed(context_.times, "answer");
+                   put_on_lattice(scan, parameters_, work.points);
+                   sink.accept(scan.index, work.verdicts.of(work.points, scan.size()));
+                 });
+               });
   }
 
  private:
-  /// Runs over all scans in chunks of `grain`: `begin_chunk(workspace)` gives what is called with
-  /// the number of each scan of a chunk in turn.
-  template <class Workspace, class BeginChunk>
-  void in_chunks(const char* what, std::size_t grain, Workspaces<Workspace>& workspaces,
-                 BeginChunk&& begin_chunk) {
-    context_.begin_pass(what, scans_.size());
-    parallel_chunks(context_.threads, scans_.size(), grain,
-                    [&](std::size_t begin, std::size_t end) {
-                      workspaces.with_one([&](Workspace& workspace) {
-                        auto work = begin_chunk(workspace);
-                        for (std::size_t i = begin; i < end; ++i) {
-                          context_.check_cancelled();
-                          work(i);
-                          context_.advance();
-                        }
-                      });
-                    });
+  /// Visits all scans in chunks of `grain`. `visit_chunk(workspace, each_scan)` has the workspace
+  /// for itself, see `for_scan_chunks`.
+  template <class Workspace, class VisitChunk>
+  void for_chunks(const char* what, std::size_t grain, Workspaces<Workspace>& workspaces,
+                  VisitChunk&& visit_chunk) {
+    for_scan_chunks(what, scans_, all_scans(scans_), grain, context_, [&](auto&& each_scan) {
+      workspaces.with_one([&](Workspace& workspace) { visit_chunk(workspace, each_scan); });
+    });
   }
 
   const std::vector<double>& find_ends(BeamWorkspace& workspace) {
@@ -209,31 +198,20 @@ class Pass {
   const RunContext& context_;
 };
 
-}  // namespace
-}  // namespace peopleremover
-
-namespace {
-
-class Peopleremover : public Remover {
- public:
-  explicit Peopleremover(const PeopleremoverParameters& parameters) : parameters_(parameters) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    peopleremover::Pass pass(parameters_, scans, context);
-    const peopleremover::BrickMap map = pass.collect_occupied();
-    std::vector<peopleremover::BrickWord> freed = pass.free_voxels(map);
-    pass.discard_small_clusters(map, freed);
-    pass.answer(map, freed, sink);
-  }
-
- private:
-  PeopleremoverParameters parameters_;
-};
+void run(const PeopleremoverParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  Pass pass(parameters, scans, context);
+  const BrickMap map = pass.collect_occupied();
+  std::vector<BrickWord> freed = pass.free_voxels(map);
+  pass.discard_small_clusters(map, freed);
+  pass.answer(map, freed, sink);
+}
 
 }  // namespace
+}  // namespace peopleremover_method
 
 std::unique_ptr<Remover> make_peopleremover(const PeopleremoverParameters& parameters) {
-  return std::make_unique<Peopleremover>(parameters);
+  return remover_from(parameters, peopleremover_method::run);
 }
 
 }  // namespace raymoval

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 namespace {
 
 /// Scrambles a number (splitmix64, Steele et al. 2014, public domain).
@@ -68,4 +68,4 @@ std::vector<std::uint8_t> choose_beams(const std::vector<Eigen::Vector3d>& point
   return chosen;
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

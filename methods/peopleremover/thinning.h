@@ -6,7 +6,7 @@
 
 #include "core/scan/scan.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 /// Step 2.4, `--reduce X:Y`: which beams of a scan are followed.
 struct Thinning {
@@ -21,4 +21,4 @@ struct Thinning {
 std::vector<std::uint8_t> choose_beams(const std::vector<Eigen::Vector3d>& points, std::size_t scan,
                                        const Thinning& thinning);
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -170,4 +170,4 @@ bool BeamWalker::walk_brick(const Beam& beam, const Entry& entry, BrickId brick)
   return stopped;
 }
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

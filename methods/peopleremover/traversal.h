@@ -7,7 +7,7 @@
 
 #include "methods/peopleremover/bricks.h"
 
-namespace raymoval::peopleremover {
+namespace raymoval::peopleremover_method {
 
 /// Freed voxels, one word per brick of a map. Bits are only ever set while beams are followed, from
 /// any thread, so that the order of the scans cannot show.
@@ -73,4 +73,4 @@ class BeamWalker {
   BrickFinder finder_;
 };
 
-}  // namespace raymoval::peopleremover
+}  // namespace raymoval::peopleremover_method

@@ -5,7 +5,7 @@
 
 #include "methods/common/disjoint_sets.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
 /// Calls `visit(key)` for each cell within `reach` cells of `cell`, itself included.
@@ -69,4 +69,4 @@ std::vector<std::vector<int>> members_of(const std::vector<int>& numbers) {
   return members;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

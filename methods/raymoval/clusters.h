@@ -6,7 +6,7 @@
 
 #include "core/scan/voxel_key.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// Axis-aligned bounding box of a set of points.
 struct Extent {
@@ -34,4 +34,4 @@ std::vector<int> joined_groups(const std::vector<int>& cluster_of,
 /// Members of each of the numbered sets that has any, sets and members ascending.
 std::vector<std::vector<int>> members_of(const std::vector<int>& numbers);
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

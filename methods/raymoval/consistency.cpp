@@ -8,12 +8,12 @@
 #include "core/parallel.h"
 #include "methods/raymoval/kernels/scan_kernels.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
-                       const RangeMargin& margin, int threads, InstructionSet set) {
+                       const RangeMargin& margin, int threads) {
   Mask dynamic(scan.range.size());
-  const kernels::Kernels kernel = kernels::kernels_for(set);
+  const kernels::Kernels kernel = kernels::best_kernels();
   kernels::ConsistencyCheck job;
   job.range = scan.range.data();
   job.bin = scan.bin.data();
@@ -56,7 +56,7 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
       found.push_back({static_cast<int>(bin), nearest_return[bin]});
     }
   };
-  const kernels::Kernels kernel = kernels::kernels_for(InstructionSet::kBest);
+  const kernels::Kernels kernel = kernels::best_kernels();
   kernels::SuspectSearch search;
   search.own = scan.minimum_range.data();
   search.nearest = nearest_return.data();
@@ -93,4 +93,4 @@ std::vector<int> find_no_return(const std::vector<float>& nearest_return,
   return bins;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -7,7 +7,7 @@
 #include "methods/raymoval/kernels/angular_grid.h"
 #include "methods/raymoval/kernels/first_hit.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// Margin that grows with range: tau0 + tau1 * r, metres.
 struct RangeMargin {
@@ -19,10 +19,8 @@ struct RangeMargin {
 /// Eq. 11 for every point with its own range: 1 where the map reference of its bin lies farther
 /// than the point by more than the margin at the point's range. Points in no bin, and bins without
 /// a map reference, give 0.
-/// @param set which kernel to use; the answer is the same for all
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
-                       const RangeMargin& margin, int threads = 1,
-                       InstructionSet set = InstructionSet::kBest);
+                       const RangeMargin& margin, int threads = 1);
 
 /// Distance that a ray takes to change its height by `height` metres, but at most `limit`: a return
 /// nearer than that behind a first hit may be the same ground, seen at a grazing angle through the
@@ -54,4 +52,4 @@ std::vector<int> find_no_return(const std::vector<float>& nearest_return,
                                 const FirstHitImage& first_hit, const AngularGrid& grid,
                                 const SensorModel& sensor, double maximum_range);
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -7,7 +7,7 @@
 
 #include "methods/raymoval/consistency.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
 /// Rows of the grid from one beam to the next, so that a window of that radius holds a return
@@ -127,4 +127,4 @@ std::vector<VoxelIndex> EvidenceFinder::voxels_without_return(const ScanAgainstM
   return erased;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

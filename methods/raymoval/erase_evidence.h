@@ -7,7 +7,7 @@
 #include "core/stage_timer.h"
 #include "methods/raymoval/scan_against_map.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// Map voxels that a scan contradicts.
 struct Evidence {
@@ -44,4 +44,4 @@ class EvidenceFinder {
   std::vector<float> nearest_return_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -4,9 +4,10 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "core/simd/simd.h"
 #include "methods/raymoval/kernels/scan_kernels.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
 /// Calls `visit(value)` for each bin within the window around column `i`, row `j`.
@@ -56,8 +57,8 @@ std::vector<float> windowed_percentile(const std::vector<float>& values, const A
 void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
                           const AngularGrid& grid, int radius,
                           const std::array<double, 2>& quantiles, int threads,
-                          WindowPercentiles& percentiles, InstructionSet set) {
-  const kernels::Kernels kernel = kernels::kernels_for(set);
+                          WindowPercentiles& percentiles) {
+  const kernels::Kernels kernel = kernels::best_kernels();
   if (radius != 1 || grid.azimuth_bins < kernel.row_lanes) {
     percentiles.first = windowed_percentile(values, grid, radius, quantiles[0], threads);
     percentiles.second = windowed_percentile(values, grid, radius, quantiles[1], threads);
@@ -107,9 +108,8 @@ void slow_windowed_minimum(const std::vector<float>& values, const AngularGrid& 
 }  // namespace
 
 void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
-                      int elevation_radius, int threads, std::vector<float>& minimum,
-                      InstructionSet set) {
-  const kernels::Kernels kernel = kernels::kernels_for(set);
+                      int elevation_radius, int threads, std::vector<float>& minimum) {
+  const kernels::Kernels kernel = kernels::best_kernels();
   minimum.resize(values.size());
   if (grid.azimuth_bins < kernel.row_lanes + azimuth_radius) {
     slow_windowed_minimum(values, grid, azimuth_radius, elevation_radius, minimum);
@@ -137,4 +137,4 @@ void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
   });
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

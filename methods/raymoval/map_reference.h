@@ -6,7 +6,7 @@
 
 #include "methods/raymoval/kernels/angular_grid.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// The value below which the share `quantile` of the sorted values lies: the element of rank
 /// round(quantile * (n - 1)), so that the answer is always one of the values. An interpolated
@@ -31,13 +31,11 @@ struct WindowPercentiles {
 void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
                           const AngularGrid& grid, int radius,
                           const std::array<double, 2>& quantiles, int threads,
-                          WindowPercentiles& percentiles,
-                          InstructionSet set = InstructionSet::kBest);
+                          WindowPercentiles& percentiles);
 
 /// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
 /// @param minimum replaced; its memory is used again
 void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
-                      int elevation_radius, int threads, std::vector<float>& minimum,
-                      InstructionSet set = InstructionSet::kBest);
+                      int elevation_radius, int threads, std::vector<float>& minimum);
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -4,6 +4,7 @@
 #include "core/parameters.h"
 
 namespace raymoval {
+namespace raymoval_method {
 
 /// Which map a scan is tested against by eq. 11 (the paper says "prior map" and "static map").
 enum class MapSource {
@@ -12,6 +13,8 @@ enum class MapSource {
   kNaive,  ///< All points of all scans: each is its own first hit, so eq. 11 says nothing, and the
            ///< answer is what the scans see through; offline only.
 };
+
+}  // namespace raymoval_method
 
 /// Parameters of the paper's method. What the paper prints is named in the table of
 /// parameters.cpp; every other member settles something the paper leaves open.
@@ -24,7 +27,7 @@ struct RaymovalParameters {
   double voxel_size = 0.2;
   double maximum_range = 60.0;
   double minimum_range = 2.7;
-  MapSource map_source = MapSource::kPrior;
+  raymoval_method::MapSource map_source = raymoval_method::MapSource::kPrior;
   // Map reference (eqs 8-9).
   int neighbourhood = 1;
   double percentile = 0.9;

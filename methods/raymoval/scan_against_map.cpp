@@ -8,7 +8,7 @@
 #include "methods/raymoval/consistency.h"
 #include "methods/raymoval/validation.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
 /// Bins of a step, or `otherwise` where the step is unknown. No sensor of today has finer steps
@@ -39,11 +39,10 @@ AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parame
   return grid;
 }
 
-ScanAgainstMap::ScanAgainstMap(const RaymovalParameters& parameters, const SensorModel& sensor,
-                               const MakeCaster& make_caster)
+ScanAgainstMap::ScanAgainstMap(const RaymovalParameters& parameters, const SensorModel& sensor)
     : parameters_(parameters),
       grid_(grid_for(sensor, parameters)),
-      cast_image_(make_caster(grid_, {parameters.minimum_range, parameters.maximum_range})) {
+      caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {
   known_.remembers = true;
 }
 
@@ -56,7 +55,7 @@ void ScanAgainstMap::project_scan(Scan scan, const RunContext& context) {
 
 void ScanAgainstMap::cast_first_hits(OccupancyMap& map, const RunContext& context) {
   const StageScope timed(context.times, "raycasting");
-  cast_image_(map, scan_.T_world_sensor, context.threads, first_hit_);
+  caster_.cast(map, scan_.T_world_sensor, context.threads, first_hit_);
 }
 
 void ScanAgainstMap::find_references(const StaticMap& map, const RunContext& context) {
@@ -103,24 +102,19 @@ Mask ScanAgainstMap::find_off_map(Scan scan, const StaticMap& map, const RunCont
 
 Mask ScanAgainstMap::validate(const Mask& candidates, const OccupancyMap& static_map) const {
   if (!parameters_.validate) return candidates;
-  return validate_scan(scan_, voxels_, candidates, static_map, parameters_);
-}
-
-Mask validate_scan(const Scan& scan, const std::vector<VoxelIndex>& voxels, const Mask& candidates,
-                   const OccupancyMap& static_map, const RaymovalParameters& parameters) {
   std::vector<std::size_t> chosen;
   ScanPoints points;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (candidates[k] == 0) continue;
     chosen.push_back(k);
-    points.position.push_back(scan.T_world_sensor * scan.points[k].cast<double>());
-    points.voxel.push_back(voxels[k]);
-    points.range.push_back(scan.points[k].norm());
+    points.position.push_back(scan_.T_world_sensor * scan_.points[k].cast<double>());
+    points.voxel.push_back(voxels_[k]);
+    points.range.push_back(scan_.points[k].norm());
   }
-  const Mask valid = validate_candidates(points, static_map, parameters);
+  const Mask valid = validate_candidates(points, static_map, parameters_);
   Mask dynamic(candidates.size(), 0);
   for (std::size_t i = 0; i < chosen.size(); ++i) dynamic[chosen[i]] = valid[i];
   return dynamic;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -8,10 +8,10 @@
 #include "methods/raymoval/kernels/first_hit.h"
 #include "methods/raymoval/map_reference.h"
 #include "methods/raymoval/parameters.h"
-#include "methods/raymoval/raymoval.h"
 #include "methods/raymoval/static_map.h"
+#include "methods/remover.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// The grid of directions that `parameters` ask for with this sensor (eq. 2).
 AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parameters);
@@ -22,8 +22,7 @@ AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parame
 class ScanAgainstMap {
  public:
   /// @param parameters must outlive this
-  ScanAgainstMap(const RaymovalParameters& parameters, const SensorModel& sensor,
-                 const MakeCaster& make_caster);
+  ScanAgainstMap(const RaymovalParameters& parameters, const SensorModel& sensor);
 
   /// Eqs 1-3 and 10; also finds the voxel of each point.
   void project_scan(Scan scan, const RunContext& context);
@@ -55,7 +54,7 @@ class ScanAgainstMap {
 
   const RaymovalParameters& parameters_;
   AngularGrid grid_;
-  CastImage cast_image_;
+  FirstHitCaster caster_;
   Scan scan_;
   std::vector<VoxelIndex> voxels_;
   ProjectedScan projected_;
@@ -64,10 +63,4 @@ class ScanAgainstMap {
   VoxelLookup known_;
 };
 
-/// Eqs 12-15 for the candidates of a scan.
-/// @param voxels of each point
-/// @return 1 for each point that stays a candidate
-Mask validate_scan(const Scan& scan, const std::vector<VoxelIndex>& voxels, const Mask& candidates,
-                   const OccupancyMap& static_map, const RaymovalParameters& parameters);
-
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

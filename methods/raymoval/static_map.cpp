@@ -3,7 +3,7 @@
 
 #include "core/parallel.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 StaticMap::Slot StaticMap::find_known(const Eigen::Vector3i& brick,
                                       std::vector<VoxelLookup::KnownBrick>& table) const {
@@ -102,4 +102,4 @@ void StaticMap::erase(const VoxelIndex& voxel) {
       Brick::bit(voxel.y(), voxel.z());
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -4,7 +4,7 @@
 #include "core/scan/scan.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// What a map knows of a voxel.
 enum class VoxelState : std::uint8_t {
@@ -40,9 +40,6 @@ class StaticMap {
 
   [[nodiscard]] const OccupancyMap& occupied() const { return occupied_; }
   [[nodiscard]] OccupancyMap& occupied() { return occupied_; }
-  [[nodiscard]] VoxelIndex voxel_of(const Eigen::Vector3d& world) const {
-    return occupied_.voxel_of(world);
-  }
   [[nodiscard]] bool was_erased(const VoxelIndex& voxel) const {
     return was_erased(occupied_.find_slot(OccupancyMap::brick_of(voxel)), voxel);
   }
@@ -86,4 +83,4 @@ class StaticMap {
   std::vector<Brick> erased_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -6,7 +6,7 @@
 
 #include "methods/common/range_adaptive_clusters.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
 std::size_t at(int member) {
@@ -186,4 +186,4 @@ Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& stati
   return dynamic;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

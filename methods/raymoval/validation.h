@@ -9,7 +9,7 @@
 #include "methods/raymoval/kernels/occupancy_map.h"
 #include "methods/raymoval/parameters.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// Points of one scan that are candidates for removal, element by element.
 struct ScanPoints {
@@ -57,4 +57,4 @@ std::vector<int> unsupported_members(const std::vector<int>& cluster, const Scan
 Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& static_map,
                          const RaymovalParameters& parameters);
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

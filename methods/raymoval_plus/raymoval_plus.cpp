@@ -1,224 +1,205 @@
 // SPDX-License-Identifier: MIT
+// The eight steps of README.md; the numbers in comments are those of the steps there.
 #include "methods/raymoval_plus/raymoval_plus.h"
 
-#include <algorithm>
-#include <numeric>
-
+#include "core/scan/mask_store.h"
 #include "methods/common/scan_passes.h"
-#include "methods/raymoval_plus/arriving_scans.h"
-#include "methods/raymoval_plus/evidence.h"
-#include "methods/raymoval_plus/judge.h"
-#include "methods/raymoval_plus/verdicts.h"
+#include "methods/raymoval_plus/evidence/evidence.h"
+#include "methods/raymoval_plus/evidence/vote.h"
+#include "methods/raymoval_plus/objects/objects.h"
+#include "methods/raymoval_plus/objects/reasons.h"
 
 namespace raymoval {
+namespace raymoval_plus_method {
 namespace {
 
-/// A mask as the places where it changes: what is removed comes in runs.
-class PackedMask {
+Mask removed_points(const Verdicts& verdicts) {
+  Mask removed(verdicts.size());
+  for (std::size_t k = 0; k < removed.size(); ++k) {
+    removed[k] = verdicts[k] == Verdict::kDynamic ? 1 : 0;
+  }
+  return removed;
+}
+
+/// One run of the method: what it knows of the world, and the steps in the order of each variant.
+class Run {
  public:
-  PackedMask() = default;
-  explicit PackedMask(const Mask& mask) : size_(mask.size()) {
-    for (std::size_t k = 0; k < mask.size(); ++k) {
-      if ((mask[k] != 0) != (changes_.size() % 2 != 0)) {
-        changes_.push_back(static_cast<std::uint32_t>(k));
-      }
+  Run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
+      const RunContext& context)
+      : parameters_(parameters),
+        scans_(scans),
+        sink_(sink),
+        context_(context),
+        terrain_(parameters),
+        map_(parameters.voxel_size),
+        image_(scans.sensor(), parameters),
+        earlier_scans_(parameters) {}
+
+  /// Four passes, and a fifth over the scans in which a track marked something.
+  void offline() {
+    if (parameters_.terrain) {
+      for_each_scan("raymoval_plus, terrain", scans_, context_, [&](Scan scan) {
+        terrain_.add(to_world(std::move(scan), context_).points, context_);  // 1
+      });
+      terrain_.update(context_);  // 1
     }
-  }
-  [[nodiscard]] Mask unpacked() const {
-    Mask mask(size_, 0);
-    for (std::size_t i = 0; i < changes_.size(); i += 2) {
-      const std::size_t end = i + 1 < changes_.size() ? changes_[i + 1] : size_;
-      std::fill(mask.begin() + changes_[i], mask.begin() + static_cast<std::ptrdiff_t>(end), 1);
-    }
-    return mask;
-  }
-
- private:
-  std::size_t size_ = 0;
-  std::vector<std::uint32_t> changes_;
-};
-
-/// Blocks of voxels, all of them.
-std::vector<std::uint32_t> all_blocks(const EvidenceMap& map) {
-  std::vector<std::uint32_t> blocks(map.blocks().block_count());
-  std::iota(blocks.begin(), blocks.end(), 0U);
-  return blocks;
-}
-
-/// Blocks that hold points of a scan, ascending.
-std::vector<std::uint32_t> blocks_of(const WorldScan& world, const EvidenceMap& map) {
-  std::vector<std::uint32_t> blocks;
-  for (const std::uint32_t voxel : world.voxel) {
-    if (voxel == EvidenceMap::kNone) continue;
-    const std::uint32_t block = map.block_of(voxel);
-    if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
-  }
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  return blocks;
-}
-
-/// Gives a scan's answer, and the reasons for it to whom they are of use.
-void hand_over(const WorldScan& world, RemovalSink& sink, const RunContext& context) {
-  sink.accept(world.scan.index, removed_points(world));
-  if (context.reasons != nullptr) context.reasons->accept(world.scan.index, world.reason);
-}
-
-/// Answers scans from a terrain and a map that hold what all scans say.
-class Answers {
- public:
-  Answers(const Terrain& terrain, EvidenceMap& map, const RaymovalPlusParameters& parameters)
-      : terrain_(terrain), map_(map), parameters_(parameters) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) {
-    {
-      const StageScope timed(context.times, "vote");
-      vote(all_blocks(map_), parameters_, context.threads, map_);
-    }
-    judge_scans(scans, context);
-    {
-      const StageScope timed(context.times, "tracks");
-      marked_ = objects_on_tracks(found_, parameters_);
-      found_.clear();
-    }
-    answer(scans, sink, context);
+    for_each_scan("raymoval_plus, voxels", scans_, context_, [&](Scan scan) {
+      add_voxels(to_world(std::move(scan), context_));  // 2
+    });
+    for_each_scan("raymoval_plus, evidence", scans_, context_, [&](const Scan& scan) {
+      image_.fill(scan, context_);                                             // 3
+      add_evidence(image_, scan.T_world_sensor, parameters_, context_, map_);  // 3, 4
+    });
+    answer_from_map();  // 5 to 8
   }
 
- private:
-  [[nodiscard]] WorldScan judged(Scan scan, const Marking& marking,
-                                 const RunContext& context) const {
-    WorldScan world = in_world(std::move(scan), context.threads);
-    measure_heights(terrain_, parameters_, context.threads, world);
-    judge(map_, parameters_, marking, context, world);
-    return world;
+  /// One pass, another one for the answers, and a third as above.
+  void online_map() {
+    for_each_scan("raymoval_plus, scans", scans_, context_,
+                  [&](Scan scan) { add_arriving(std::move(scan)); });  // 1 to 4
+    answer_from_map();                                                 // 5 to 8
   }
 
-  void judge_scans(const ScanSource& scans, const RunContext& context) {
-    answers_.resize(scans.size());
-    found_.resize(scans.size());
-    for_each_scan("raymoval_plus, objects", scans, context, [&](Scan scan) {
-      const std::size_t index = scan.index;
-      const auto note = [&](std::vector<ObjectSummary> objects) {
-        found_[index] = std::move(objects);
-        return std::vector<int>();
-      };
-      answers_[index] = PackedMask(removed_points(judged(std::move(scan), note, context)));
+  /// One pass, in which each scan is answered from it and those before.
+  void online() {
+    ObjectTracker tracker(parameters_);
+    for_each_scan("raymoval_plus, scans", scans_, context_, [&](Scan scan) {
+      LocatedScan located = add_arriving(std::move(scan));          // 1 to 4
+      vote(blocks_of(located, map_), parameters_, context_, map_);  // 5
+      const SegmentedScan segmented = segment(std::move(located));  // 6
+      tracker.follow(segmented.scan.index, summarise(segmented));   // 7
+      answer(segmented, tracker.marked_now());                      // 6 to 8
     });
   }
 
-  /// Scans with objects marked by a track are judged again, the others stand.
-  void answer(const ScanSource& scans, RemovalSink& sink, const RunContext& context) {
-    context.begin_pass("raymoval_plus, answers", scans.size());
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      context.check_cancelled();
-      if (marked_[i].empty() && context.reasons == nullptr) {
-        sink.accept(i, answers_[i].unpacked());
+ private:
+  /// Steps 1 to 4 for a scan that is read only once.
+  LocatedScan add_arriving(Scan scan) {
+    const std::size_t index = scan.index, first_new = map_.size();
+    const Pose pose = scan.T_world_sensor;
+    WorldScan world = to_world(std::move(scan), context_);
+    if (parameters_.terrain) {
+      terrain_.add(world.points, context_);  // 1
+      if (index % static_cast<std::size_t>(parameters_.terrain_period) == 0) {
+        terrain_.update(context_);  // 1
+      }
+    }
+    LocatedScan located = add_voxels(std::move(world));                          // 2
+    image_.fill(located.scan, context_);                                         // 3
+    earlier_scans_.add_evidence(first_new, pose.translation(), context_, map_);  // 3, 4
+    add_evidence(image_, pose, parameters_, context_, map_);                     // 3, 4
+    earlier_scans_.keep(image_, pose);
+    return located;
+  }
+
+  /// Steps 5 to 8 for all scans, from a terrain and a map that hold what all of them say.
+  void answer_from_map() {
+    vote(parameters_, context_, map_);  // 5
+    MaskStore unmarked(scans_.size());
+    std::vector<std::vector<ObjectSummary>> objects(scans_.size());
+    for_each_scan("raymoval_plus, objects", scans_, context_, [&](Scan scan) {
+      const SegmentedScan segmented = segment(locate_scan(std::move(scan)));  // 6
+      objects[segmented.scan.index] = summarise(segmented);
+      const Verdicts by_objects = decide_objects(segmented, {}, parameters_, context_);  // 6
+      const Verdicts decided =
+          decide_low_points(segmented, by_objects, parameters_, context_);  // 8
+      unmarked.set(segmented.scan.index, removed_points(decided));
+    });
+    const auto marked = objects_on_tracks(objects, parameters_, context_);  // 7
+    context_.begin_pass("raymoval_plus, answers", scans_.size());
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      context_.check_cancelled();
+      if (marked[i].empty() && context_.reasons == nullptr) {
+        sink_.accept(i, unmarked.get(i));
       } else {
-        Scan scan = scans.load(i);
-        const ScanScope timed(context.times, i);
-        const auto mark = [&](const std::vector<ObjectSummary>&) { return marked_[i]; };
-        hand_over(judged(std::move(scan), mark, context), sink, context);
+        Scan scan = scans_.load(i);
+        const ScanScope timed(context_.times, i);
+        answer(segment(locate_scan(std::move(scan))), marked[i]);  // 6 to 8
       }
-      context.advance();
+      context_.advance();
     }
   }
 
-  const Terrain& terrain_;
-  EvidenceMap& map_;
-  const RaymovalPlusParameters& parameters_;
-  std::vector<PackedMask> answers_;
-  std::vector<std::vector<ObjectSummary>> found_;  ///< By scan.
-  std::vector<std::vector<int>> marked_;           ///< By scan: clusters that moved at some time.
-};
-
-/// Three passes for terrain, voxels and evidence, then the answers.
-class OfflineRemover : public Remover {
- public:
-  explicit OfflineRemover(const RaymovalPlusParameters& parameters)
-      : parameters_(parameters), terrain_(parameters), map_(parameters.voxel_size) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
-    if (parameters_.terrain) find_terrain(scans, context);
-    collect_voxels(scans, context);
-    gather_evidence(scans, context);
-    Answers(terrain_, map_, parameters_).run(scans, sink, context);
+  LocatedScan add_voxels(WorldScan world) {
+    return add_to_map(std::move(world), terrain_, parameters_, context_, map_);
+  }
+  [[nodiscard]] LocatedScan locate_scan(Scan scan) const {
+    return locate(to_world(std::move(scan), context_), terrain_, map_, parameters_, context_);
+  }
+  [[nodiscard]] SegmentedScan segment(LocatedScan located) const {
+    return find_objects(std::move(located), map_, parameters_, context_);
+  }
+  [[nodiscard]] std::vector<ObjectSummary> summarise(const SegmentedScan& scan) const {
+    return summarise_objects(scan, map_, parameters_, context_);
+  }
+  /// Steps 6 to 8, given the clusters that a track marked.
+  void answer(const SegmentedScan& scan, const std::vector<int>& marked) const {
+    const Verdicts by_objects = decide_objects(scan, marked, parameters_, context_);      // 6, 7
+    const Verdicts decided = decide_low_points(scan, by_objects, parameters_, context_);  // 8
+    sink_.accept(scan.scan.index, removed_points(decided));
+    if (context_.reasons == nullptr) return;
+    context_.reasons->accept(scan.scan.index, reasons_for(scan, map_, by_objects, decided));
   }
 
- private:
-  void find_terrain(const ScanSource& scans, const RunContext& context) {
-    for_each_scan("raymoval_plus, terrain", scans, context, [&](Scan scan) {
-      const StageScope timed(context.times, "terrain");
-      terrain_.add(in_world(std::move(scan), context.threads).points);
-    });
-    const StageScope timed(context.times, "terrain");
-    terrain_.update(context.threads);
-  }
-
-  void collect_voxels(const ScanSource& scans, const RunContext& context) {
-    for_each_scan("raymoval_plus, voxels", scans, context, [&](Scan scan) {
-      const StageScope timed(context.times, "voxels");
-      WorldScan world = in_world(std::move(scan), context.threads);
-      measure_heights(terrain_, parameters_, context.threads, world);
-      add_to_map(parameters_, world, map_);
-    });
-  }
-
-  void gather_evidence(const ScanSource& scans, const RunContext& context) {
-    RangeImage image(scans.sensor(), parameters_);
-    for_each_scan("raymoval_plus, evidence", scans, context, [&](const Scan& scan) {
-      {
-        const StageScope timed(context.times, "range image");
-        image.fill(scan);
-      }
-      const StageScope timed(context.times, "evidence");
-      add_evidence(image, scan.T_world_sensor, parameters_, context.threads, map_);
-    });
-  }
-
-  RaymovalPlusParameters parameters_;
+  const Parameters& parameters_;
+  const ScanSource& scans_;
+  RemovalSink& sink_;
+  const RunContext& context_;
   Terrain terrain_;
   EvidenceMap map_;
+  RangeImage image_;
+  EarlierScans earlier_scans_;
 };
 
-/// One pass for all of these, as scans arrive; each scan is answered at once, or all in the end.
-class ArrivingRemover : public Remover {
+class RaymovalPlusRemover : public Remover {
  public:
-  explicit ArrivingRemover(const RaymovalPlusParameters& parameters) : parameters_(parameters) {}
+  explicit RaymovalPlusRemover(const Parameters& parameters) : parameters_(parameters) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
     if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
-    ArrivingScans arrived(scans.sensor(), parameters_);
-    Follower follower(parameters_);
-    for_each_scan("raymoval_plus, scans", scans, context, [&](Scan scan) {
-      WorldScan world = arrived.add(std::move(scan), context.threads, context.times);
-      if (!parameters_.at_once) return;
-      {
-        const StageScope timed(context.times, "vote");
-        vote(blocks_of(world, arrived.map()), parameters_, context.threads, arrived.map());
-      }
-      const auto mark = [&](const std::vector<ObjectSummary>& objects) {
-        follower.step(world.scan.index, objects);
-        return follower.marked_now();
-      };
-      judge(arrived.map(), parameters_, mark, context, world);
-      hand_over(world, sink, context);
-    });
-    if (parameters_.at_once) return;
-    Answers(arrived.terrain(), arrived.map(), parameters_).run(scans, sink, context);
+    Run steps(parameters_, scans, sink, context);
+    if (parameters_.at_once) {
+      steps.online();
+    } else if (parameters_.one_pass) {
+      steps.online_map();
+    } else {
+      steps.offline();
+    }
   }
 
  private:
-  RaymovalPlusParameters parameters_;
+  Parameters parameters_;
 };
 
 }  // namespace
 
-std::unique_ptr<Remover> make_raymoval_plus(const RaymovalPlusParameters& parameters) {
-  if (parameters.at_once || parameters.one_pass) {
-    return std::make_unique<ArrivingRemover>(parameters);
-  }
-  return std::make_unique<OfflineRemover>(parameters);
+std::unique_ptr<Remover> make_raymoval_plus(const Parameters& parameters) {
+  return std::make_unique<RaymovalPlusRemover>(parameters);
+}
+
+}  // namespace raymoval_plus_method
+
+MethodEntry raymoval_plus_entry() {
+  using namespace raymoval_plus_method;
+  MethodEntry entry;
+  entry.name = "raymoval_plus";
+  entry.sentence =
+      "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
+  entry.source = "this project";
+  entry.version = "4";
+  entry.parameters = parameter_table().specs();
+  entry.variants = {
+      {"offline", "Every point answered from all scans.", false, {}},
+      {"online", "Each scan answered when it comes.", true, {{"at_once", true}}},
+      {"online-map",
+       "One pass as the scans come, every point answered by the map as it is in the end.",
+       false,
+       {{"one_pass", true}}},
+  };
+  entry.make = [](const Configuration& configuration) {
+    return make_raymoval_plus(parameter_table().read(configuration));
+  };
+  return entry;
 }
 
 }  // namespace raymoval

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 namespace {
 
 /// Calls `visit(cell key, world position)` for each point of a thinned map.
@@ -119,4 +119,4 @@ std::unique_ptr<Answer> answer_by_cell(const CellLattice& lattice, const MapPoin
   return std::make_unique<NearCellAnswer>(lattice, kept, removed);
 }
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

@@ -9,7 +9,7 @@
 #include "methods/removert/map_points.h"
 #include "methods/removert/parameters.h"
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 
 /// Says for each point of a scan whether it is removed.
 class Answer {
@@ -31,4 +31,4 @@ std::unique_ptr<Answer> answer_by_cell(const CellLattice& lattice, const MapPoin
 std::unique_ptr<Answer> answer_by_neighbours(const MapPoints& kept,
                                              const RemovertParameters& parameters);
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 namespace {
 
 constexpr double kBlockEdge = 0.8;  ///< Metres, at most (or one cell).
@@ -240,4 +240,4 @@ MapPoints MapBuilder::finish() {
   return points;
 }
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

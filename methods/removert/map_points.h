@@ -8,7 +8,7 @@
 #include "core/scan/scan.h"
 #include "core/scan/voxel_key.h"
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 
 /// Ball around points, for leaving them out of a pass together.
 struct Ball {
@@ -115,4 +115,4 @@ class MapBuilder {
   std::vector<std::uint32_t> slot_;  ///< Scratch: place of a cell's entry, by cell.
 };
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

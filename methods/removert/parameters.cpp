@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "methods/removert/parameters.h"
 
-#include "methods/removert/removert.h"
-
 namespace raymoval {
 namespace {
 
+using namespace removert_method;
 using Table = ParameterTable<RemovertParameters>;
 using P = RemovertParameters;
 constexpr const char* kOurs = "not in the paper";
@@ -129,34 +128,6 @@ void add_data(Table& table) {
                "Static if the mean square distances differ by less than this.", kScanSide});
 }
 
-/// Everything the public code and its port share.
-Configuration code_preset() {
-  return {{"difference", std::string("absolute")}, {"clamp_fov", true}, {"wrap_azimuth", false}};
-}
-
-Configuration with(Configuration base, const Configuration& more) {
-  base.insert(base.end(), more.begin(), more.end());
-  return base;
-}
-
-/// The first is what the bare name means.
-std::vector<MethodVariant> variants() {
-  const Configuration code = code_preset();
-  return {
-      {"rm3", "Three remove passes.", false, {}},
-      {"rm3-rv1",
-       "Three remove passes and one revert pass (RM3+RV1; a '+' cannot name a result).",
-       false,
-       {{"revert_resolution_1", 1.8182}}},
-      {"code", "As the public code answers, its faults included.", false,
-       with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
-      {"port",
-       "As the ROS-free port answers, which tests the same map in every pass (its images along the "
-       "world's axes are an option).",
-       false, with(code, {{"update_between_passes", false}})},
-  };
-}
-
 std::vector<double> positive(std::initializer_list<double> resolutions) {
   std::vector<double> kept;
   for (const double resolution : resolutions) {
@@ -188,42 +159,6 @@ const ParameterTable<RemovertParameters>& removert_parameter_table() {
     return t;
   }();
   return table;
-}
-
-MethodEntry removert_entry() {
-  MethodEntry entry;
-  entry.name = "removert";
-  entry.sentence =
-      "Multiresolution range images: removes map points that a scan sees through, then brings back "
-      "those that coarser pixels do not confirm.";
-  entry.source =
-      "Kim and Kim, Remove, then Revert: Static Point cloud Map Construction using "
-      "Multiresolution Range Images, IROS 2020";
-  entry.notes = {
-      "Written from a description of the method; nothing of the public code is in it.",
-      "The difference is signed, as in the author's later lt-mapper; the public code takes its "
-      "absolute value and so also removes what stands behind a return.",
-      "Points outside the vertical field of view are in no pixel; the public code puts them into "
-      "the border rows.",
-      "The public code's revert is empty; here, as in lt-mapper, the removed points alone are "
-      "compared with all scans at coarser pixels and come back unless flagged, with the same "
-      "relative margin as in the remove passes.",
-      "RM3's resolutions are those of the ROS-free port, which names them the published "
-      "comparison's; RV1's 0.55 degrees is unverified.",
-      "A single scan removes a map point; the vote of the design note is an option.",
-      "The map's cells lie on the lattice at the world's origin, and a point is removed iff its "
-      "cell is; the public code's lattice depends on the cloud, and its points ask the nearest "
-      "neighbour.",
-      "Scans are not thinned: the public code's filter returns its input on scans of this size.",
-      "No KD-tree ball and no empty-pixel value: every map point is compared, and an empty pixel "
-      "is empty.",
-  };
-  entry.parameters = removert_parameter_table().specs();
-  entry.variants = variants();
-  entry.make = [](const Configuration& configuration) {
-    return make_removert(removert_parameter_table().read(configuration));
-  };
-  return entry;
 }
 
 }  // namespace raymoval

@@ -6,6 +6,7 @@
 #include "core/parameters.h"
 
 namespace raymoval {
+namespace removert_method {
 
 enum class DifferenceRule {
   kSigned,    ///< Only map points in front of the scan's return are dynamic.
@@ -16,6 +17,8 @@ enum class DecisionRule {
   kAny,    ///< One scan that sees through a map point removes it.
   kScore,  ///< Weighed counts of scans for and against.
 };
+
+}  // namespace removert_method
 
 /// See `removert_parameter_table` for units, ranges and sources. A resolution of 0 leaves its pass
 /// out.
@@ -32,7 +35,7 @@ struct RemovertParameters {
   double gamma = 0.05;
   double tau_abs = 0.0;
   double diff_upper = 200.0;
-  DifferenceRule difference = DifferenceRule::kSigned;
+  removert_method::DifferenceRule difference = removert_method::DifferenceRule::kSigned;
 
   double vertical_fov = 50.0;
   double horizontal_fov = 360.0;
@@ -40,7 +43,7 @@ struct RemovertParameters {
   bool wrap_azimuth = true;
   bool world_axes = false;
 
-  DecisionRule decision = DecisionRule::kAny;
+  removert_method::DecisionRule decision = removert_method::DecisionRule::kAny;
   double static_weight = 0.3;
   double dynamic_weight = 0.7;
   double static_score = -0.1;

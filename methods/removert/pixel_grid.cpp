@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
@@ -78,4 +78,4 @@ void PointBatch::project(const PixelGrid& grid, int count) {
   }
 }
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

@@ -7,7 +7,7 @@
 
 #include "methods/removert/parameters.h"
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 
 inline constexpr int kOutside = -1;    ///< In no pixel: outside the field of view.
 inline constexpr int kAmbiguous = -2;  ///< Too near a pixel's border to tell in single precision.
@@ -104,4 +104,4 @@ struct PointBatch {
   void project(const PixelGrid& grid, int count);
 };
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

@@ -5,37 +5,27 @@
 
 #include <string>
 
-#include "core/parallel.h"
+#include "methods/common/remover_from.h"
+#include "methods/common/scan_passes.h"
+#include "methods/common/thinned_points.h"
 #include "methods/removert/answer.h"
 #include "methods/removert/map_points.h"
 #include "methods/removert/scan_image.h"
 #include "methods/removert/visibility.h"
 
 namespace raymoval {
+namespace removert_method {
 namespace {
-
-using namespace removert;
 
 /// Centroids of the scan's points in cubes of `voxel` metres of the sensor frame, in order of first
 /// appearance; the points themselves for 0.
 std::vector<Eigen::Vector3f> thinned(std::vector<Eigen::Vector3f> points, double voxel) {
   if (voxel <= 0.0) return points;
-  VoxelMap<std::size_t> place_of;
-  std::vector<Eigen::Vector3d> sums;
-  std::vector<double> counts;
-  for (const Eigen::Vector3f& point : points) {
-    const VoxelKey key = voxel_key(voxel_index(point.cast<double>(), 1.0 / voxel));
-    const auto [found, is_new] = place_of.try_emplace(key, sums.size());
-    if (is_new) {
-      sums.emplace_back(Eigen::Vector3d::Zero());
-      counts.push_back(0.0);
-    }
-    sums[found->second] += point.cast<double>();
-    counts[found->second] += 1.0;
-  }
+  ThinnedPoints centroids(voxel);
+  for (const Eigen::Vector3f& point : points) centroids.add(point.cast<double>());
   points.clear();
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    points.emplace_back((sums[i] / counts[i]).cast<float>());
+  for (std::size_t i = 0; i < centroids.size(); ++i) {
+    points.emplace_back(centroids.centroid(i).cast<float>());
   }
   return points;
 }
@@ -61,39 +51,28 @@ class RemovertBatch {
   }
 
  private:
-  [[nodiscard]] std::size_t keyframes() const {
-    const auto gap = static_cast<std::size_t>(parameters_.keyframe_gap);
-    return (end_ - begin_ + gap - 1) / gap;
-  }
-  [[nodiscard]] std::size_t keyframe(std::size_t i) const {
-    return begin_ + i * static_cast<std::size_t>(parameters_.keyframe_gap);
+  [[nodiscard]] ScanSelection keyframes() const {
+    return every_nth_scan(begin_, end_, static_cast<std::size_t>(parameters_.keyframe_gap));
   }
 
   /// The merged and thinned scans. The map is collected once.
   MapPoints collect_map() {
-    context_.begin_pass("removert, map", keyframes());
     MapBuilder builder(lattice_);
     std::uint64_t number = 0;
-    for (std::size_t i = 0; i < keyframes(); ++i) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(keyframe(i));
-      const ScanScope timed(context_.times, scan.index);
+    for_each_scan("removert, map", scans_, keyframes(), context_, [&](const Scan& scan) {
       const StageScope stage(context_.times, "map");
-      first_number_[keyframe(i) - begin_] = number;
+      first_number_[scan.index - begin_] = number;
       builder.add(thinned(scan.points, parameters_.scan_voxel), scan.T_world_sensor, number,
                   context_.threads);
       number += scan.size();
-      context_.advance();
-    }
+    });
     const StageScope stage(context_.times, "map");
     return builder.finish();
   }
 
   /// One pass per resolution, fine to coarse. @return what was taken out of `map`
   MapPoints remove(MapPoints& map) {
-    const bool needs_all = parameters_.difference == DifferenceRule::kAbsolute ||
-                           parameters_.decision == DecisionRule::kScore;
-    const Candidates candidates = needs_all ? Candidates::kAll : Candidates::kInFront;
+    const Candidates candidates = candidates_for(false);
     MapPoints removed;
     std::vector<std::uint8_t> flagged(map.size(), 0);
     for (const double resolution : parameters_.remove_resolutions()) {
@@ -108,10 +87,7 @@ class RemovertBatch {
 
   /// Compares the removed points alone with all scans; those not flagged go back to `map`.
   void revert(MapPoints& map, MapPoints& removed) {
-    const bool needs_all = parameters_.revert_needs_view ||
-                           parameters_.decision == DecisionRule::kScore ||
-                           parameters_.difference == DifferenceRule::kAbsolute;
-    const Candidates candidates = needs_all ? Candidates::kAll : Candidates::kInFront;
+    const Candidates candidates = candidates_for(parameters_.revert_needs_view);
     for (const double resolution : parameters_.revert_resolutions()) {
       const Votes votes = compare(removed, resolution, candidates);
       std::vector<std::uint8_t> restored(removed.size(), 0);
@@ -121,6 +97,13 @@ class RemovertBatch {
       }
       map = united(map, take_points(removed, restored));
     }
+  }
+
+  /// Which points of a map a pass has to look at.
+  [[nodiscard]] Candidates candidates_for(bool needs_view) const {
+    const bool needs_all = needs_view || parameters_.difference == DifferenceRule::kAbsolute ||
+                           parameters_.decision == DecisionRule::kScore;
+    return needs_all ? Candidates::kAll : Candidates::kInFront;
   }
 
   void flag_dynamic(const MapPoints& map, double resolution, Candidates candidates,
@@ -142,16 +125,12 @@ class RemovertBatch {
   Votes compare(const MapPoints& map, double resolution, Candidates candidates) {
     const PixelGrid grid(parameters_, resolution);
     VisibilityPass pass(map, parameters_, candidates);
-    context_.begin_pass("removert, range images", keyframes());
-    parallel_for(context_.threads, keyframes(), 1, [&](std::size_t i) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(keyframe(i));
-      const ScanScope timed(context_.times, scan.index);
-      const ScanImage image = image_of(scan, grid, candidates);
-      const StageScope stage(context_.times, "visibility");
-      pass.show(image, T_image_world(scan));
-      context_.advance();
-    });
+    for_scans_in_parallel("removert, range images", scans_, keyframes(), context_,
+                          [&](const Scan& scan) {
+                            const ScanImage image = image_of(scan, grid, candidates);
+                            const StageScope stage(context_.times, "visibility");
+                            pass.show(image, T_image_world(scan));
+                          });
     return pass.votes();
   }
 
@@ -177,15 +156,12 @@ class RemovertBatch {
       answer = parameters_.scan_side ? answer_by_neighbours(map, parameters_)
                                      : answer_by_cell(lattice_, map, removed, all_points_in_map);
     }
-    context_.begin_pass("removert, answers", end_ - begin_);
-    parallel_for(context_.threads, end_ - begin_, 1, [&](std::size_t i) {
-      context_.check_cancelled();
-      const Scan scan = scans_.load(begin_ + i);
-      const ScanScope timed(context_.times, scan.index);
-      const StageScope stage(context_.times, "answer");
-      sink.accept(begin_ + i, answer->of(scan, first_number_[i]));
-      context_.advance();
-    });
+    for_scans_in_parallel("removert, answers", scans_, every_nth_scan(begin_, end_, 1), context_,
+                          [&](const Scan& scan) {
+                            const StageScope stage(context_.times, "answer");
+                            sink.accept(scan.index,
+                                        answer->of(scan, first_number_[scan.index - begin_]));
+                          });
   }
 
   const RemovertParameters& parameters_;
@@ -196,25 +172,18 @@ class RemovertBatch {
   std::vector<std::uint64_t> first_number_;  ///< Of each scan's first point, if all are in the map.
 };
 
-class RemovertRemover : public Remover {
- public:
-  explicit RemovertRemover(const RemovertParameters& parameters) : parameters_(parameters) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    const std::size_t batch = parameters_.batch_scans == 0
-                                  ? scans.size()
-                                  : static_cast<std::size_t>(parameters_.batch_scans);
-    for (std::size_t begin = 0; begin < scans.size(); begin += batch) {
-      RemovertBatch(parameters_, scans, begin, std::min(begin + batch, scans.size()), context)
-          .run(sink);
-    }
+void run(const RemovertParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  const std::size_t batch =
+      parameters.batch_scans == 0 ? scans.size() : static_cast<std::size_t>(parameters.batch_scans);
+  for (std::size_t begin = 0; begin < scans.size(); begin += batch) {
+    const std::size_t end = std::min(begin + batch, scans.size());
+    RemovertBatch(parameters, scans, begin, end, context).run(sink);
   }
-
- private:
-  RemovertParameters parameters_;
-};
+}
 
 }  // namespace
+}  // namespace removert_method
 
 std::unique_ptr<Remover> make_removert(const RemovertParameters& parameters) {
   if (parameters.map_voxel > 0.0 && parameters.map_voxel < 0.01) {
@@ -226,7 +195,7 @@ std::unique_ptr<Remover> make_removert(const RemovertParameters& parameters) {
         "removert.map_voxel = 0 answers for the points of the map only; points left out by "
         "keyframe_gap or scan_voxel need a voxel size, such as 0.05.");
   }
-  return std::make_unique<RemovertRemover>(parameters);
+  return remover_from(parameters, removert_method::run);
 }
 
 }  // namespace raymoval

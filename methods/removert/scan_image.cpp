@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 namespace {
 
 /// Nearest range of the points in each pixel, -1 where there is none.
@@ -104,4 +104,4 @@ ScanImage::ScanImage(const std::vector<Eigen::Vector3f>& points, const PixelGrid
       limit(limits_of(nearest, parameters, candidates)),
       limit_pyramid(limit, grid.rows(), grid.columns()) {}
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

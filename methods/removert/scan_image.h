@@ -6,7 +6,7 @@
 #include "core/scan/scan.h"
 #include "methods/removert/pixel_grid.h"
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 
 /// Largest values of an image over rectangles, bounded from above by a pyramid of maxima.
 class MaximumPyramid {
@@ -53,4 +53,4 @@ struct ScanImage {
 /// tau: how much nearer than I_Q = `range` a map point must be, metres.
 float threshold(float range, const RemovertParameters& parameters);
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

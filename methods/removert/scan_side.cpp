@@ -1,51 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <nanoflann.hpp>
+#include <limits>
 #include <vector>
 
+#include "methods/common/point_tree.h"
 #include "methods/removert/answer.h"
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 namespace {
 
-/// Points in the shape nanoflann reads.
-struct Cloud {
-  std::vector<Eigen::Vector3f> points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-class Tree {
+/// Points with a tree to find neighbours among them.
+class Neighbours {
  public:
-  explicit Tree(std::vector<Eigen::Vector3f> points)
-      : cloud_{std::move(points)},
-        index_(3, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {
-    index_.buildIndex();
-  }
-  /// Mean square distance to the `k` nearest points, or to as many as there are; nothing near if
+  explicit Neighbours(std::vector<Eigen::Vector3f> points)
+      : points_(std::move(points)), tree_(points_) {}
+
+  /// The mean square distance to the `k` nearest points, or to as many as there are; infinite if
   /// there are none.
   [[nodiscard]] double mean_square(const Eigen::Vector3f& point, int k) const {
-    if (cloud_.points.empty()) return std::numeric_limits<double>::infinity();
-    const auto wanted = std::min(static_cast<std::size_t>(k), cloud_.points.size());
+    if (points_.empty()) return std::numeric_limits<double>::infinity();
+    const auto wanted = std::min(static_cast<std::size_t>(k), points_.size());
     std::vector<std::uint32_t> found(wanted);
     std::vector<float> squares(wanted);
-    index_.knnSearch(point.data(), wanted, found.data(), squares.data());
+    tree_.find_nearest(point, found, squares);
     double sum = 0.0;
     for (const float square : squares) sum += static_cast<double>(square);
     return sum / static_cast<double>(wanted);
   }
 
  private:
-  using Index =
-      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
-  Cloud cloud_;
-  Index index_;
+  std::vector<Eigen::Vector3f> points_;
+  PointTree<Eigen::Vector3f> tree_;
 };
 
 /// World points relative to `origin`, so that single precision is enough far from the world's.
@@ -69,7 +54,7 @@ class NeighbourAnswer : public Answer {
         map_(relative(kept, origin_)) {}
 
   [[nodiscard]] Mask of(const Scan& scan, std::uint64_t) const override {
-    const Tree own(scan.points);
+    const Neighbours own(scan.points);
     Mask mask(scan.size());
     for (std::size_t i = 0; i < mask.size(); ++i) {
       const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
@@ -84,7 +69,7 @@ class NeighbourAnswer : public Answer {
   int neighbours_;
   double threshold_;
   Eigen::Vector3d origin_;
-  Tree map_;
+  Neighbours map_;
 };
 
 }  // namespace
@@ -94,4 +79,4 @@ std::unique_ptr<Answer> answer_by_neighbours(const MapPoints& kept,
   return std::make_unique<NeighbourAnswer>(kept, parameters);
 }
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 namespace {
 
 constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
@@ -246,4 +246,4 @@ void VisibilityPass::give_back(std::unique_ptr<Image> image) {
   idle_images_.push_back(std::move(image));
 }
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

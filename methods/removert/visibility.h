@@ -9,7 +9,7 @@
 #include "methods/removert/map_points.h"
 #include "methods/removert/scan_image.h"
 
-namespace raymoval::removert {
+namespace raymoval::removert_method {
 
 /// What the scans of a pass say of each map point; counts of scans.
 struct Votes {
@@ -60,4 +60,4 @@ class VisibilityPass {
   std::vector<std::unique_ptr<Image>> idle_images_;
 };
 
-}  // namespace raymoval::removert
+}  // namespace raymoval::removert_method

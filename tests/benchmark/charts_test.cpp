@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/picture/charts/chart_file.h"
 #include "benchmark/picture/charts/chart_parts.h"
-#include "benchmark/picture/png_file.h"
 #include "core/files/files.h"
 #include "tests/benchmark/small_world.h"
 
@@ -230,19 +230,32 @@ TEST_CASE("A chart is written as PDF and PNG too") {
   CHECK(pdf.find("CreationDate") == std::string::npos);
   CHECK(pdf == written("b.pdf"));
   write_chart(folder.path() / "a.png", draw);
-  const RgbImage image = read_png(folder.path() / "a.png");
+  const Canvas image = read_png(folder.path() / "a.png");
   CHECK_THAT(draw(ChartPlace::kPrint),
-             Contains("width=\"" + std::to_string(image.width / 2) + "\" height"));
+             Contains("width=\"" + std::to_string(image.width() / 2) + "\" height"));
   // The ground is white, and there is ink.
-  CHECK(image.rgb[0] == 255);
-  CHECK(std::count_if(image.rgb.begin(), image.rgb.end(), [](int value) { return value < 100; }) >
-        500);
+  CHECK(image.at(0, 0) == kPaper);
+  int ink = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) ink += image.at(x, y).red < 100 ? 1 : 0;
+  }
+  CHECK(ink > 500);
 }
 
 TEST_CASE("Axes begin and end at round numbers") {
-  const LinearAxis percent = axis_up_to(97.2, 100.0);
+  RateSpec rate{.name = "PR"};
+  const LinearAxis percent = axis_to_best(rate, 97.2);
   CHECK(percent.low == Approx(97.0));  // A point at 97.2 is above the axis.
-  CHECK(axis_up_to(0.0, 100.0).low == 0.0);
-  CHECK(axis_up_to(100.0, 100.0).low < 100.0);  // All at the upper end: still an axis.
-  CHECK(axis_up_to(0.0, 100.0).marks() == std::vector<double>{0, 20, 40, 60, 80, 100});
+  CHECK(axis_to_best(rate, 0.0).low == 0.0);
+  CHECK(axis_to_best(rate, 100.0).low < 100.0);  // All at the upper end: still an axis.
+  CHECK(axis_to_best(rate, 0.0).marks() == std::vector<double>{0, 20, 40, 60, 80, 100});
+  // Where lower is better the axis runs from a round number above the worst value to 0.
+  rate.unit = RateUnit::kFraction;
+  rate.higher_is_better = false;
+  const LinearAxis mistakes = axis_to_best(rate, 0.083);
+  CHECK(mistakes.high == Approx(0.1));
+  CHECK(mistakes.at(0.0, 200.0) == 200.0);
+  CHECK(mistakes.at(0.1, 200.0) == Approx(0.0).margin(1e-9));
+  CHECK(axis_to_best(rate, 0.0).high > 0.0);
+  CHECK(axis_to_best(rate, 1.0).high == 1.0);
 }

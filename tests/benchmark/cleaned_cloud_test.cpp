@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/cloud_writer.h"
 #include "datasets/open_sequence.h"
@@ -18,7 +18,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// Three scans of the street with both protocols, as `raymoval score --cloud` sets them up.
-SequenceBench street_bench() {
+ScoredSequence street_sequence() {
   SequenceOptions options;
   options.frames = parse_frame_range("0:2");
   Suite suite;
@@ -29,14 +29,14 @@ SequenceBench street_bench() {
   return {open_sequence("street", options), suite.protocols, 1, nullptr};
 }
 
-ProtocolResult score(SequenceBench& bench, std::size_t protocol, const CleanedCloud& cloud) {
-  return bench.score_cloud(protocol, CloudEstimate(cloud.points));
+ProtocolResult score(ScoredSequence& scored, std::size_t protocol, const CleanedCloud& cloud) {
+  return scored.score_cloud(protocol, CloudEstimate(cloud.points));
 }
 
-bool same_counts(SequenceBench& bench, const CleanedCloud& a, const CleanedCloud& b) {
+bool same_counts(ScoredSequence& scored, const CleanedCloud& a, const CleanedCloud& b) {
   bool same = true;
-  for (std::size_t i = 0; i < bench.protocol_count(); ++i) {
-    same = same && score(bench, i, a).counts == score(bench, i, b).counts;
+  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
+    same = same && score(scored, i, a).counts == score(scored, i, b).counts;
   }
   return same;
 }
@@ -57,20 +57,20 @@ TEST_CASE("A cloud of NaNs wins nothing: it scores as the empty cloud and says s
     CHECK_THAT(cloud.warnings()[0], Contains("3 of 3 points"));
     CHECK_THAT(cloud.warnings()[1], Contains("no point"));
   }
-  SequenceBench bench = street_bench();
+  ScoredSequence scored = street_sequence();
   const CleanedCloud nothing = cleaned_cloud({{nan, nan, nan}});
-  const ProtocolResult voxels = score(bench, 0, nothing);
+  const ProtocolResult voxels = score(scored, 0, nothing);
   CHECK(voxels.rate("PR") == 0.0);
   CHECK(voxels.rate("RR") == 100.0);
   CHECK(voxels.rate("F1") == 0.0);
-  const ProtocolResult points = score(bench, 1, nothing);
+  const ProtocolResult points = score(scored, 1, nothing);
   CHECK(points.rate("SA") == 0.0);
   CHECK(points.rate("HA") == 0.0);
 }
 
 TEST_CASE("The order of a cloud's points and NaNs among them change no score") {
-  SequenceBench bench = street_bench();
-  const CleanedCloud cloud = oracle_cloud(bench.sequence(), 0.0, nullptr);
+  ScoredSequence scored = street_sequence();
+  const CleanedCloud cloud = oracle_cloud(scored.sequence(), 0.0, nullptr);
   REQUIRE(cloud.points.size() > 1000);
   std::vector<Eigen::Vector3f> points = cloud.points;
   std::shuffle(points.begin(), points.end(), std::mt19937(3));
@@ -78,27 +78,27 @@ TEST_CASE("The order of a cloud's points and NaNs among them change no score") {
   const CleanedCloud shuffled = cleaned_cloud(points);
   CHECK(shuffled.points == cloud.points);
   CHECK(shuffled.warnings().size() == 1);
-  CHECK(same_counts(bench, cloud, shuffled));
+  CHECK(same_counts(scored, cloud, shuffled));
 }
 
 TEST_CASE("The oracle's cloud is near perfect, and a shifted one is not") {
-  SequenceBench bench = street_bench();
-  const CleanedCloud cloud = oracle_cloud(bench.sequence(), 0.0, nullptr);
+  ScoredSequence scored = street_sequence();
+  const CleanedCloud cloud = oracle_cloud(scored.sequence(), 0.0, nullptr);
   CHECK(cloud.warnings().empty());
-  CHECK(score(bench, 0, cloud).rate("PR").value() > 95.0);
-  CHECK(score(bench, 0, cloud).rate("RR").value() > 50.0);
-  CHECK(score(bench, 1, cloud).rate("SA") == 100.0);
+  CHECK(score(scored, 0, cloud).rate("PR").value() > 95.0);
+  CHECK(score(scored, 0, cloud).rate("RR").value() > 50.0);
+  CHECK(score(scored, 1, cloud).rate("SA") == 100.0);
   std::vector<Eigen::Vector3f> points = cloud.points;
   for (Eigen::Vector3f& point : points) point += Eigen::Vector3f(0.0f, 0.0f, 100.0f);
   const CleanedCloud shifted = cleaned_cloud(points);
-  const ProtocolResult result = score(bench, 0, shifted);
+  const ProtocolResult result = score(scored, 0, shifted);
   CHECK(result.rate("F1") == 0.0);
   REQUIRE_FALSE(result.warnings.empty());
   CHECK_THAT(result.warnings.back(), Contains("same frame"));
-  CHECK(score(bench, 1, shifted).rate("SA") == 0.0);
+  CHECK(score(scored, 1, shifted).rate("SA") == 0.0);
   // Thinned to 0.2 m: fewer points, which costs SA but hardly any PR.
-  const CleanedCloud thin = oracle_cloud(bench.sequence(), 0.2, nullptr);
+  const CleanedCloud thin = oracle_cloud(scored.sequence(), 0.2, nullptr);
   CHECK(thin.points.size() < cloud.points.size());
-  CHECK(score(bench, 1, thin).rate("SA").value() < 90.0);
-  CHECK(score(bench, 0, thin).rate("PR").value() > 90.0);
+  CHECK(score(scored, 1, thin).rate("SA").value() < 90.0);
+  CHECK(score(scored, 0, thin).rate("PR").value() > 90.0);
 }

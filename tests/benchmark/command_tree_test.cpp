@@ -16,22 +16,21 @@ using Words = std::vector<std::string>;
 /// A program with one command: an option with named values, one that repeats, a flag, a short name,
 /// an option that --help hides, and a word.
 struct SmallProgram {
-  std::string format, output, word, place, hidden;
+  std::string format, output, word, place;
   std::vector<std::string> methods;
   bool quiet = false;
-  CLI::App app{"small: draws. It does nothing else.", "small"};
+  CommandParser parser{"small: draws. It does nothing else.", "small"};
 
   SmallProgram() {
-    CLI::App* draw = app.add_subcommand("draw", "Draws it's own [things]");
-    draw->add_option("run", word, "Run folder")->type_name("RUN");
-    draw->add_option("--format", format, "md (default), csv or tex")->type_name("FORMAT");
-    draw->add_option("--method", methods, "Method")->type_name("NAME")->allow_extra_args(false);
-    draw->add_option("-o,--output", output, "Where to")->type_name("FILE");
-    draw->add_option("place,--sequence", place, "Sequence")->type_name("PATH");
-    draw->add_option("--hidden", hidden, "")->group("");
-    draw->add_flag("--quiet", quiet, "No progress");
-    draw->footer("A sentence.\nExamples:\n  small draw '.x' -o a\\b\nThe end.");
-    app.add_subcommand("secret", "")->group("");
+    CommandOptions draw = parser.add_command("draw", "Draws it's own [things]");
+    draw.add("run", "RUN", word, "Run folder");
+    draw.add("--format", "FORMAT", format, "md (default), csv or tex");
+    draw.add("--method", "NAME", methods, "Method");
+    draw.add("-o,--output", "FILE", output, "Where to");
+    draw.add("place,--sequence", "PATH", place, "Sequence");
+    draw.add_flag("--quiet", quiet, "No progress");
+    draw.set_footer("A sentence.\nExamples:\n  small draw '.x' -o a\\b\nThe end.");
+    parser.add_command("secret", "").hide();
   }
 };
 
@@ -56,7 +55,7 @@ TEST_CASE("the values of an option are the words that its sentence names first",
 
 TEST_CASE("the command tree has what --help shows and nothing else", "[cli]") {
   const SmallProgram program;
-  const CommandTree tree = command_tree(program.app, MethodRegistry::built_in());
+  const CommandTree tree = command_tree(program.parser, MethodRegistry::built_in());
   REQUIRE(tree.commands.size() == 1);
   const CommandText& draw = tree.commands.front();
   CHECK(draw.name == "draw");
@@ -77,14 +76,13 @@ TEST_CASE("the command tree has what --help shows and nothing else", "[cli]") {
 
 TEST_CASE("signs that a shell or troff would take for its own are protected", "[cli]") {
   const SmallProgram program;
-  const CommandTree tree = command_tree(program.app, MethodRegistry::built_in());
+  const CommandTree tree = command_tree(program.parser, MethodRegistry::built_in());
   CHECK(completion_script(tree, "zsh").find(R"('draw:Draws it'\''s own [things]')") !=
         std::string::npos);
   CHECK(completion_script(tree, "fish").find(R"(-d 'Draws it\'s own [things]')") !=
         std::string::npos);
   const std::string page = manual_page(tree);
   CHECK(page.find("small draw \\(aq.x\\(aq \\-o a\\eb") != std::string::npos);
-  CHECK(page.find("hidden") == std::string::npos);
   CHECK(page.find("secret") == std::string::npos);
   CHECK_THROWS_AS(completion_script(tree, "tcsh"), UsageError);
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/map_picture.h"
+#include "benchmark/picture/maps/map_picture.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <fstream>
 
-#include "benchmark/picture/overview_picture.h"
-#include "benchmark/picture/range_picture.h"
+#include "benchmark/picture/canvas/png_file.h"
+#include "benchmark/picture/maps/overview_picture.h"
+#include "benchmark/picture/maps/range_picture.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
 #include "core/files/files.h"
@@ -78,11 +79,6 @@ struct TwoPointRun {
   }
 };
 
-Colour pixel(const RgbImage& image, int x, int y) {
-  const auto at = 3 * static_cast<std::size_t>(y * image.width + x);
-  return {image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]};
-}
-
 MapPictureOptions half_metre(const std::string& only) {
   MapPictureOptions options;
   options.only = {only};
@@ -100,35 +96,39 @@ constexpr int kMovingX = 20 + 70, kMovingY = 70 + 40;
 TEST_CASE("A map has the colour of what became of a point where the point is") {
   const TwoPointRun two;
   const KeptRun run = two.kept();
-  const RgbImage all = map_picture(run, half_metre("remove-all:default"), {});
-  CHECK(pixel(all, kStaticX, kStaticY) == verdict_colours::kFalsePositive);
-  CHECK(pixel(all, kMovingX, kMovingY) == verdict_colours::kTruePositive);
-  const RgbImage none = map_picture(run, half_metre("noop:default"), {});
+  const Canvas all = map_picture(run, half_metre("remove-all:default"), {});
+  CHECK(all.at(kStaticX, kStaticY) == verdict_colours::kFalsePositive);
+  CHECK(all.at(kMovingX, kMovingY) == verdict_colours::kTruePositive);
+  const Canvas none = map_picture(run, half_metre("noop:default"), {});
   // Grey of a single point: 226 - 110 * log2(1 + 1) / 8 = 212.25.
-  CHECK(pixel(none, kStaticX, kStaticY) == Colour{212, 212, 212});
-  CHECK(pixel(none, kMovingX, kMovingY) == verdict_colours::kFalseNegative);
-  CHECK(pixel(none, kMovingX + 1, kMovingY) == Colour{255, 255, 255});
-  CHECK(pixel(none, kMovingX, kMovingY - 1) == Colour{255, 255, 255});
+  CHECK(none.at(kStaticX, kStaticY) == Colour{212, 212, 212});
+  CHECK(none.at(kMovingX, kMovingY) == verdict_colours::kFalseNegative);
+  CHECK(none.at(kMovingX + 1, kMovingY) == Colour{255, 255, 255});
+  CHECK(none.at(kMovingX, kMovingY - 1) == Colour{255, 255, 255});
 }
 
 TEST_CASE("A cropped map shows its window only") {
   const TwoPointRun two;
   MapPictureOptions options = half_metre("remove-all:default");
   options.crop = WorldWindow{0, 60, -10, 50};
-  const RgbImage cropped = map_picture(two.kept(), options, {});
+  const Canvas cropped = map_picture(two.kept(), options, {});
   // From above (0, 50): 5 m to the right, 40 m down to the moving point.
-  CHECK(pixel(cropped, 20 + 10, 70 + 80) == verdict_colours::kTruePositive);
+  CHECK(cropped.at(20 + 10, 70 + 80) == verdict_colours::kTruePositive);
 }
 
 TEST_CASE("What is written as PNG is read again") {
   const TwoPointRun two;
-  const RgbImage drawn = map_picture(two.kept(), half_metre("remove-all:default"), {});
+  const Canvas drawn = map_picture(two.kept(), half_metre("remove-all:default"), {});
   const fs::path file = two.folder.path() / "map.png";
   write_png(file, drawn);
-  const RgbImage read = read_png(file);
-  CHECK(read.width == drawn.width);
-  CHECK(read.height == drawn.height);
-  CHECK(read.rgb == drawn.rgb);
+  const Canvas read = read_png(file);
+  CHECK(read.width() == drawn.width());
+  CHECK(read.height() == drawn.height());
+  bool same = true;
+  for (int y = 0; y < read.height(); ++y) {
+    for (int x = 0; x < read.width(); ++x) same &= read.at(x, y) == drawn.at(x, y);
+  }
+  CHECK(same);
   CHECK(png_bytes(drawn) == png_bytes(read));
   CHECK_THROWS_WITH(read_png(two.data / "poses.txt"), Contains("not a PNG"));
 }
@@ -137,12 +137,12 @@ TEST_CASE("A cell that failed is a hatched panel, beside others or alone") {
   const TwoPointRun two;
   MapPictureOptions options = half_metre("broken:default");
   options.only.push_back("noop:default");
-  const RgbImage image = map_picture(two.kept(), options, {});
+  const Canvas image = map_picture(two.kept(), options, {});
   // Methods stand in the order of the run; the stripes are the only pixels of this grey.
   std::size_t stripes = 0;
   for (int y = 70; y < 190; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      stripes += pixel(image, x, y) == Colour{214, 214, 214} ? 1 : 0;
+    for (int x = 0; x < image.width(); ++x) {
+      stripes += image.at(x, y) == Colour{214, 214, 214} ? 1 : 0;
     }
   }
   CHECK(stripes > 500);
@@ -231,16 +231,16 @@ TEST_CASE("Range images show a point in its direction") {
   const KeptRun run = two.kept();
   RangePictureOptions options;
   options.width = 400;
-  const RgbImage image = range_picture(run, run.cell("two", "oracle:default"), options, {});
-  CHECK(image.width == 440);
+  const Canvas image = range_picture(run, run.cell("two", "oracle:default"), options, {});
+  CHECK(image.width() == 440);
   // Both points are level, so there is one row, as high as a row may be: 12 pixels. The verdict is
   // the fourth image, from 20 + 26 + 3 * (28 + 12 + 12) + 28 on. Ahead is in the middle, azimuth 0
   // between the bins 199 and 200; atan(10 / 5) is 70.5 bins to the left of it.
   const int y = 20 + 26 + 3 * 52 + 28 + 5;
-  const bool left_bin = pixel(image, 20 + 199, y) == verdict_colours::kKeptStatic;
-  CHECK(left_bin != (pixel(image, 20 + 200, y) == verdict_colours::kKeptStatic));
-  CHECK(pixel(image, 20 + 129, y) == verdict_colours::kTruePositive);
-  CHECK(pixel(image, 20 + 300, y) == Colour{255, 255, 255});
+  const bool left_bin = image.at(20 + 199, y) == verdict_colours::kKeptStatic;
+  CHECK(left_bin != (image.at(20 + 200, y) == verdict_colours::kKeptStatic));
+  CHECK(image.at(20 + 129, y) == verdict_colours::kTruePositive);
+  CHECK(image.at(20 + 300, y) == Colour{255, 255, 255});
   options.frame = 7;
   CHECK_THROWS_WITH(range_picture(run, run.cell("two", "oracle:default"), options, {}),
                     Contains("--scan 7") && Contains("0:0"));
@@ -249,12 +249,12 @@ TEST_CASE("Range images show a point in its direction") {
 TEST_CASE("An overview has both colours of what moved") {
   const TwoPointRun two;
   const KeptRun run = two.kept();
-  const RgbImage image = overview_picture(run, run.cell("two", "oracle:default"), {}, {});
+  const Canvas image = overview_picture(run, run.cell("two", "oracle:default"), {}, {});
   std::size_t moving = 0, removed = 0;
-  for (int y = 0; y < image.height - 50; ++y) {  // Without the legend.
-    for (int x = 0; x < image.width; ++x) {
-      moving += pixel(image, x, y) == verdict_colours::kFalseNegative ? 1 : 0;
-      removed += pixel(image, x, y) == verdict_colours::kTruePositive ? 1 : 0;
+  for (int y = 0; y < image.height() - 50; ++y) {  // Without the legend.
+    for (int x = 0; x < image.width(); ++x) {
+      moving += image.at(x, y) == verdict_colours::kFalseNegative ? 1 : 0;
+      removed += image.at(x, y) == verdict_colours::kTruePositive ? 1 : 0;
     }
   }
   CHECK(moving ==

@@ -10,6 +10,7 @@
 #include "benchmark/report/thinned_points.h"
 #include "benchmark/result/reasons.h"
 #include "core/error.h"
+#include "core/utf8.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -140,7 +141,7 @@ TEST_CASE("base64 is that of RFC 4648", "[report]") {
 TEST_CASE("text cannot leave its place in a page", "[report]") {
   CHECK(html_text("<b a=\"&\">") == "&lt;b a=&quot;&amp;&quot;&gt;");
   CHECK(script_json("</script><!--<script>") == "\"\\u003c/script>\\u003c!--\\u003cscript>\"");
-  CHECK(html_id("raymoval:a b") == "raymoval-a-b");
+  CHECK(id_text("raymoval:a b") == "raymoval-a-b");
   TextTable table{"<t>", "c", {{"<g>", {"<h>"}}}, {{"<r>", {{"<x>"}}, false}}, {"<n>"}};
   const std::string html = html_table(table);
   for (const char* raw : {"<t>", "<g>", "<h>", "<r>", "<x>", "<n>"}) {

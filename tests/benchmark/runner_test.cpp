@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/sealed_json.h"
+#include "benchmark/run/plan.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "methods/controls/controls.h"

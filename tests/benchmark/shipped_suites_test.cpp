@@ -7,7 +7,7 @@
 #include "benchmark/suite/suite.h"
 #include "core/files/files.h"
 #include "datasets/semantickitti/semantickitti.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 using namespace raymoval;
 

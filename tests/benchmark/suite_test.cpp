@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"
 

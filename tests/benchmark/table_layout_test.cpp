@@ -2,19 +2,19 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/tables/accuracy_tables.h"
+#include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/cell_line.h"
+#include "benchmark/tables/rate_tables.h"
 #include "benchmark/tables/run_summary.h"
 #include "benchmark/tables/tables.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
-using nlohmann::ordered_json;
 
 namespace {
 
@@ -167,24 +167,20 @@ TEST_CASE("A point of a sweep has an '=' in its name, and can have another one")
 }
 
 TEST_CASE("Chosen cells leave their sequences and methods only") {
-  ordered_json json = {{"run",
-                        {{"suite",
-                          {{"sequences", {{{"name", "a"}}, {{"name", "b"}}}},
-                           {"methods", {{{"name", "x"}}, {{"name", "y"}}}}}}}},
-                       {"cells",
-                        {{{"sequence", "a"}, {"name", "x"}},
-                         {{"sequence", "a"}, {"name", "y"}},
-                         {{"sequence", "b"}, {"name", "x"}}}},
-                       {"missing", {"b / y"}}};
-  ordered_json chosen = json;
+  ResultsRecord whole;
+  whole.run.sequences = {{DataRecord{"a"}}, {DataRecord{"b"}}};
+  whole.run.methods = {{"x", "x", "1"}, {"y", "y", "1"}};
+  whole.cells = {{"a", "x", ""}, {"a", "y", ""}, {"b", "x", ""}};
+  whole.missing = {"b / y"};
+  ResultsRecord chosen = whole;
   choose_cells(chosen, {});
-  CHECK(chosen == json);
+  CHECK(to_json(chosen) == to_json(whole));
   choose_cells(chosen, {"a/x"});
-  CHECK(chosen["cells"].size() == 1);
-  CHECK(chosen["run"]["suite"]["sequences"].size() == 1);
-  CHECK(chosen["run"]["suite"]["methods"] == ordered_json::array({{{"name", "x"}}}));
-  CHECK(!chosen.contains("missing"));
-  CHECK_THROWS_WITH(choose_cells(json, {"c"}), Contains("fits no cell of this run"));
+  CHECK(chosen.cells.size() == 1);
+  CHECK(names_of(chosen.run.sequences) == std::vector<std::string>{"a"});
+  CHECK(names_of(chosen.run.methods) == std::vector<std::string>{"x"});
+  CHECK(chosen.missing.empty());
+  CHECK_THROWS_WITH(choose_cells(whole, {"c"}), Contains("fits no cell of this run"));
 }
 
 TEST_CASE("The end of a run fits a screen for ten methods") {
@@ -214,16 +210,12 @@ TEST_CASE("The end of a run fits a screen for ten methods") {
 
 TEST_CASE("The log line of a cell has its F1 and time first and no rates of secondary kinds") {
   const auto cell = [](const std::string& sequence, const std::string& name, double f1) {
-    return ordered_json{
-        {"sequence", sequence},
-        {"name", name},
-        {"status", "ok"},
-        {"reason", ""},
-        {"protocols",
-         {{{"rates",
-            {{"PR", 100.0}, {"RR", 9.5}, {"F1", f1}, {"PR_no_truck", 1.0}, {"F1_no_truck", 0.5}}}},
-          {{"rates", {{"SA", nullptr}, {"DA", 1.0}, {"AA", 2.0}, {"HA", 99.5}}}}}},
-        {"measured", {{"seconds_per_scan", {{"mean", 0.0123}}}}}};
+    Cell made{sequence, name, ""};
+    const std::vector<Rate> rates = {
+        {"PR", 100.0}, {"RR", 9.5}, {"F1", f1}, {"PR_no_truck", 1.0}, {"F1_no_truck", 0.5}};
+    made.scores = {{{}, {}, rates}, {{}, {}, {{"SA", {}}, {"DA", 1.0}, {"AA", 2.0}, {"HA", 99.5}}}};
+    made.measured.emplace().mean_seconds = 0.0123;
+    return made;
   };
   const CellLines lines({"a", "town"}, {"x", "longer:variant"}, 52);
   const std::string first = lines.line(3, cell("a", "x", 0.25));
@@ -235,9 +227,8 @@ TEST_CASE("The log line of a cell has its F1 and time first and no rates of seco
   const std::string name(60, 'n'), sequence(60, 's');
   const CellLines wide({sequence}, {name}, 1000);
   CHECK(wide.line(7, cell(sequence, name, 0.5)).size() <= 100);
-  ordered_json failed = cell("a", "x", 0.0);
-  failed["status"] = "failed";
-  failed["reason"] = std::string(200, 'r');
+  Cell failed = cell("a", "x", 0.0);
+  failed.fail(CellStatus::kFailed, std::string(200, 'r'));
   CHECK(lines.line(1, failed).size() == 100);
   CHECK_THAT(lines.line(1, failed), Contains("failed: rrr") && Catch::Matchers::EndsWith("..."));
 }

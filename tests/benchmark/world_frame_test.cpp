@@ -7,7 +7,7 @@
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/clean/map_cleaner.h"
 #include "benchmark/process/method_run.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "core/scan/local_frame.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
@@ -40,7 +40,7 @@ Pose shifted(double x, double y, double z) {
 MaskStore masks_on(const Sequence& sequence, const MethodRequest& request) {
   const MethodAnswer answer = run_method({&sequence, &request, 2, nullptr, nullptr, false});
   INFO(answer.reason);
-  REQUIRE(answer.status == "ok");
+  REQUIRE(answer.status == CellStatus::kOk);
   return answer.masks;
 }
 
@@ -72,8 +72,8 @@ std::vector<MethodRequest> all_methods() {
 
 ProtocolResult scored(const Sequence& sequence, const std::string& protocol,
                       const MaskStore& masks) {
-  SequenceBench bench(sequence, {{protocol, protocol, protocol_defaults(protocol)}}, 2, nullptr);
-  return bench.score(0, masks);
+  ScoredSequence scored(sequence, {{protocol, protocol, protocol_defaults(protocol)}}, 2, nullptr);
+  return scored.score(0, masks);
 }
 
 }  // namespace
@@ -125,9 +125,9 @@ TEST_CASE("a cleaned map far from the origin is scored as near it", "[frames]") 
     ProtocolRequest erasor{"erasor", "erasor", protocol_defaults("erasor")};
     set_parameter(erasor.options, "label_mode", std::string("nearest"));
     set_parameter(erasor.options, "lift", 0.0);
-    SequenceBench bench(sequence, {erasor}, 2, nullptr);
+    ScoredSequence scored(sequence, {erasor}, 2, nullptr);
     const CleanedCloud oracle = oracle_cloud(sequence, 0.0, nullptr);
-    return bench.score_cloud(0, CloudEstimate(oracle.points)).counts;
+    return scored.score_cloud(0, CloudEstimate(oracle.points)).counts;
   };
   CHECK(counts(far.moved) == counts(far.street));
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Points of the own vehicle: which they are, and that nobody gets them.
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "core/error.h"
@@ -86,7 +85,7 @@ TEST_CASE("points of the own vehicle are left out with their labels", "[ego]") {
   const auto lines = left_out_lines(sequence);
   REQUIRE(lines.size() == 1);
   CHECK_THAT(lines[0], Catch::Contains("of the own vehicle (in the box -2:0.6,-0.5:1,-1:1 m)"));
-  CHECK(sequence.record()["drop_ego"]["left_out"] == "-2:0.6,-0.5:1,-1:1");
+  CHECK(sequence.record().drop_ego.value().left_out == "-2:0.6,-0.5:1,-1:1");
   CHECK(fingerprint(sequence, 1) != fingerprint(sequence_of(drive, "0.01"), 1));
 }
 
@@ -96,7 +95,7 @@ TEST_CASE("the own vehicle is found where it goes along with the sensor", "[ego]
   for (const std::size_t scan : {0U, 7U, 15U}) {
     CHECK(sequence.scans->load(scan).points == good_drive().load(scan).points);
   }
-  CHECK(sequence.record()["drop_ego"]["asked"] == "auto");
+  CHECK(sequence.record().drop_ego.value().asked == "auto");
   CHECK_THAT(left_out_lines(sequence).at(0), Catch::Contains("as estimated"));
 }
 
@@ -142,7 +141,7 @@ TEST_CASE("a sequence says what is left out of it", "[ego]") {
   SequenceOptions options;  // Options stand above the file.
   options.drop_ego = parse_ego_region("none");
   CHECK(open_sequence(folder.text(), options).scans->load(1).size() == 3);
-  CHECK_FALSE(open_sequence(folder.text(), options).record().contains("drop_ego"));
+  CHECK_FALSE(open_sequence(folder.text(), options).record().drop_ego);
   folder.write("sequence.json", R"({"drop_ego": "car"})");
   check_says(message_of<ConfigurationError>([&] { open_sequence(folder.text(), {}); }),
              {"sequence.json: drop_ego", "'car'", "expected auto"});

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "datasets/clouds/cloud_writer.h"
@@ -167,8 +166,8 @@ TEST_CASE("the sensor is estimated when none is named", "[files]") {
   CHECK(sequence.scans->sensor().name == "estimated");
   CHECK(sequence.scans->sensor().range_min == 3.0);
   CHECK(sequence.scans->sensor().range_max == 9.0);
-  CHECK(sequence.record()["sensor"] == "estimated");
-  CHECK(sequence.record()["scan_period_s"].is_null());
+  CHECK(sequence.record().sensor == "estimated");
+  CHECK_FALSE(sequence.record().scan_period_s);
   SequenceOptions options;
   options.sensor = "vlp16";
   CHECK(open_sequence(folder.text(), options).scans->sensor().name == "vlp16");

@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "datasets/open_sequence.h"
@@ -160,7 +159,7 @@ TEST_CASE("another pose file is found by name or path", "[semantickitti]") {
     options.poses = name;
     const Sequence sequence = open_sequence(folder.text(), options);
     CHECK(sequence.scans->pose(0).translation().x() == 9.0);
-    CHECK(sequence.record()["poses"] == "poses_suma_optim.txt");
+    CHECK(sequence.record().poses == "poses_suma_optim.txt");
   }
   options.poses = "poses_gps.txt";
   check_says(open_error(folder.text(), options),
@@ -194,7 +193,7 @@ TEST_CASE("labels have to fit their scan", "[semantickitti]") {
   std::filesystem::remove_all(folder / "labels");
   const Sequence bare = open_sequence(folder.text(), {});
   CHECK_FALSE(bare.labels);
-  CHECK(bare.record()["label_rule"].is_null());
+  CHECK_FALSE(bare.record().label_rule);
 }
 
 TEST_CASE("a truncated or empty scan is named", "[semantickitti]") {
@@ -254,12 +253,26 @@ TEST_CASE("sequence.json is read, and options stand above it", "[semantickitti]"
   CHECK(sequence.scans->load(1).time_s == 0.05);
   CHECK(sequence.label_rule.classify(0) == LabelClass::kIgnored);
   CHECK(sequence.label_rule.classify(253) == LabelClass::kStatic);
-  CHECK(nlohmann::json(sequence.record()) == nlohmann::json::parse(R"({
-      "name": "drive", "layout": "semantickitti", "source": "a test", "frames": "0:1:1",
-      "scans": 2, "poses": "other.txt", "sensor": "hdl64e", "up": "z", "up_source": "world z",
-      "scan_period_s": 0.05,
-      "range_m": {"min": 2.7, "max": 50.0},
-      "label_rule": {"name": "drive", "moving": [252], "ignored": [0]}})"));
+  const DataRecord record = sequence.record();
+  CHECK(record.name == "drive");
+  CHECK(record.layout == "semantickitti");
+  CHECK(record.source == "a test");
+  CHECK(record.frames == "0:1:1");
+  CHECK(record.scans == 2);
+  CHECK(record.poses == "other.txt");
+  CHECK(record.sensor == "hdl64e");
+  CHECK(record.sensor_basis.empty());
+  CHECK(record.up == "z");
+  CHECK(record.up_source == "world z");
+  CHECK(record.scan_period_s == 0.05);
+  CHECK(record.range_m.min == 2.7);
+  CHECK(record.range_m.max == 50.0);
+  CHECK_FALSE(record.drop_ego);
+  REQUIRE(record.label_rule);
+  CHECK(record.label_rule->name == "drive");
+  CHECK(record.label_rule->moving == std::vector<std::uint16_t>{252});
+  CHECK(record.label_rule->ignored == std::vector<std::uint16_t>{0});
+  CHECK(record.fingerprint.empty());
 
   SequenceOptions options;
   options.name = "mine";

@@ -2,7 +2,6 @@
 #include "datasets/world_axes/up_direction.h"
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "datasets/open_sequence.h"
 #include "datasets/reading/loaded_data.h"
@@ -42,8 +41,8 @@ TEST_CASE("an option stands above sequence.json, and both above the estimate", "
   const Sequence given = open_sequence("street", options);
   CHECK(given.up().direction == Vector3d(0, -1, 0));
   CHECK(given.up().source == UpDirection::Source::kGiven);
-  CHECK(given.record().at("up") == "-y");
-  CHECK(given.record().at("up_source") == "given");
+  CHECK(given.record().up == "-y");
+  CHECK(given.record().up_source == "given");
   // Another up is another way to read the data: stored results are of the one or the other.
   CHECK(fingerprint(given, 1) != fingerprint(open_sequence("street", {}), 1));
   options.up = "z";

@@ -8,7 +8,7 @@
 
 #include "core/scan/mask_store.h"
 #include "core/scan/scan_source.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval::test {
 
@@ -95,8 +95,7 @@ inline std::unique_ptr<Protocol> protocol_with(const std::string& name,
 
 inline ProtocolResult score_by(const std::string& name, const EvaluationInput& input,
                                const MaskStore& masks, const Settings& settings = {}) {
-  const auto protocol = protocol_with(name, settings);
-  return protocol->score(input, *protocol->prepare(input), masks);
+  return protocol_with(name, settings)->open(input)->score(masks);
 }
 
 inline std::unique_ptr<Protocol> erasor_protocol(const Settings& settings = {}) {

@@ -3,21 +3,30 @@
 
 #include "eval/averages.h"
 #include "eval/published/published.h"
-#include "eval/rates.h"
 
 namespace raymoval {
 namespace {
 
-AverageRates published_averages(const std::string& method) {
+/// PR, RR and F1 on a number of segments, and their averages.
+struct Segments {
+  SegmentValues PR, RR, F1;
+
+  void add(std::optional<double> pr, std::optional<double> rr) {
+    PR.push_back(pr);
+    RR.push_back(rr);
+    F1.push_back(pr && rr ? std::optional(f1_from_percent(*pr, *rr)) : std::nullopt);
+  }
+  [[nodiscard]] Mean F1_of_means() const { return combined_means(PR, RR, f1_from_percent); }
+};
+
+Segments published_segments(const std::string& method) {
   const PublishedTable table =
       load_published_table(RAYMOVAL_SOURCE_DIR "/results/published/raymoval_table2.json");
-  std::vector<SegmentRates> segments;
+  Segments segments;
   for (const PublishedRow& row : table.rows) {
-    if (row.method != method) continue;
-    segments.push_back(
-        {row.value("PR"), row.value("RR"), f1_from_percent(*row.value("PR"), *row.value("RR"))});
+    if (row.method == method) segments.add(row.value("PR"), row.value("RR"));
   }
-  return average_rates(segments);
+  return segments;
 }
 
 }  // namespace
@@ -34,40 +43,42 @@ TEST_CASE("the five published segments give both averages of F1", "[averages]") 
                                    Expected{"ERASOR", 90.510, 97.401, 0.9381, 0.9383},
                                    Expected{"Raymoval", 93.217, 92.566, 0.9288, 0.9289}}) {
     CAPTURE(expected.method);
-    const AverageRates averages = published_averages(expected.method);
-    CHECK(averages.PR.value.value() == Approx(expected.PR).margin(0.00051));
-    CHECK(averages.RR.value.value() == Approx(expected.RR).margin(0.00051));
-    CHECK(averages.mean_F1.value.value() == Approx(expected.mean_F1).margin(0.00005));
-    CHECK(averages.F1_of_means.value.value() == Approx(expected.F1_of_means).margin(0.00005));
-    CHECK(averages.segments == 5);
-    CHECK(averages.mean_F1.segments == 5);
+    const Segments segments = published_segments(expected.method);
+    CHECK(mean_of(segments.PR).value.value() == Approx(expected.PR).margin(0.00051));
+    CHECK(mean_of(segments.RR).value.value() == Approx(expected.RR).margin(0.00051));
+    CHECK(mean_of(segments.F1).value.value() == Approx(expected.mean_F1).margin(0.00005));
+    CHECK(segments.F1_of_means().value.value() == Approx(expected.F1_of_means).margin(0.00005));
+    CHECK(mean_of(segments.F1).segments == 5);
+    CHECK(segments.F1_of_means().segments == 5);
   }
 }
 
 TEST_CASE("undefined segments are left out and counted", "[averages]") {
   // The second segment has nothing dynamic: only its PR counts. The third has nothing static.
-  const AverageRates averages =
-      average_rates({{80.0, 40.0, f1_from_percent(80.0, 40.0)}, {100.0, {}, {}}, {{}, 100.0, {}}});
-  CHECK(averages.segments == 3);
-  CHECK(averages.PR.value.value() == Approx(90.0));
-  CHECK(averages.PR.segments == 2);
-  CHECK(averages.RR.value.value() == Approx(70.0));
-  CHECK(averages.RR.segments == 2);
-  CHECK(averages.mean_F1.segments == 1);
-  CHECK(averages.mean_F1.value.value() == Approx(2 * 0.8 * 0.4 / 1.2));
+  Segments segments;
+  segments.add(80.0, 40.0);
+  segments.add(100.0, {});
+  segments.add({}, 100.0);
+  CHECK(mean_of(segments.PR).value.value() == Approx(90.0));
+  CHECK(mean_of(segments.PR).segments == 2);
+  CHECK(mean_of(segments.RR).value.value() == Approx(70.0));
+  CHECK(mean_of(segments.RR).segments == 2);
+  CHECK(mean_of(segments.F1).segments == 1);
+  CHECK(mean_of(segments.F1).value.value() == Approx(2 * 0.8 * 0.4 / 1.2));
   // Of 80 and 40 alone, and not of 90 and 70.
-  CHECK(averages.F1_of_means.segments == 1);
-  CHECK(averages.F1_of_means.value.value() == Approx(2 * 0.8 * 0.4 / 1.2));
+  CHECK(segments.F1_of_means().segments == 1);
+  CHECK(segments.F1_of_means().value.value() == Approx(2 * 0.8 * 0.4 / 1.2));
 }
 
 TEST_CASE("without a defined segment there is no average", "[averages]") {
-  for (const auto& segments : {std::vector<SegmentRates>{}, std::vector<SegmentRates>(2)}) {
-    const AverageRates averages = average_rates(segments);
-    CHECK(averages.segments == segments.size());
-    CHECK_FALSE(averages.PR.value.has_value());
-    CHECK_FALSE(averages.mean_F1.value.has_value());
-    CHECK_FALSE(averages.F1_of_means.value.has_value());
-    CHECK(averages.F1_of_means.segments == 0);
+  for (const std::size_t count : {0U, 2U}) {
+    Segments segments;
+    for (std::size_t i = 0; i < count; ++i) segments.add({}, {});
+    CHECK_FALSE(mean_of(segments.PR).value.has_value());
+    CHECK_FALSE(mean_of(segments.F1).value.has_value());
+    CHECK(mean_of(segments.F1).segments == 0);
+    CHECK_FALSE(segments.F1_of_means().value.has_value());
+    CHECK(segments.F1_of_means().segments == 0);
   }
 }
 

@@ -36,8 +36,7 @@ ProtocolResult score_cloud(const std::string& name, const EvaluationInput& input
                            const Points& cloud) {
   Settings settings;
   if (name == "erasor") settings = {{"label_mode", std::string("nearest")}, {"lift", 0.0}};
-  const auto protocol = protocol_with(name, settings);
-  return protocol->score_cloud(input, *protocol->prepare(input), CloudEstimate(cloud));
+  return protocol_with(name, settings)->open(input)->score_cloud(CloudEstimate(cloud));
 }
 
 }  // namespace
@@ -131,10 +130,9 @@ TEST_CASE("what lies nearest to an ignored point is ignored", "[cloud]") {
 
 TEST_CASE("a cloud has no labels by index", "[cloud][edge]") {
   const MemorySequence sequence = worked_example();
-  const auto protocol = erasor_protocol();
-  const auto truth = protocol->prepare(sequence.input());
+  const auto scorer = erasor_protocol()->open(sequence.input());
   const Points none;
-  CHECK_THROWS_AS(protocol->score_cloud(sequence.input(), *truth, CloudEstimate(none)), UsageError);
+  CHECK_THROWS_AS(scorer->score_cloud(CloudEstimate(none)), UsageError);
 }
 
 TEST_CASE("masks of a cloud are what it lacks", "[cloud]") {

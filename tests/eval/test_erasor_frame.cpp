@@ -103,13 +103,13 @@ TEST_CASE("the frame needs a calibration and no cloud", "[erasor][frame]") {
                              {"label_mode", std::string("nearest")}};
   const auto protocol = erasor_protocol(settings);
   EvaluationInput input = sequence.input();
-  CHECK_THROWS_WITH(protocol->prepare(input), Contains("calib.txt") && Contains("frame"));
-  CHECK_THROWS_AS(protocol->prepare(input), DataError);
+  CHECK_THROWS_WITH(protocol->open(input), Contains("calib.txt") && Contains("frame"));
+  CHECK_THROWS_AS(protocol->open(input), DataError);
   input.T_camera_lidar = calibration_of_00();
-  const auto truth = protocol->prepare(input);
+  const auto scorer = protocol->open(input);
   const std::vector<Eigen::Vector3f> no_points;
   const CloudEstimate cloud(no_points);
-  CHECK_THROWS_WITH(protocol->score_cloud(input, *truth, cloud), Contains("frame = sequence"));
+  CHECK_THROWS_WITH(scorer->score_cloud(cloud), Contains("frame = sequence"));
   CHECK(protocol->reads_calibration());
   CHECK_FALSE(erasor_protocol()->reads_calibration());
 }

@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
+#include "benchmark/result/cell_json.h"
 #include "benchmark/result/result_sets.h"
+#include "benchmark/result/results.h"
+#include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 
+namespace raymoval::fuzz {
 namespace {
 
-using namespace raymoval;
 using nlohmann::ordered_json;
 
 /// A whole file of results around one cell.
 ordered_json results_of(const ordered_json& cell) {
-  return {{"schema_version", 1},
-          {"run",
-           {{"suite",
-             {{"name", "run"},
-              {"sequences", {{{"name", "street"}}}},
-              {"methods", {{{"name", "noop"}}}},
-              {"protocols", {{{"name", "erasor"}}}}}}}},
-          {"controls", {{"problems", ordered_json::array()}}},
-          {"cells", {cell}}};
+  ResultsRecord results;
+  results.run.sequences = {{DataRecord{"street"}}};
+  results.run.methods = {{"noop", "noop", "1"}};
+  results.run.protocols = {{"erasor", "erasor", "1"}};
+  ordered_json json = to_json(results);
+  json["cells"].push_back(cell);
+  return json;
 }
 
 /// The file as it stands, then its content with the checksum made good, as a cell and in results.
-void try_cell(std::string_view bytes) {
-  const auto path = fuzz::input_file("cell.json", bytes);
-  fuzz::may_refuse([&] { (void)read_sealed(path); });
-  fuzz::may_refuse([&] { (void)read_result_set(path); });
+RAYMOVAL_FUZZ_TARGET(cell) {
+  const auto path = input_file("cell.json", bytes);
+  may_refuse([&] { (void)read_cell(path); });
+  may_refuse([&] { (void)read_result_set(path); });
   const ordered_json cell = ordered_json::parse(bytes, nullptr, /*allow_exceptions=*/false);
   if (!cell.is_object() || bytes.size() > 100'000) return;
-  fuzz::may_refuse([&] {
-    const auto results = fuzz::input_file("results.json", "");
+  may_refuse([&] {
+    const auto results = input_file("results.json", "");
     write_sealed(results, results_of(cell));
-    (void)read_sealed(results);
+    (void)shown_results(read_results(results));
     (void)read_result_set(results);
   });
 }
 
 }  // namespace
-
-RAYMOVAL_FUZZ_TARGET(cell, try_cell)
+}  // namespace raymoval::fuzz

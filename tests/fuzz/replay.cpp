@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Plays stored inputs back: test_fuzz TARGET FILE_OR_FOLDER...
+// Plays stored inputs back: test_fuzz TARGET FILE_OR_FOLDER... Or, as a libFuzzer program, tries
+// what libFuzzer makes up on the target RAYMOVAL_LIBFUZZER.
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +20,24 @@ std::map<std::string, Target>& targets() {
   static std::map<std::string, Target> all;
   return all;
 }
+
+}  // namespace
+
+bool add_target(const char* name, Target target) {
+  return targets().emplace(name, target).second;
+}
+
+}  // namespace raymoval::fuzz
+
+#ifdef RAYMOVAL_LIBFUZZER
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const raymoval::fuzz::Target target = raymoval::fuzz::targets().at(RAYMOVAL_LIBFUZZER);
+  target(std::string_view(reinterpret_cast<const char*>(data), size));
+  return 0;
+}
+#else
+namespace raymoval::fuzz {
+namespace {
 
 std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& given) {
   if (!std::filesystem::is_directory(given)) return {given};
@@ -59,11 +79,6 @@ int run(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
-
-bool add_target(const char* name, Target target) {
-  return targets().emplace(name, target).second;
-}
-
 }  // namespace raymoval::fuzz
 
 int main(int count, char** arguments) {
@@ -74,3 +89,4 @@ int main(int count, char** arguments) {
     return 1;
   }
 }
+#endif

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,7 +12,7 @@ namespace raymoval::fuzz {
 /// Tries one input on a parser. Whatever it lets through (an exception, a crash) is a finding.
 using Target = void (*)(std::string_view bytes);
 
-/// Makes `target` known to the replay under `name`. @return anything
+/// Makes `target` known under `name`. @return anything
 bool add_target(const char* name, Target target);
 
 /// What holds of anything that was read; broken, it is a finding.
@@ -39,14 +37,8 @@ void may_refuse(Read&& read) {
 
 }  // namespace raymoval::fuzz
 
-/// Names the function of a file that tries an input: a libFuzzer program, or a part of the replay.
-#ifdef RAYMOVAL_LIBFUZZER
-#define RAYMOVAL_FUZZ_TARGET(name, target)                                            \
-  extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { \
-    (target)(std::string_view(reinterpret_cast<const char*>(data), size));            \
-    return 0;                                                                         \
-  }
-#else
-#define RAYMOVAL_FUZZ_TARGET(name, target) \
-  [[maybe_unused]] static const bool name##_is_known = raymoval::fuzz::add_target(#name, target);
-#endif
+/// Begins the function that tries `bytes` as an input of the target `name`.
+#define RAYMOVAL_FUZZ_TARGET(name)                                                               \
+  void try_##name(std::string_view bytes);                                                       \
+  [[maybe_unused]] const bool name##_is_known = ::raymoval::fuzz::add_target(#name, try_##name); \
+  void try_##name(std::string_view bytes)

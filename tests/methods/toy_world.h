@@ -10,6 +10,7 @@
 #include "core/angle.h"
 #include "core/scan/mask_store.h"
 #include "methods/remover.h"
+#include "tests/methods/held_scans.h"
 
 namespace raymoval::toy {
 
@@ -56,58 +57,50 @@ struct Scanner {
   }
 };
 
-/// Scans held in memory; `owner[scan][point]` is the number of the box that was hit.
-class World : public ScanSource {
+/// Scans of boxes; `owner[scan][point]` is the number of the box that was hit.
+class World : public HeldScans {
  public:
-  explicit World(const Scanner& scanner) : scanner_(scanner), model_(scanner.model()) {}
+  explicit World(const Scanner& scanner) : HeldScans(scanner.model()), scanner_(scanner) {}
 
   /// Scans `boxes` from `T_world_sensor` and appends the scan.
   void scan(const std::vector<Box>& boxes, const Pose& T_world_sensor) {
-    Scan scan;
+    std::vector<Eigen::Vector3f> points;
     std::vector<int> hit;
-    scan.index = scans_.size();
-    scan.T_world_sensor = T_world_sensor;
     for (double azimuth = scanner_.azimuth_from + 0.25; azimuth < scanner_.azimuth_to;
          azimuth += 0.5) {
       for (int row = -20; row <= 20; ++row) {
-        add_return(boxes, azimuth * kDegree, row * 0.5 * kDegree, scan, hit);
+        const double elevation = row * 0.5 * kDegree;
+        add_return(boxes, T_world_sensor, azimuth * kDegree, elevation, points, hit);
       }
     }
-    scan.stored_point_count = scan.size();
-    scans_.push_back(scan);
+    add(std::move(points), T_world_sensor);
     owner.push_back(hit);
   }
-
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Scan load(std::size_t i) const override { return scans_.at(i); }
-  [[nodiscard]] Pose pose(std::size_t i) const override { return scans_.at(i).T_world_sensor; }
-  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
 
   std::vector<std::vector<int>> owner;
 
  private:
-  void add_return(const std::vector<Box>& boxes, double azimuth, double elevation, Scan& scan,
+  void add_return(const std::vector<Box>& boxes, const Pose& T_world_sensor, double azimuth,
+                  double elevation, std::vector<Eigen::Vector3f>& points,
                   std::vector<int>& hit) const {
     const Eigen::Vector3d u(std::cos(azimuth) * std::cos(elevation),
                             std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
     double nearest = scanner_.range;
     int box_hit = -1;
     for (std::size_t b = 0; b < boxes.size(); ++b) {
-      const double distance = enter_distance(boxes[b], scan.T_world_sensor.translation(),
-                                             scan.T_world_sensor.linear() * u);
+      const double distance =
+          enter_distance(boxes[b], T_world_sensor.translation(), T_world_sensor.linear() * u);
       if (distance < nearest) {
         nearest = distance;
         box_hit = static_cast<int>(b);
       }
     }
     if (box_hit < 0) return;
-    scan.points.emplace_back((nearest * u).cast<float>());
+    points.emplace_back((nearest * u).cast<float>());
     hit.push_back(box_hit);
   }
 
   Scanner scanner_;
-  SensorModel model_;
-  std::vector<Scan> scans_;
 };
 
 /// Keeps the masks of a run.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -8,11 +9,11 @@
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/mask_spool.h"
-#include "benchmark/result/cell.h"
+#include "benchmark/process/method_run.h"
 #include "benchmark/result/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/parallel.h"
-#include "core/process/child_process.h"
+#include "core/process/proc_files.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
@@ -118,6 +119,14 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
   return sequence;
 }
 
+/// The words of this command with the option that makes the child do the work itself.
+std::vector<std::string> arguments_of_child() {
+  std::vector<std::string> arguments = program_arguments();
+  const auto command = std::find(arguments.begin(), arguments.end(), "clean");
+  arguments.insert(command == arguments.end() ? command : command + 1, "--in-process");
+  return arguments;
+}
+
 /// What was done, a line each.
 std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& method,
                              const Sequence& sequence, const MaskSpool& masks,
@@ -140,7 +149,7 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   const Sequence sequence = opened(flags, paths, method, progress);
   const std::string turned = up_line(sequence.up());
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
-  check_data(sequence, flags.path, flags.force, progress);
+  check_data(sequence, flags.path, flags.force, progress, interrupt_flag());
   progress.set_context(method.full_name() + " on " + sequence.name);
   const MapPrecision precision = map_precision(*sequence.scans);
   CleanOutputs outputs(paths, voxel, precision);
@@ -167,7 +176,9 @@ ExitCode clean(const CleanFlags& flags) {
   const double limit = flags.memory_limit.empty()
                            ? usual_memory_limit_mib()
                            : parse_memory_mib("--memory-limit", flags.memory_limit);
-  if (!flags.in_process) return clean_apart(paths, limit);
+  if (!flags.in_process) {
+    return clean_apart(arguments_of_child(), paths, limit, interrupt_flag());
+  }
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
   try {
     return clean_here(flags, paths, progress);
@@ -179,40 +190,34 @@ ExitCode clean(const CleanFlags& flags) {
 
 }  // namespace
 
-Command add_clean_command(CLI::App& program) {
+Command add_clean_command(CommandParser& program) {
   auto flags = std::make_shared<CleanFlags>();
-  CLI::App* app = program.add_subcommand("clean", "Writes a map without moving objects");
-  app->allow_extras();
-  SequenceFlags::add_place_to(*app, flags->path);
-  app->add_option("-o,--output", flags->output, "Cleaned map in the world frame: .pcd, .ply, .bin")
-      ->type_name("FILE");
-  app->add_option("--dynamic", flags->dynamic, "What was removed, as a map")->type_name("FILE");
-  app->add_option("--labels", flags->labels,
-                  "Folder for a label file per scan (251 = removed, 9 = kept, 0 = left out)")
-      ->type_name("DIR");
-  app->add_option("--voxel", flags->voxel, "One point per cell of this size")->type_name("METRES");
-  app->add_option("--method", flags->method,
-                  "Method (default: raymoval_plus:offline, the best of them)")
-      ->type_name("NAME");
-  app->add_option("--set", flags->settings, "Parameter: METHOD.key=value")
-      ->type_name("SETTING")
-      ->allow_extra_args(false);
-  flags->reading.add_to(*app);
-  app->get_option("--range")->description(
+  CommandOptions options = program.add_command("clean", "Writes a map without moving objects");
+  SequenceFlags::add_place_to(options, flags->path);
+  options.add("-o,--output", "FILE", flags->output,
+              "Cleaned map in the world frame: .pcd, .ply, .bin");
+  options.add("--dynamic", "FILE", flags->dynamic, "What was removed, as a map");
+  options.add("--labels", "DIR", flags->labels,
+              "Folder for a label file per scan (251 = removed, 9 = kept, 0 = left out)");
+  options.add("--voxel", "METRES", flags->voxel, "One point per cell of this size");
+  options.add("--method", "NAME", flags->method,
+              "Method (default: raymoval_plus:offline, the best of them)");
+  options.add("--set", "SETTING", flags->settings, "Parameter: METHOD.key=value");
+  flags->reading.add_to(options);
+  options.set_sentence(
+      "--range",
       "Metres from the sensor; points beyond are in no output, but the method sees them");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_option("--memory-limit", flags->memory_limit,
-                  "Memory it may use: MiB, or with a unit such as 2GB (default: nine tenths of the "
-                  "machine's)")
-      ->type_name("SIZE");
-  app->add_flag("--force", flags->force,
-                "Clean also where the data has mistakes that make the map wrong");
-  app->add_flag("--in-process", flags->in_process,
-                "Stay in one process, for a debugger: without a limit on memory");
-  app->add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add("--memory-limit", "SIZE", flags->memory_limit,
+              "Memory it may use: MiB, or with a unit such as 2GB (default: nine tenths of the "
+              "machine's)");
+  options.add_flag("--force", flags->force,
+                   "Clean also where the data has mistakes that make the map wrong");
+  options.add_flag("--in-process", flags->in_process,
+                   "Stay in one process, for a debugger: without a limit on memory");
+  options.add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "Examples:\n"
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 "
@@ -224,7 +229,7 @@ Command add_clean_command(CLI::App& program) {
       "in label files.\n"
       "Memory does not grow with the number of scans, and every point is kept without --voxel. "
       "Outputs\nappear when all is done; until then they stand in files *.part beside them.");
-  return {app, [flags] { return clean(*flags); }};
+  return {options.name(), [flags] { return clean(*flags); }};
 }
 
 }  // namespace raymoval

@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/cli/terminal_colour.h"
 #include "benchmark/result/result_sets.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/files.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -138,44 +138,36 @@ ExitCode compare(const CompareFlags& flags) {
 
 }  // namespace
 
-Command add_compare_command(CLI::App& program) {
+Command add_compare_command(CommandParser& program) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* app = program.add_subcommand("compare", "Tells whether a run got worse");
-  app->allow_extras();
-  app->add_option("run", flags->run, "Run folder, or its results.json")->type_name("RUN");
-  app->add_option("reference", flags->reference, "What it is compared with: the same")
-      ->type_name("REFERENCE");
-  app->add_option(
-         "--tolerance", flags->tolerances,
-         "METRIC=NUMBER: judge this rate, which may fall by at most NUMBER, instead of the "
-         "counts (F1 is a fraction, other rates are in percent)")
-      ->type_name("TOLERANCE")
-      ->allow_extra_args(false);
-  app->add_option("--across", flags->across,
-                  "What may differ, parameters or version of methods or both "
-                  "(parameters,version): such cells are judged by their rates")
-      ->type_name("WHAT")
-      ->allow_extra_args(false);
-  app->add_option("--time-band", flags->time_band,
-                  "Slower than the reference by more than this factor is worse (default: times are "
-                  "shown, never judged)")
-      ->type_name("FACTOR");
-  app->add_option("--format", flags->format, "text, md, junit or json (default: text)")
-      ->type_name("FORMAT");
-  app->add_option("-o,--output", flags->output,
-                  "Write the comparison to this file, and print it as text")
-      ->type_name("FILE");
-  app->add_flag("--update", flags->update,
-                "Make RUN the new REFERENCE, without times and machine; compare nothing");
-  app->add_flag("--with-times", flags->with_times,
-                "With --update: keep times and machine, for --time-band");
-  app->footer(
+  CommandOptions options = program.add_command("compare", "Tells whether a run got worse");
+  options.add("run", "RUN", flags->run, "Run folder, or its results.json");
+  options.add("reference", "REFERENCE", flags->reference, "What it is compared with: the same");
+  options.add(
+      "--tolerance", "TOLERANCE", flags->tolerances,
+      "METRIC=NUMBER: this rate may get worse by at most NUMBER, in its own unit, and counts "
+      "may differ; F1=0.01 allows F1 to fall by at most 0.01");
+  options.add("--across", "WHAT", flags->across,
+              "What may differ, parameters or version of methods or both "
+              "(parameters,version): such cells are compared by their rates");
+  options.add("--time-band", "FACTOR", flags->time_band,
+              "A run that is slower than the reference by more than this factor is worse (default: "
+              "times are shown, never judged)");
+  options.add("--format", "FORMAT", flags->format, "text, md, junit or json (default: text)");
+  options.add("-o,--output", "FILE", flags->output,
+              "Write the comparison to this file, and print it as text");
+  options.add_flag("--update", flags->update,
+                   "Make RUN the new REFERENCE, without times and machine; compare nothing");
+  options.add_flag("--with-times", flags->with_times,
+                   "With --update: keep times and machine, for --time-band");
+  options.set_footer(
       "Counts must be equal; other data, protocols or parameters are not comparable. With "
-      "--tolerance\nthe rates named are judged, in the protocols that have them.\n"
-      "--across parameters judges a changed default: cells whose parameters differ are compared "
+      "--tolerance\nthe rates that it names decide, in the protocols that have them. Each protocol "
+      "says which direction\nof a rate is better.\n"
+      "--across parameters checks a changed default: cells whose parameters differ are compared "
       "by\n"
-      "their rates, which may not fall by more than their tolerance (none, if the protocol has no "
-      "rate\nwith one). What differs is told.\n"
+      "their rates, none of which may get worse by more than its tolerance (or at all, if the "
+      "protocol\nhas no rate with one). The output says what differs.\n"
       "--format junit is XML for a CI server: a test suite for each sequence, a test case for "
       "each\n"
       "method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
@@ -186,7 +178,7 @@ Command add_compare_command(CLI::App& program) {
       "  raymoval compare out/new out/old --across parameters --tolerance F1=0.01\n"
       "  raymoval compare out/new out/old --format junit -o compare.xml\n"
       "  raymoval compare out/new reference --update --with-times");
-  return {app, [flags] { return compare(*flags); }};
+  return {options.name(), [flags] { return compare(*flags); }};
 }
 
 }  // namespace raymoval

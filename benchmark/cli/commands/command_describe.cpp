@@ -4,9 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/cli/description.h"
+#include "benchmark/cli/commands/output_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -18,13 +19,6 @@ struct DescribeFlags {
 };
 
 constexpr const char* kProtocolPrefix = "protocol:";
-
-const ProtocolEntry* find_protocol(const std::string& name) {
-  for (const ProtocolEntry& entry : protocol_entries()) {
-    if (entry.name == name) return &entry;
-  }
-  return nullptr;
-}
 
 /// A name that is both a method's and a protocol's means the method.
 Description description_of(const std::string& name) {
@@ -76,19 +70,17 @@ ExitCode describe(const DescribeFlags& flags) {
 
 }  // namespace
 
-Command add_describe_command(CLI::App& program) {
+Command add_describe_command(CommandParser& program) {
   auto flags = std::make_shared<DescribeFlags>();
-  CLI::App* app =
-      program.add_subcommand("describe", "Tells a method's or protocol's source and parameters");
-  app->allow_extras();
-  app->add_option("name", flags->name,
-                  "METHOD, METHOD:variant, external:MANIFEST, PROTOCOL or protocol:NAME")
-      ->type_name("NAME");
-  app->add_flag("--markdown", flags->markdown, "As Markdown");
-  app->add_flag("--json", flags->json, "As JSON");
-  app->footer(
+  CommandOptions options =
+      program.add_command("describe", "Tells a method's or protocol's source and parameters");
+  options.add("name", "NAME", flags->name,
+              "METHOD, METHOD:variant, external:MANIFEST, PROTOCOL or protocol:NAME");
+  options.add_flag("--markdown", flags->markdown, "As Markdown");
+  options.add_flag("--json", flags->json, "As JSON");
+  options.set_footer(
       "Examples:\n  raymoval describe raymoval:online\n  raymoval describe protocol:erasor --json");
-  return {app, [flags] { return describe(*flags); }};
+  return {options.name(), [flags] { return describe(*flags); }};
 }
 
 }  // namespace raymoval

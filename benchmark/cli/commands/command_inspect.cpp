@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
+#include "benchmark/cli/commands/output_json.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "datasets/inspection/inspect.h"
 #include "datasets/open_sequence.h"
 
 namespace raymoval {
@@ -17,10 +17,6 @@ struct InspectFlags {
   SequenceFlags reading;
   bool json = false, list = false, quiet = false;
 };
-
-const char* severity_name(Severity severity) {
-  return severity == Severity::kNote ? "note" : "finding";
-}
 
 std::string finding_line(const Finding& finding) {
   return std::string(severity_name(finding.severity)) + " " + finding.sentence() + "\n";
@@ -39,27 +35,6 @@ std::string report_text(const InspectionReport& report) {
   if (report.scans == 0) return text + "; the sequence cannot be opened.\n";
   return text + " (" + report.layout + ", " + grouped_text(report.scans_read) + " of " +
          counted_text(report.scans, "scan") + " read).\n";
-}
-
-std::string report_json(const InspectionReport& report) {
-  nlohmann::ordered_json json;
-  json["sequence"] = report.sequence;
-  json["layout"] = report.layout;
-  json["scans"] = report.scans;
-  json["scans_read"] = report.scans_read;
-  json["sensor"] = report.sensor;
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const Finding& finding : report.findings) {
-    json["findings"].push_back({{"check", finding.check},
-                                {"severity", severity_name(finding.severity)},
-                                {"where", finding.where},
-                                {"what", finding.what},
-                                {"expected", finding.expected},
-                                {"remedy", finding.remedy}});
-  }
-  json["measures"] = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : report.measures) json["measures"][name] = value;
-  return json.dump(2) + "\n";
 }
 
 const char* consequence_text(Consequence consequence) {
@@ -97,24 +72,23 @@ ExitCode inspect_command(const InspectFlags& flags) {
   const InspectionReport report =
       inspect_path(flags.path, flags.reading.options(),
                    {given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()});
-  print(flags.json ? report_json(report) : report_text(report));
+  print(flags.json ? to_json(report).dump(2) + "\n" : report_text(report));
   return report.has_findings() ? ExitCode::kWorse : ExitCode::kDone;
 }
 
 }  // namespace
 
-Command add_inspect_command(CLI::App& program) {
+Command add_inspect_command(CommandParser& program) {
   auto flags = std::make_shared<InspectFlags>();
-  CLI::App* app = program.add_subcommand("inspect", "Finds mistakes in the data of a sequence");
-  app->allow_extras();
-  SequenceFlags::add_place_to(*app, flags->path);
-  flags->reading.add_to(*app);
-  app->add_flag("--json", flags->json, "Print findings and measured numbers as JSON");
-  app->add_flag("--list", flags->list, "Say what is looked for, and what to do about each");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options =
+      program.add_command("inspect", "Finds mistakes in the data of a sequence");
+  SequenceFlags::add_place_to(options, flags->path);
+  flags->reading.add_to(options);
+  options.add_flag("--json", flags->json, "Print findings and measured numbers as JSON");
+  options.add_flag("--list", flags->list, "Say what is looked for, and what to do about each");
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "One line per finding: what is wrong, where, what was expected, what to do; then the sensor\n"
       "as it is named and as the scans show it. About thirty scans are read, and the poses, times\n"
       "and file sizes of all.\n"
@@ -124,7 +98,7 @@ Command add_inspect_command(CLI::App& program) {
       "  raymoval inspect KITTI:kitti-05 --json\n"
       "  raymoval inspect scans/ --poses odometry.txt\n"
       "  raymoval inspect --list");
-  return {app, [flags] { return inspect_command(*flags); }};
+  return {options.name(), [flags] { return inspect_command(*flags); }};
 }
 
 }  // namespace raymoval

@@ -10,7 +10,7 @@
 #include "datasets/simulation/scene/library.h"
 #include "datasets/simulation/scene/scene_text.h"
 #include "eval/columns/columns.h"
-#include "eval/protocol.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -131,17 +131,15 @@ ExitCode list(const std::string& what) {
 
 }  // namespace
 
-Command add_list_command(CLI::App& program) {
+Command add_list_command(CommandParser& program) {
   auto what = std::make_shared<std::string>();
-  CLI::App* app =
-      program.add_subcommand("list", "Names methods, protocols, sensors, scenes, suites");
-  app->allow_extras();
-  app->add_option("what", *what,
-                  "methods, variants, protocols, columns, sensors, sequences, scenes, "
-                  "simulated-sensors or suites; all if empty")
-      ->type_name("WHAT");
-  app->footer("Examples:\n  raymoval list\n  raymoval list variants");
-  return {app, [what] { return list(*what); }};
+  CommandOptions options =
+      program.add_command("list", "Names methods, protocols, sensors, scenes, suites");
+  options.add("what", "WHAT", *what,
+              "methods, variants, protocols, columns, sensors, sequences, scenes, "
+              "simulated-sensors or suites; all if empty");
+  options.set_footer("Examples:\n  raymoval list\n  raymoval list variants");
+  return {options.name(), [what] { return list(*what); }};
 }
 
 }  // namespace raymoval

@@ -5,11 +5,12 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
+#include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/picture/charts/chart_file.h"
 #include "benchmark/picture/charts/charts.h"
-#include "benchmark/picture/map_picture.h"
-#include "benchmark/picture/overview_picture.h"
-#include "benchmark/picture/range_picture.h"
+#include "benchmark/picture/maps/map_picture.h"
+#include "benchmark/picture/maps/overview_picture.h"
+#include "benchmark/picture/maps/range_picture.h"
 #include "benchmark/run/kept_run.h"
 #include "core/files/files.h"
 #include "core/parallel.h"
@@ -120,7 +121,7 @@ const KeptCell& chosen_cell(const PictureFlags& flags, const KeptRun& run) {
                   chosen(flags.method, "--method", methods));
 }
 
-RgbImage drawn(const PictureFlags& flags, Progress& progress) {
+Canvas drawn(const PictureFlags& flags, Progress& progress) {
   MapPictureOptions map;
   RangePictureOptions range;
   OverviewOptions overview;
@@ -182,53 +183,43 @@ ExitCode draw(const PictureFlags& flags) {
   return ExitCode::kDone;
 }
 
-void add_options(CLI::App& app, PictureFlags& flags) {
-  app.add_option("run", flags.run, "Run folder")->type_name("RUN");
-  app.add_option("-o,--output", flags.output,
-                 "The picture: .png; charts also .svg and .pdf; replaced if there")
-      ->type_name("FILE");
-  app.add_option("--kind", flags.kind,
-                 "map (default), range, overview, pr-rr, stages or accuracy-time; the last three "
-                 "are charts")
-      ->type_name("KIND");
-  app.add_option("--only", flags.only,
-                 "map: only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the "
-                 "two; default: all but the controls")
-      ->type_name("PATTERN")
-      ->allow_extra_args(false);
-  app.add_option("--sequence", flags.sequence, "range, overview: which sequence")
-      ->type_name("NAME");
-  app.add_option("--method", flags.method, "range, overview: which method")->type_name("NAME");
-  app.add_option("--scan", flags.scan, "range: number of the frame (default: the middle one)")
-      ->type_name("FRAME");
-  app.add_option("--crop", flags.crop,
-                 "map, overview: XMIN:XMAX:YMIN:YMAX, metres of the world frame (default: the "
-                 "sensor's way and 30 m around)")
-      ->type_name("WINDOW");
-  app.add_option("--resolution", flags.resolution, "map: metres per pixel (default: by --size)")
-      ->type_name("METRES");
-  app.add_option("--size", flags.size,
-                 "Longer side of a panel, or width of range images, in pixels")
-      ->type_name("PIXELS");
-  app.add_option("--protocol", flags.protocol, "pr-rr, accuracy-time: by this protocol")
-      ->type_name("NAME");
-  app.add_option("--data", flags.data,
-                 "Where the sequences are, if no longer where the run found them: a sequence's "
-                 "folder, or one that holds them by name")
-      ->type_name("PATH");
-  app.add_option("--threads", flags.threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app.add_flag("--quiet", flags.quiet, "No progress");
+void add_options(CommandOptions& options, PictureFlags& flags) {
+  options.add("run", "RUN", flags.run, "Run folder");
+  options.add("-o,--output", "FILE", flags.output,
+              "The picture: .png; charts also .svg and .pdf; replaced if there");
+  options.add("--kind", "KIND", flags.kind,
+              "map (default), range, overview, pr-rr, stages or accuracy-time; the last three "
+              "are charts");
+  options.add("--only", "PATTERN", flags.only,
+              "map: only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the "
+              "two; default: all but the controls");
+  options.add("--sequence", "NAME", flags.sequence, "range, overview: which sequence");
+  options.add("--method", "NAME", flags.method, "range, overview: which method");
+  options.add("--scan", "FRAME", flags.scan,
+              "range: number of the frame (default: the middle one)");
+  options.add("--crop", "WINDOW", flags.crop,
+              "map, overview: XMIN:XMAX:YMIN:YMAX, metres of the world frame (default: the "
+              "sensor's way and 30 m around)");
+  options.add("--resolution", "METRES", flags.resolution,
+              "map: metres per pixel (default: by --size)");
+  options.add("--size", "PIXELS", flags.size,
+              "Longer side of a panel, or width of range images, in pixels");
+  options.add("--protocol", "NAME", flags.protocol, "pr-rr, accuracy-time: by this protocol");
+  options.add("--data", "PATH", flags.data,
+              "Where the sequences are, if no longer where the run found them: a sequence's "
+              "folder, or one that holds them by name");
+  options.add("--threads", "N", flags.threads, "At most so many threads (default: all cores)");
+  options.add_flag("--quiet", flags.quiet, "No progress");
 }
 
 }  // namespace
 
-Command add_picture_command(CLI::App& program) {
+Command add_picture_command(CommandParser& program) {
   auto flags = std::make_shared<PictureFlags>();
-  CLI::App* app = program.add_subcommand("picture", "Draws a run: maps, range images, charts");
-  app->allow_extras();
-  add_options(*app, *flags);
-  app->footer(
+  CommandOptions options =
+      program.add_command("picture", "Draws a run: maps, range images, charts");
+  add_options(options, *flags);
+  options.set_footer(
       "Pictures of points need a run with --keep-removals, and its data where the run found it. "
       "Shown are\nthe points that are evaluated. A pixel of a map shows what became of most of its "
       "moving points, if at\nleast a tenth as many move as stand, else of most of its static ones. "
@@ -243,7 +234,7 @@ Command add_picture_command(CLI::App& program) {
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval picture out/simulated -o rates.pdf --kind pr-rr\n"
       "  raymoval picture out/simulated -o stages.svg --kind stages");
-  return {app, [flags] { return draw(*flags); }};
+  return {options.name(), [flags] { return draw(*flags); }};
 }
 
 }  // namespace raymoval

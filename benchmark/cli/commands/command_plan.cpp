@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
+#include "benchmark/cli/commands/output_json.h"
 #include "benchmark/cli/suite_flags.h"
-#include "benchmark/run/runner.h"
 
 namespace raymoval {
 namespace {
@@ -15,20 +15,8 @@ struct PlanFlags {
   bool quiet = false;
 };
 
-std::string json_line(const PlannedCell& cell, bool looked) {
-  nlohmann::ordered_json json;
-  json["cell"] = cell.sequence + "/" + cell.name;
-  json["key"] = nullptr;
-  if (!cell.key.empty()) json["key"] = cell.key;
-  json["sequence"] = cell.sequence;
-  json["name"] = cell.name;
-  json["method"] = cell.method;
-  json["scans"] = cell.scans;
-  json["folder"] = cell.folder.generic_string();
-  if (looked) {
-    json["to_run"] = cell.to_run;
-    json["why"] = cell.why;
-  }
+/// A JSON value on a line of its own.
+std::string line_of(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -43,28 +31,28 @@ ExitCode plan(const PlanFlags& flags) {
   const std::vector<PlannedCell> cells = plan_suite(suite, options).cells;
   progress.end();
   std::string text;
-  for (const PlannedCell& cell : cells) text += json_line(cell, !flags.out.empty());
+  for (const PlannedCell& cell : cells) text += line_of(to_json(cell, !flags.out.empty()));
   print(text);
   return ExitCode::kDone;
 }
 
 }  // namespace
 
-Command add_plan_command(CLI::App& program) {
+Command add_plan_command(CommandParser& program) {
   auto flags = std::make_shared<PlanFlags>();
-  CLI::App* app = program.add_subcommand("plan", "Prints the cells of a suite, a JSON line each");
-  app->allow_extras();
-  flags->what.add_to(*app);
-  app->add_option("--out", flags->out, "Run folder: also tell which cells are to be run, and why")
-      ->type_name("DIR");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options =
+      program.add_command("plan", "Prints the cells of a suite, a JSON line each");
+  flags->what.add_to(options);
+  options.add("--out", "DIR", flags->out,
+              "Run folder: also tell which cells are to be run, and why");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "Each cell may be run on a machine of its own: raymoval run SUITE --out DIR --cell KEY.\n"
       "Then raymoval run SUITE --out DIR --collect makes the tables.\n"
       "Examples:\n"
       "  raymoval plan simulated-quick\n"
       "  raymoval plan suite.json --out out/suite");
-  return {app, [flags] { return plan(*flags); }};
+  return {options.name(), [flags] { return plan(*flags); }};
 }
 
 }  // namespace raymoval

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
 #include "benchmark/report/page.h"
 #include "benchmark/report/page_files.h"
 #include "benchmark/result/result_sets.h"
-#include "benchmark/result/sealed_json.h"
 #include "benchmark/run/kept_run.h"
 #include "benchmark/tables/published_columns.h"
 #include "core/files/files.h"
@@ -79,9 +77,8 @@ ExitCode report(const ReportFlags& flags) {
   request.with_points = with_points(flags);
   const std::filesystem::path results = find_results(flags.run);
   const KeptRun run(flags.run, flags.data);
-  const nlohmann::ordered_json json = read_sealed(results);
   request.run = &run;
-  request.content = {&json, &run.results(), papers()};
+  request.content = {&run.record(), &run.results(), papers()};
   std::optional<Comparison> comparison;
   if (!flags.against.empty()) {
     comparison =
@@ -108,25 +105,20 @@ ExitCode report(const ReportFlags& flags) {
 
 }  // namespace
 
-Command add_report_command(CLI::App& program) {
+Command add_report_command(CommandParser& program) {
   auto flags = std::make_shared<ReportFlags>();
-  CLI::App* app = program.add_subcommand("report", "Writes a run as a page with a 3-D view");
-  app->allow_extras();
-  app->add_option("run", flags->run, "Run folder")->type_name("RUN");
-  app->add_option("-o,--output", flags->output, "Page to write (default: RUN/report.html)")
-      ->type_name("FILE");
-  app->add_option("--against", flags->against, "Another run: tell what changed against it")
-      ->type_name("RUN");
-  app->add_option("--data", flags->data, "Where the sequences are, if not where the run read them")
-      ->type_name("PATH");
-  app->add_option("--points", flags->points,
-                  "At most so many points in the page (default: 1000000)")
-      ->type_name("N");
-  app->add_flag("--no-points", flags->no_points, "Without the 3-D view");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options = program.add_command("report", "Writes a run as a page with a 3-D view");
+  options.add("run", "RUN", flags->run, "Run folder");
+  options.add("-o,--output", "FILE", flags->output, "Page to write (default: RUN/report.html)");
+  options.add("--against", "RUN", flags->against, "Another run: tell what changed against it");
+  options.add("--data", "PATH", flags->data,
+              "Where the sequences are, if not where the run read them");
+  options.add("--points", "N", flags->points,
+              "At most so many points in the page (default: 1000000)");
+  options.add_flag("--no-points", flags->no_points, "Without the 3-D view");
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "The page is one file: it needs no network, opens from disk, and can be handed around. Its\n"
       "3-D view shows the points of each cell that was run with --keep-removals.\n"
       "Examples:\n"
@@ -134,7 +126,7 @@ Command add_report_command(CLI::App& program) {
       "  raymoval report out/town\n"
       "  raymoval report out/town -o town.html --points 300000\n"
       "  raymoval report out/new --against out/old --no-points -o changes.html");
-  return {app, [flags] { return report(*flags); }};
+  return {options.name(), [flags] { return report(*flags); }};
 }
 
 }  // namespace raymoval

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/suite_flags.h"
-#include "benchmark/cli/terminal_colour.h"
 #include "benchmark/process/method_process.h"
 #include "benchmark/result/results.h"
-#include "benchmark/result/sealed_json.h"
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/run/plan.h"
 #include "benchmark/run/runner.h"
 #include "benchmark/tables/run_summary.h"
 #include "core/files/files.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -75,11 +75,11 @@ ExitCode explain(const Suite& suite, const RunOptions& options) {
   const SuitePlan plan = plan_suite(suite, options);
   for (const PlannedCell& cell : plan.cells) {
     to_run += cell.to_run ? 1 : 0;
-    text += (cell.to_run ? "run   " : "keep  ") + cell.sequence + " / " + cell.name +
+    text += (cell.to_run ? "run   " : "keep  ") + cell.cell.title() +
             (cell.why.empty() ? "" : ": " + cell.why) + "\n";
   }
-  for (const FolderCell& cell : plan.earlier) {
-    text += "keep  " + cell.sequence + " / " + cell.name + ": of an earlier run\n";
+  for (const CellName& cell : plan.earlier) {
+    text += "keep  " + cell.title() + ": of an earlier run\n";
   }
   for (const std::string& cell : plan.left_out) text += "leave out of the tables  " + cell + "\n";
   options.progress->end();
@@ -112,7 +112,7 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
 /// What stands in the run folder, in one screen.
 std::string end_of_run(const std::string& out) {
   const std::filesystem::path file = std::filesystem::path(out) / "results.json";
-  return run_summary(parse_results(read_sealed(file), file.string()), out);
+  return run_summary(shown_results(read_results(file)), out);
 }
 
 ExitCode run(const RunFlags& flags) {
@@ -144,37 +144,34 @@ ExitCode run(const RunFlags& flags) {
   return summary->good() && whole ? ExitCode::kDone : ExitCode::kWorse;
 }
 
-void add_options(CLI::App& app, RunFlags& flags) {
-  flags.what.add_to(app);
-  app.add_option("--out", flags.out, "Folder for the results")->type_name("DIR");
-  app.add_option(
-         "--only", flags.only,
-         "Run only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two")
-      ->type_name("PATTERN")
-      ->allow_extra_args(false);
-  app.add_option("--shard", flags.shard, "Run only part I of N equal parts, for several machines")
-      ->type_name("I/N");
-  app.add_option("--cell", flags.cell,
-                 "Run one cell: its key (see `raymoval plan`) or SEQUENCE/NAME; no tables")
-      ->type_name("CELL");
-  app.add_flag("--collect", flags.collect, "Run nothing, make tables of the cells that are there");
-  app.add_flag("--explain", flags.explain, "Run nothing, tell which cells would be and why");
-  app.add_flag("--keep-removals", flags.keep_removals, "Keep what each method removed, per scan");
-  app.add_flag("--in-process", flags.in_process,
-               "Run methods within this process, for a debugger: a crash ends all");
-  app.add_flag("--overwrite", flags.overwrite,
-               "Replace the results of another suite, or on other data, in the folder");
-  app.add_flag("--quiet", flags.quiet, "No progress");
+void add_options(CommandOptions& options, RunFlags& flags) {
+  flags.what.add_to(options);
+  options.add("--out", "DIR", flags.out, "Folder for the results");
+  options.add("--only", "PATTERN", flags.only,
+              "Run only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two");
+  options.add("--shard", "I/N", flags.shard,
+              "Run only part I of N equal parts, for several machines");
+  options.add("--cell", "CELL", flags.cell,
+              "Run one cell: its key (see `raymoval plan`) or SEQUENCE/NAME; no tables");
+  options.add_flag("--collect", flags.collect,
+                   "Run nothing, make tables of the cells that are there");
+  options.add_flag("--explain", flags.explain, "Run nothing, tell which cells would be and why");
+  options.add_flag("--keep-removals", flags.keep_removals,
+                   "Keep what each method removed, per scan");
+  options.add_flag("--in-process", flags.in_process,
+                   "Run methods within this process, for a debugger: a crash ends all");
+  options.add_flag("--overwrite", flags.overwrite,
+                   "Replace the results of another suite, or on other data, in the folder");
+  options.add_flag("--quiet", flags.quiet, "No progress");
 }
 
 }  // namespace
 
-Command add_run_command(CLI::App& program) {
+Command add_run_command(CommandParser& program) {
   auto flags = std::make_shared<RunFlags>();
-  CLI::App* app = program.add_subcommand("run", "Runs methods on sequences and scores them");
-  app->allow_extras();
-  add_options(*app, *flags);
-  app->footer(
+  CommandOptions options = program.add_command("run", "Runs methods on sequences and scores them");
+  add_options(options, *flags);
+  options.set_footer(
       "The controls noop, remove-all and oracle are added and checked. Each method runs in a "
       "process of\nits own: one that crashes or exceeds a limit is a failed cell, and the rest "
       "goes on. So is one whose data or program changes during the run. The folder\nof --out is "
@@ -201,14 +198,13 @@ Command add_run_command(CLI::App& program) {
       "  raymoval run simulated --out out/simulated --explain\n"
       "  raymoval run simulated --out out/part2 --shard 2/3\n"
       "  raymoval run suite.json --out out/suite --threads 2 --only 'town/raymoval:*'");
-  return {app, [flags] { return run(*flags); }};
+  return {options.name(), [flags] { return run(*flags); }};
 }
 
-Command add_run_method_command(CLI::App& program) {
-  CLI::App* app = program.add_subcommand(kMethodCommand, "");
-  app->group("");  // Not shown.
-  app->allow_extras();
-  return {app, [] {
+Command add_run_method_command(CommandParser& program) {
+  CommandOptions options = program.add_command(kMethodCommand, "");
+  options.hide();
+  return {options.name(), [] {
             serve_method(program_methods());
             return ExitCode::kDone;
           }};

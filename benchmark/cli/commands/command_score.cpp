@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/commands.h"
-#include "benchmark/result/cell.h"
+#include "benchmark/cli/commands/output_json.h"
 #include "benchmark/result/removal_files.h"
-#include "benchmark/result/results.h"
-#include "benchmark/result/score_json.h"
 #include "benchmark/result/sealed_json.h"
-#include "benchmark/run/sequence_bench.h"
+#include "benchmark/run/scored_sequence.h"
 #include "core/files/files.h"
 #include "core/parallel.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
-
-using nlohmann::ordered_json;
 
 struct ScoreFlags {
   std::string sequence, predictions, cloud, voxel, json, threads;
@@ -30,165 +25,58 @@ struct ScoreFlags {
   bool quiet = false;
 };
 
-/// "PR 99.422 (99.131 to 99.689)".
-std::string rate_line(const Rate& rate, const ProtocolResult& result) {
-  std::string text = "  " + rate.name + " ";
-  if (!rate.value) return text + "n/a (" + rate.undefined_reason + ")\n";
-  text += rate_text(rate.name, *rate.value);
-  if (!result.intervals) return text + "\n";
-  for (const Interval& interval : result.intervals->rates) {
-    if (interval.name != rate.name || !interval.low || !interval.high) continue;
-    text += " (" + rate_text(rate.name, *interval.low) + " to " +
-            rate_text(rate.name, *interval.high) + ")";
+std::vector<ProtocolRecord> protocol_records(const ScoredSequence& scored) {
+  std::vector<ProtocolRecord> records;
+  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
+    const Protocol& protocol = scored.protocol(i);
+    records.push_back(
+        {scored.protocol_name(i), protocol.name(), protocol.version(), protocol.options()});
   }
-  return text + "\n";
+  return records;
 }
 
-std::string result_text(const std::string& name, const ProtocolResult& result) {
-  std::string text = "protocol " + name + "\n";
-  for (const auto& [count, value] : result.counts) {
-    text += "  " + count + " " + std::to_string(value) + "\n";
+void score_predictions(ScoredSequence& scored, const std::string& folder, Progress& progress,
+                       ScoreRecord& record) {
+  const ScanSource& scans = *scored.sequence().scans;
+  progress.begin("reading predictions", scans.size());
+  const std::atomic<bool>& cancelled = interrupt_flag();
+  const MaskStore masks = read_removals(folder, scans, [&] {
+    progress.advance();
+    if (cancelled) throw Cancelled();
+  });
+  for (const ProtocolRecord& protocol : protocol_records(scored)) {
+    record.protocols.push_back({protocol, scored.score(record.protocols.size(), masks)});
   }
-  for (const Rate& rate : result.rates) text += rate_line(rate, result);
-  for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
-  return text;
+  record.columns = {kColumnsVersion, scored.columns(masks)};
 }
 
-/// Columns without a band, as "precision 61.662 (25796 of 41835)".
-std::string columns_text(const std::vector<ColumnValue>& columns) {
-  std::string text = "points\n";
-  for (const ColumnValue& column : columns) {
-    if (column.name.find("range ") != std::string::npos ||
-        column.name.find("height ") != std::string::npos) {
-      continue;
-    }
-    const auto percent = column.share.percent();
-    text += "  " + column.name + " " +
-            (percent ? fixed_text(*percent, 3) + " (" + std::to_string(column.share.part) + " of " +
-                           std::to_string(column.share.whole) + ")"
-                     : "n/a (" + column.undefined_reason + ")") +
-            "\n";
+std::vector<ProtocolResult> score_cloud(ScoredSequence& scored, const CloudEstimate& cloud) {
+  std::vector<ProtocolResult> results;
+  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
+    if (interrupt_flag()) throw Cancelled();
+    results.push_back(scored.score_cloud(i, cloud));
   }
-  return text;
+  return results;
 }
 
-std::string oracle_text(const ProtocolResult& result) {
-  std::string text = "  the oracle\'s cloud, scored in the same way:";
-  for (const Rate& rate : result.rates) {
-    text += " " + rate.name + " " + (rate.value ? rate_text(rate.name, *rate.value) : "n/a");
+/// @param voxel_m to which the cloud was thinned; 0 if it was not
+void score_cloud(ScoredSequence& scored, const std::string& file, double voxel_m,
+                 Progress& progress, ScoreRecord& record) {
+  const CleanedCloud cloud = read_cleaned_cloud(file, lattice_origin(*scored.sequence().scans));
+  record.cloud = {cloud.stored, cloud.non_finite, voxel_m, cloud.warnings()};
+  std::vector<ProtocolResult> oracle;
+  {
+    const CleanedCloud best = oracle_cloud(scored.sequence(), voxel_m, &progress);
+    oracle = score_cloud(scored, CloudEstimate(best.points));
   }
-  return text + "\n";
+  const CloudEstimate estimate(cloud.points);
+  const std::vector<ProtocolResult> results = score_cloud(scored, estimate);
+  for (const ProtocolRecord& protocol : protocol_records(scored)) {
+    const std::size_t i = record.protocols.size();
+    record.protocols.push_back({protocol, results[i], oracle[i]});
+  }
+  record.columns = {kColumnsVersion, scored.columns(scored.cloud_masks(estimate))};
 }
-
-/// Why a cloud may be better by some rates than one without a single mistake; empty if it is not.
-std::string above_oracle_text(const ProtocolResult& result, const ProtocolResult& oracle) {
-  std::vector<std::string> above;
-  for (const Rate& rate : result.rates) {
-    const auto perfect = oracle.rate(rate.name);
-    if (!rate.value || !perfect) continue;
-    const double gain = *rate.value - *perfect;
-    if (rate_spec(rate.name).higher_is_better ? gain > 0.0 : gain < 0.0) above.push_back(rate.name);
-  }
-  if (above.empty()) return "";
-  return "  " + join(above) +
-         " above the oracle\'s: that is no upper limit. The oracle keeps every static point; where "
-         "one stands\n  beside a moving one, that one counts as kept, and thinning puts means "
-         "where "
-         "no point was.\n";
-}
-
-/// What is scored, and what it is scored by.
-class Scoring {
- public:
-  Scoring(SequenceBench& bench, const ScoreFlags& flags, Progress& progress)
-      : bench_(bench), flags_(flags), progress_(progress) {
-    record_["schema_version"] = kSchemaVersion;
-    record_["data"] = bench.sequence().record();
-    record_["data"]["scans"] = bench.sequence().scans->size();
-  }
-
-  ordered_json run() {
-    record_["labels"] = flags_.cloud.empty() ? "index" : "nearest";
-    record_["protocols"] = ordered_json::array();
-    const MaskStore masks = flags_.cloud.empty() ? score_predictions() : score_cloud();
-    const std::vector<ColumnValue> columns = bench_.columns(masks);
-    record_["columns"] = columns_record(columns);
-    text_ += columns_text(columns);
-    progress_.end();
-    print(text_);
-    return std::move(record_);
-  }
-
- private:
-  MaskStore score_predictions() {
-    const ScanSource& scans = *bench_.sequence().scans;
-    progress_.begin("reading predictions", scans.size());
-    const std::atomic<bool>& cancelled = interrupt_flag();
-    MaskStore masks = read_removals(flags_.predictions, scans, [&] {
-      progress_.advance();
-      if (cancelled) throw Cancelled();
-    });
-    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
-      add_result(i, bench_.score(i, masks), nullptr);
-    }
-    return masks;
-  }
-
-  MaskStore score_cloud() {
-    const double voxel = flags_.voxel.empty() ? 0.0 : parse_positive("--voxel", flags_.voxel);
-    const CleanedCloud cloud =
-        read_cleaned_cloud(flags_.cloud, lattice_origin(*bench_.sequence().scans));
-    record_["cloud"]["points"] = cloud.stored;
-    record_["cloud"]["non_finite"] = cloud.non_finite;
-    record_["cloud"]["oracle_voxel_m"] = voxel;
-    record_["cloud"]["warnings"] = cloud.warnings();
-    text_ += "cloud of " + grouped_text(cloud.stored) +
-             " points: labels by nearest neighbour, points present within 0.05 m; not to be "
-             "compared with scores by index\n";
-    for (const std::string& warning : cloud.warnings()) text_ += "  warning: " + warning + "\n";
-    const std::vector<ProtocolResult> oracles = oracle_results(voxel);
-    const CloudEstimate estimate(cloud.points);
-    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
-      if (interrupt_flag()) throw Cancelled();
-      add_result(i, bench_.score_cloud(i, estimate), &oracles[i]);
-    }
-    return bench_.cloud_masks(estimate);
-  }
-
-  /// What the oracle's cloud scores by each protocol.
-  std::vector<ProtocolResult> oracle_results(double voxel) {
-    const CleanedCloud oracle = oracle_cloud(bench_.sequence(), voxel, &progress_);
-    const CloudEstimate estimate(oracle.points);
-    std::vector<ProtocolResult> results;
-    for (std::size_t i = 0; i < bench_.protocol_count(); ++i) {
-      if (interrupt_flag()) throw Cancelled();
-      results.push_back(bench_.score_cloud(i, estimate));
-    }
-    return results;
-  }
-
-  /// @param oracle what the oracle's cloud scored; null where labels go by index
-  void add_result(std::size_t i, const ProtocolResult& result, const ProtocolResult* oracle) {
-    ordered_json scored;
-    scored["name"] = bench_.protocol_name(i);
-    scored["protocol"] = bench_.protocol(i).name();
-    scored["version"] = bench_.protocol(i).version();
-    scored["options"] = to_json(bench_.protocol(i).options());
-    scored.update(to_json(result));
-    text_ += result_text(bench_.protocol_name(i), result);
-    if (oracle != nullptr) {
-      scored["oracle"] = to_json(*oracle)["rates"];
-      text_ += oracle_text(*oracle) + above_oracle_text(result, *oracle);
-    }
-    record_["protocols"].push_back(std::move(scored));
-  }
-
-  SequenceBench& bench_;
-  const ScoreFlags& flags_;
-  Progress& progress_;
-  ordered_json record_;
-  std::string text_;
-};
 
 void check_flags(const ScoreFlags& flags) {
   if (flags.sequence.empty())
@@ -212,11 +100,12 @@ void check_flags(const ScoreFlags& flags) {
 std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
   Suite suite;
   for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");
-  if (suite.protocols.empty()) add_protocol(suite, "erasor", "");
+  if (suite.protocols.empty()) add_protocol(suite, default_protocol(), "");
   for (ProtocolRequest& request : suite.protocols) {
-    if (flags.cloud.empty() || request.protocol != "erasor") continue;
-    set_parameter(request.options, "label_mode", std::string("nearest"));
-    set_parameter(request.options, "lift", 0.0);
+    if (flags.cloud.empty()) continue;
+    for (const auto& [key, value] : protocol_entry(request.protocol).cloud_options) {
+      set_parameter(request.options, key, value);
+    }
   }
   for (const std::string& text : flags.settings) {
     set_protocol_option(suite.protocols, parse_setting(text));
@@ -230,43 +119,43 @@ ExitCode score(const ScoreFlags& flags) {
   const int given = parse_threads(flags.threads);
   const int threads = given > 0 ? given : hardware_threads();
   Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
-  SequenceBench bench(open_sequence(flags.sequence, flags.reading.options(),
-                                    {threads, &progress, &interrupt_flag()}),
-                      protocols, threads, &progress);
-  const ordered_json record = Scoring(bench, flags, progress).run();
-  if (!flags.json.empty()) write_atomically(flags.json, json_text(record));
+  ScoredSequence scored(open_sequence(flags.sequence, flags.reading.options(),
+                                      {threads, &progress, &interrupt_flag()}),
+                        protocols, threads, &progress);
+  ScoreRecord record;
+  record.data = scored.sequence().record();
+  if (flags.cloud.empty()) {
+    score_predictions(scored, flags.predictions, progress, record);
+  } else {
+    const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
+    score_cloud(scored, flags.cloud, voxel, progress, record);
+  }
+  progress.end();
+  print(score_text(record));
+  if (!flags.json.empty()) write_atomically(flags.json, json_text(to_json(record)));
   return ExitCode::kDone;
 }
 
 }  // namespace
 
-Command add_score_command(CLI::App& program) {
+Command add_score_command(CommandParser& program) {
   auto flags = std::make_shared<ScoreFlags>();
-  CLI::App* app =
-      program.add_subcommand("score", "Scores label files or a cleaned map made by any program");
-  app->allow_extras();
-  SequenceFlags::add_place_to(*app, flags->sequence);
-  app->add_option("--predictions", flags->predictions,
-                  "Folder of NNNNNN.label files: 251 to 259 = removed, others kept")
-      ->type_name("DIR");
-  app->add_option("--cloud", flags->cloud,
-                  "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses")
-      ->type_name("FILE");
-  app->add_option("--voxel", flags->voxel,
-                  "Voxel to which the cloud was thinned; thins the oracle's likewise")
-      ->type_name("METRES");
-  app->add_option("--protocol", flags->protocols, "Protocol to score by (default: erasor)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  app->add_option("--set", flags->settings, "Option of a protocol: protocol:NAME.key=value")
-      ->type_name("SETTING")
-      ->allow_extra_args(false);
-  flags->reading.add_to(*app);
-  app->add_option("--json", flags->json, "Write counts and rates to this file")->type_name("FILE");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options =
+      program.add_command("score", "Scores label files or a cleaned map made by any program");
+  SequenceFlags::add_place_to(options, flags->sequence);
+  options.add("--predictions", "DIR", flags->predictions,
+              "Folder of NNNNNN.label files: 251 to 259 = removed, others kept");
+  options.add("--cloud", "FILE", flags->cloud,
+              "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
+  options.add("--voxel", "METRES", flags->voxel,
+              "Voxel to which the cloud was thinned; thins the oracle's likewise");
+  options.add("--protocol", "NAME", flags->protocols, "Protocol to score by (default: erasor)");
+  options.add("--set", "SETTING", flags->settings, "Option of a protocol: protocol:NAME.key=value");
+  flags->reading.add_to(options);
+  options.add("--json", "FILE", flags->json, "Write counts and rates to this file");
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "
       "perfect\ncleaner below 100. What the oracle's cloud scores in the same way is shown beside "
       "it. That is a\nyardstick and no upper limit: whoever also removes static points beside "
@@ -279,7 +168,7 @@ Command add_score_command(CLI::App& program) {
       "--set protocol:dynamicmap.distance=0.1\n"
       "  raymoval score --sequence street --predictions "
       "out/street/cells/street/raymoval-online/removals --json score.json");
-  return {app, [flags] { return score(*flags); }};
+  return {options.name(), [flags] { return score(*flags); }};
 }
 
 }  // namespace raymoval

@@ -77,31 +77,25 @@ ExitCode simulate(const SimulateFlags& flags) {
 
 }  // namespace
 
-Command add_simulate_command(CLI::App& program) {
+Command add_simulate_command(CommandParser& program) {
   auto flags = std::make_shared<SimulateFlags>();
-  CLI::App* app = program.add_subcommand("simulate", "Writes a simulated sequence with labels");
-  app->allow_extras();
-  app->add_option("scene", flags->scene, "Scene (see `raymoval list scenes`) or scene file, *.json")
-      ->type_name("SCENE");
-  app->add_option("-o,--output", flags->output, "New folder, in SemanticKITTI layout")
-      ->type_name("DIR");
-  app->add_option("--seed", flags->seed, "Of movers, noise and poses (default: 1)")->type_name("N");
-  app->add_option("--scans", flags->scans, "Number of scans (default: the scene's own)")
-      ->type_name("N");
-  app->add_option("--sensor", flags->sensor,
-                  "Sensor (see `raymoval list simulated-sensors`) or sensor file")
-      ->type_name("NAME");
-  app->add_flag("--perfect-poses", flags->perfect_poses, "Poses without error: --pose-noise 0");
-  app->add_option("--pose-noise", flags->pose_noise,
-                  "Severity of the error of poses; 1 (default) is a good odometry")
-      ->type_name("FACTOR");
-  app->add_option("--rolling", flags->rolling,
-                  "skewed or corrected: a scan is taken while the sensor moves (default: none)")
-      ->type_name("KIND");
-  app->add_option("--threads", flags->threads, "At most so many threads (default: all cores)")
-      ->type_name("N");
-  app->add_flag("--quiet", flags->quiet, "No progress");
-  app->footer(
+  CommandOptions options =
+      program.add_command("simulate", "Writes a simulated sequence with labels");
+  options.add("scene", "SCENE", flags->scene,
+              "Scene (see `raymoval list scenes`) or scene file, *.json");
+  options.add("-o,--output", "DIR", flags->output, "New folder, in SemanticKITTI layout");
+  options.add("--seed", "N", flags->seed, "Of movers, noise and poses (default: 1)");
+  options.add("--scans", "N", flags->scans, "Number of scans (default: the scene's own)");
+  options.add("--sensor", "NAME", flags->sensor,
+              "Sensor (see `raymoval list simulated-sensors`) or sensor file");
+  options.add_flag("--perfect-poses", flags->perfect_poses, "Poses without error: --pose-noise 0");
+  options.add("--pose-noise", "FACTOR", flags->pose_noise,
+              "Severity of the error of poses; 1 (default) is a good odometry");
+  options.add("--rolling", "KIND", flags->rolling,
+              "skewed or corrected: a scan is taken while the sensor moves (default: none)");
+  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
+  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.set_footer(
       "The same options give the same bytes. Commands that take a sequence also take a scene by\n"
       "name, such as town:scans=60,seed=3, and simulate it once into the cache folder\n"
       "($RAYMOVAL_CACHE, else ~/.cache/raymoval). Machines and containers may share the cache.\n"
@@ -109,7 +103,7 @@ Command add_simulate_command(CLI::App& program) {
       "  raymoval simulate town -o data/town\n"
       "  raymoval simulate crossing -o data/crossing --scans 60 --sensor vlp16 --seed 3\n"
       "  raymoval simulate highway -o data/skewed --rolling skewed --perfect-poses");
-  return {app, [flags] { return simulate(*flags); }};
+  return {options.name(), [flags] { return simulate(*flags); }};
 }
 
 }  // namespace raymoval

@@ -2,14 +2,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/cli/commands.h"
 #include "benchmark/result/result_sets.h"
-#include "benchmark/result/sealed_json.h"
-#include "benchmark/tables/accuracy_tables.h"
+#include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/column_tables.h"
 #include "benchmark/tables/published_columns.h"
+#include "benchmark/tables/rate_tables.h"
 #include "benchmark/tables/tables.h"
 #include "core/text.h"
 
@@ -95,68 +94,54 @@ std::string tables_text(const TableFlags& flags, RunResults& results) {
 ExitCode show(const TableFlags& flags) {
   check_flags(flags);
   const std::filesystem::path file = find_results(flags.run);
-  nlohmann::ordered_json json = read_sealed(file);
   if (flags.format == "json") {
-    (void)parse_results(json, file.string());
-    print(json_text(json));
+    print(read_results_text(file));
     return ExitCode::kDone;
   }
-  (void)parse_results(json, file.string());  // What is damaged is told before cells are chosen.
-  choose_cells(json, flags.only);
-  RunResults results = parse_results(json, file.string());
+  ResultsRecord record = read_results(file);
+  choose_cells(record, flags.only);
+  RunResults results = shown_results(record);
   choose_protocols(results, flags.protocols);
   print(flags.format == "csv" ? results_csv(results) : tables_text(flags, results));
   return ExitCode::kDone;
 }
 
-void add_look_options(CLI::App& app, TableFlags& flags) {
-  app.add_option("--layout", flags.layout,
-                 "methods (default): a row for each method, a block for each sequence; paper: a "
-                 "row for each sequence, methods side by side")
-      ->type_name("LAYOUT");
-  app.add_option("--rates", flags.rates,
-                 "Only these rates, in this order, such as PR,RR,F1; ms is the time per scan "
-                 "(default: the main rates)")
-      ->type_name("RATES")
-      ->allow_extra_args(false);
-  app.add_option("--decimals", flags.decimals,
-                 "Digits behind the point: 2, or of one rate, such as F1=3")
-      ->type_name("N")
-      ->allow_extra_args(false);
-  app.add_option("--names", flags.names,
-                 "What a method or sequence is called in the tables: 'NAME=SHOWN', or a file with "
-                 "such lines")
-      ->type_name("NAMES")
-      ->allow_extra_args(false);
-  app.add_option("--sort", flags.sort,
-                 "Best first by this rate or ms, by name, or none (default): as in the run")
-      ->type_name("RATE");
-  app.add_flag("--disagreements", flags.disagreements,
-               "Also the ranks on each sequence, and which pairs of methods protocols rank "
-               "otherwise");
+void add_look_options(CommandOptions& options, TableFlags& flags) {
+  options.add("--layout", "LAYOUT", flags.layout,
+              "methods (default): a row for each method, a block for each sequence; paper: a "
+              "row for each sequence, methods side by side");
+  options.add("--rates", "RATES", flags.rates,
+              "Only these rates, in this order, such as PR,RR,F1; ms is the time per scan "
+              "(default: the main rates)");
+  options.add("--decimals", "N", flags.decimals,
+              "Digits behind the point: 2, or of one rate, such as F1=3");
+  options.add("--names", "NAMES", flags.names,
+              "What a method or sequence is called in the tables: 'NAME=SHOWN', or a file with "
+              "such lines");
+  options.add("--sort", "RATE", flags.sort,
+              "Best first by this rate or ms, by name, or none (default): as in the run");
+  options.add_flag("--disagreements", flags.disagreements,
+                   "Also the ranks on each sequence, and which pairs of methods protocols rank "
+                   "otherwise");
 }
 
 }  // namespace
 
-Command add_table_command(CLI::App& program) {
+Command add_table_command(CommandParser& program) {
   auto flags = std::make_shared<TableFlags>();
-  CLI::App* app = program.add_subcommand("table", "Prints the tables of a run");
-  app->allow_extras();
-  app->add_option("run", flags->run, "Run folder")->type_name("RUN");
-  app->add_option("--format", flags->format, "md (default), csv, tex or json")->type_name("FORMAT");
-  app->add_option("--protocol", flags->protocols, "Only what this protocol says (default: all)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  app->add_option("--only", flags->only,
-                  "Only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two")
-      ->type_name("PATTERN")
-      ->allow_extra_args(false);
-  add_look_options(*app, *flags);
-  app->add_flag("--columns", flags->columns,
-                "Instead of the usual tables: points by class, range and height, and intervals");
-  app->add_flag("--with-published", flags->with_published,
-                "Set papers' rows beside those of sequences that the papers have");
-  app->footer(
+  CommandOptions options = program.add_command("table", "Prints the tables of a run");
+  options.add("run", "RUN", flags->run, "Run folder");
+  options.add("--format", "FORMAT", flags->format, "md (default), csv, tex or json");
+  options.add("--protocol", "NAME", flags->protocols,
+              "Only what this protocol says (default: all)");
+  options.add("--only", "PATTERN", flags->only,
+              "Only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two");
+  add_look_options(options, *flags);
+  options.add_flag("--columns", flags->columns,
+                   "Instead of the usual tables: points by class, range and height, and intervals");
+  options.add_flag("--with-published", flags->with_published,
+                   "Set papers' rows beside those of sequences that the papers have");
+  options.set_footer(
       "Examples:\n"
       "  raymoval table out/street\n"
       "  raymoval table out/street --columns\n"
@@ -165,7 +150,7 @@ Command add_table_command(CLI::App& program) {
       "  raymoval table out/kitti --with-published --format tex\n"
       "  raymoval table out/kitti --layout paper --decimals 3 --names 'raymoval:offline=Raymoval "
       "(ours)' --format tex");
-  return {app, [flags] { return show(*flags); }};
+  return {options.name(), [flags] { return show(*flags); }};
 }
 
 }  // namespace raymoval

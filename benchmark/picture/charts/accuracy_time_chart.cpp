@@ -5,14 +5,15 @@
 #include "benchmark/picture/charts/chart_parts.h"
 #include "core/text.h"
 #include "eval/averages.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
 constexpr double kPlotWidth = 460.0;
 constexpr double kPlotHeight = 330.0;
-constexpr double kLeft = 64.0;
-constexpr double kTop = 48.0;
+constexpr double kPlotLeft = 64.0;
+constexpr double kPlotTop = 48.0;
 constexpr double kMost = 30.0;  ///< Names in the list beside the plot before it gets longer.
 
 /// A method in the plane of time and accuracy.
@@ -26,23 +27,20 @@ struct Spot {
 };
 
 std::vector<Spot> spots_of(const RunResults& results, const std::string& protocol,
-                           const std::string& rate) {
+                           const RateSpec& rate) {
   std::vector<Spot> spots;
   for (const ChartSeries& series : chart_series(results)) {
     for (const std::string& cell : series.cells) {
-      std::vector<std::optional<double>> values;
-      for (const std::string& sequence : results.sequences) {
-        values.push_back(rate_value(results.find(sequence, cell, protocol), rate));
-      }
-      const Mean mean = mean_of(values);
+      const Mean mean = mean_of(results.values(cell, protocol, rate.name));
       const auto ms = results.ms_per_scan(cell);
       if (mean.value && ms && *ms > 0.0)
         spots.push_back(
             {cell, sweep_label(results, cell), series.look, *ms, *mean.value, mean.segments});
     }
   }
-  std::stable_sort(spots.begin(), spots.end(),
-                   [](const Spot& a, const Spot& b) { return a.accuracy > b.accuracy; });
+  std::stable_sort(spots.begin(), spots.end(), [&](const Spot& a, const Spot& b) {
+    return rate.is_better(a.accuracy, b.accuracy);
+  });
   return spots;
 }
 
@@ -54,35 +52,36 @@ std::string time_text(double ms) {
 /// Time to the right by its logarithm, accuracy upwards.
 class Plot {
  public:
-  Plot(SvgWriter& svg, const std::vector<Spot>& spots, const RateTrio& trio)
-      : svg_(svg), spots_(spots) {
-    double least = trio.mean_unit, from = spots.front().ms, to = from;
+  /// @param spots the most accurate one first
+  Plot(SvgWriter& svg, const std::vector<Spot>& spots, const RateSpec& rate)
+      : svg_(svg), spots_(spots), rate_(rate) {
+    double from = spots.front().ms, to = from;
     for (const Spot& spot : spots) {
-      least = std::min(least, spot.accuracy);
       from = std::min(from, spot.ms);
       to = std::max(to, spot.ms);
     }
-    up_ = axis_up_to(least, trio.mean_unit);
+    up_ = axis_to_best(rate, spots.back().accuracy);
     low_ = std::floor(std::log10(from) - 0.02);
     high_ = std::max(low_ + 1.0, std::ceil(std::log10(to) + 0.02));
   }
 
-  void draw_axes(const std::string& rate) {
+  void draw_axes() {
     for (const double mark : up_.marks()) {
-      svg_.line(kLeft, to_y(mark), kLeft + kPlotWidth, to_y(mark), "grid");
-      svg_.text(kLeft - 6.0, to_y(mark) + 4.0, length_text(mark), "soft end");
+      svg_.line(kPlotLeft, to_y(mark), kPlotLeft + kPlotWidth, to_y(mark), "grid");
+      svg_.text(kPlotLeft - 6.0, to_y(mark) + 4.0, length_text(mark), "soft end");
     }
     for (double power = low_; power <= high_; power += 1.0) {
       const double x = to_x(std::pow(10.0, power));
-      svg_.line(x, kTop, x, kTop + kPlotHeight, "grid");
-      svg_.text(x, kTop + kPlotHeight + 16.0, length_text(std::pow(10.0, power)), "soft middle");
+      svg_.line(x, kPlotTop, x, kPlotTop + kPlotHeight, "grid");
+      svg_.text(x, kPlotTop + kPlotHeight + 16.0, length_text(std::pow(10.0, power)),
+                "soft middle");
     }
-    svg_.polyline(point_text(kLeft, kTop) + point_text(kLeft, kTop + kPlotHeight) +
-                      point_text(kLeft + kPlotWidth, kTop + kPlotHeight),
+    svg_.polyline(point_text(kPlotLeft, kPlotTop) + point_text(kPlotLeft, kPlotTop + kPlotHeight) +
+                      point_text(kPlotLeft + kPlotWidth, kPlotTop + kPlotHeight),
                   "axis");
-    svg_.text(kLeft + kPlotWidth / 2.0, kTop + kPlotHeight + 34.0, "ms per scan (log scale)",
-              "middle");
-    svg_.text_upwards(18.0, kTop + kPlotHeight / 2.0, "mean " + rate);
+    svg_.text(kPlotLeft + kPlotWidth / 2.0, kPlotTop + kPlotHeight + 34.0,
+              "ms per scan (log scale)", "middle");
+    svg_.text_upwards(18.0, kPlotTop + kPlotHeight / 2.0, "mean " + rate_.name);
   }
 
   /// Joins the methods than which none is both faster and more accurate.
@@ -92,23 +91,23 @@ class Plot {
     std::stable_sort(order.begin(), order.end(),
                      [](const Spot* a, const Spot* b) { return a->ms < b->ms; });
     std::string points;
-    double best = -1.0;
+    std::optional<double> best;
     for (const Spot* spot : order) {
-      if (spot->accuracy <= best) continue;
-      if (best >= 0.0) points += point_text(to_x(spot->ms), to_y(best));
+      if (best && !rate_.is_better(spot->accuracy, *best)) continue;
+      if (best) points += point_text(to_x(spot->ms), to_y(*best));
       best = spot->accuracy;
-      points += point_text(to_x(spot->ms), to_y(best));
+      points += point_text(to_x(spot->ms), to_y(*best));
     }
     svg_.polyline(points, "front");
   }
 
-  void draw_markers(const std::string& rate) {
+  void draw_markers() {
     for (const Spot& spot : spots_) {
       svg_.marker(to_x(spot.ms), to_y(spot.accuracy), spot.look,
-                  spot.cell + ": mean " + rate + " " + rate_text(rate, spot.accuracy) + ", " +
-                      time_text(spot.ms) + " per scan");
+                  spot.cell + ": mean " + rate_.name + " " + rate_text(rate_.name, spot.accuracy) +
+                      ", " + time_text(spot.ms) + " per scan");
     }
-    PointLabels labels(kLeft, kLeft + kPlotWidth + 20.0, kTop - 6.0);
+    PointLabels labels(kPlotLeft, kPlotLeft + kPlotWidth + 20.0, kPlotTop - 6.0);
     for (const Spot& spot : spots_) {
       labels.add_point(to_x(spot.ms), to_y(spot.accuracy));
       labels.add_text(to_x(spot.ms), to_y(spot.accuracy), colour_text(spot.look.colour),
@@ -119,14 +118,15 @@ class Plot {
 
  private:
   [[nodiscard]] double to_x(double ms) const {
-    return kLeft + (std::log10(ms) - low_) / (high_ - low_) * kPlotWidth;
+    return kPlotLeft + (std::log10(ms) - low_) / (high_ - low_) * kPlotWidth;
   }
   [[nodiscard]] double to_y(double value) const {
-    return kTop + kPlotHeight - up_.at(value, kPlotHeight);
+    return kPlotTop + kPlotHeight - up_.at(value, kPlotHeight);
   }
 
   SvgWriter& svg_;
   const std::vector<Spot>& spots_;
+  const RateSpec& rate_;
   LinearAxis up_;
   double low_ = 0.0, high_ = 1.0;
 };
@@ -134,11 +134,11 @@ class Plot {
 /// The methods beside the plot, best first. @return width and height
 std::pair<double, double> draw_list(SvgWriter& svg, const std::vector<Spot>& spots,
                                     const std::string& rate, std::size_t of) {
-  const double x = kLeft + kPlotWidth + 34.0;
+  const double x = kPlotLeft + kPlotWidth + 34.0;
   double name_width = 60.0;
   for (const Spot& spot : spots) name_width = std::max(name_width, text_width(spot.cell));
   const double row = spots.size() > kMost ? 15.0 : 19.0;
-  double y = kTop + 8.0;
+  double y = kPlotTop + 8.0;
   for (const Spot& spot : spots) {
     svg.marker(x, y - 4.0, spot.look, spot.cell);
     svg.text(x + 13.0, y, spot.cell);
@@ -157,22 +157,22 @@ std::pair<double, double> draw_list(SvgWriter& svg, const std::vector<Spot>& spo
 
 std::string accuracy_time_chart(const RunResults& results, const std::string& protocol,
                                 ChartPlace place) {
-  const auto trio = rate_trio(results, protocol);
-  if (!trio) return "";
-  const std::vector<Spot> spots = spots_of(results, protocol, trio->mean);
+  const std::optional<RateSpec> rate = chart_rates(results, protocol).headline;
+  if (!rate) return "";
+  const std::vector<Spot> spots = spots_of(results, protocol, *rate);
   if (spots.empty()) return "";
   const std::string title = "Accuracy against time by protocol " + protocol;
   SvgWriter svg("accuracy-time-" + protocol, title,
-                "A marker for each method: mean " + trio->mean +
+                "A marker for each method: mean " + rate->name +
                     " over the sequences upwards, milliseconds per scan to the right. The line "
                     "joins the methods that no other one beats in both.");
   svg.text(16.0, 22.0, title, "bold");
-  Plot plot(svg, spots, *trio);
-  plot.draw_axes(trio->mean);
+  Plot plot(svg, spots, *rate);
+  plot.draw_axes();
   plot.draw_front();
-  plot.draw_markers(trio->mean);
-  const auto [width, list_end] = draw_list(svg, spots, trio->mean, results.sequences.size());
-  return svg.finish(width, std::max(kTop + kPlotHeight + 48.0, list_end + 10.0), place);
+  plot.draw_markers();
+  const auto [width, list_end] = draw_list(svg, spots, rate->name, results.sequences.size());
+  return svg.finish(width, std::max(kPlotTop + kPlotHeight + 48.0, list_end + 10.0), place);
 }
 
 }  // namespace raymoval

@@ -10,15 +10,15 @@
 
 namespace raymoval {
 
-/// Endings of the files that a chart can be written to.
+/// The endings of the files that a chart can be written to.
 const std::vector<std::string>& chart_extensions();
 
-/// Makes a chart for a place.
+/// Makes a chart as SVG for a place.
 using DrawChart = std::function<std::string(ChartPlace)>;
 
-/// Writes a chart as .svg, .pdf or .png (two pixels for each of the chart's) by the ending of
-/// `path`. The file is there whole or not at all; the same chart gives the same bytes on machines
-/// with the same fonts.
+/// Writes a chart as .svg, .pdf or .png, as the ending of `path` says. A PNG has two pixels for
+/// each pixel of the chart. The file is there whole or not at all. The same chart gives the same
+/// bytes on machines with the same fonts.
 /// @throws DataError if it cannot be drawn or written
 void write_chart(const std::filesystem::path& path, const DrawChart& draw);
 

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "eval/rate.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
-/// What a sweep is of, and over what; the cell itself if it is none of a sweep.
+/// What is swept over what, or the name of a cell that is no point of a sweep.
 std::string series_name(const RunResults& results, const std::string& cell) {
   const SweptCell* point = results.swept(cell);
   return point == nullptr ? cell : point->sweep();
@@ -58,25 +58,24 @@ std::vector<ChartSeries> chart_series(const RunResults& results) {
   return series;
 }
 
-std::optional<RateTrio> rate_trio(const RunResults& results, const std::string& protocol) {
-  RateTrio trio;
-  for (const std::string& rate : results.rates_of(protocol)) {
-    const RateSpec spec = rate_spec(rate);
-    if (spec.role == RateRole::kKept && trio.up.empty()) trio.up = rate;
-    if (spec.role == RateRole::kRemoved && trio.across.empty()) trio.across = rate;
-    if (spec.role == RateRole::kHeadline && trio.mean.empty()) {
-      trio.mean = rate;
-      trio.mean_unit = spec.full();
-    }
-  }
-  if (trio.up.empty() || trio.across.empty() || trio.mean.empty()) return std::nullopt;
-  return trio;
+std::optional<double> ChartRates::harmonic_unit() const {
+  if (!kept || !removed || !headline || !headline->formula) return std::nullopt;
+  const RateFormula& formula = *headline->formula;
+  const bool of_both = formula.first == kept->name && formula.second == removed->name;
+  const bool percents = kept->unit == RateUnit::kPercent && removed->unit == RateUnit::kPercent;
+  if (!of_both || !percents || formula.rule != "harmonic_mean") return std::nullopt;
+  return headline->largest();
 }
 
-std::optional<double> rate_value(const ResultRow* row, const std::string& rate) {
-  if (row == nullptr || row->status != "ok") return std::nullopt;
-  const auto found = row->rates.find(rate);
-  return found == row->rates.end() ? std::nullopt : found->second;
+ChartRates chart_rates(const RunResults& results, const std::string& protocol) {
+  ChartRates rates;
+  for (const std::string& name : results.rates_of(protocol)) {
+    const RateSpec spec = rate_spec(name);
+    if (spec.role == RateRole::kKept && !rates.kept) rates.kept = spec;
+    if (spec.role == RateRole::kRemoved && !rates.removed) rates.removed = spec;
+    if (spec.role == RateRole::kHeadline && !rates.headline) rates.headline = spec;
+  }
+  return rates;
 }
 
 std::vector<double> LinearAxis::marks() const {
@@ -87,10 +86,15 @@ std::vector<double> LinearAxis::marks() const {
   return values;
 }
 
-LinearAxis axis_up_to(double least, double high) {
-  const double span = std::max(high - least, 0.02 * high);
-  LinearAxis axis{0.0, high, round_step(span / 3.0)};
-  axis.low = std::max(0.0, std::floor((least - 0.03 * span) / axis.step) * axis.step);
+LinearAxis axis_to_best(const RateSpec& rate, double worst) {
+  const double end = rate.largest();
+  const double span = std::max(std::abs(rate.best() - worst), 0.02 * end);
+  LinearAxis axis{0.0, end, round_step(span / 3.0), !rate.higher_is_better};
+  if (rate.higher_is_better) {
+    axis.low = std::max(0.0, std::floor((worst - 0.03 * span) / axis.step) * axis.step);
+  } else {
+    axis.high = std::min(end, std::ceil((worst + 0.03 * span) / axis.step) * axis.step);
+  }
   return axis;
 }
 
@@ -99,6 +103,10 @@ LinearAxis axis_from_zero(double most) {
   LinearAxis axis{0.0, end, round_step(end / 3.0)};
   axis.high = std::ceil(end / axis.step - 1e-9) * axis.step;
   return axis;
+}
+
+std::string axis_title(const RateSpec& rate) {
+  return rate.name + (rate.unit == RateUnit::kPercent ? ", %" : "");
 }
 
 std::string sweep_label(const RunResults& results, const std::string& cell) {

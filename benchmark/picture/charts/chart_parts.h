@@ -7,6 +7,7 @@
 
 #include "benchmark/picture/charts/svg.h"
 #include "benchmark/result/results.h"
+#include "eval/rate.h"
 
 namespace raymoval {
 
@@ -20,34 +21,36 @@ struct ChartSeries {
 /// The run's methods without controls.
 std::vector<ChartSeries> chart_series(const RunResults& results);
 
-/// The two rates that are played against each other and their harmonic mean, with what 1 is in it.
-struct RateTrio {
-  std::string across;  ///< "RR" or "DA", percent.
-  std::string up;      ///< "PR" or "SA", percent.
-  std::string mean;    ///< "F1", a fraction, or "HA", percent.
-  double mean_unit = 1.0;
+/// The rates of a protocol that charts show.
+struct ChartRates {
+  std::optional<RateSpec> kept, removed, headline;
+
+  /// What 1 is in the headline rate if it is the harmonic mean of the other two; else nothing, and
+  /// no lines of equal headline rate can be drawn.
+  [[nodiscard]] std::optional<double> harmonic_unit() const;
 };
 
-/// Those of a protocol; nothing if it has neither trio.
-std::optional<RateTrio> rate_trio(const RunResults& results, const std::string& protocol);
-
-/// The value of a rate; nothing if it is undefined or the cell has no result.
-std::optional<double> rate_value(const ResultRow* row, const std::string& rate);
+/// The first rate of each role that results by `protocol` have.
+ChartRates chart_rates(const RunResults& results, const std::string& protocol);
 
 /// An axis from `low` to `high`, drawn over `length` pixels, with marks every `step`.
 struct LinearAxis {
   double low = 0.0, high = 100.0, step = 20.0;
+  bool reversed = false;  ///< Whether it is drawn from `high` to `low`.
 
   [[nodiscard]] double at(double value, double length) const {
-    return (value - low) / (high - low) * length;
+    return (reversed ? high - value : value - low) / (high - low) * length;
   }
   [[nodiscard]] std::vector<double> marks() const;
 };
 
-/// An axis that ends at `high` and begins at a round number below `least`.
-LinearAxis axis_up_to(double least, double high);
+/// An axis that ends at the best value of a rate and begins at a round number beyond `worst`.
+LinearAxis axis_to_best(const RateSpec& rate, double worst);
 /// An axis that begins at 0 and ends at a round number above `most`.
 LinearAxis axis_from_zero(double most);
+
+/// The name of a rate with its unit: "PR, %".
+std::string axis_title(const RateSpec& rate);
 
 /// Texts beside points, where they cover neither points nor each other if there is room.
 class PointLabels {

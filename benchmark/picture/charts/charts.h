@@ -7,34 +7,36 @@
 
 namespace raymoval {
 
-/// Where a chart is to stand.
+/// Where a chart will be shown.
 enum class ChartPlace {
-  kFile,  ///< A file of its own, with its style; follows the viewer's light or dark scheme.
-  kPage,  ///< Within an HTML page that has `chart_style()` in a style sheet.
-  kPrint  ///< To be drawn on paper or as pixels: light, without custom properties.
+  kFile,  ///< In a file of its own, with its style. It follows the viewer's light or dark scheme.
+  kPage,  ///< In an HTML page whose style sheet holds `chart_style()`.
+  kPrint  ///< On paper or as pixels: light, and without CSS custom properties.
 };
 
-/// The charts' style for a page. Colours of text, lines and ground are the custom properties
-/// --chart-ink, --chart-soft, --chart-line and --chart-ground: a page with a switch between light
-/// and dark sets them again; without that they follow prefers-color-scheme.
+/// The charts' style for a page. The colours of text, lines and ground are the custom properties
+/// --chart-ink, --chart-soft, --chart-line and --chart-ground. They follow prefers-color-scheme; a
+/// page with a switch between light and dark sets them itself.
 std::string chart_style();
 
-// Each chart is one <svg> element, well-formed XML, text as text, with <title> and <desc>, which
-// assistive programs read; a marker or bar tells its values in a <title> of its own. The same
-// results give the same bytes. Controls are left out.
+// Each chart is one <svg> element of well-formed XML. Its text is text, and it has a <title> and a
+// <desc> for assistive programs; each marker or bar has a <title> with its values. The same results
+// give the same bytes. Controls are left out.
 
-/// One rate against the other for each sequence, with lines of equal F1: PR upwards and RR to the
-/// right, or SA and DA with lines of equal HA where the protocol has those. A panel per sequence;
-/// the points of a sweep are joined. Empty text if no cell has both rates.
+/// Shows what is kept (upwards) against what is removed (to the right). Each sequence has a panel.
+/// There are lines of equal headline rate if that is the harmonic mean of both, and a line joins the
+/// points of a sweep. The text is empty if no cell has both rates.
 /// @param protocol its name in the run
 std::string pr_rr_chart(const RunResults& results, const std::string& protocol,
                         ChartPlace place = ChartPlace::kFile);
 
-/// Milliseconds per scan of each method by stage, as stacked bars. Empty text without times.
+/// Shows the milliseconds per scan of each method by stage, as stacked bars. The text is empty if
+/// there are no times.
 std::string stage_chart(const RunResults& results, ChartPlace place = ChartPlace::kFile);
 
-/// Mean F1 (or HA) over the sequences against milliseconds per scan (logarithmic), with the line of
-/// methods that no other one beats in both. Empty text if no method has both.
+/// Shows the mean of the headline rate over the sequences against milliseconds per scan
+/// (logarithmic). A line joins the methods that no other one beats in both. The text is empty if no
+/// method has both.
 /// @param protocol its name in the run
 std::string accuracy_time_chart(const RunResults& results, const std::string& protocol,
                                 ChartPlace place = ChartPlace::kFile);

@@ -4,6 +4,7 @@
 
 #include "benchmark/picture/charts/chart_parts.h"
 #include "core/text.h"
+#include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
@@ -11,22 +12,26 @@ namespace {
 constexpr double kSide = 230.0;  ///< Of a panel's plot.
 constexpr double kPitch = 304.0;
 constexpr double kRowPitch = 322.0;
-constexpr double kLeft = 56.0;
-constexpr double kTop = 70.0;
+constexpr double kPanelLeft = 56.0;
+constexpr double kPanelTop = 70.0;
 
 /// Where the points of all sequences lie.
 struct Frame {
-  RateTrio trio;
+  RateSpec across_rate, up_rate;
+  std::optional<RateSpec> headline;
+  std::optional<double> harmonic_unit;  ///< See `ChartRates`.
   LinearAxis across, up;
 };
 
-std::string point_hint(const ResultRow& row, const RateTrio& trio) {
+std::string point_hint(const ResultRow& row, const Frame& frame) {
+  std::vector<RateSpec> rates = {frame.up_rate, frame.across_rate};
+  if (frame.headline) rates.push_back(*frame.headline);
   std::string text = row.cell + " on " + row.sequence;
   const char* separator = ": ";
-  for (const std::string& rate : {trio.up, trio.across, trio.mean}) {
-    const auto value = rate_value(&row, rate);
+  for (const RateSpec& rate : rates) {
+    const auto value = row.rate(rate.name);
     if (!value) continue;
-    text += separator + rate + " " + rate_text(rate, *value);
+    text += separator + rate.name + " " + rate_text(rate.name, *value);
     separator = ", ";
   }
   return text;
@@ -53,12 +58,12 @@ class Panel {
     svg_.polyline(
         point_text(x_, y_) + point_text(x_, y_ + kSide) + point_text(x_ + kSide, y_ + kSide),
         "axis");
-    svg_.text(x_ + kSide / 2.0, y_ + kSide + 32.0, frame_.trio.across + ", %", "middle");
-    svg_.text_upwards(x_ - 36.0, y_ + kSide / 2.0, frame_.trio.up + ", %");
+    svg_.text(x_ + kSide / 2.0, y_ + kSide + 32.0, axis_title(frame_.across_rate), "middle");
+    svg_.text_upwards(x_ - 36.0, y_ + kSide / 2.0, axis_title(frame_.up_rate));
   }
 
-  /// Where the harmonic mean of both rates is `level` percent: up = level across / (2 across -
-  /// level).
+  /// Draws where the harmonic mean of both rates is `level` percent: up = level across / (2 across
+  /// - level).
   void draw_iso_line(double level) {
     const double at_hundred = level * 100.0 / (200.0 - level);  // One rate where the other is 100.
     const double low = frame_.up.low;
@@ -83,17 +88,17 @@ class Panel {
     std::vector<const ResultRow*> rows;
     for (const std::string& cell : series.cells) {
       const ResultRow* row = results.find(sequence, cell, protocol);
-      const auto across = rate_value(row, frame_.trio.across);
-      const auto up = rate_value(row, frame_.trio.up);
+      if (row == nullptr) continue;
+      const auto across = row->rate(frame_.across_rate.name), up = row->rate(frame_.up_rate.name);
       if (!across || !up) continue;
       rows.push_back(row);
       joined += point_text(to_x(*across), to_y(*up));
     }
     if (rows.size() > 1) svg_.polyline(joined, "joined", colour_text(series.look.colour));
     for (const ResultRow* row : rows) {
-      const double x = to_x(*rate_value(row, frame_.trio.across));
-      const double y = to_y(*rate_value(row, frame_.trio.up));
-      svg_.marker(x, y, series.look, point_hint(*row, frame_.trio));
+      const double x = to_x(*row->rate(frame_.across_rate.name));
+      const double y = to_y(*row->rate(frame_.up_rate.name));
+      svg_.marker(x, y, series.look, point_hint(*row, frame_));
       labels_.add_point(x, y);
       labels_.add_text(x, y, series.name, sweep_label(results, row->cell));
     }
@@ -108,7 +113,7 @@ class Panel {
  private:
   /// At the upper edge, or at the right one if the line does not get there; not over another label.
   void label_iso_line(double level, double at_hundred) {
-    const std::string text = length_text(level / 100.0 * frame_.trio.mean_unit);
+    const std::string text = length_text(level / 100.0 * *frame_.harmonic_unit);
     if (at_hundred < frame_.across.low) {
       if (at_hundred < frame_.up.low) return;  // It leaves the plot at the lower edge.
       svg_.text(x_ + kSide + 4.0, to_y(at_hundred) + 4.0, text, "soft");
@@ -129,26 +134,34 @@ class Panel {
 
 /// Axes that show every point; nothing if there is none.
 std::optional<Frame> frame_of(const RunResults& results, const std::string& protocol) {
-  const auto trio = rate_trio(results, protocol);
-  if (!trio) return std::nullopt;
-  double least_across = 100.0, least_up = 100.0;
+  const ChartRates rates = chart_rates(results, protocol);
+  if (!rates.kept || !rates.removed) return std::nullopt;
+  double worst_across = rates.removed->best(), worst_up = rates.kept->best();
   bool any = false;
   for (const ResultRow& row : results.rows) {
-    const auto across = rate_value(&row, trio->across);
-    const auto up = rate_value(&row, trio->up);
+    const auto across = row.rate(rates.removed->name), up = row.rate(rates.kept->name);
     if (row.protocol != protocol || row.control || !across || !up) continue;
-    least_across = std::min(least_across, *across);
-    least_up = std::min(least_up, *up);
+    if (rates.removed->is_better(worst_across, *across)) worst_across = *across;
+    if (rates.kept->is_better(worst_up, *up)) worst_up = *up;
     any = true;
   }
   if (!any) return std::nullopt;
-  return Frame{*trio, axis_up_to(least_across, 100.0), axis_up_to(least_up, 100.0)};
+  return Frame{*rates.removed,
+               *rates.kept,
+               rates.headline,
+               rates.harmonic_unit(),
+               axis_to_best(*rates.removed, worst_across),
+               axis_to_best(*rates.kept, worst_up)};
 }
 
-/// Distance of neighbouring lines of equal mean, percent.
-double iso_step(const Frame& frame) {
+/// Levels of the lines of equal harmonic mean, percent.
+std::vector<double> iso_levels(const Frame& frame) {
+  if (!frame.harmonic_unit) return {};
   const double span = std::max(100.0 - frame.up.low, 100.0 - frame.across.low);
-  return span > 40.0 ? 10.0 : (span > 15.0 ? 5.0 : (span > 5.0 ? 2.0 : 0.5));
+  const double step = span > 40.0 ? 10.0 : (span > 15.0 ? 5.0 : (span > 5.0 ? 2.0 : 0.5));
+  std::vector<double> levels;
+  for (double level = step; level < 100.0; level += step) levels.push_back(level);
+  return levels;
 }
 
 }  // namespace
@@ -157,20 +170,21 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol, 
   const auto frame = frame_of(results, protocol);
   if (!frame) return "";
   const std::vector<ChartSeries> series = chart_series(results);
-  const RateTrio& trio = frame->trio;
-  const std::string title = trio.up + " against " + trio.across + " by protocol " + protocol;
+  const std::string title =
+      frame->up_rate.name + " against " + frame->across_rate.name + " by protocol " + protocol;
+  const std::string dotted = frame->harmonic_unit ? frame->headline->name : "";
   SvgWriter svg("rates-" + protocol, title,
-                "A panel for each sequence, a marker for each method, dotted lines of equal " +
-                    trio.mean + ". Up and right is better.");
+                "A panel for each sequence, a marker for each method" +
+                    (dotted.empty() ? "" : ", dotted lines of equal " + dotted) +
+                    ". Up and right is better.");
   const std::size_t columns =
       std::min<std::size_t>(3, std::max<std::size_t>(1, results.sequences.size()));
-  svg.text(16.0, 22.0, title + "; dotted: equal " + trio.mean, "bold");
+  svg.text(16.0, 22.0, title + (dotted.empty() ? "" : "; dotted: equal " + dotted), "bold");
   for (std::size_t i = 0; i < results.sequences.size(); ++i) {
-    Panel panel(svg, *frame, kLeft + static_cast<double>(i % columns) * kPitch,
-                kTop + static_cast<double>(i / columns) * kRowPitch);
+    Panel panel(svg, *frame, kPanelLeft + static_cast<double>(i % columns) * kPitch,
+                kPanelTop + static_cast<double>(i / columns) * kRowPitch);
     panel.draw_axes(results.sequences[i]);
-    const double step = iso_step(*frame);
-    for (double level = step; level < 100.0; level += step) panel.draw_iso_line(level);
+    for (const double level : iso_levels(*frame)) panel.draw_iso_line(level);
     bool any = false;
     for (const ChartSeries& item : series) {
       any = panel.draw_series(item, results, results.sequences[i], protocol) || any;
@@ -182,7 +196,7 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol, 
       std::max(16.0 + std::max(1.0 * columns, 2.0) * kPitch,
                std::max(legend_width(series), text_width(title) * 1.1 + 130.0) + 32.0);
   const auto rows = static_cast<double>((results.sequences.size() + columns - 1) / columns);
-  const double legend_top = kTop - 14.0 + rows * kRowPitch;
+  const double legend_top = kPanelTop - 14.0 + rows * kRowPitch;
   const double legend = draw_legend(svg, series, 16.0, legend_top, width - 32.0);
   return svg.finish(width, legend_top + legend + 14.0, place);
 }

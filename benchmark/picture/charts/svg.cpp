@@ -3,27 +3,12 @@
 
 #include <cmath>
 
+#include "benchmark/tables/text_table.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
-
-/// Bytes of the UTF-8 sequence that starts at `at`; 0 if it is none that XML may hold.
-std::size_t sequence_length(const std::string& text, std::size_t at) {
-  const auto first = static_cast<unsigned char>(text[at]);
-  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
-  const std::size_t length = first >= 0xF0 ? 4 : (first >= 0xE0 ? 3 : 2);
-  if (first < 0xC2 || first > 0xF4 || at + length > text.size()) return 0;
-  std::uint32_t code = first & (0x7FU >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto next = static_cast<unsigned char>(text[at + i]);
-    if ((next & 0xC0U) != 0x80U) return 0;
-    code = code << 6U | (next & 0x3FU);
-  }
-  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  return overlong || surrogate || code > 0x10FFFF || (code & 0xFFFEU) == 0xFFFEU ? 0 : length;
-}
 
 /// A custom property of the charts' style, by its value in light and in dark.
 struct ChartColour {
@@ -45,27 +30,26 @@ std::string declarations(bool dark) {
   return join(all, ";");
 }
 
-std::string rules() {
-  const std::string in = ".raymoval-chart";
-  std::string css =
-      in + "{font-family:'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;font-size:12px}\n";
-  css += in + " .ground{fill:var(--chart-ground)}\n";
-  css += in + " text{fill:var(--chart-ink)}\n";
-  css += in + " .soft{fill:var(--chart-soft)}\n";
-  css += in + " .bold{font-weight:bold}\n";
-  css += in + " .middle{text-anchor:middle}\n" + in + " .end{text-anchor:end}\n";
-  css += in + " .small{font-size:10px}\n";
-  css += in + " .axis{stroke:var(--chart-soft);fill:none}\n";
-  css += in + " .grid{stroke:var(--chart-line);fill:none}\n";
-  css += in + " .iso{stroke:var(--chart-soft);stroke-dasharray:2 3;fill:none}\n";
-  css += in + " .front{stroke:var(--chart-soft);stroke-width:1.5;fill:none}\n";
-  css += in + " .joined{stroke-width:1.5;fill:none}\n";
-  return css + in + " .mark{stroke:var(--chart-ground);stroke-width:1}\n";
-}
+constexpr const char* kRules =
+    R"css(.raymoval-chart{font-family:'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;font-size:12px}
+.raymoval-chart .ground{fill:var(--chart-ground)}
+.raymoval-chart text{fill:var(--chart-ink)}
+.raymoval-chart .soft{fill:var(--chart-soft)}
+.raymoval-chart .bold{font-weight:bold}
+.raymoval-chart .middle{text-anchor:middle}
+.raymoval-chart .end{text-anchor:end}
+.raymoval-chart .small{font-size:10px}
+.raymoval-chart .axis{stroke:var(--chart-soft);fill:none}
+.raymoval-chart .grid{stroke:var(--chart-line);fill:none}
+.raymoval-chart .iso{stroke:var(--chart-soft);stroke-dasharray:2 3;fill:none}
+.raymoval-chart .front{stroke:var(--chart-soft);stroke-width:1.5;fill:none}
+.raymoval-chart .joined{stroke-width:1.5;fill:none}
+.raymoval-chart .mark{stroke:var(--chart-ground);stroke-width:1}
+)css";
 
 /// The rules with the colours of the light scheme in them, for programs without custom properties.
 std::string print_style() {
-  std::string css = rules();
+  std::string css = kRules;
   for (const ChartColour& colour : kChartColours) {
     const std::string use = "var(" + std::string(colour.name) + ")";
     for (std::size_t at = css.find(use); at != std::string::npos; at = css.find(use, at)) {
@@ -91,53 +75,18 @@ std::string shape_path(double x, double y, int shape) {
 
 }  // namespace
 
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = sequence_length(text, at);
-    if (length == 0) {
-      escaped += static_cast<unsigned char>(text[at]) < 0x20 ? " " : "\xEF\xBF\xBD";
-      ++at;
-      continue;
-    }
-    switch (text[at]) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += text.substr(at, length);
-    }
-    at += length;
-  }
-  return escaped;
-}
-
 SeriesLook series_look(std::size_t index, std::size_t count) {
   return {distinct_colours(count)[index], static_cast<int>(index % 5)};
 }
 
 std::string chart_style() {
   return ":root{" + declarations(false) + "}\n@media (prefers-color-scheme:dark){:root{" +
-         declarations(true) + "}}\n" + rules();
+         declarations(true) + "}}\n" + kRules;
 }
 
 SvgWriter::SvgWriter(const std::string& name, const std::string& title,
                      const std::string& description)
-    : name_("chart-" + name), title_(title), description_(description) {
-  for (char& c : name_) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-    if (!plain) c = '-';
-  }
-}
+    : name_("chart-" + id_text(name)), title_(title), description_(description) {}
 
 std::string length_text(double value) {
   const double rounded = std::round(value * 100.0) / 100.0;
@@ -149,9 +98,7 @@ std::string point_text(double x, double y) {
 }
 
 double text_width(const std::string& text) {
-  std::size_t characters = 0;
-  for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1 : 0;
-  return 6.8 * static_cast<double>(characters);
+  return 6.8 * static_cast<double>(character_count(text));
 }
 
 void SvgWriter::text(double x, double y, const std::string& content, const std::string& look) {

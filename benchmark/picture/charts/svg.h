@@ -4,21 +4,18 @@
 #include <cstddef>
 #include <string>
 
+#include "benchmark/picture/canvas/colours.h"
 #include "benchmark/picture/charts/charts.h"
-#include "benchmark/picture/colours.h"
 
 namespace raymoval {
 
-/// Text for XML: markup escaped, characters that XML does not have replaced.
-std::string xml_escaped(const std::string& text);
-
-/// How a series of points looks: colour and shape change together, so that neither alone has to
-/// tell two of them apart.
+/// How a series of points looks. Both colour and shape differ from one series to the next, so that
+/// readers need not see both.
 struct SeriesLook {
   Colour colour;
   int shape = 0;  ///< 0 .. 4: circle, square, diamond, triangle up, triangle down.
 };
-/// @param count of the series in the chart, no two of which have one colour
+/// @param count of the series in the chart, each of which has a colour of its own
 SeriesLook series_look(std::size_t index, std::size_t count);
 
 /// Writes an <svg> element piece by piece. Lengths in pixels, x to the right, y down, rounded to
@@ -30,7 +27,7 @@ class SvgWriter {
 
   /// @param look classes: "ink", "soft" (less important), "bold", "middle", "end" (anchors)
   void text(double x, double y, const std::string& content, const std::string& look = "ink");
-  /// Text that reads upwards, centred on a point.
+  /// Writes text upwards, centred on a point.
   void text_upwards(double x, double y, const std::string& content);
   /// @param look classes "axis", "grid", "iso" or "front"
   void line(double x0, double y0, double x1, double y1, const std::string& look);
@@ -38,10 +35,10 @@ class SvgWriter {
   void polyline(const std::string& points, const std::string& look, const std::string& stroke = "");
   void rectangle(double x, double y, double width, double height, const Colour& colour,
                  const std::string& hint);
-  /// A marker of about 10 pixels that tells `hint`.
+  /// Draws a marker of about 10 pixels; `hint` is shown when a pointer rests on it.
   void marker(double x, double y, const SeriesLook& look, const std::string& hint);
 
-  /// The whole element. @param height,width of the chart
+  /// The whole element. @param width,height of the chart
   [[nodiscard]] std::string finish(double width, double height, ChartPlace place) const;
 
  private:
@@ -53,7 +50,8 @@ std::string length_text(double value);
 /// "12.5,7 ".
 std::string point_text(double x, double y);
 
-/// About how wide a text of 12 pixels is; nobody knows the viewer's font.
+/// The approximate width of a text of 12 pixels. The viewer's font is not known, so it cannot be
+/// exact.
 double text_width(const std::string& text);
 
 }  // namespace raymoval

@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "methods/raymoval/kernels/scan_kernels.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 using std::numbers::pi;
 
@@ -92,8 +92,8 @@ const float* coordinates(const Scan& scan) {
 }  // namespace
 
 void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
-             ProjectedScan& projected, InstructionSet set) {
-  const kernels::Kernels kernel = kernels::kernels_for(set);
+             ProjectedScan& projected) {
+  const kernels::Kernels kernel = kernels::best_kernels();
   projected.range.resize(scan.size());
   projected.bin.resize(scan.size());
   kernels::Projection job;
@@ -126,9 +126,9 @@ void project(const Scan& scan, const AngularGrid& grid, double minimum_range, in
 }
 
 void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
-                 std::vector<VoxelIndex>& voxels, InstructionSet set) {
+                 std::vector<VoxelIndex>& voxels) {
   static_assert(sizeof(VoxelIndex) == 3 * sizeof(std::int32_t));
-  const kernels::Kernels kernel = kernels::kernels_for(set);
+  const kernels::Kernels kernel = kernels::best_kernels();
   voxels.resize(scan.size());
   kernels::Voxelisation job;
   job.points = coordinates(scan);
@@ -154,4 +154,4 @@ void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
   for_points(threads, scan.size(), kernel.lanes, vectors, single);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

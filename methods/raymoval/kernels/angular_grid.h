@@ -8,9 +8,8 @@
 
 #include "core/scan/scan.h"
 #include "core/scan/voxel_key.h"
-#include "core/simd/simd.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 inline constexpr float kNoRange = std::numeric_limits<float>::infinity();
 
@@ -70,17 +69,16 @@ struct ProjectedScan {
 
 /// Eqs 1-3 and 10. Points nearer than `minimum_range` (the ego vehicle) go to no bin.
 /// @param projected replaced; its memory is used again
-/// @param set which kernels to use; the answer is the same for all
 void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
-             ProjectedScan& projected, InstructionSet set = InstructionSet::kBest);
+             ProjectedScan& projected);
 
 /// Voxel of each point in the world lattice. @throws DataError as `voxel_index`
 void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
-                 std::vector<VoxelIndex>& voxels, InstructionSet set = InstructionSet::kBest);
+                 std::vector<VoxelIndex>& voxels);
 
 /// Columns `i + offset` of a full circle.
 inline int wrap_azimuth(int i, int azimuth_bins) {
   return i < 0 ? i + azimuth_bins : (i >= azimuth_bins ? i - azimuth_bins : i);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

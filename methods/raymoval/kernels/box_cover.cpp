@@ -11,7 +11,7 @@
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -145,13 +145,13 @@ void cover_brick(const Brick& brick, Change change, std::vector<BrickBox>& boxes
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "core/simd/instruction_sets.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 HWY_EXPORT(cover_brick);
 
@@ -161,8 +161,7 @@ void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
 }
 
 void mend_cover(const Brick& brick, Change change, std::vector<BrickBox>& boxes) {
-  static const auto kernel = RAYMOVAL_KERNEL_FOR(cover_brick, InstructionSet::kBest);
-  kernel(brick, change, boxes);
+  RAYMOVAL_BEST_KERNEL(cover_brick)(brick, change, boxes);
 }
 
 BrickBox tight_box(const Brick& brick) {
@@ -186,5 +185,5 @@ BrickBox tight_box(const Brick& brick) {
   return BrickBox::from(first, last);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method
 #endif

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// Voxels of one brick of 8 x 8 x 8: word = x, byte of the word = y, bit of the byte = z.
 struct Brick {
@@ -69,4 +69,4 @@ void mend_cover(const Brick& brick, Change change, std::vector<BrickBox>& boxes)
 /// Smallest box that holds all occupied voxels of a brick that has one.
 BrickBox tight_box(const Brick& brick);
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -8,7 +8,7 @@
 #include "methods/common/workspaces.h"
 #include "methods/raymoval/kernels/first_hit_sweep.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
 using sweep::BrickList;
@@ -188,11 +188,8 @@ std::array<int, 2> level_axes(const std::array<double, 3>& up) {
 
 class FirstHitCaster::State {
  public:
-  State(const AngularGrid& grid, const RayLimits& limits, InstructionSet set)
-      : grid_(grid),
-        limits_(limits),
-        tables_(tables_for(grid)),
-        kernels_(sweep::kernels_for(set)) {}
+  State(const AngularGrid& grid, const RayLimits& limits)
+      : grid_(grid), limits_(limits), tables_(tables_for(grid)), kernels_(sweep::best_kernels()) {}
 
   void cast(OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
     map.update_boxes(threads);
@@ -268,8 +265,8 @@ class FirstHitCaster::State {
   std::uint64_t images_ = 0;
 };
 
-FirstHitCaster::FirstHitCaster(const AngularGrid& grid, const RayLimits& limits, InstructionSet set)
-    : state_(std::make_unique<State>(grid, limits, set)) {}
+FirstHitCaster::FirstHitCaster(const AngularGrid& grid, const RayLimits& limits)
+    : state_(std::make_unique<State>(grid, limits)) {}
 FirstHitCaster::~FirstHitCaster() = default;
 FirstHitCaster::FirstHitCaster(FirstHitCaster&&) noexcept = default;
 FirstHitCaster& FirstHitCaster::operator=(FirstHitCaster&&) noexcept = default;
@@ -280,10 +277,9 @@ void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, int thr
 }
 
 FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
-                              const AngularGrid& grid, const RayLimits& limits, int threads,
-                              InstructionSet set) {
+                              const AngularGrid& grid, const RayLimits& limits, int threads) {
   FirstHitImage image;
-  FirstHitCaster(grid, limits, set).cast(map, T_world_sensor, threads, image);
+  FirstHitCaster(grid, limits).cast(map, T_world_sensor, threads, image);
   return image;
 }
 
@@ -304,4 +300,4 @@ std::optional<VoxelIndex> FirstHitImage::voxel(const OccupancyMap& map, int bin)
   return found->voxel;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

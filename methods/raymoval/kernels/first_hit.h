@@ -5,11 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/simd/simd.h"
 #include "methods/raymoval/kernels/angular_grid.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// A ray in the world frame (eq. 6): origin o = t, unit direction d = R u.
 struct Ray {
@@ -76,18 +75,19 @@ struct FirstHitImage {
 /// set.
 ///
 /// **What lost.** Milliseconds an image of 720 x 450 on one Zen 5 core, KITTI raw drive 0005, map
-/// of its static points, 38 steps a ray, same run (scripts/benchmark.sh has them all): this 2.8
-/// with AVX-512, 3.6 with AVX2, 6.4 with SSE4, 56 without vectors; OctoMap's castRay 367; walks on
-/// a hash set 191, on hashed bricks 156, on a dense block of bits 86; sixteen rays in lockstep on
-/// the dense block 28; the dense walk for those directions only in which the scan has a return 17.
+/// of its static points, 38 steps a ray, all in one run of November 2026: this 2.8 with AVX-512,
+/// 3.6 with AVX2, 6.4 with SSE4, 56 without vectors; OctoMap's castRay 367; walks on a hash set
+/// 191, on hashed bricks 156, on a dense block of bits 86; sixteen rays in lockstep on the dense
+/// block 28; the dense walk for those directions only in which the scan has a return 17. Of these,
+/// castRay and the walks on a hash set and on a dense block are still timed (scripts/benchmark.sh).
+/// raymoval:online as a whole took 9.5 a scan with this and 139 with the dense walk.
 /// Within this design: cutting boxes near the minimum range into voxels beforehand (3.0
 /// against 2.5), casting the rays concerned one by one (5.6 against 2.5), and covering changed
 /// bricks from scratch instead of mending their covers (upkeep 1.6 against 0.8 a scan; the image
 /// takes the same time).
 class FirstHitCaster {
  public:
-  FirstHitCaster(const AngularGrid& grid, const RayLimits& limits,
-                 InstructionSet set = InstructionSet::kBest);
+  FirstHitCaster(const AngularGrid& grid, const RayLimits& limits);
   ~FirstHitCaster();
   FirstHitCaster(FirstHitCaster&&) noexcept;
   FirstHitCaster& operator=(FirstHitCaster&&) noexcept;
@@ -103,7 +103,6 @@ class FirstHitCaster {
 
 /// One image with a caster of its own.
 FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
-                              const AngularGrid& grid, const RayLimits& limits, int threads,
-                              InstructionSet set = InstructionSet::kBest);
+                              const AngularGrid& grid, const RayLimits& limits, int threads);
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

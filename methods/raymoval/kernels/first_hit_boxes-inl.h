@@ -16,7 +16,7 @@
 #include "methods/raymoval/kernels/first_hit_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace raymoval::sweep {
+namespace raymoval::raymoval_method::sweep {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -176,7 +176,7 @@ void expand(const Frame& frame, std::size_t brick, Scratch& scratch) {
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace raymoval::sweep
+}  // namespace raymoval::raymoval_method::sweep
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -17,7 +17,7 @@
 #include "methods/raymoval/kernels/first_hit_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace raymoval::sweep {
+namespace raymoval::raymoval_method::sweep {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -216,7 +216,7 @@ void list_columns(const Frame& frame, int begin, int end, ColumnLists& lists) {
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace raymoval::sweep
+}  // namespace raymoval::raymoval_method::sweep
 HWY_AFTER_NAMESPACE();
 
 #endif

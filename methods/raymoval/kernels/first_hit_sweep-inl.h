@@ -20,7 +20,7 @@
 #include "methods/raymoval/kernels/first_hit_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace raymoval::sweep {
+namespace raymoval::raymoval_method::sweep {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -287,7 +287,7 @@ Kernels kernels() {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace raymoval::sweep
+}  // namespace raymoval::raymoval_method::sweep
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -11,12 +11,12 @@
 #if HWY_ONCE
 #include "core/simd/instruction_sets.h"
 
-namespace raymoval::sweep {
+namespace raymoval::raymoval_method::sweep {
 
 HWY_EXPORT(kernels);
 
-Kernels kernels_for(InstructionSet set) {
-  return RAYMOVAL_KERNEL_FOR(kernels, set)();
+Kernels best_kernels() {
+  return RAYMOVAL_BEST_KERNEL(kernels)();
 }
 
 void BrickList::require(std::size_t bricks) {
@@ -34,5 +34,5 @@ void BrickList::require(std::size_t bricks) {
   last_row.require(padded);
 }
 
-}  // namespace raymoval::sweep
+}  // namespace raymoval::raymoval_method::sweep
 #endif

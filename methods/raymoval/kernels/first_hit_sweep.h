@@ -8,7 +8,7 @@
 #include "core/simd/simd.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
 
-namespace raymoval::sweep {
+namespace raymoval::raymoval_method::sweep {
 
 /// Boxes are expanded in groups of this many, whatever the vector width.
 inline constexpr std::size_t kGroup = 16;
@@ -99,6 +99,7 @@ struct Kernels {
                         Scratch& scratch, float* range);
 };
 
-Kernels kernels_for(InstructionSet set);
+/// Those of the best instruction set that this processor has.
+Kernels best_kernels();
 
-}  // namespace raymoval::sweep
+}  // namespace raymoval::raymoval_method::sweep

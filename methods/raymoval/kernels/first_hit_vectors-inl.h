@@ -12,7 +12,7 @@
 #include "methods/raymoval/kernels/first_hit_sweep.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace raymoval::sweep {
+namespace raymoval::raymoval_method::sweep {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -35,7 +35,7 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<Floats> mask) {
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace raymoval::sweep
+}  // namespace raymoval::raymoval_method::sweep
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
 /// Room for boxes is given out in multiples of this.
@@ -134,4 +134,4 @@ std::size_t OccupancyMap::memory_bytes() const {
   return bytes + (index_.bucket_count() + tile_index_.bucket_count()) * kBucket;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -10,7 +10,7 @@
 #include "core/scan/voxel_key.h"
 #include "methods/raymoval/kernels/box_cover.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 
 /// Voxels of a brick that lie within a box of the lattice.
 struct BrickPart {
@@ -82,10 +82,6 @@ class OccupancyMap {
     const Brick* brick = find_brick(brick_of(voxel));
     return brick != nullptr && brick->contains(voxel.x(), voxel.y(), voxel.z());
   }
-  /// The same for a voxel of the brick `slot`, which may be kNoBrick.
-  [[nodiscard]] bool contains(Slot slot, const VoxelIndex& voxel) const {
-    return slot != kNoBrick && bricks_[slot].contains(voxel.x(), voxel.y(), voxel.z());
-  }
   /// True if any voxel within `dilation` cells (Chebyshev) is occupied.
   [[nodiscard]] bool contains_near(const VoxelIndex& voxel, int dilation) const;
 
@@ -108,7 +104,6 @@ class OccupancyMap {
   /// Brings boxes and heads of the bricks changed since the last call up to date; writes nothing if
   /// there are none.
   void update_boxes(int threads);
-  [[nodiscard]] bool boxes_are_current() const { return changed_.empty(); }
   /// Boxes that cover the brick's voxels, as of the last `update_boxes`.
   [[nodiscard]] std::span<const BrickBox> boxes(Slot slot) const {
     return {boxes_.data() + covers_[slot].begin, covers_[slot].count};
@@ -166,4 +161,4 @@ class OccupancyMap {
   std::vector<std::vector<std::uint32_t>> free_boxes_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

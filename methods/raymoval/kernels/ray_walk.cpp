@@ -6,7 +6,7 @@
 
 #include "methods/raymoval/kernels/first_hit.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
 /// Walks a ray from cell to cell. Distances are in cells (a ray of unit direction in voxel units).
@@ -109,4 +109,4 @@ std::optional<FirstHit> cast_ray(const OccupancyMap& map, const Ray& ray, const 
   return std::nullopt;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -15,7 +15,7 @@
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace raymoval::kernels {
+namespace raymoval::raymoval_method::kernels {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -295,19 +295,19 @@ Kernels kernels() {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace raymoval::kernels
+}  // namespace raymoval::raymoval_method::kernels
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "core/simd/instruction_sets.h"
 
-namespace raymoval::kernels {
+namespace raymoval::raymoval_method::kernels {
 
 HWY_EXPORT(kernels);
 
-Kernels kernels_for(InstructionSet set) {
-  return RAYMOVAL_KERNEL_FOR(kernels, set)();
+Kernels best_kernels() {
+  return RAYMOVAL_BEST_KERNEL(kernels)();
 }
 
-}  // namespace raymoval::kernels
+}  // namespace raymoval::raymoval_method::kernels
 #endif

@@ -5,11 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/simd/simd.h"
-
 /// Loops over the points of a scan and the bins of an image, compiled for each instruction set.
 /// `angular_grid` and `map_reference` are the way to them.
-namespace raymoval::kernels {
+namespace raymoval::raymoval_method::kernels {
 
 /// Eqs 1-3 for points (x y z, x y z, ...) of a scan.
 struct Projection {
@@ -92,6 +90,7 @@ struct Kernels {
   std::uint32_t (*suspects)(const SuspectSearch& job, std::size_t bin);
 };
 
-Kernels kernels_for(InstructionSet set);
+/// Those of the best instruction set that this processor has.
+Kernels best_kernels();
 
-}  // namespace raymoval::kernels
+}  // namespace raymoval::raymoval_method::kernels

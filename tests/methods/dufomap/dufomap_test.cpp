@@ -5,7 +5,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 
-#include "tests/methods/dufomap/listed_scans.h"
+#include "tests/methods/dufomap/oracle.h"
 #include "tests/methods/moved_world.h"
 
 using namespace raymoval;
@@ -91,9 +91,9 @@ TEST_CASE("the hit extension stands range noise") {
 
 TEST_CASE("a lone beam makes no void") {
   // Scan 0 sees voxel (20, 0, 0) by one beam, scan 1 has a point there.
-  ListedScans scans;
-  scans.add(centre(0, 0, 0), {centre(40, 0, 0)});
-  scans.add(centre(0, 0, 0), {centre(20, 0, 0)});
+  toy::HeldScans scans;
+  scans.add_world(centre(0, 0, 0), {centre(40, 0, 0)});
+  scans.add_world(centre(0, 0, 0), {centre(20, 0, 0)});
   CHECK(run(scans).removed_count() == 0);
   DufomapParameters bare;
   bare.unknown_inflation = 0;
@@ -111,12 +111,12 @@ TEST_CASE("neighbours must be free in one and the same scan") {
       both.push_back(centre(40, y, z));
     }
   }
-  ListedScans halves, whole;
-  halves.add(centre(0, 0, 0), left);
-  halves.add(centre(0, 0, 0), right);
-  halves.add(centre(0, 0, 0), {centre(20, 0, 0)});
-  whole.add(centre(0, 0, 0), both);
-  whole.add(centre(0, 0, 0), {centre(20, 0, 0)});
+  toy::HeldScans halves, whole;
+  halves.add_world(centre(0, 0, 0), left);
+  halves.add_world(centre(0, 0, 0), right);
+  halves.add_world(centre(0, 0, 0), {centre(20, 0, 0)});
+  whole.add_world(centre(0, 0, 0), both);
+  whole.add_world(centre(0, 0, 0), {centre(20, 0, 0)});
   CHECK(run(halves).get(2) == Mask{0});
   CHECK(run(whole).get(1) == Mask{1});
 }
@@ -153,13 +153,13 @@ TEST_CASE("any number of threads gives the same answer") {
 
 TEST_CASE("the order of the points does not matter") {
   const toy::World world = passer_by();
-  ListedScans forward, backward;
+  toy::HeldScans forward, backward;
   for (std::size_t i = 0; i < world.size(); ++i) {
     std::vector<Eigen::Vector3d> points;
     for (const auto& point : world.load(i).points) points.push_back(point.cast<double>());
-    forward.add(Eigen::Vector3d::Zero(), points);
+    forward.add_world(Eigen::Vector3d::Zero(), points);
     std::reverse(points.begin(), points.end());
-    backward.add(Eigen::Vector3d::Zero(), points);
+    backward.add_world(Eigen::Vector3d::Zero(), points);
   }
   const MaskStore a = run(forward), b = run(backward);
   for (std::size_t i = 0; i < world.size(); ++i) {
@@ -171,11 +171,11 @@ TEST_CASE("the order of the points does not matter") {
 
 TEST_CASE("empty scans, lone points and no scans at all") {
   for (const bool offline : {true, false}) {
-    ListedScans scans;
+    toy::HeldScans scans;
     CHECK(run(scans, {}, offline, 2).size() == 0);
-    scans.add({0, 0, 0}, {});
-    scans.add({0, 0, 0}, {{3, 2, 1}});
-    scans.add({0, 0, 0}, {{0, 0, 0}});  // In the sensor itself.
+    scans.add_world({0, 0, 0}, {});
+    scans.add_world({0, 0, 0}, {{3, 2, 1}});
+    scans.add_world({0, 0, 0}, {{0, 0, 0}});  // In the sensor itself.
     const MaskStore masks = run(scans, {}, offline, 2);
     for (std::size_t i = 0; i < 3; ++i) CHECK(masks.has(i));
     CHECK(masks.get(0).empty());
@@ -196,14 +196,14 @@ TEST_CASE("a cancelled run of DUFOMap stops") {
 TEST_CASE("a beam of no length is a hit and nothing else") {
   DufomapParameters parameters;
   parameters.minimum_range = 0.0;
-  ListedScans scans;
-  scans.add(centre(0, 0, 0), {centre(0, 0, 0)});
+  toy::HeldScans scans;
+  scans.add_world(centre(0, 0, 0), {centre(0, 0, 0)});
   CHECK(run(scans, parameters).get(0) == Mask{0});
 }
 
 TEST_CASE("a point far out is refused, or cut by the maximum range") {
-  ListedScans scans;
-  scans.add({0, 0, 0}, {{5, 0, 0}, {20000, 100, 0}});  // 20 km = 200,000 voxels.
+  toy::HeldScans scans;
+  scans.add_world({0, 0, 0}, {{5, 0, 0}, {20000, 100, 0}});  // 20 km = 200,000 voxels.
   CHECK_THROWS_AS(run(scans), DataError);
   CHECK_THROWS_WITH(run(scans), Catch::Contains("scan 0") && Catch::Contains("maximum_range"));
   DufomapParameters near;

@@ -161,4 +161,9 @@ class Oracle {
   DufomapParameters parameters_;
 };
 
+/// Centre of a voxel of 0.1 m.
+inline Eigen::Vector3d centre(int x, int y, int z) {
+  return Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5) * 0.1;
+}
+
 }  // namespace raymoval::dufomap_test

@@ -7,19 +7,19 @@
 #include "methods/dufomap/beams.h"
 #include "methods/dufomap/dufomap.h"
 #include "methods/dufomap/void_map.h"
-#include "tests/methods/dufomap/listed_scans.h"
 #include "tests/methods/toy_world.h"
 
 using namespace raymoval;
+using namespace raymoval::dufomap_method;
 using namespace raymoval::dufomap_test;
 
 namespace {
 
 /// A bundle of beams dense enough for voids, and stray points all around; nothing on a lattice.
-ListedScans random_scans(unsigned seed) {
+toy::HeldScans random_scans(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  ListedScans scans;
+  toy::HeldScans scans;
   Eigen::Vector3d towards(any(random), any(random), any(random));
   towards *= 3.0 / towards.norm();
   for (int i = 0; i < 3; ++i) {
@@ -32,7 +32,7 @@ ListedScans random_scans(unsigned seed) {
     for (int k = 0; k < 60; ++k) {
       points.emplace_back(9.0 * Eigen::Vector3d(any(random), any(random), any(random)));
     }
-    scans.add(sensor, points);
+    scans.add_world(sensor, points);
   }
   return scans;
 }
@@ -54,16 +54,15 @@ std::vector<DufomapParameters> settings() {
 
 /// Voxels of a scan's grid whose bit is set in the chosen word.
 template <class Word>
-Cells cells_of(const dufomap::ScanGrid& grid, Word word) {
+Cells cells_of(const ScanGrid& grid, Word word) {
   Cells cells;
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    for (int column = 0; column < dufomap::kColumns; ++column) {
+    for (int column = 0; column < kColumns; ++column) {
       const std::uint64_t bits = word(grid[i].columns[static_cast<std::size_t>(column)]);
-      for (int z = 0; z < dufomap::kHeight; ++z) {
+      for (int z = 0; z < kHeight; ++z) {
         if ((bits >> z & 1U) == 0) continue;
-        cells.insert({grid[i].at.x() * dufomap::kSide + column / dufomap::kSide,
-                      grid[i].at.y() * dufomap::kSide + column % dufomap::kSide,
-                      grid[i].at.z() * dufomap::kHeight + z});
+        cells.insert({grid[i].at.x() * kSide + column / kSide,
+                      grid[i].at.y() * kSide + column % kSide, grid[i].at.z() * kHeight + z});
       }
     }
   }
@@ -75,22 +74,21 @@ Cells cells_of(const dufomap::ScanGrid& grid, Word word) {
 TEST_CASE("hits and free voxels are those of the plain sets") {
   for (const DufomapParameters& parameters : settings()) {
     const Oracle oracle(parameters);
-    dufomap::ScanGrid grid;
+    ScanGrid grid;
     for (unsigned seed = 1; seed <= 3; ++seed) {
-      const ListedScans scans = random_scans(seed);
+      const toy::HeldScans scans = random_scans(seed);
       const Scan scan = scans.load(seed % 3);
       grid.clear();
-      const auto voxels = dufomap::voxels_of(scan, parameters.voxel_size);
-      dufomap::cast_beams(scan, dufomap::beam_ends(scan, voxels, parameters, grid), parameters,
-                          grid);
+      const auto voxels = voxels_of(scan, parameters.voxel_size);
+      cast_beams(scan, beam_ends(scan, voxels, parameters, grid), parameters, grid);
       const ScanSets sets = oracle.sets_of(scan);
-      CHECK(cells_of(grid, [](const dufomap::Column& c) { return c.hit; }) == sets.hit);
-      CHECK(cells_of(grid, [](const dufomap::Column& c) { return c.free; }) == sets.free);
+      CHECK(cells_of(grid, [](const Column& c) { return c.hit; }) == sets.hit);
+      CHECK(cells_of(grid, [](const Column& c) { return c.free; }) == sets.free);
       std::vector<VoxelIndex> all;  // And the voids among everything that is free.
       for (const Cell& cell : sets.free) all.emplace_back(cell[0], cell[1], cell[2]);
-      dufomap::ScanVoids found;
-      dufomap::find_voids(grid, parameters.unknown_inflation, found);
-      dufomap::VoidMap map;
+      ScanVoids found;
+      find_voids(grid, parameters.unknown_inflation, found);
+      VoidMap map;
       map.add(found);
       const Mask inside = map.contain(all);
       std::size_t k = 0, differences = 0;
@@ -107,7 +105,7 @@ TEST_CASE("verdicts are those of the plain sets") {
   for (DufomapParameters parameters : settings()) {
     for (const bool offline : {true, false}) {
       parameters.offline = offline;
-      const ListedScans scans = random_scans(11);
+      const toy::HeldScans scans = random_scans(11);
       const auto masks = toy::masks_of(*make_dufomap(parameters), scans);
       const std::vector<Mask> expected = Oracle(parameters).masks(scans);
       for (std::size_t i = 0; i < scans.size(); ++i) {

@@ -7,11 +7,12 @@
 
 #include "methods/dufomap/beams.h"
 #include "methods/dufomap/void_map.h"
-#include "tests/methods/dufomap/listed_scans.h"
+#include "tests/methods/dufomap/oracle.h"
+#include "tests/methods/held_scans.h"
 
 using namespace raymoval;
+using namespace raymoval::dufomap_method;
 using namespace raymoval::dufomap_test;
-using dufomap::ScanGrid;
 
 namespace {
 
@@ -21,22 +22,22 @@ struct Cast {
   std::vector<VoxelIndex> ends;
 
   Cast(const std::vector<VoxelIndex>& points, const DufomapParameters& parameters = {}) {
-    ListedScans scans;
+    toy::HeldScans scans;
     std::vector<Eigen::Vector3d> world;
     for (const VoxelIndex& p : points) world.push_back(centre(p.x(), p.y(), p.z()));
-    scans.add(centre(0, 0, 0), world);
+    scans.add_world(centre(0, 0, 0), world);
     const Scan scan = scans.load(0);
-    const auto voxels = dufomap::voxels_of(scan, parameters.voxel_size);
-    ends = dufomap::beam_ends(scan, voxels, parameters, grid);
-    dufomap::cast_beams(scan, ends, parameters, grid);
+    const auto voxels = voxels_of(scan, parameters.voxel_size);
+    ends = beam_ends(scan, voxels, parameters, grid);
+    cast_beams(scan, ends, parameters, grid);
   }
   bool hit(int x, int y, int z) {
     const VoxelIndex voxel(x, y, z);
-    return (grid.column(voxel).hit & dufomap::bit_of(voxel)) != 0;
+    return (grid.column(voxel).hit & bit_of(voxel)) != 0;
   }
   bool free(int x, int y, int z) {
     const VoxelIndex voxel(x, y, z);
-    return (grid.column(voxel).free & dufomap::bit_of(voxel)) != 0;
+    return (grid.column(voxel).free & bit_of(voxel)) != 0;
   }
   /// Free voxels on the positive x axis, which must be the first ones.
   int free_along_x() {
@@ -57,17 +58,17 @@ DufomapParameters with(double d_s, int d_p) {
 }  // namespace
 
 TEST_CASE("step 1: one beam per voxel, none for near points") {
-  ListedScans scans;
+  toy::HeldScans scans;
   // Two points of voxel (10, 0, 0), one of its neighbour, one 0.15 m and one 0.23 m away.
-  scans.add(centre(0, 0, 0), {{1.02, 0.05, 0.05},
-                              {1.08, 0.02, 0.05},
-                              {1.12, 0.05, 0.05},
-                              {0.05, 0.2, 0.05},
-                              {0.05, 0.28, 0.05}});
+  scans.add_world(centre(0, 0, 0), {{1.02, 0.05, 0.05},
+                                    {1.08, 0.02, 0.05},
+                                    {1.12, 0.05, 0.05},
+                                    {0.05, 0.2, 0.05},
+                                    {0.05, 0.28, 0.05}});
   const Scan scan = scans.load(0);
   ScanGrid grid;
-  const auto voxels = dufomap::voxels_of(scan, 0.1);
-  auto ends = dufomap::beam_ends(scan, voxels, DufomapParameters{}, grid);
+  const auto voxels = voxels_of(scan, 0.1);
+  auto ends = beam_ends(scan, voxels, DufomapParameters{}, grid);
   REQUIRE(ends.size() == 3);
   const auto has = [&](const VoxelIndex& voxel) {
     return std::find(ends.begin(), ends.end(), voxel) != ends.end();
@@ -76,7 +77,7 @@ TEST_CASE("step 1: one beam per voxel, none for near points") {
   CHECK(has({11, 0, 0}));
   CHECK(has({0, 2, 0}));
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    for (const dufomap::Column& column : grid[i].columns) CHECK(column.free == 0);
+    for (const Column& column : grid[i].columns) CHECK(column.free == 0);
   }
 }
 
@@ -141,7 +142,7 @@ TEST_CASE("step 3: beams pass from block to block in all directions") {
     CHECK(cast.free(end.x(), end.y(), end.z()));
     int count = 0;
     for (std::size_t i = 0; i < cast.grid.size(); ++i) {
-      for (const dufomap::Column& column : cast.grid[i].columns) {
+      for (const Column& column : cast.grid[i].columns) {
         count += std::popcount(column.free);
       }
     }
@@ -161,14 +162,14 @@ Mask voids_of_cube(const VoxelIndex& middle, int d_p, const std::vector<VoxelInd
     const VoxelIndex voxel = middle + offset;
     asked.push_back(offset);
     if (std::find(missing.begin(), missing.end(), offset) != missing.end()) continue;
-    grid.column(voxel).free |= dufomap::bit_of(voxel);
+    grid.column(voxel).free |= bit_of(voxel);
   }
   for (const VoxelIndex& hit : hits) {
-    grid.column(middle + hit).hit |= dufomap::bit_of(middle + hit);
+    grid.column(middle + hit).hit |= bit_of(middle + hit);
   }
-  dufomap::ScanVoids found;
-  dufomap::find_voids(grid, d_p, found);
-  dufomap::VoidMap map;
+  ScanVoids found;
+  find_voids(grid, d_p, found);
+  VoidMap map;
   map.add(found);
   std::vector<VoxelIndex> voxels;
   for (const VoxelIndex& offset : asked) voxels.push_back(middle + offset);
@@ -199,13 +200,13 @@ TEST_CASE("step 4: a void is free with all its neighbours and no hit") {
 }
 
 TEST_CASE("step 5: voids of several scans are united") {
-  dufomap::VoidMap map;
-  dufomap::VoidBits first{}, second{};
+  VoidMap map;
+  VoidBits first{}, second{};
   first[3] = 1;
   second[3] = 2;
   map.add({{voxel_key(-1, 2, 0), first}});
   map.add({{voxel_key(-1, 2, 0), second}});
-  const int x = -dufomap::kSide, y = 2 * dufomap::kSide + 3;
+  const int x = -kSide, y = 2 * kSide + 3;
   CHECK(map.contain({{x, y, 0}, {x, y, 1}, {x, y, 2}, {x, y + 1, 0}, {x + 90, y, 0}}) ==
         Mask{1, 1, 0, 0, 0});
 }

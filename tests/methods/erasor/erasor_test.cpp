@@ -6,6 +6,7 @@
 #include "tests/methods/erasor/scenes.h"
 
 using namespace raymoval;
+using namespace raymoval::erasor_method;
 using toy::road_and;
 
 namespace {
@@ -27,7 +28,7 @@ TEST_CASE("a car that is gone is removed", "[erasor]") {
   // Map 1.5 m high, query 0.05 m: ratio 0.033.
   CHECK(toy::removed_by(empty_road(), road_and(kCar), toy::small_grid()) == Numbers{4, 5, 6});
   // The order of the scans does not matter to the map: a car that comes later is removed too.
-  toy::HandScans scans;
+  toy::HeldScans scans;
   scans.add(empty_road());
   scans.add(road_and(kCar));
   ErasorParameters first_asks = toy::small_grid();
@@ -120,7 +121,7 @@ TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
   slope.linear() = (Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
                     Eigen::AngleAxisd(20 * kDegree, Eigen::Vector3d::UnitY()))
                        .toRotationMatrix();
-  toy::HandScans scans;
+  toy::HeldScans scans;
   scans.add(road_and(kCar), slope);
   scans.add(empty_road(), slope);
   CHECK(toy::removed_points(scans, toy::small_grid())[0] == Numbers{4, 5, 6});
@@ -129,7 +130,7 @@ TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
 TEST_CASE("queries follow each other and the last word counts", "[erasor]") {
   // The first query clears the bin of car A and of B, which the map of all scans holds already;
   // then B itself drives by: the query is higher, and the map keeps what it has.
-  toy::HandScans scans;
+  toy::HeldScans scans;
   scans.add(road_and(kCar));
   scans.add(empty_road());
   toy::Points with_b = toy::road();
@@ -151,7 +152,7 @@ TEST_CASE("version 2 takes the query in where the extents agree", "[erasor]") {
   toy::Points with_car = uneven, with_low = uneven;
   for (const float z : kCar) with_car.emplace_back(3.0F, 0.75F, z);
   with_low.emplace_back(2.7F, 0.7F, 0.3F);
-  toy::HandScans scans;
+  toy::HeldScans scans;
   scans.add(with_car);
   scans.add(uneven);
   scans.add(with_low);
@@ -165,7 +166,7 @@ TEST_CASE("version 2 takes the query in where the extents agree", "[erasor]") {
 }
 
 TEST_CASE("only every n-th scan is a query", "[erasor]") {
-  toy::HandScans scans;
+  toy::HeldScans scans;
   scans.add(empty_road());
   for (int i = 0; i < 4; ++i) scans.add(road_and(kCar));
   ErasorParameters parameters = toy::small_grid();
@@ -182,7 +183,7 @@ TEST_CASE("the own car's points answer through voxels that others filled", "[era
   // that the first query cleared is removed; one above it, in a voxel of no other scan, stays.
   Pose ahead = Pose::Identity();
   ahead.translation().x() = 1.0;
-  toy::HandScans scans;
+  toy::HeldScans scans;
   toy::Points first = road_and(kCar), query = empty_road();
   for (toy::Points* points : {&first, &query}) {
     (*points)[0].x() = (*points)[1].x() = 2.9F;  // Beyond the ego radius.
@@ -198,9 +199,9 @@ TEST_CASE("the own car's points answer through voxels that others filled", "[era
 }
 
 TEST_CASE("no scans, empty scans and single points", "[erasor]") {
-  const toy::HandScans none;
+  const toy::HeldScans none;
   CHECK(toy::removed_points(none, toy::small_grid()).empty());
-  toy::HandScans few;
+  toy::HeldScans few;
   few.add({});
   few.add({{3, 0.75F, 0}});
   few.add({});

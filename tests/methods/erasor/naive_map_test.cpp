@@ -6,6 +6,7 @@
 #include <random>
 
 using namespace raymoval;
+using namespace raymoval::erasor_method;
 
 namespace {
 

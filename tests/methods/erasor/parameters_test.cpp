@@ -7,6 +7,7 @@
 #include "tests/methods/erasor/scenes.h"
 
 using namespace raymoval;
+using namespace raymoval::erasor_method;
 
 namespace {
 

@@ -11,27 +11,6 @@ namespace raymoval::toy {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-/// Scans written by hand, point by point in the sensor frame.
-class HandScans : public ScanSource {
- public:
-  void add(Points points, const Pose& T_world_sensor = Pose::Identity()) {
-    Scan scan;
-    scan.index = scans_.size();
-    scan.T_world_sensor = T_world_sensor;
-    scan.stored_point_count = points.size();
-    scan.points = std::move(points);
-    scans_.push_back(std::move(scan));
-  }
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Scan load(std::size_t i) const override { return scans_.at(i); }
-  [[nodiscard]] Pose pose(std::size_t i) const override { return scans_.at(i).T_world_sensor; }
-  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
-
- private:
-  std::vector<Scan> scans_;
-  SensorModel model_;
-};
-
 /// A coarse grid of 5 rings of 2 m by 8 sectors of 45 degrees, the sensor on the road; of two scans
 /// the second is the query.
 inline ErasorParameters small_grid() {
@@ -79,7 +58,7 @@ inline std::vector<std::vector<int>> removed_points(const ScanSource& scans,
 /// Points of `first` that are removed once `query` has been compared with the map of both.
 inline std::vector<int> removed_by(const Points& query, const Points& first,
                                    const ErasorParameters& parameters) {
-  HandScans scans;
+  HeldScans scans;
   scans.add(first);
   scans.add(query);
   return removed_points(scans, parameters).front();

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/files/files.h"
+#include "methods/registry.h"
 #include "tests/datasets/temporary_folder.h"
 #include "tests/methods/toy_world.h"
 

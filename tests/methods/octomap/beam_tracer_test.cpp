@@ -9,6 +9,7 @@
 #include <set>
 
 using namespace raymoval;
+using namespace raymoval::octomap_method;
 
 namespace {
 

@@ -13,28 +13,17 @@
 
 namespace raymoval::toy {
 
+using namespace octomap_method;
+
 using Points = std::vector<Eigen::Vector3d>;
 
 /// Scans given point by point in world coordinates; the sensor's axes are the world's.
-class HandScans : public ScanSource {
+class HandScans : public HeldScans {
  public:
   HandScans& add(const Points& points, const Eigen::Vector3d& origin = {0.1, 0.1, 0.1}) {
-    Scan scan;
-    scan.index = scans_.size();
-    scan.T_world_sensor.translation() = origin;
-    for (const Eigen::Vector3d& p : points) scan.points.push_back((p - origin).cast<float>());
-    scan.stored_point_count = scan.size();
-    scans_.push_back(scan);
+    add_world(origin, points);
     return *this;
   }
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Scan load(std::size_t i) const override { return scans_.at(i); }
-  [[nodiscard]] Pose pose(std::size_t i) const override { return scans_.at(i).T_world_sensor; }
-  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
-
- private:
-  std::vector<Scan> scans_;
-  SensorModel model_;
 };
 
 inline octomap::point3d rounded(const Eigen::Vector3d& p) {

@@ -8,6 +8,7 @@
 #include "tests/methods/octomap/hand_scans.h"
 
 using namespace raymoval;
+using namespace raymoval::octomap_method;
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "tests/methods/octomap/hand_scans.h"
 
 using namespace raymoval;
+using namespace raymoval::octomap_method;
 using toy::HandMap;
 using toy::HandScans;
 

@@ -9,6 +9,7 @@
 #include "tests/methods/octomap/hand_scans.h"
 
 using namespace raymoval;
+using namespace raymoval::octomap_method;
 
 namespace {
 

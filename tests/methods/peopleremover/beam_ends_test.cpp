@@ -8,7 +8,7 @@
 #include <random>
 
 using namespace raymoval;
-using namespace raymoval::peopleremover;
+using namespace raymoval::peopleremover_method;
 
 namespace {
 

@@ -12,18 +12,11 @@
 namespace raymoval::toy {
 
 /// Scans given point by point.
-class ListedScans : public ScanSource {
+class ListedScans : public HeldScans {
  public:
-  /// Appends a scan of world points (rounded to the sensor frame's single precision).
+  /// Appends a scan of world points.
   ListedScans& scan(const Pose& T_world_sensor, const std::vector<Eigen::Vector3d>& world) {
-    Scan scan;
-    scan.index = scans_.size();
-    scan.T_world_sensor = T_world_sensor;
-    for (const auto& point : world) {
-      scan.points.emplace_back((T_world_sensor.inverse() * point).cast<float>());
-    }
-    scan.stored_point_count = scan.size();
-    scans_.push_back(scan);
+    add_world(T_world_sensor, world);
     return *this;
   }
   /// Appends a scan of points (X, 0.5, 0.5) seen from (0.5, 0.5, 0.5).
@@ -32,20 +25,7 @@ class ListedScans : public ScanSource {
     for (const double x : xs) world.emplace_back(x, 0.5, 0.5);
     return scan(at(0.5, 0.5, 0.5), world);
   }
-  static Pose at(double x, double y, double z) {
-    Pose pose = Pose::Identity();
-    pose.translation() << x, y, z;
-    return pose;
-  }
-
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Scan load(std::size_t i) const override { return scans_.at(i); }
-  [[nodiscard]] Pose pose(std::size_t i) const override { return scans_.at(i).T_world_sensor; }
-  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
-
- private:
-  std::vector<Scan> scans_;
-  SensorModel model_;
+  static Pose at(double x, double y, double z) { return Pose(Eigen::Translation3d(x, y, z)); }
 };
 
 /// A configured Peopleremover with some values changed.

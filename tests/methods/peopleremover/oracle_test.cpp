@@ -12,6 +12,7 @@
 #include "tests/methods/peopleremover/listed_scans.h"
 
 using namespace raymoval;
+using namespace raymoval::peopleremover_method;
 
 namespace {
 
@@ -63,10 +64,10 @@ class SlowPeopleremover {
     for (const auto& point : scan.points) {
       if (takes_part(point.cast<double>())) points.push_back(point.cast<double>());
     }
-    const std::vector<double> lengths = peopleremover::BeamEnds(p_).find(points);
+    const std::vector<double> lengths = peopleremover_method::BeamEnds(p_).find(points);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const Eigen::Vector3d end =
-          lengths[k] == peopleremover::kWholeBeam
+          lengths[k] == peopleremover_method::kWholeBeam
               ? points[k]
               : Eigen::Vector3d(points[k] * (lengths[k] / points[k].norm()));
       follow(i, scan.T_world_sensor.translation() * (1.0 / p_.voxel_size),

@@ -6,6 +6,7 @@
 #include "tests/methods/peopleremover/listed_scans.h"
 
 using namespace raymoval;
+using namespace raymoval::peopleremover_method;
 using toy::ListedScans;
 
 namespace {

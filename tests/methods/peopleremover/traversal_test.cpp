@@ -12,7 +12,7 @@
 #include "methods/peopleremover/thinning.h"
 
 using namespace raymoval;
-using namespace raymoval::peopleremover;
+using namespace raymoval::peopleremover_method;
 
 namespace {
 

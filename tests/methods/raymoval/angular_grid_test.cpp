@@ -5,8 +5,10 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/simd/instruction_set_scope.h"
 
 using namespace raymoval;
+using namespace raymoval::raymoval_method;
 using std::numbers::pi;
 
 namespace {
@@ -91,10 +93,11 @@ TEST_CASE("points on borders of bins and elsewhere go where the formulas say, on
   const AngularGrid grid{360, 90, -pi / 4, pi / 4};
   for (const InstructionSet set : supported_instruction_sets()) {
     INFO(instruction_set_name(set));
+    const InstructionSetScope scope(set);
     ProjectedScan projected;
-    project(scan, grid, 2.0, 2, projected, set);
+    project(scan, grid, 2.0, 2, projected);
     std::vector<VoxelIndex> voxels;
-    find_voxels(scan, 5.0, 2, voxels, set);
+    find_voxels(scan, 5.0, 2, voxels);
     for (std::size_t k = 0; k < scan.size(); ++k) {
       const Spherical at = to_spherical(scan.points[k].cast<double>());
       const auto bin = grid.bin_of(at.azimuth, at.elevation);

@@ -6,7 +6,10 @@
 #include <numbers>
 #include <random>
 
+#include "core/simd/instruction_set_scope.h"
+
 using namespace raymoval;
+using namespace raymoval::raymoval_method;
 
 TEST_CASE("eq. 11: a point is dynamic if the map lies farther by more than the margin") {
   // The map is a wall at 10 m. Margin 0.3 + 0.35 r: a point at 7 m would need 2.75 m of distance
@@ -48,7 +51,8 @@ TEST_CASE("eq. 11 gives the same for every instruction set") {
     expected.push_back(map != kNoRange && ahead > 0.5 + 0.25 * scan.range.back() ? 1 : 0);
   }
   for (const InstructionSet set : supported_instruction_sets()) {
-    CHECK(check_consistency(scan, reference, margin, 1, set) == expected);
+    const InstructionSetScope scope(set);
+    CHECK(check_consistency(scan, reference, margin, 1) == expected);
   }
   CHECK(std::count(expected.begin(), expected.end(), 1) > 20);
 }

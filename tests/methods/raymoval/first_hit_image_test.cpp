@@ -4,9 +4,11 @@
 #include <set>
 
 #include "core/angle.h"
+#include "core/simd/instruction_set_scope.h"
 #include "tests/methods/raymoval/random_map.h"
 
 using namespace raymoval;
+using namespace raymoval::raymoval_method;
 using random_map::Random;
 
 namespace {
@@ -43,7 +45,8 @@ TEST_CASE("images equal rays one by one, from any pose, on every instruction set
     const FirstHitImage image = cast_first_hits(map, pose, grid, limits, 1);
     for (const InstructionSet set : supported_instruction_sets()) {
       INFO(instruction_set_name(set));
-      REQUIRE(cast_first_hits(map, pose, grid, limits, 1, set).range == image.range);
+      const InstructionSetScope scope(set);
+      REQUIRE(cast_first_hits(map, pose, grid, limits, 1).range == image.range);
     }
     REQUIRE(cast_first_hits(map, pose, grid, limits, 8).range == image.range);
     const auto compared = random_map::compare_with_rays(map, image);
@@ -76,7 +79,8 @@ TEST_CASE("directions along the lattice meet what is straight ahead") {
   const AngularGrid grid{8, 3, -67.5 * kDegree, 67.5 * kDegree};
   for (const InstructionSet set : supported_instruction_sets()) {
     INFO(instruction_set_name(set));
-    const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1, set);
+    const InstructionSetScope scope(set);
+    const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1);
     for (int i = 0; i < 8; ++i) {
       // From 0.5 to the walls' inner faces at 5 and -4 it is 4.5; 4.5 sqrt(2) across a corner. Up
       // or down by 45 degrees a ray of an even column reaches wall and floor or ceiling together,

@@ -8,6 +8,7 @@
 #include "tests/methods/toy_world.h"
 
 using namespace raymoval;
+using namespace raymoval::raymoval_method;
 
 TEST_CASE("eq. 7: a ray meets the near face of the first voxel") {
   OccupancyMap map(0.2);

@@ -5,7 +5,10 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "core/simd/instruction_set_scope.h"
+
 using namespace raymoval;
+using namespace raymoval::raymoval_method;
 
 namespace {
 constexpr float kInf = kNoRange;
@@ -100,11 +103,12 @@ TEST_CASE("window percentiles and minima equal those of each window, on every in
       const AngularGrid grid{columns, rows, 0.0, 0.3};
       const std::vector<float> values = random_image(grid, 1), wanted = random_image(grid, 2);
       for (const InstructionSet set : supported_instruction_sets()) {
+        const InstructionSetScope scope(set);
         INFO(instruction_set_name(set) << ", " << columns << " x " << rows);
         WindowPercentiles found;
-        windowed_percentiles(values, wanted, grid, 1, {0.9, 0.1}, 2, found, set);
+        windowed_percentiles(values, wanted, grid, 1, {0.9, 0.1}, 2, found);
         std::vector<float> smallest;
-        windowed_minimum(values, grid, 2, 7, 2, smallest, set);
+        windowed_minimum(values, grid, 2, 7, 2, smallest);
         for (int bin = 0; bin < grid.size(); ++bin) {
           const auto at = static_cast<std::size_t>(bin);
           const auto wide = window_of(values, grid, bin, 2, 7);

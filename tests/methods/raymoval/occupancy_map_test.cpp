@@ -7,6 +7,7 @@
 #include "tests/methods/raymoval/random_map.h"
 
 using namespace raymoval;
+using namespace raymoval::raymoval_method;
 using random_map::Random;
 
 namespace {

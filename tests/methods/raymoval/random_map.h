@@ -9,6 +9,8 @@
 
 namespace raymoval::random_map {
 
+using namespace raymoval_method;
+
 /// The same numbers on every platform.
 class Random {
  public:

@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include "core/text.h"
+#include "methods/registry.h"
 #include "tests/methods/toy_world.h"
 
 using namespace raymoval;
+using namespace raymoval::raymoval_method;
 using toy::Box;
 using toy::World;
 

@@ -5,6 +5,7 @@
 #include <random>
 
 using namespace raymoval;
+using namespace raymoval::raymoval_method;
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "tests/methods/removert/point_world.h"
 
 using namespace raymoval;
-using namespace raymoval::removert;
+using namespace raymoval::removert_method;
 using toy::Points;
 
 namespace {

@@ -7,7 +7,7 @@
 #include "tests/methods/removert/point_world.h"
 
 using namespace raymoval;
-using namespace raymoval::removert;
+using namespace raymoval::removert_method;
 
 namespace {
 

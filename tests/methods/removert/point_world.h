@@ -15,28 +15,12 @@ namespace raymoval::toy {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-/// Scans given point by point, all from the world's origin unless moved.
-class PointWorld : public ScanSource {
+/// Scans given point by point, all from the world's origin.
+class PointWorld : public HeldScans {
  public:
   explicit PointWorld(const std::vector<Points>& scans) {
-    for (const Points& points : scans) add(points, Pose::Identity());
+    for (const Points& points : scans) add(points);
   }
-  void add(const Points& points, const Pose& T_world_sensor) {
-    Scan scan;
-    scan.index = scans_.size();
-    scan.T_world_sensor = T_world_sensor;
-    scan.points = points;
-    scan.stored_point_count = points.size();
-    scans_.push_back(scan);
-  }
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Scan load(std::size_t i) const override { return scans_.at(i); }
-  [[nodiscard]] Pose pose(std::size_t i) const override { return scans_.at(i).T_world_sensor; }
-  [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
-
- private:
-  std::vector<Scan> scans_;
-  SensorModel sensor_;
 };
 
 /// Point at a range (metres), an elevation and an azimuth (degrees).

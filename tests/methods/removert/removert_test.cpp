@@ -8,6 +8,7 @@
 #include "tests/methods/removert/point_world.h"
 
 using namespace raymoval;
+using namespace raymoval::removert_method;
 using toy::ahead;
 using toy::aside;
 using toy::Points;

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/cli/command_parser.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <functional>
+
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/text.h"
+#include "datasets/open_sequence.h"
+
+namespace raymoval {
+namespace {
+
+CLI::App& app_of(void* command) {
+  return *static_cast<CLI::App*>(command);
+}
+
+std::vector<const CLI::App*> all_commands(const CLI::App& program) {
+  return program.get_subcommands(std::function<bool(const CLI::App*)>());
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+bool may_be_sequence(const std::string& path) {
+  return is_scene(path) || is_folder(path.substr(0, path.rfind(':'))) || is_folder(path);
+}
+
+/// Options and words that no command knows are kept by the parser; here they become an error that
+/// names the nearest one known.
+void check_nothing_left(const CLI::App& app, const std::string& help) {
+  const std::vector<std::string> left = app.remaining();
+  if (left.empty()) return;
+  std::string unknown = left.front();
+  for (const std::string& word : left) {
+    if (word.starts_with("-")) {
+      unknown = word;
+      break;
+    }
+  }
+  const std::string name = unknown.substr(0, unknown.find('='));
+  if (!name.starts_with("-")) {
+    // Every file that a command writes follows an option.
+    const bool writes = app.get_option_no_throw("-o") != nullptr;
+    const bool reads = !writes && app.get_option_no_throw("--sequence") != nullptr;
+    throw UsageError(
+        "'" + name + "' was not expected here." +
+        (writes ? " To write there put -o before it." : "") +
+        (reads && may_be_sequence(name) ? " Name it with --sequence " + name + "." : "") +
+        " See `" + help + " --help`.");
+  }
+  const bool short_out = name == "-o" && app.get_option_no_throw("--out") != nullptr;
+  throw UsageError("unknown option '" + name + "'." +
+                   suggestion(short_out ? "--out" : name, option_names(app)) + " See `" + help +
+                   " --help`.");
+}
+
+/// "raymoval clean": what was being read of the command line.
+std::string parsed_command(const CLI::App& program) {
+  const std::vector<CLI::App*> commands = program.get_subcommands();
+  return "raymoval" + (commands.empty() ? "" : " " + commands.front()->get_name());
+}
+
+/// The parser's message, in plain words where it says "--output: 1 required FILE missing" of an
+/// option without value, or "--frames: At Most 1 required but received 2".
+std::string parse_problem(const CLI::ParseError& error) {
+  constexpr std::string_view kRequired = ": 1 required ";
+  constexpr std::string_view kMissing = " missing";
+  constexpr std::string_view kTooMany = ": At Most 1 required but received ";
+  const std::string text = error.what();
+  if (const std::size_t often = text.find(kTooMany); often != std::string::npos) {
+    return text.substr(0, often) + " is given " + text.substr(often + kTooMany.size()) +
+           " times; leave all but one out.";
+  }
+  const std::size_t at = text.find(kRequired);
+  if (at == std::string::npos || !text.ends_with(kMissing)) return text;
+  const std::size_t type = at + kRequired.size();
+  return text.substr(0, at) + ": " + text.substr(type, text.size() - kMissing.size() - type) +
+         " is missing after it.";
+}
+
+std::string chosen_command(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : all_commands(program)) {
+    if (command->parsed()) {
+      check_nothing_left(*command, "raymoval " + command->get_name());
+      check_nothing_left(program, "raymoval");
+      return command->get_name();
+    }
+    if (!command->get_group().empty()) names.push_back(command->get_name());
+  }
+  const std::vector<std::string> left = program.remaining();
+  if (left.empty()) throw UsageError("a command is missing: " + join(names) + ".");
+  if (left.front().starts_with("-")) check_nothing_left(program, "raymoval");
+  if (!closest_name(left.front(), names)) {
+    const auto option = closest_name(left.front(), option_names(program));
+    if (option) names = {*option};  // "version"
+  }
+  throw UsageError("'" + left.front() + "' is no command." + suggestion(left.front(), names) +
+                   " See `raymoval --help`.");
+}
+
+OptionText option_text(const CLI::Option& option) {
+  OptionText text;
+  if (!option.get_lnames().empty()) text.long_name = "--" + option.get_lnames().front();
+  if (!option.get_snames().empty()) text.short_name = "-" + option.get_snames().front();
+  text.sentence = option.get_description();
+  text.repeats = option.get_items_expected_max() > 1;
+  if (option.get_expected_max() > 0) text.value = option.get_type_name();
+  return text;
+}
+
+CommandText command_text(const CLI::App& app) {
+  CommandText text{.name = app.get_name(),
+                   .sentence = app.get_description(),
+                   .options = {},
+                   .words = {},
+                   .footer = app.get_footer()};
+  for (const CLI::Option* option : app.get_options()) {
+    OptionText told = option_text(*option);
+    const bool named = !told.long_name.empty() || !told.short_name.empty();
+    if (named) text.options.push_back(told);
+    if (!option->get_positional()) continue;  // Some are both: `inspect PATH`, `--sequence PATH`.
+    told.long_name.clear();
+    told.short_name.clear();
+    text.words.push_back(told);
+  }
+  return text;
+}
+
+}  // namespace
+
+void CommandOptions::add(const std::string& names, const std::string& type, std::string& value,
+                         const std::string& sentence) {
+  app_of(command_).add_option(names, value, sentence)->type_name(type);
+}
+
+void CommandOptions::add(const std::string& names, const std::string& type,
+                         std::vector<std::string>& values, const std::string& sentence) {
+  app_of(command_).add_option(names, values, sentence)->type_name(type)->allow_extra_args(false);
+}
+
+void CommandOptions::add_flag(const std::string& names, bool& value, const std::string& sentence) {
+  app_of(command_).add_flag(names, value, sentence);
+}
+
+void CommandOptions::set_sentence(const std::string& name, const std::string& sentence) {
+  app_of(command_).get_option(name)->description(sentence);
+}
+
+void CommandOptions::set_footer(const std::string& text) {
+  app_of(command_).footer(text);
+}
+
+void CommandOptions::hide() {
+  app_of(command_).group("");
+}
+
+struct CommandParser::Parser {
+  CLI::App app;
+};
+
+CommandParser::CommandParser(const std::string& sentence, const std::string& name)
+    : parser_(new Parser{CLI::App(sentence, name)}) {
+  parser_->app.allow_extras();
+  parser_->app.require_subcommand(0, 1);  // So that a run folder may be called "run".
+}
+
+CommandParser::~CommandParser() = default;
+
+void CommandParser::set_version(const std::string& text) {
+  parser_->app.set_version_flag("--version", text);
+}
+
+void CommandParser::set_footer(const std::string& text) {
+  parser_->app.footer(text);
+}
+
+CommandOptions CommandParser::add_command(const std::string& name, const std::string& sentence) {
+  CLI::App* command = parser_->app.add_subcommand(name, sentence);
+  command->allow_extras();  // `check_nothing_left` makes better errors of what is left.
+  return {command, name};
+}
+
+std::string CommandParser::parse(int argc, const char* const* argv) {
+  CLI::App& program = parser_->app;
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      program.exit(error);
+      return "";
+    }
+    throw UsageError(parse_problem(error) + " See `" + parsed_command(program) + " --help`.");
+  }
+  return chosen_command(program);
+}
+
+std::string CommandParser::help_page(const std::string& command) const {
+  const CLI::App& program = parser_->app;
+  const auto& formatter = *program.get_formatter();
+  if (command.empty()) return formatter.make_help(&program, "raymoval", CLI::AppFormatMode::Normal);
+  std::vector<std::string> names;
+  for (const CLI::App* app : all_commands(program)) {
+    if (app->get_group().empty()) continue;  // Not shown.
+    if (app->get_name() == command) {
+      return formatter.make_help(app, "raymoval " + command, CLI::AppFormatMode::Normal);
+    }
+    names.push_back(app->get_name());
+  }
+  throw UsageError("'" + command + "' is no command." + suggestion(command, names));
+}
+
+CommandText CommandParser::program_text() const {
+  return command_text(parser_->app);
+}
+
+std::vector<CommandText> CommandParser::command_texts() const {
+  std::vector<CommandText> texts;
+  for (const CLI::App* app : all_commands(parser_->app)) {
+    if (!app->get_group().empty()) texts.push_back(command_text(*app));
+  }
+  return texts;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace raymoval {
+
+/// An option of a command, or a word that stands alone, as --help shows it.
+struct OptionText {
+  std::string long_name;   ///< "--method"; empty for a word that stands alone.
+  std::string short_name;  ///< "-o", or empty.
+  std::string sentence;    ///< As --help has it.
+  std::string value;       ///< "NAME", as --help has it; empty if the option takes no value.
+  std::string value_set;   ///< Name of a `ValueSet`, see `command_tree`.
+  bool repeats = false;    ///< It may be given more than once.
+};
+
+struct CommandText {
+  std::string name;
+  std::string sentence;
+  std::vector<OptionText> options;
+  std::vector<OptionText> words;
+  std::string footer;  ///< Sentences and examples as --help has them.
+};
+
+/// Declares the options of one command. It belongs to the parser that made it.
+class CommandOptions {
+ public:
+  /// Adds an option that takes one value.
+  /// @param names "--format", or "-o,--output", or "run" for a word that stands alone
+  /// @param type the word for the value in --help, such as FILE
+  /// @param value where the value is put; it has to live until the command has run
+  /// @param sentence what --help says about it
+  void add(const std::string& names, const std::string& type, std::string& value,
+           const std::string& sentence);
+
+  /// Adds an option that takes one value each time it is given.
+  void add(const std::string& names, const std::string& type, std::vector<std::string>& values,
+           const std::string& sentence);
+
+  /// Adds an option without a value: `value` is true if the option is given.
+  void add_flag(const std::string& names, bool& value, const std::string& sentence);
+
+  /// Replaces the sentence of an option that was added before.
+  void set_sentence(const std::string& name, const std::string& sentence);
+
+  /// Sets what --help says below the options.
+  void set_footer(const std::string& text);
+
+  /// Leaves the command out of --help, the manual page and the completion of shells.
+  void hide();
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  friend class CommandParser;
+  CommandOptions(void* command, std::string name) : command_(command), name_(std::move(name)) {}
+
+  void* command_;  ///< A CLI::App.
+  std::string name_;
+};
+
+/// Reads the command line. It hides CLI11, whose headers take ten seconds to compile: only
+/// command_parser.cpp includes them.
+class CommandParser {
+ public:
+  /// @param sentence what the program does
+  /// @param name the program's name
+  explicit CommandParser(const std::string& sentence, const std::string& name);
+  ~CommandParser();
+  CommandParser(const CommandParser&) = delete;
+  CommandParser& operator=(const CommandParser&) = delete;
+
+  /// Adds --version, which prints `text`.
+  void set_version(const std::string& text);
+  /// Sets what --help of the program says at its end.
+  void set_footer(const std::string& text);
+
+  CommandOptions add_command(const std::string& name, const std::string& sentence);
+
+  /// Reads the command line and puts values where the options of the chosen command say.
+  /// @return the chosen command's name, or "" if --help or --version was given and is answered
+  /// @throws UsageError that names what is wrong and the nearest known command or option
+  [[nodiscard]] std::string parse(int argc, const char* const* argv);
+
+  /// The text of --help: of a command, or of the program if `command` is empty.
+  /// @throws UsageError if no command that is shown has this name
+  [[nodiscard]] std::string help_page(const std::string& command) const;
+
+  [[nodiscard]] CommandText program_text() const;
+  /// The commands that are shown, in the order in which they were added.
+  [[nodiscard]] std::vector<CommandText> command_texts() const;
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/picture/maps/map_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/suite/cell_selection.h"
+#include "core/error.h"
+#include "core/scan/local_frame.h"
+#include "core/text.h"
+#include "eval/protocol_registry.h"
+
+namespace raymoval {
+namespace {
+
+constexpr int kMargin = 20;
+constexpr int kGap = 14;
+constexpr int kHeading = 26;  ///< Height above the panels of a row, for the sequence's name.
+constexpr int kCaption = 22;  ///< Height below a panel, for its rates.
+constexpr double kAround = 30.0;
+
+/// One panel: a raster, or a reason why there is none.
+struct MapPanel {
+  std::string method;
+  std::string caption;
+  std::string reason;
+  std::optional<TopDownRaster> raster;
+};
+
+struct MapRow {
+  std::string sequence;
+  std::vector<MapPanel> panels;  ///< One for each column.
+  double resolution = 1.0;
+  int width = 0, height = 0;  ///< Of a panel.
+};
+
+/// The cells that the picture shows.
+std::vector<const KeptCell*> chosen_cells(const KeptRun& run, const MapPictureOptions& options) {
+  std::vector<std::string> names;
+  for (const KeptCell& cell : run.cells()) names.push_back(cell.sequence + "/" + cell.name);
+  CellSelection selection;
+  selection.only = options.only;
+  const std::vector<bool> fits = select_cells(selection, names, "run");
+  std::vector<const KeptCell*> chosen;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool wanted = options.only.empty() ? !run.cells()[i].control : fits[i];
+    if (wanted) chosen.push_back(&run.cells()[i]);
+  }
+  if (chosen.empty()) {
+    throw UsageError("this run has nothing but controls. Name them with --only.");
+  }
+  return chosen;
+}
+
+void check_something_kept(const std::vector<const KeptCell*>& cells) {
+  const KeptCell* without = nullptr;
+  for (const KeptCell* cell : cells) {
+    if (cell->has_removals()) return;
+    if (cell->has_result() && without == nullptr) without = cell;
+  }
+  if (without != nullptr) throw UsageError(keep_removals_remedy(*without));
+}
+
+std::string reason_of(const KeptCell* cell) {
+  if (cell == nullptr) return "not chosen";
+  if (!cell->has_result()) return cell->status + (cell->reason.empty() ? "" : ": " + cell->reason);
+  return cell->has_removals() ? "" : "what it removed was not kept (run --keep-removals)";
+}
+
+/// "PR 98.1  RR 90.0  F1 0.939" by the first protocol of the run.
+std::string caption_of(const RunResults& results, const KeptCell& cell) {
+  if (results.protocols.empty()) return "";
+  const ResultRow* row = results.find(cell.sequence, cell.name, results.protocols.front());
+  std::string text;
+  if (row == nullptr) return text;
+  for (const RateSpec& spec : rate_specs()) {
+    if (spec.role == RateRole::kMean || spec.role == RateRole::kSecondary) continue;
+    const auto found = row->rates.find(spec.name);
+    if (found == row->rates.end() || !found->second) continue;
+    text += (text.empty() ? "" : "   ") + spec.name + " " +
+            fixed_text(*found->second, spec.unit == RateUnit::kFraction ? 3 : 1);
+  }
+  return text;
+}
+
+/// Sets the size of the panels of a sequence.
+void set_scale(const MapPictureOptions& options, const WorldWindow& window, MapRow& row) {
+  row.resolution = options.resolution > 0.0
+                       ? options.resolution
+                       : std::max(window.width(), window.height()) / options.panel_pixels;
+  const double width = std::ceil(window.width() / row.resolution - 1e-6);
+  const double height = std::ceil(window.height() / row.resolution - 1e-6);
+  if (!(width * height * static_cast<double>(row.panels.size()) <= Canvas::kMostPixels)) {
+    throw UsageError("the maps of sequence '" + row.sequence + "' would have " +
+                     fixed_text(width, 0) + " x " + fixed_text(height, 0) +
+                     " pixels each. Choose a coarser --resolution or a smaller --crop.");
+  }
+  row.width = std::max(1, static_cast<int>(width));
+  row.height = std::max(1, static_cast<int>(height));
+}
+
+void fill_row(const KeptRun& run, const std::vector<const KeptCell*>& cells,
+              const MapPictureOptions& options, const OpenContext& context, MapRow& row) {
+  const bool any = std::any_of(cells.begin(), cells.end(), [](const KeptCell* cell) {
+    return cell != nullptr && cell->has_removals();
+  });
+  if (!any) {
+    row.width = options.panel_pixels;
+    row.height = std::max(60, options.panel_pixels / 3);
+    return;
+  }
+  const Sequence sequence = run.open(row.sequence, context);
+  const LocalFrameSource upright(*sequence.scans, sequence.upright_frame());
+  const WorldWindow window = options.crop ? *options.crop : window_around_way(upright);
+  set_scale(options, window, row);
+  std::vector<MaskStore> masks;
+  std::vector<TopDownRaster*> rasters;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!row.panels[i].reason.empty()) continue;
+    masks.push_back(run.masks(*cells[i], sequence));
+    row.panels[i].raster.emplace(window, row.resolution);
+    rasters.push_back(&*row.panels[i].raster);
+  }
+  for_each_shown_point(sequence, upright, masks, "drawing " + sequence.name, context,
+                       [&](std::size_t mask, const PointOutcome& point) {
+                         rasters[mask]->add(point.world, point.outcome);
+                       });
+}
+
+void draw_row(Canvas& canvas, const MapRow& row, int column_width, int top) {
+  canvas.text(kMargin, top + 17, row.sequence, 15, kInk);
+  bool scale_shown = false;
+  for (std::size_t i = 0; i < row.panels.size(); ++i) {
+    const MapPanel& panel = row.panels[i];
+    const int left =
+        kMargin + static_cast<int>(i) * (column_width + kGap) + (column_width - row.width) / 2;
+    const int y = top + kHeading;
+    if (panel.raster) {
+      panel.raster->draw(canvas, left, y);
+    } else {
+      canvas.hatch(left, y, row.width, row.height);
+      canvas.paragraph(left + 12, y + 8, row.width - 24, row.height - 16, panel.reason, 13,
+                       kSoftInk);
+    }
+    canvas.frame(left, y, row.width, row.height, kBorder);
+    if (panel.raster && !scale_shown) {
+      draw_scale_bar(canvas, left + 10, y + row.height - 12, row.resolution, row.width / 3);
+      scale_shown = true;
+    }
+    canvas.text(left + row.width / 2, y + row.height + 16,
+                canvas.fitted(panel.caption, 12, column_width), 12, kSoftInk, Align::kCentre);
+  }
+}
+
+Canvas drawn(const std::vector<MapRow>& rows, const std::vector<std::string>& methods) {
+  int column_width = 1;
+  int height = kMargin + 24 + 34 + kMargin;
+  for (const MapRow& row : rows) {
+    column_width = std::max(column_width, row.width);
+    height += kHeading + row.height + kCaption + kGap;
+  }
+  const int columns = static_cast<int>(methods.size());
+  // Wide enough for the legend below one narrow column.
+  const int width = std::max(2 * kMargin + columns * (column_width + kGap) - kGap, 620);
+  Canvas canvas(width, height);
+  for (int i = 0; i < columns; ++i) {
+    canvas.text(kMargin + i * (column_width + kGap) + column_width / 2, kMargin + 14,
+                canvas.fitted(methods[static_cast<std::size_t>(i)], 16, column_width), 16, kInk,
+                Align::kCentre);
+  }
+  int top = kMargin + 24;
+  for (const MapRow& row : rows) {
+    draw_row(canvas, row, column_width, top);
+    top += kHeading + row.height + kCaption + kGap;
+  }
+  draw_outcome_legend(canvas, kMargin, top + 18, 13);
+  return canvas;
+}
+
+}  // namespace
+
+WorldWindow window_around_way(const ScanSource& scans) {
+  WorldWindow window{1e300, -1e300, 1e300, -1e300};
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Eigen::Vector3d at = scans.pose(i).translation();
+    window.x_min = std::min(window.x_min, at.x() - kAround);
+    window.x_max = std::max(window.x_max, at.x() + kAround);
+    window.y_min = std::min(window.y_min, at.y() - kAround);
+    window.y_max = std::max(window.y_max, at.y() + kAround);
+  }
+  return scans.size() > 0 ? window : WorldWindow{-kAround, kAround, -kAround, kAround};
+}
+
+Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
+                   const OpenContext& context) {
+  const std::vector<const KeptCell*> chosen = chosen_cells(run, options);
+  check_something_kept(chosen);
+  std::vector<std::string> methods, sequences;
+  const auto add = [](std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const KeptCell* cell : chosen) {
+    add(methods, cell->name);
+    add(sequences, cell->sequence);
+  }
+  std::vector<MapRow> rows;
+  for (const std::string& sequence : sequences) {
+    MapRow row;
+    row.sequence = sequence;
+    std::vector<const KeptCell*> cells;
+    for (const std::string& method : methods) {
+      const auto found = std::find_if(chosen.begin(), chosen.end(), [&](const KeptCell* cell) {
+        return cell->sequence == sequence && cell->name == method;
+      });
+      const KeptCell* cell = found == chosen.end() ? nullptr : *found;
+      cells.push_back(cell);
+      row.panels.push_back({method, cell != nullptr ? caption_of(run.results(), *cell) : "",
+                            reason_of(cell), std::nullopt});
+    }
+    fill_row(run, cells, options, context, row);
+    rows.push_back(std::move(row));
+  }
+  return drawn(rows, methods);
+}
+
+}  // namespace raymoval

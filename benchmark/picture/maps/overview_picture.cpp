@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/picture/maps/overview_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "benchmark/picture/canvas/colour_maps.h"
+#include "benchmark/picture/maps/oblique_view.h"
+#include "core/error.h"
+#include "core/scan/local_frame.h"
+#include "core/text.h"
+#include "eval/columns/removal_tally.h"
+
+namespace raymoval {
+namespace {
+
+constexpr int kMargin = 20;
+constexpr int kHeading = 28;
+constexpr int kGap = 16;
+constexpr double kAround = 20.0;
+constexpr double kLeastAspect = 0.30;  ///< Least ratio of height to width of the maps.
+constexpr double kMostAboveSensor = 4.0;
+constexpr double kZoomSide = 26.0;
+constexpr double kCell = 4.0;  ///< Of the grid that finds the busiest place, metres.
+
+/// Calls `look` for each point that the overview shows.
+void for_each_point(const Sequence& sequence, const ScanSource& scans,
+                    const std::vector<MaskStore>& masks, const char* task,
+                    const OpenContext& context,
+                    const std::function<void(const PointOutcome&)>& look) {
+  for_each_shown_point(sequence, scans, masks, task, context,
+                       [&](std::size_t, const PointOutcome& point) {
+                         if (point.above_sensor <= kMostAboveSensor) look(point);
+                       });
+}
+
+/// The turn that makes the sensor's path run from left to right. If the sensor stands still, the
+/// world's x axis does.
+double yaw_of_way(const ScanSource& scans) {
+  const Eigen::Vector3d from = scans.pose(0).translation();
+  Eigen::Vector3d farthest = from;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Eigen::Vector3d at = scans.pose(i).translation();
+    if ((at - from).head<2>().norm() > (farthest - from).head<2>().norm()) farthest = at;
+  }
+  const Eigen::Vector3d way = farthest - from;
+  return way.head<2>().norm() > 1.0 ? std::atan2(way.y(), way.x()) : 0.0;
+}
+
+ObliqueCamera camera_of(const ScanSource& scans, const OverviewOptions& options) {
+  ObliqueCamera camera;
+  camera.ground = scans.pose(0).translation().z() - kHeightOffset;
+  if (options.crop) {
+    camera.window = *options.crop;
+  } else {
+    camera.yaw = yaw_of_way(scans);
+    WorldWindow& window = camera.window;
+    window = {1e300, -1e300, 1e300, -1e300};
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      const Eigen::Vector3d at = camera.to_view(scans.pose(i).translation());
+      window.x_min = std::min(window.x_min, at.x() - kAround);
+      window.x_max = std::max(window.x_max, at.x() + kAround);
+      window.y_min = std::min(window.y_min, at.y() - kAround);
+      window.y_max = std::max(window.y_max, at.y() + kAround);
+    }
+    const double lacking = kLeastAspect * window.width() - window.height();
+    window.y_min -= std::max(0.0, lacking) / 2.0;
+    window.y_max += std::max(0.0, lacking) / 2.0;
+  }
+  camera.resolution = camera.window.width() / options.panel_pixels;
+  // Two maps stand above each other.
+  const double too_high = 2.0 * camera.height() / options.panel_pixels;
+  if (too_high > 1.0) camera.resolution *= too_high;
+  return camera;
+}
+
+/// The square of the view's frame in which most moving points were removed. If none was removed
+/// anywhere, it is the square with most moving points; if nothing moves, the middle.
+WorldWindow busiest_place(const Sequence& sequence, const ScanSource& scans,
+                          const std::vector<MaskStore>& masks, const ObliqueCamera& camera,
+                          const OpenContext& context) {
+  std::map<std::pair<int, int>, double> cells;
+  const auto cell_of = [](double metres) { return static_cast<int>(std::floor(metres / kCell)); };
+  for_each_point(sequence, scans, masks, "looking for what was removed", context,
+                 [&](const PointOutcome& point) {
+                   const Eigen::Vector3d at = camera.to_view(point.world);
+                   const WorldWindow& window = camera.window;
+                   if (at.x() < window.x_min || at.x() > window.x_max || at.y() < window.y_min ||
+                       at.y() > window.y_max) {
+                     return;
+                   }
+                   double& cell = cells[{cell_of(at.x()), cell_of(at.y())}];
+                   if (point.outcome == Outcome::kTruePositive) cell += 1.0;
+                   if (point.outcome == Outcome::kFalseNegative) cell += 1e-6;
+                 });
+  const int reach = static_cast<int>(kZoomSide / kCell / 2.0);
+  double most = 0.0;
+  double x = (camera.window.x_min + camera.window.x_max) / 2.0;
+  double y = (camera.window.y_min + camera.window.y_max) / 2.0;
+  for (const auto& [at, unused] : cells) {
+    double sum = 0.0;
+    for (const auto& [other, points] : cells) {
+      const int off =
+          std::max(std::abs(other.first - at.first), std::abs(other.second - at.second));
+      if (off < reach) sum += points;
+    }
+    if (sum <= most) continue;
+    most = sum;
+    x = (at.first + 0.5) * kCell;
+    y = (at.second + 0.5) * kCell;
+  }
+  const auto within = [](double at, double low, double high) {
+    const double side = std::min(kZoomSide, high - low);
+    const double from = std::clamp(at - side / 2.0, low, high - side);
+    return std::pair(from, from + side);
+  };
+  const auto [x_min, x_max] = within(x, camera.window.x_min, camera.window.x_max);
+  const auto [y_min, y_max] = within(y, camera.window.y_min, camera.window.y_max);
+  return {x_min, x_max, y_min, y_max};
+}
+
+/// The ground is light, and what stands on it is dark.
+Colour static_colour(double above_sensor) {
+  return blended({206, 208, 212}, {92, 98, 112}, (above_sensor + 1.6) / 4.5);
+}
+
+/// The three views.
+struct Views {
+  ObliqueRaster raw, cleaned, zoom;
+  std::uint64_t points = 0, moving = 0, removed = 0, wrong = 0, left = 0;
+
+  void add(const PointOutcome& point) {
+    const bool moves =
+        point.outcome == Outcome::kTruePositive || point.outcome == Outcome::kFalseNegative;
+    const bool gone =
+        point.outcome == Outcome::kTruePositive || point.outcome == Outcome::kFalsePositive;
+    ++points;
+    moving += moves ? 1 : 0;
+    removed += gone ? 1 : 0;
+    wrong += point.outcome == Outcome::kFalsePositive ? 1 : 0;
+    left += point.outcome == Outcome::kFalseNegative ? 1 : 0;
+    const Eigen::Vector3d at = raw.camera().to_view(point.world);
+    const Colour still = static_colour(point.above_sensor);
+    raw.add(at, moves ? verdict_colours::kFalseNegative : still, moves ? 2 : 1);
+    if (!gone) cleaned.add(at, moves ? verdict_colours::kFalseNegative : still, moves ? 2 : 1);
+    zoom.add(at, point.outcome == Outcome::kKeptStatic ? still : outcome_colour(point.outcome), 2);
+  }
+};
+
+/// Draws the outline of the place that is shown at a larger scale.
+void draw_outline(Canvas& canvas, const ObliqueCamera& camera, const WorldWindow& place, int left,
+                  int top) {
+  const auto line = [&](double x0, double y0, double x1, double y1) {
+    constexpr int kSteps = 600;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double share = static_cast<double>(i) / kSteps;
+      const auto at = camera.place({x0 + share * (x1 - x0), y0 + share * (y1 - y0), camera.ground});
+      if (at.x < 0 || at.y < 0 || at.x + 1 > camera.width() || at.y + 1 > camera.height()) continue;
+      canvas.fill(left + static_cast<int>(at.x), top + static_cast<int>(at.y), 2, 2, kInk);
+    }
+  };
+  line(place.x_min, place.y_min, place.x_max, place.y_min);
+  line(place.x_max, place.y_min, place.x_max, place.y_max);
+  line(place.x_max, place.y_max, place.x_min, place.y_max);
+  line(place.x_min, place.y_max, place.x_min, place.y_min);
+}
+
+std::string percent_text(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return "none";
+  return fixed_text(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+}
+
+Canvas drawn(const KeptCell& cell, std::size_t scans, const Views& views,
+             const WorldWindow& place) {
+  const int wide = views.raw.camera().width(), high = views.raw.camera().height();
+  const int zoom_wide = views.zoom.camera().width(), zoom_high = views.zoom.camera().height();
+  const int maps_high = 2 * (kHeading + high) + kGap;
+  const int body = std::max(maps_high, kHeading + zoom_high);
+  Canvas canvas(2 * kMargin + wide + kGap + zoom_wide, 2 * kMargin + body + 30);
+  const auto panel = [&](const ObliqueRaster& raster, int x, int y, const std::string& heading) {
+    const int size = canvas.text_width(heading, 14) <= raster.camera().width() ? 14 : 12;
+    canvas.text(x, y + 18, canvas.fitted(heading, size, raster.camera().width()), size, kInk);
+    raster.draw(canvas, x, y + kHeading);
+    canvas.frame(x, y + kHeading, raster.camera().width(), raster.camera().height(), kBorder);
+  };
+  panel(views.raw, kMargin, kMargin,
+        cell.sequence + ": all points of " + grouped_text(scans) + " scans, " +
+            percent_text(views.moving, views.points) + " of them moving");
+  const int second = kMargin + kHeading + high + kGap;
+  panel(views.cleaned, kMargin, second,
+        "Cleaned by " + cell.name + ": " + percent_text(views.left, views.moving) +
+            " of moving points left, " + percent_text(views.wrong, views.points - views.moving) +
+            " of static ones lost");
+  const int right = kMargin + wide + kGap;
+  panel(views.zoom, right, kMargin, "What was removed, within the outline");
+  draw_outline(canvas, views.raw.camera(), place, kMargin, kMargin + kHeading);
+  draw_outline(canvas, views.raw.camera(), place, kMargin, second + kHeading);
+  draw_scale_bar(canvas, kMargin + 10, second + kHeading + high - 12, views.raw.camera().resolution,
+                 wide / 5);
+  draw_outcome_legend(canvas, kMargin, kMargin + body + 24, 13);
+  return canvas;
+}
+
+}  // namespace
+
+Canvas overview_picture(const KeptRun& run, const KeptCell& cell, const OverviewOptions& options,
+                        const OpenContext& context) {
+  if (!cell.has_removals()) (void)run.masks(cell, {});  // Says why before anything is read.
+  const Sequence sequence = run.open(cell.sequence, context);
+  const std::vector<MaskStore> masks = {run.masks(cell, sequence)};
+  const LocalFrameSource scans(*sequence.scans, sequence.upright_frame());
+  const ObliqueCamera camera = camera_of(scans, options);
+  ObliqueCamera close = camera;
+  close.window = busiest_place(sequence, scans, masks, camera, context);
+  // As high as the two maps together.
+  close.resolution = camera.resolution * close.height() / (2.0 * camera.height() + kHeading + kGap);
+  Views views{ObliqueRaster(camera), ObliqueRaster(camera), ObliqueRaster(close)};
+  for_each_point(sequence, scans, masks, "drawing", context,
+                 [&](const PointOutcome& point) { views.add(point); });
+  return drawn(cell, sequence.scans->size(), views, close.window);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/picture/maps/top_down.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// A moving object always stands on many static points, so it takes this many of them to outweigh
+/// one moving point.
+constexpr std::uint64_t kMovingWeight = 10;
+
+/// Few points are light grey, and a wall is dark.
+Colour static_grey(std::uint32_t points) {
+  const double share = std::min(1.0, std::log2(1.0 + points) / 8.0);
+  const auto level = static_cast<std::uint8_t>(std::lround(226.0 - 110.0 * share));
+  return {level, level, level};
+}
+
+}  // namespace
+
+TopDownRaster::TopDownRaster(const WorldWindow& window, double resolution)
+    : window_(window),
+      resolution_(resolution),
+      width_(std::max(1, static_cast<int>(std::ceil(window.width() / resolution - 1e-6)))),
+      height_(std::max(1, static_cast<int>(std::ceil(window.height() / resolution - 1e-6)))),
+      counts_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
+
+void TopDownRaster::add(const Eigen::Vector3d& world, Outcome outcome) {
+  const double x = std::floor((world.x() - window_.x_min) / resolution_);
+  const double y = std::floor((window_.y_max - world.y()) / resolution_);
+  if (!(x >= 0.0 && y >= 0.0 && x < width_ && y < height_)) return;
+  const auto place =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  ++counts_[place][static_cast<std::size_t>(outcome)];
+}
+
+bool TopDownRaster::shown(int x, int y, Outcome& outcome) const {
+  const auto count = [&here = counts(x, y)](Outcome of) -> std::uint64_t {
+    return here[static_cast<std::size_t>(of)];
+  };
+  const std::uint64_t found = count(Outcome::kTruePositive), left = count(Outcome::kFalseNegative);
+  const std::uint64_t lost = count(Outcome::kFalsePositive), kept = count(Outcome::kKeptStatic);
+  if (found + left + lost + kept == 0) return false;
+  if (found + left > 0 && kMovingWeight * (found + left) >= lost + kept) {
+    outcome = left >= found ? Outcome::kFalseNegative : Outcome::kTruePositive;
+  } else {
+    outcome = lost >= kept ? Outcome::kFalsePositive : Outcome::kKeptStatic;
+  }
+  return true;
+}
+
+void TopDownRaster::draw(Canvas& canvas, int left, int top) const {
+  canvas.draw_pixels(left, top, width_, height_, [&](int x, int y) -> std::optional<Colour> {
+    Outcome outcome = Outcome::kKeptStatic;
+    if (!shown(x, y, outcome)) return std::nullopt;
+    return outcome == Outcome::kKeptStatic
+               ? static_grey(counts(x, y)[static_cast<std::size_t>(outcome)])
+               : outcome_colour(outcome);
+  });
+}
+
+void draw_scale_bar(Canvas& canvas, int x, int y, double resolution, int most_pixels) {
+  double metres = 0.01;
+  for (double power = 0.01; power < 1e5; power *= 10.0) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      if (digit * power / resolution <= most_pixels) metres = digit * power;
+    }
+  }
+  const int length = std::max(1, static_cast<int>(std::lround(metres / resolution)));
+  const std::string name = fixed_text(metres, metres < 1.0 ? 2 : 0) + " m";
+  canvas.fill(x - 3, y - 19, std::max(length, canvas.text_width(name, 12)) + 6, 26, kPaper);
+  canvas.fill(x, y, length, 3, kInk);
+  canvas.fill(x, y - 3, 1, 6, kInk);
+  canvas.fill(x + length - 1, y - 3, 1, 6, kInk);
+  canvas.text(x, y - 6, name, 12, kInk);
+}
+
+int draw_outcome_legend(Canvas& canvas, int x, int y, int size) {
+  int at = x;
+  for (const Outcome outcome : kLegendOrder) {
+    canvas.fill(at, y - size + 2, size, size, outcome_colour(outcome));
+    canvas.text(at + size + 6, y, outcome_name(outcome), size, kInk);
+    at += size + 6 + canvas.text_width(outcome_name(outcome), size) + 24;
+  }
+  return at - x;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "benchmark/process/method_run.h"
+#include "benchmark/suite/suite.h"
+#include "core/progress.h"
+
+namespace raymoval {
+
+/// What a process tells the child that it starts to run a method.
+struct MethodOrder {
+  SequenceRequest place;  ///< Where the child opens the sequence, and how.
+  MethodRequest request;  ///< The child needs its name, method and parameters only.
+  int threads = 1;
+  bool with_reasons = false;  ///< Whether the method is asked for its reasons.
+  ProgressStyle progress = ProgressStyle::kQuiet;
+  std::string progress_context = {};
+};
+
+// Both messages are files, since a pipe would hold up whoever writes more than the other reads.
+
+/// @throws DataError if `file` cannot be written
+void write_order(int file, const MethodOrder& order);
+/// @throws nlohmann::json::exception or MethodError if the order is not whole
+MethodOrder read_order(int file, const MethodRegistry& registry);
+
+/// @throws DataError if `file` cannot be written
+void write_answer(int file, const MethodAnswer& answer);
+/// @throws nlohmann::json::exception or MethodError if the answer is not whole, since a method may
+/// write to any file of its process
+MethodAnswer read_answer(int file);
+
+}  // namespace raymoval

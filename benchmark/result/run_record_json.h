@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "benchmark/result/run_record.h"
+
+namespace raymoval {
+
+class JsonFields;
+
+/// The content of run.json without its checksum, and back. As for cells, bytes are kept.
+nlohmann::ordered_json to_json(const RunRecord& run);
+/// @throws DataError naming the file and the field that is missing or of the wrong type
+RunRecord run_record_from(const JsonFields& fields);
+
+/// Reads a sealed run.json. @throws DataError if it is missing, damaged or of another version
+RunRecord read_run_record(const std::filesystem::path& file);
+void write_run_record(const std::filesystem::path& file, const RunRecord& run);
+
+/// The content of results.json without its checksum, and back.
+nlohmann::ordered_json to_json(const ResultsRecord& results);
+/// @throws DataError as `run_record_from`
+ResultsRecord results_from(const JsonFields& fields);
+
+/// Reads a sealed results.json. @throws DataError as `read_run_record`
+ResultsRecord read_results(const std::filesystem::path& file);
+void write_results(const std::filesystem::path& file, const ResultsRecord& results);
+
+/// The content of results.json as it stands in the file, without its checksum.
+/// @throws DataError as `read_results`
+std::string read_results_text(const std::filesystem::path& file);
+
+}  // namespace raymoval

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/run/cell_run.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+#include "benchmark/process/checked_sink.h"
+#include "benchmark/process/method_process.h"
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/reasons.h"
+#include "benchmark/result/removal_files.h"
+#include "methods/external/external.h"
+
+namespace raymoval {
+namespace {
+
+MethodRecord method_record(const MethodRequest& request) {
+  const MethodEntry& entry = *request.method.entry;
+  return {entry.name,
+          request.method.variant.name,
+          entry.version,
+          request.method.variant.online,
+          is_control(entry.name),
+          request.method.configuration};
+}
+
+DataRecord data_record(ScoredSequence& scored) {
+  DataRecord data = scored.sequence().record();
+  data.fingerprint = scored.data_fingerprint();
+  return data;
+}
+
+ProtocolRecord protocol_record(const ScoredSequence& scored, std::size_t i) {
+  const Protocol& protocol = scored.protocol(i);
+  return {scored.protocol_name(i), protocol.name(), protocol.version(), protocol.options()};
+}
+
+void check_cancelled(const CellTask& task) {
+  if (task.cancel != nullptr && task.cancel->load()) throw Cancelled();
+}
+
+void score_all(const CellTask& task, const MaskStore& masks, Cell& cell) {
+  for (std::size_t i = 0; i < task.scored->protocol_count(); ++i) {
+    check_cancelled(task);
+    ProtocolResult result = task.scored->score(i, masks);
+    cell.scores.push_back({protocol_record(*task.scored, i), std::move(result.counts),
+                           std::move(result.rates), std::move(result.warnings),
+                           std::move(result.intervals)});
+  }
+  cell.columns = ColumnRecord{kColumnsVersion, task.scored->columns(masks)};
+}
+
+void write_cell_removals(const CellTask& task, const MethodAnswer& answer) {
+  Progress* progress = task.scored->progress();
+  const ScanSource& scans = *task.scored->sequence().scans;
+  if (progress != nullptr) progress->begin("writing removals", scans.size());
+  write_removals(task.removals, scans, answer.masks, [&] {
+    check_cancelled(task);
+    if (progress != nullptr) progress->advance();
+  });
+  write_reasons(task.removals, scans, answer.reasons);
+}
+
+/// @throws MethodError unless the child gave one mask for each scan
+void check_masks(const MethodAnswer& answer, const ScanSource& scans) {
+  if (answer.masks.size() == scans.size()) return;
+  throw MethodError(fmt::format("answered for {} scans, expected {}; the data changed while it ran",
+                                answer.masks.size(), scans.size()));
+}
+
+void fill_cell(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
+  check_masks(answer, *task.scored->sequence().scans);
+  cell.measured = answer.measured;
+  cell.masks = MaskRecord{mask_digest(answer.masks),
+                          static_cast<std::int64_t>(answer.masks.removed_count())};
+  score_all(task, answer.masks, cell);
+}
+
+MethodAnswer answer_of_method(const CellTask& task) {
+  const MethodTask method{&task.scored->sequence(), task.request, task.scored->threads(),
+                          task.scored->progress(),  task.cancel,  !task.removals.empty()};
+  return task.place == nullptr ? run_method(method)
+                               : run_method_apart(method, *task.place, task.limits);
+}
+
+/// Says what of an external method is no longer as the key says, since anybody may change its
+/// files; else empty.
+std::string changed_program(const MethodEntry& entry) {
+  if (entry.manifest.empty()) return "";
+  try {
+    const std::string now = external_entry(entry.manifest).version;
+    if (now == entry.version) return "";
+    return fmt::format(
+        "{}: the manifest or files of the program changed during the run (version {}, now {}). Run "
+        "again; 'files' of the manifest must not name what the program itself writes.",
+        entry.manifest, entry.version, now);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// The method's answer. Its status is only kOk if the method and what it read are those of the key.
+MethodAnswer method_answer(const CellTask& task) {
+  MethodAnswer answer;
+  answer.status = CellStatus::kFailed;
+  answer.reason = changed_program(*task.request->method.entry);
+  if (!answer.reason.empty()) return answer;
+  answer = answer_of_method(task);
+  if (answer.status != CellStatus::kOk) return answer;
+  answer.reason = changed_program(*task.request->method.entry);
+  if (!answer.reason.empty()) answer.status = CellStatus::kFailed;
+  const std::string change = task.scored->data_change(answer.loaded ? &*answer.loaded : nullptr);
+  if (!change.empty()) {
+    answer.status = CellStatus::kBadData;
+    answer.reason = change;
+  }
+  return answer;
+}
+
+/// Scores an answer. A fault of the method or the data makes the cell one without a result.
+void score_answer(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
+  try {
+    fill_cell(task, answer, cell);
+    // Scoring reads the data once more.
+    const std::string change = task.scored->data_change(nullptr);
+    if (!change.empty()) cell.fail(CellStatus::kBadData, change);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const DataError& error) {
+    cell.fail(CellStatus::kBadData, error.what());
+  } catch (const std::bad_alloc&) {
+    cell.fail(CellStatus::kOutOfMemory, "there was not enough memory");
+  } catch (const std::exception& error) {
+    cell.fail(CellStatus::kFailed, error.what());
+  }
+}
+
+}  // namespace
+
+CellIdentity cell_identity(ScoredSequence& scored, const MethodRequest& request) {
+  CellIdentity identity{method_record(request), data_record(scored), {}};
+  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
+    identity.protocols.push_back(protocol_record(scored, i));
+  }
+  return identity;
+}
+
+std::string current_key(ScoredSequence& scored, const MethodRequest& request) {
+  return cell_key(cell_identity(scored, request));
+}
+
+Cell execute_cell(const CellTask& task) {
+  CellIdentity identity = cell_identity(*task.scored, *task.request);
+  Cell cell{task.scored->sequence().name, task.request->name, cell_key(identity)};
+  cell.method = std::move(identity.method);
+  cell.data = std::move(identity.data);
+  const MethodAnswer answer = method_answer(task);
+  cell.output_tail = answer.output_tail;
+  if (answer.status != CellStatus::kOk) {
+    cell.fail(answer.status, answer.reason);
+    return cell;
+  }
+  score_answer(task, answer, cell);
+  // A disk that is full is no fault of the method: it ends the run.
+  if (cell.ok() && !task.removals.empty()) write_cell_removals(task, answer);
+  return cell;
+}
+
+MethodAnswer repeat_cell(const CellTask& task) {
+  return method_answer(task);
+}
+
+Cell unreadable_cell(const std::string& sequence, const MethodRequest& request,
+                     const std::string& reason) {
+  Cell cell{sequence, request.name, ""};
+  cell.method = method_record(request);
+  cell.fail(CellStatus::kBadData, reason);
+  return cell;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/run/opened_suite.h"
+
+#include <fmt/format.h>
+
+#include "benchmark/process/method_run.h"
+#include "benchmark/run/cell_run.h"
+#include "benchmark/run/run_folder.h"
+#include "core/files/file_kind.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "datasets/open_sequence.h"
+#include "eval/protocol_registry.h"
+
+namespace raymoval {
+namespace {
+
+/// The sequences' names. Scenes are not generated for it: what is wrong with names shows before.
+std::vector<std::string> sequence_names(const Suite& suite) {
+  std::vector<std::string> names;
+  for (const SequenceRequest& request : suite.sequences) {
+    names.push_back(sequence_name(request.path, request.options));
+    for (std::size_t i = 0; i + 1 < names.size(); ++i) {
+      if (folder_name(names[i]) != folder_name(names.back())) continue;
+      throw UsageError(fmt::format(
+          "two sequences of this run are called '{}' ({} and {}). Run them into two folders, the "
+          "second with --name NAME, or give each a \"name\" in a suite file.",
+          names.back(), suite.sequences[i].path, request.path));
+    }
+  }
+  return names;
+}
+
+std::vector<CellName> cell_names(const Suite& suite) {
+  std::vector<CellName> cells;
+  for (const std::string& sequence : sequence_names(suite)) {
+    for (const MethodRequest& request : suite.methods) cells.push_back({sequence, request.name});
+  }
+  return cells;
+}
+
+/// "SEQUENCE/NAME" of each cell.
+std::vector<std::string> selection_names(const std::vector<CellName>& cells) {
+  std::vector<std::string> names;
+  for (const CellName& cell : cells) names.push_back(cell.sequence + "/" + cell.name);
+  return names;
+}
+
+void check_same_data(OpenedSuite& suite, std::size_t sequence, const RunRecord& present) {
+  const std::string& name = suite.sequences()[sequence].name;
+  if (known_fingerprint(present, name).empty() || !suite.is_needed(sequence)) return;
+  ScoredSequence scored = suite.take_sequence(sequence);
+  try {
+    (void)scored.data_fingerprint();
+  } catch (const DataError&) {
+    return;  // Its cells say so.
+  }
+  refuse_other_results(suite.options().out,
+                       why_other_data(present, name, scored.data_fingerprint()));
+  suite.give_back(sequence, std::move(scored));
+}
+
+}  // namespace
+
+OpenedSuite::OpenedSuite(const Suite& suite, const RunOptions& options)
+    : suite_(suite),
+      options_(options),
+      store_(options.out),
+      threads_(suite.threads > 0 ? suite.threads : hardware_threads()) {
+  for (const ProtocolRequest& request : suite.protocols) {
+    (void)make_protocol(request.protocol, request.options);  // Bad options show before the work.
+  }
+  cells_ = cell_names(suite);
+  selected_ = select_cells(options.selection, selection_names(cells_));
+  for (const SequenceRequest& request : suite.sequences) {
+    sequences_.push_back(
+        open_sequence(request.path, request.options, {threads_, options.progress, options.cancel}));
+    check_has_labels(sequences_.back());
+  }
+  scored_sequences_.resize(sequences_.size());
+}
+
+void OpenedSuite::select_only(CellIndex cell) {
+  alone_ = true;
+  selected_.assign(selected_.size(), false);
+  selected_[place(cell)] = true;
+}
+
+bool OpenedSuite::is_needed(std::size_t sequence) const {
+  for (std::size_t method = 0; method < suite_.methods.size(); ++method) {
+    const CellIndex cell{sequence, method};
+    if (is_selected(cell)) return true;
+    if (!alone_ && has_file(store_.folder(name(cell)) / "cell.json")) return true;
+  }
+  return false;
+}
+
+ScoredSequence OpenedSuite::take_sequence(std::size_t sequence) {
+  if (auto& kept = scored_sequences_[sequence]) {
+    ScoredSequence scored = std::move(*kept);
+    kept.reset();
+    return scored;
+  }
+  return {sequences_[sequence], suite_.protocols, threads_, options_.progress};
+}
+
+void OpenedSuite::give_back(std::size_t sequence, ScoredSequence scored) {
+  scored_sequences_[sequence].emplace(std::move(scored));
+}
+
+CellIndex OpenedSuite::find(const std::string& wanted) {
+  const std::vector<std::string> names = selection_names(cells_);
+  const std::size_t methods = suite_.methods.size();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == wanted) return {i / methods, i % methods};
+  }
+  const bool may_be_key = wanted.find('/') == std::string::npos;
+  for (std::size_t sequence = 0; may_be_key && sequence < sequences_.size(); ++sequence) {
+    ScoredSequence scored = take_sequence(sequence);
+    for (std::size_t method = 0; method < methods; ++method) {
+      if (current_key(scored, suite_.methods[method]) == wanted) return {sequence, method};
+    }
+  }
+  throw UsageError("--cell " + wanted +
+                   ": this suite has no such cell. A key changes with parameters, data, "
+                   "protocols and versions: see `raymoval plan`." +
+                   suggestion(wanted, names));
+}
+
+void OpenedSuite::say(const std::string& line) const {
+  if (options_.progress != nullptr) options_.progress->say(line);
+}
+
+JoinedFolder join_folder(OpenedSuite& suite) {
+  const std::filesystem::path& out = suite.options().out;
+  const RunRecord asked = run_record(suite.suite(), suite.sequences(), suite.threads());
+  if (suite.options().overwrite) return {asked, {}};
+  const std::optional<RunRecord> present = present_record(out);
+  if (!present) return {asked, {}};
+  refuse_other_results(out, why_not_together(*present, asked));
+  for (std::size_t i = 0; i < suite.sequences().size(); ++i) check_same_data(suite, i, *present);
+  JoinedFolder folder{merged_run_record(*present, asked), {}};
+  if (!suite.is_alone()) folder.earlier = read_earlier_cells(suite.store(), folder.record, asked);
+  return folder;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmark/run/cell_store.h"
+#include "benchmark/run/folder_content.h"
+#include "benchmark/run/run_options.h"
+#include "benchmark/run/scored_sequence.h"
+#include "benchmark/suite/suite.h"
+
+namespace raymoval {
+
+/// Which cell of a suite is meant, by the numbers of its sequence and method.
+struct CellIndex {
+  std::size_t sequence = 0;
+  std::size_t method = 0;
+};
+
+/// A suite whose sequences are opened, and which of its cells are selected.
+class OpenedSuite {
+ public:
+  /// Both arguments have to live as long as this object.
+  /// @throws UsageError, DataError or ConfigurationError if the suite cannot be run
+  OpenedSuite(const Suite& suite, const RunOptions& options);
+
+  [[nodiscard]] const Suite& suite() const { return suite_; }
+  [[nodiscard]] const RunOptions& options() const { return options_; }
+  [[nodiscard]] const CellStore& store() const { return store_; }
+  [[nodiscard]] int threads() const { return threads_; }
+  [[nodiscard]] const std::vector<Sequence>& sequences() const { return sequences_; }
+
+  /// All cells, sequence after sequence.
+  [[nodiscard]] const std::vector<CellName>& cells() const { return cells_; }
+  /// Where a cell stands in `cells`.
+  [[nodiscard]] std::size_t place(CellIndex cell) const {
+    return cell.sequence * suite_.methods.size() + cell.method;
+  }
+  [[nodiscard]] const CellName& name(CellIndex cell) const { return cells_[place(cell)]; }
+  [[nodiscard]] const MethodRequest& method(CellIndex cell) const {
+    return suite_.methods[cell.method];
+  }
+
+  [[nodiscard]] bool is_selected(CellIndex cell) const { return selected_[place(cell)]; }
+  /// Selects this cell and leaves all others alone, also those that are in the folder.
+  void select_only(CellIndex cell);
+  [[nodiscard]] bool is_alone() const { return alone_; }
+  /// Whether anything of a sequence is to be run or may be there. Else its data is not read.
+  [[nodiscard]] bool is_needed(std::size_t sequence) const;
+
+  /// The sequence with its protocols: what `give_back` left, which knows its fingerprint already,
+  /// or a new one.
+  [[nodiscard]] ScoredSequence take_sequence(std::size_t sequence);
+  void give_back(std::size_t sequence, ScoredSequence scored);
+
+  /// The cell with the name "SEQUENCE/NAME", which takes no reading of data, or with this key.
+  /// @throws UsageError if there is none
+  [[nodiscard]] CellIndex find(const std::string& wanted);
+
+  /// Writes a line to the log, if there is one.
+  void say(const std::string& line) const;
+
+ private:
+  const Suite& suite_;
+  const RunOptions& options_;
+  CellStore store_;
+  int threads_;
+  std::vector<Sequence> sequences_;
+  std::vector<CellName> cells_;
+  std::vector<bool> selected_;  ///< As `cells_`.
+  bool alone_ = false;
+  std::vector<std::optional<ScoredSequence>> scored_sequences_;  ///< By sequence.
+};
+
+/// A run folder to which a run is added.
+struct JoinedFolder {
+  RunRecord record;      ///< What run.json is to say.
+  EarlierCells earlier;  ///< They are not read for a run that `is_alone`.
+};
+
+/// Checks that the run and what its folder holds belong together, and reads the cells of earlier
+/// runs. @throws UsageError if they do not belong together; DataError
+JoinedFolder join_folder(OpenedSuite& suite);
+
+}  // namespace raymoval

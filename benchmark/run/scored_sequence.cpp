@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/run/scored_sequence.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "benchmark/process/method_run.h"
+#include "core/files/files.h"
+
+namespace raymoval {
+namespace {
+
+/// What a result holds must be listed by its protocol, or nobody could say what it is.
+void check_is_listed(const ProtocolResult& result, const ProtocolEntry& entry) {
+  const auto check = [&](const std::string& name, const auto& specs) {
+    for (const auto& spec : specs) {
+      if (spec.name == name) return;
+    }
+    throw InternalError("protocol " + entry.name + " gave '" + name + "', which it does not list");
+  };
+  for (const auto& [name, count] : result.counts) check(name, entry.counts);
+  for (const Rate& rate : result.rates) check(rate.name, entry.rates);
+}
+
+void check_has_what_is_needed(const Protocol& protocol, const EvaluationInput& input,
+                              const std::string& sequence) {
+  try {
+    protocol.check(input);
+  } catch (const DataError& error) {
+    throw DataError("sequence '" + sequence + "': " + error.what());
+  }
+}
+
+ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
+  check_is_listed(result, protocol_entry(protocol.name()));
+  return result;
+}
+
+}  // namespace
+
+ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests,
+                               int threads, Progress* progress)
+    : watched_(watched(std::move(sequence))), threads_(threads), progress_(progress) {
+  const Sequence& opened = watched_.sequence;
+  check_has_labels(opened);
+  if (opened.scans->size() == 0) {
+    throw DataError("sequence '" + opened.name + "' has no scan in the chosen frames (" +
+                    opened.frames + "). Choose others with --frames.");
+  }
+  scored_scans_ = std::make_unique<LocalFrameSource>(*opened.scans, lattice_frame(*opened.scans));
+  for (const ProtocolRequest& request : requests) {
+    protocols_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
+    check_has_what_is_needed(*protocols_.back().protocol, input(), opened.name);
+  }
+}
+
+const std::string& ScoredSequence::data_fingerprint() {
+  if (!fingerprint_.empty()) return fingerprint_;
+  fingerprint_ = fingerprint(sequence(), threads_);
+  loaded_ = watched_.loaded();
+  const bool calibrated =
+      std::any_of(protocols_.begin(), protocols_.end(),
+                  [](const OpenedProtocol& one) { return one.protocol->reads_calibration(); });
+  if (calibrated && sequence().T_camera_lidar) {
+    const Eigen::Matrix4d calibration = sequence().T_camera_lidar->matrix();
+    ContentHasher hasher;
+    hasher.add(fingerprint_);
+    hasher.add(calibration.data(), sizeof(double) * 16);
+    fingerprint_ = hasher.digest();
+  }
+  return fingerprint_;
+}
+
+std::string ScoredSequence::data_change(const LoadedData* loaded) {
+  (void)data_fingerprint();
+  LoadedData expected = loaded_;
+  expected.change = watched_.record->data().change;
+  return changed_data(expected, loaded != nullptr ? *loaded : loaded_);
+}
+
+EvaluationInput ScoredSequence::input() const {
+  EvaluationInput input;
+  input.scans = scored_scans_.get();
+  input.labels = sequence().labels.get();
+  input.label_rule = sequence().label_rule;
+  input.range_m = sequence().range_m;
+  input.T_camera_lidar = sequence().T_camera_lidar;
+  input.threads = threads_;
+  input.progress = progress_;
+  return input;
+}
+
+std::vector<ColumnValue> ScoredSequence::columns(const MaskStore& masks) const {
+  return column_values(tally_removals(input(), masks));
+}
+
+const Scorer& ScoredSequence::scorer(std::size_t i) {
+  OpenedProtocol& opened = protocols_[i];
+  if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
+  return *opened.scorer;
+}
+
+ProtocolResult ScoredSequence::score(std::size_t i, const MaskStore& masks) {
+  return checked(scorer(i).score(masks), protocol(i));
+}
+
+ProtocolResult ScoredSequence::score_cloud(std::size_t i, const CloudEstimate& cloud) {
+  return checked(scorer(i).score_cloud(cloud), protocol(i));
+}
+
+const MaskStore& ScoredSequence::cloud_masks(const CloudEstimate& cloud) const {
+  return cloud.masks(input(), kCloudDistance);
+}
+
+}  // namespace raymoval

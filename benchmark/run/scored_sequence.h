@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmark/suite/suite.h"
+#include "core/progress.h"
+#include "core/scan/local_frame.h"
+#include "datasets/reading/loaded_data.h"
+#include "eval/columns/columns.h"
+#include "eval/points/cloud_masks.h"
+#include "eval/protocol_registry.h"
+
+namespace raymoval {
+
+/// An opened sequence with the protocols that score on it. What a protocol derives from scans and
+/// labels is built when first needed, then shared by all methods.
+class ScoredSequence {
+ public:
+  /// @throws DataError if the sequence has no labels, ConfigurationError for bad options
+  ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests, int threads,
+                 Progress* progress);
+
+  /// Its sources throw DataError for a scan that has changed since it was first read.
+  [[nodiscard]] const Sequence& sequence() const { return watched_.sequence; }
+  [[nodiscard]] int threads() const { return threads_; }
+  [[nodiscard]] Progress* progress() const { return progress_; }
+  [[nodiscard]] std::size_t protocol_count() const { return protocols_.size(); }
+  [[nodiscard]] const std::string& protocol_name(std::size_t i) const { return protocols_[i].name; }
+  [[nodiscard]] const Protocol& protocol(std::size_t i) const { return *protocols_[i].protocol; }
+
+  /// Hash of all that methods and protocols read; computed once. @throws DataError
+  const std::string& data_fingerprint();
+
+  /// What of the data was not the same whenever it was read, by this object or by a method in a
+  /// process of its own; empty: nothing.
+  /// @param loaded by the method; null: it ran in this process
+  [[nodiscard]] std::string data_change(const LoadedData* loaded);
+
+  /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
+  ProtocolResult score(std::size_t i, const MaskStore& masks);
+
+  /// Scores a cleaned cloud by protocol `i`.
+  ProtocolResult score_cloud(std::size_t i, const CloudEstimate& cloud);
+
+  /// Which points of the scans are not found again in a cleaned cloud (see `masks_of_cloud`).
+  [[nodiscard]] const MaskStore& cloud_masks(const CloudEstimate& cloud) const;
+
+  /// Figures on the removed points by class, range and height.
+  [[nodiscard]] std::vector<ColumnValue> columns(const MaskStore& masks) const;
+
+ private:
+  struct OpenedProtocol {
+    std::string name;
+    std::unique_ptr<Protocol> protocol;
+    std::unique_ptr<Scorer> scorer;  ///< Null until it is first needed.
+  };
+  [[nodiscard]] EvaluationInput input() const;
+  const Scorer& scorer(std::size_t i);
+
+  WatchedSequence watched_;
+  /// The scans as protocols get them: from `lattice_origin`.
+  std::unique_ptr<const LocalFrameSource> scored_scans_;
+  int threads_;
+  Progress* progress_;
+  std::string fingerprint_;
+  LoadedData loaded_;  ///< What the fingerprint is of.
+  std::vector<OpenedProtocol> protocols_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/suite/suite_json.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/files/config_object.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "core/text.h"
+#include "datasets/open_sequence.h"
+#include "datasets/settings.h"
+#include "eval/protocol_registry.h"
+#include "methods/external/external.h"
+
+namespace raymoval {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+// A suite file.
+
+std::optional<std::string> text_of(const ConfigObject& object, const char* key) {
+  return object.has(key) ? std::optional(object.text(key, "")) : std::nullopt;
+}
+
+RangeLimits range_of(const ConfigObject& object) {
+  RangeLimits range;
+  range.min = object.number("min", range.min);
+  range.max = object.number("max", range.max);
+  if (range.min >= 0.0 && range.max > range.min) return range;
+  throw ConfigurationError(
+      fmt::format("{}: expected 0 <= min < max in metres, but min is {} and max {}.",
+                  object.where(), number_text(range.min), number_text(range.max)));
+}
+
+/// Where the paths of a suite file lead.
+struct Places {
+  std::filesystem::path folder;  ///< Of the file.
+  std::string data;              ///< What "{data}" stands for.
+  bool data_used = false;
+};
+
+constexpr std::string_view kData = "{data}";
+
+/// A path of a suite file: beside the file if it is there, else as it stands. `ROOT:05` names a
+/// part of ROOT, so what follows the last colon does not count; names of built-in scenes stay.
+std::string located(const std::string& path, Places& places) {
+  if (path.starts_with(kData)) {
+    places.data_used = true;
+    return places.data + path.substr(kData.size());
+  }
+  const std::filesystem::path given(path);
+  if (given.is_absolute()) return path;
+  if (path.find('/') == std::string::npos && is_scene(path)) return path;
+  const std::filesystem::path beside = places.folder / given;
+  const std::string text = beside.string();
+  const std::size_t colon = text.rfind(':');
+  const bool there =
+      is_there(beside) || (colon != std::string::npos && is_there(text.substr(0, colon)));
+  return there ? text : path;
+}
+
+/// "external:PATH" with the path of a manifest beside the suite file, if it is there; the names of
+/// other methods stay.
+std::string located_method(const std::string& name, const Places& places) {
+  const auto manifest = external_manifest(name);
+  if (!manifest || !has_file(places.folder / *manifest)) return name;
+  return "external:" + (places.folder / *manifest).string();
+}
+
+/// The path of a sequence. A scene is only one where no folder of its name stands beside the file.
+std::string sequence_path(const std::string& path, Places& places, const std::string& where) {
+  const std::string both = scene_or_folder(path, places.folder);
+  if (!both.empty()) throw ConfigurationError(where + ": " + both);
+  return located(path, places);
+}
+
+SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
+  if (item.is_string()) return {sequence_path(item.get<std::string>(), places, where), {}};
+  const ConfigObject object(
+      item, where,
+      {"path", "name", "frames", "poses", "label_rule", "range_m", "sensor", "up", "drop_ego"});
+  SequenceRequest request{sequence_path(object.text("path"), places, where), {}};
+  SequenceOptions& options = request.options;
+  options.name = text_of(object, "name");
+  options.poses = text_of(object, "poses");
+  options.sensor = text_of(object, "sensor");
+  options.up = text_of(object, "up");
+  if (const auto frames = text_of(object, "frames")) options.frames = parse_frame_range(*frames);
+  if (const auto rule = text_of(object, "label_rule")) options.label_rule = located(*rule, places);
+  if (object.has("drop_ego")) {
+    options.drop_ego = ego_region_value(object.member("drop_ego"), where + ".drop_ego");
+  }
+  if (object.has("range_m")) {
+    options.range_m =
+        range_of(ConfigObject(object.member("range_m"), where + ".range_m", {"min", "max"}));
+  }
+  return request;
+}
+
+/// Puts the values of a "set" object into `configuration`.
+void apply_object(const json& object, const std::string& owner, const std::string& where,
+                  const std::vector<ParameterSpec>& specs, Configuration& configuration) {
+  for (const auto& [key, value] : object.items()) {
+    try {
+      const ParameterSpec& spec = find_parameter(owner, specs, key);
+      set_parameter(configuration, key, checked_value(owner, spec, value));
+    } catch (const ConfigurationError& error) {
+      throw ConfigurationError(where + ": " + error.what());
+    }
+  }
+}
+
+/// The values of the "set" object; none if there is no such object.
+json set_of(const ConfigObject& item) {
+  if (!item.has("set")) return json::object();
+  if (!item.member("set").is_object()) item.fail("set", "an object { \"key\": value }");
+  return item.member("set");
+}
+
+/// A point of a sweep: a value of each swept parameter, in the order of the file.
+using SweepPoint = std::vector<std::pair<std::string, json>>;
+
+bool is_sweep(const json& value) {
+  return value.is_object();
+}
+
+/// All combinations of the swept values in `set`; one empty point if none is swept.
+std::vector<SweepPoint> sweep_points(const json& set, const std::string& where) {
+  constexpr std::size_t kMostPoints = 1000;
+  std::vector<SweepPoint> points = {{}};
+  for (const auto& [key, value] : set.items()) {
+    if (!is_sweep(value)) continue;
+    const ConfigObject sweep(value, where + ".set." + key, {"sweep"});
+    const auto swept = sweep.list("sweep");
+    if (swept.empty()) sweep.fail("sweep", "a list of values [ ... ]");
+    std::vector<SweepPoint> longer;
+    for (const SweepPoint& point : points) {
+      for (const auto& [one, place] : swept) {
+        longer.push_back(point);
+        longer.back().emplace_back(key, *one);
+      }
+    }
+    points = std::move(longer);
+    if (points.size() > kMostPoints) {
+      throw ConfigurationError(where + ": the sweep has more than " + std::to_string(kMostPoints) +
+                               " points; split it.");
+    }
+  }
+  return points;
+}
+
+/// "raymoval:online:tau0=0.2,tau1=0.3"
+std::string point_name(const std::string& base, const Configuration& point) {
+  std::vector<std::string> parts;
+  for (const auto& [key, value] : point) parts.push_back(key + "=" + parameter_text(value));
+  return base + ":" + join(parts, ",");
+}
+
+/// Adds one method, or one for each point of a sweep.
+void add_points(const std::string& name, const std::string& as, const json& set,
+                const std::string& where, const MethodRegistry& registry, Suite& suite) {
+  json plain = json::object();
+  for (const auto& [key, value] : set.items()) {
+    if (!is_sweep(value)) plain[key] = value;
+  }
+  for (const SweepPoint& point : sweep_points(set, where)) {
+    ConfiguredMethod method = registry.configure(name);
+    const MethodEntry& entry = *method.entry;
+    Configuration values;
+    json together = plain;
+    for (const auto& [key, value] : point) {
+      together[key] = value;
+      values.emplace_back(
+          key, checked_value(entry.name, find_parameter(entry.name, entry.parameters, key), value));
+    }
+    const std::string base = as.empty() ? method.full_name() : as;
+    MethodRequest& added =
+        add_method(suite, name, values.empty() ? as : point_name(base, values), registry);
+    apply_object(together, entry.name, where, entry.parameters, added.method.configuration);
+    for (const auto& [key, value] : together.items()) added.given.push_back(key);
+    if (values.empty()) continue;
+    added.sweep_of = base;
+    added.sweep = values;
+  }
+}
+
+void read_method(const json& item, const std::string& where, const Places& places,
+                 const MethodRegistry& registry, Suite& suite) {
+  if (item.is_string()) {
+    const std::string name = located_method(item.get<std::string>(), places);
+    for (const std::string& one : expanded_methods(name, registry)) {
+      add_method(suite, one, "", registry);
+    }
+    return;
+  }
+  const ConfigObject object(item, where, {"method", "set", "as"});
+  const std::string name = located_method(object.text("method"), places);
+  const std::vector<std::string> names = expanded_methods(name, registry);
+  const std::string as = object.text("as", "");
+  if (names.size() > 1 && !as.empty()) {
+    throw ConfigurationError(
+        fmt::format("{}: 'as' names one method, but {} stands for {}. Leave it out.", where, name,
+                    names.size()));
+  }
+  const json set = set_of(object);
+  for (const std::string& one : names) add_points(one, as, set, where, registry, suite);
+}
+
+void read_protocol(const json& item, const std::string& where, Suite& suite) {
+  if (item.is_string()) {
+    add_protocol(suite, item.get<std::string>(), "");
+    return;
+  }
+  const ConfigObject object(item, where, {"protocol", "set", "as"});
+  ProtocolRequest& added = add_protocol(suite, object.text("protocol"), object.text("as", ""));
+  apply_object(set_of(object), added.protocol, where, protocol_entry(added.protocol).parameters,
+               added.options);
+}
+
+/// A suite on the user's own data needs its place, and no other suite wants one.
+void check_data_given(const Places& places, const std::string& where) {
+  if (places.data_used == !places.data.empty()) return;
+  throw UsageError(where +
+                   (places.data_used
+                        ? ": this suite runs on data of yours: say where with --data ROOT."
+                        : ": --data is given, but no path of this suite begins with {data}."));
+}
+
+}  // namespace
+
+Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry,
+                 const std::string& data) {
+  const json content = read_json(path);
+  const ConfigObject file(content, path.string(),
+                          {"name", "sequences", "methods", "protocols", "controls", "threads",
+                           "repeats", "time_limit_s", "memory_limit_mib"});
+  Suite suite;
+  Places places{path.parent_path(), data};
+  suite.name = file.text("name", path.stem().string());
+  for (const auto& [item, where] : file.list("sequences")) {
+    suite.sequences.push_back(sequence_of(*item, places, where));
+  }
+  for (const auto& [item, where] : file.list("methods")) {
+    read_method(*item, where, places, registry, suite);
+  }
+  for (const auto& [item, where] : file.list("protocols")) read_protocol(*item, where, suite);
+  suite.controls = file.flag("controls", suite.controls);
+  suite.threads = file.integer("threads", suite.threads, 1, 4096);
+  suite.repeats = file.integer("repeats", suite.repeats, 1, 1000);
+  suite.time_limit_s = file.positive("time_limit_s", suite.time_limit_s);
+  suite.memory_limit_mib = file.positive("memory_limit_mib", suite.memory_limit_mib);
+  check_data_given(places, file.where());
+  if (suite.sequences.empty()) throw ConfigurationError(file.where() + ": 'sequences' is empty.");
+  if (suite.methods.empty()) throw ConfigurationError(file.where() + ": 'methods' is empty.");
+  return suite;
+}
+
+// A place.
+
+ordered_json to_json(const SequenceRequest& place) {
+  const SequenceOptions& options = place.options;
+  ordered_json json = {{"path", place.path}};
+  const auto add = [&json](const char* key, const std::optional<std::string>& text) {
+    if (text) json[key] = *text;
+  };
+  if (options.frames) add("frames", frame_range_text(*options.frames));
+  add("poses", options.poses);
+  if (options.label_rule) add("label_rule", options.label_rule->string());
+  add("sensor", options.sensor);
+  add("up", options.up);
+  if (options.drop_ego) add("drop_ego", ego_region_text(*options.drop_ego));
+  add("name", options.name);
+  if (!options.range_m) return json;
+  add("range_min", number_text(options.range_m->min));  // A text: the limit may be infinite.
+  add("range_max", number_text(options.range_m->max));
+  return json;
+}
+
+SequenceRequest place_from(const ordered_json& json) {
+  SequenceRequest place;
+  place.path = json.at("path").get<std::string>();
+  SequenceOptions& options = place.options;
+  for (const auto& [key, value] : json.items()) {
+    const auto text = value.get<std::string>();
+    if (key == "frames") options.frames = parse_frame_range(text);
+    if (key == "poses") options.poses = text;
+    if (key == "label_rule") options.label_rule = text;
+    if (key == "sensor") options.sensor = text;
+    if (key == "up") options.up = text;
+    if (key == "drop_ego") options.drop_ego = parse_ego_region(text);
+    if (key == "name") options.name = text;
+    if (!key.starts_with("range_")) continue;
+    if (!options.range_m) options.range_m.emplace();
+    const double metres = parse_number<double>(text).value();
+    (key == "range_min" ? options.range_m->min : options.range_m->max) = metres;
+  }
+  return place;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace raymoval {
+
+/// The environment variable that tells the members of a family: it holds the mark of each family
+/// that a process belongs to.
+inline constexpr const char* kFamilyVariable = "RAYMOVAL_PROCESS_FAMILY";
+
+/// A process with all that it has started, directly or through others.
+///
+/// Members are found in three ways, since each of them can be left: as descendants of the head, by
+/// its session, and by a mark in the environment that they inherit. `start_child` makes the head
+/// the foster parent of descendants whose own parent has ended (PR_SET_CHILD_SUBREAPER), so that
+/// double forks stay descendants as long as the head lives.
+class ProcessFamily {
+ public:
+  /// @param head which has not been waited for, so that its number is not used again
+  /// @param mark part of the variable `kFamilyVariable` of all members
+  ProcessFamily(pid_t head, std::string mark) : head_(head), mark_(std::move(mark)) {}
+
+  /// The resident memory of the head and its descendants in MiB, without that of files.
+  [[nodiscard]] double memory_mib() const;
+
+  /// Ends all members by SIGKILL. Each is stopped before its children are looked for, and they are
+  /// looked for until there is none left, so that a member that goes on forking does not escape.
+  /// When this returns, the members have ended, but for those that the system itself holds up for
+  /// more than two seconds.
+  void end() const;
+
+ private:
+  [[nodiscard]] std::vector<pid_t> stopped_members() const;
+  [[nodiscard]] bool is_member(pid_t process) const;
+
+  pid_t head_;
+  std::string mark_;
+};
+
+/// From now on the end of the process that started this one ends this one, with all that it has
+/// started. Until now it ended this process alone (see `run_child`), which has to be one that
+/// `run_child` started.
+void end_family_with_parent();
+
+}  // namespace raymoval

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "core/scan/label_rule.h"
+#include "core/scan/range_limits.h"
+
+namespace raymoval {
+
+/// The region of the own vehicle whose points are left out, as texts of `ego_region_text`.
+struct EgoRecord {
+  std::string asked = {};     ///< What the user asked for, "auto".
+  std::string left_out = {};  ///< What is left out for it.
+};
+
+/// What was read of a sequence and how. It has no path, because it is stored with results.
+struct DataRecord {
+  std::string name = {};
+  std::string layout = {};  ///< "semantickitti".
+  std::string source = {};  ///< Free text on origin and licence.
+  std::string frames = {};  ///< Range as used, "2350:2670:2".
+  std::size_t scans = 0;
+  std::string poses = {};         ///< Name of the pose file.
+  std::string sensor = {};        ///< Name of the sensor model.
+  std::string sensor_basis = {};  ///< What an estimated sensor model rests on; else empty.
+  std::string up = {};         ///< Which way is up in the world of the poses. It is empty in files
+                               ///< of earlier versions, which took z.
+  std::string up_source = {};  ///< How that is known.
+  std::optional<double> scan_period_s = std::nullopt;
+  RangeLimits range_m = {};
+  std::optional<EgoRecord> drop_ego = std::nullopt;
+  std::optional<LabelRule> label_rule = std::nullopt;  ///< No value if the data has no labels.
+  std::string fingerprint = {};  ///< Hash of all that methods and protocols read; empty if unknown.
+};
+
+}  // namespace raymoval

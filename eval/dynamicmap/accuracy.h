@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "eval/rate.h"
+
+namespace raymoval::dynamicmap {
+
+/// SA, DA, AA and HA, the rates of both variants of the protocol.
+std::vector<RateSpec> accuracy_rate_list();
+
+/// SA = present / static, DA = gone / dynamic, AA = sqrt(SA DA), HA = 2 SA DA / (SA + DA), all in
+/// percent. SA or DA is undefined if its class is empty, and AA and HA are with it.
+/// @param unit what is counted, "point" or "voxel"
+std::vector<Rate> accuracy_rates(std::int64_t present_static, std::int64_t static_count,
+                                 std::int64_t removed_dynamic, std::int64_t dynamic_count,
+                                 const std::string& unit);
+
+}  // namespace raymoval::dynamicmap

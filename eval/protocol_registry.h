@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "eval/protocol.h"
+
+namespace raymoval {
+
+// The protocols that the program knows: the built-in ones, then those that a program or a test
+// registers. Everything that shows, compares or checks a rate asks here what the rate is.
+
+const std::deque<ProtocolEntry>& protocol_entries();
+
+/// The protocol called `name`; null if there is none.
+const ProtocolEntry* find_protocol(const std::string& name);
+
+/// The same. @throws UsageError suggesting the nearest name if there is none
+const ProtocolEntry& protocol_entry(const std::string& name);
+
+/// The name of the protocol that scores where none is asked for.
+const std::string& default_protocol();
+
+/// Options of the protocol called `name` at their defaults. @throws UsageError as `protocol_entry`
+Configuration protocol_defaults(const std::string& name);
+
+/// @throws UsageError as `protocol_entry`, ConfigurationError for an unknown option
+std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configuration& options);
+
+/// Adds a protocol of a program's own, for instance at the beginning of its main function.
+/// @throws ConfigurationError if the name is taken, if a rate follows from one that the protocol
+/// does not have, or if another protocol says something else of a rate or count of the same name
+/// @note No other thread may use the registry meanwhile.
+void register_protocol(ProtocolEntry entry);
+
+/// Takes a registered protocol away again, as a test does at its end.
+void unregister_protocol(const std::string& name);
+
+/// The rates of all protocols, in the order of the protocols.
+const std::vector<RateSpec>& rate_specs();
+
+/// What the rate called `name` is; null if no protocol has such a rate.
+const RateSpec* find_rate_spec(const std::string& name);
+
+/// What the rate called `name` is. A rate that no protocol has is secondary and in percent;
+/// `find_rate_spec` tells whether it is known which direction is better.
+RateSpec rate_spec(const std::string& name);
+
+/// A rate as it is displayed: "98.123", F1 "0.9812".
+std::string rate_text(const std::string& rate, double value);
+
+/// Whether a count called `name` follows from scans and labels, so that no mask can change it. A
+/// count that no protocol has does not.
+bool is_truth_count(const std::string& name);
+
+}  // namespace raymoval

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "methods/octomap/octomap.h"
+
+namespace raymoval {
+namespace {
+
+std::vector<std::string> notes() {
+  return {
+      "The map is liboctomap's tree with the leaves that insertPointCloud makes of the same scans, "
+      "kept to cells in which some scan has a point, for no other is asked for; the cells of a "
+      "scan "
+      "are computed and put in by faster code of our own.",
+      "The tree's centre is the first scan's origin rounded to whole cells, so that coordinates "
+      "stay exact in float far from the world's origin; the cells are those of the world's "
+      "lattice.",
+      "The verdict is given per point, of all points of all scans, not per cell centre.",
+      "A point whose cell no scan touched stays unless remove_unknown is set; one outside the tree "
+      "always stays, and its beam is left out.",
+      "Scans go in by increasing index; clamping makes the answer depend on that order.",
+      "With discretise, points outside the tree are left out, where liboctomap wraps them around.",
+      "kth, ground and ground-noise keep the KTH port's settings (0.1 m, clamping at 0.12 and "
+      "0.97), its missing subtraction, and its dropping of unknown points; the port's map appends "
+      "ground points a second time, here each point has one verdict.",
+      "The ground plane is fitted in world axes, as in the KTH port: z must point up, which the "
+      "harness sees to.",
+      "The KTH port of 2024 swaps the noise filter's two settings when reading them; ground-noise "
+      "is the filter of 2023 (K = 50, S = 1).",
+      "octomap_server's own ground filter (200 tries, planes accepted by their height in a base "
+      "frame) is not offered: scans come without a base frame.",
+  };
+}
+
+}  // namespace
+
+MethodEntry octomap_entry() {
+  const Configuration kth = {{"resolution", 0.1},    {"clamp_min", 0.12},
+                             {"clamp_max", 0.97},    {"kth_nonexclusive", true},
+                             {"cut_end_free", true}, {"remove_unknown", true}};
+  Configuration ground = kth;
+  ground.emplace_back("ground", true);
+  Configuration ground_noise = ground;
+  ground_noise.emplace_back("noise", true);
+  MethodEntry entry;
+  entry.name = "octomap";
+  entry.sentence =
+      "Probabilistic occupancy map of hits and beams; a point goes if its cell ends up free.";
+  entry.source =
+      "Hornung et al., OctoMap: an efficient probabilistic 3D mapping framework based on octrees, "
+      "Autonomous Robots 34, 2013; liboctomap 1.9";
+  entry.notes = notes();
+  entry.variants = {
+      {"r20", "liboctomap's insertPointCloud with leaves of 0.2 m.", false, {}},
+      {"r10", "The same with leaves of 0.1 m.", false, {{"resolution", 0.1}}},
+      {"r05", "The same with leaves of 0.05 m.", false, {{"resolution", 0.05}}},
+      {"discretised", "0.2 m, one beam per occupied cell.", false, {{"discretise", true}}},
+      {"kth", "The KTH port's shipped setting: 0.1 m, hits do not suppress misses.", false, kth},
+      {"ground", "The KTH port with its ground plane ('w G').", false, ground},
+      {"ground-noise", "The KTH port with ground plane and noise filter ('w GF').", false,
+       ground_noise},
+  };
+  entry.bind(octomap_parameter_table(), make_octomap);
+  return entry;
+}
+
+}  // namespace raymoval

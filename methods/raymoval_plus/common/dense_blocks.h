@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/scan/voxel_key.h"
+
+namespace raymoval::raymoval_plus_method {
+
+/// A grid without bounds. It consists of dense blocks of 2^`kBitsXY` x 2^`kBitsXY` x 2^`kBitsZ`
+/// cells, which are found by a hash. The cells of a new block hold `empty`.
+///
+/// A `Cursor` remembers the block that was used last. The points of a scan come ring by ring, so
+/// the next one mostly lies in the same block and needs no hash. Each thread has a cursor of its
+/// own.
+template <class Value, int kBitsXY, int kBitsZ>
+class DenseBlocks {
+ public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  static constexpr int kSideXY = 1 << kBitsXY, kSideZ = 1 << kBitsZ;
+  static constexpr std::size_t kCells = std::size_t{1} << (2 * kBitsXY + kBitsZ);
+
+  struct Cursor {
+    VoxelKey key = ~VoxelKey{0};
+    std::uint32_t block = kNone;
+  };
+
+  explicit DenseBlocks(Value empty) : empty_(empty) {}
+
+  static VoxelIndex block_of(const VoxelIndex& cell) {
+    return {cell.x() >> kBitsXY, cell.y() >> kBitsXY, cell.z() >> kBitsZ};
+  }
+  /// The place of a cell within its block: x runs fastest, then y, then z.
+  static std::size_t offset(const VoxelIndex& cell) {
+    constexpr int kMaskXY = kSideXY - 1, kMaskZ = kSideZ - 1;
+    return static_cast<std::size_t>(((cell.z() & kMaskZ) << (2 * kBitsXY)) |
+                                    ((cell.y() & kMaskXY) << kBitsXY) | (cell.x() & kMaskXY));
+  }
+
+  /// The number of the block at these block indices, or `kNone` if there is none.
+  [[nodiscard]] std::uint32_t block(const VoxelIndex& index) const {
+    const auto found = numbers_.find(voxel_key(index));
+    return found == numbers_.end() ? kNone : found->second;
+  }
+  [[nodiscard]] std::size_t block_count() const { return indices_.size(); }
+  [[nodiscard]] const VoxelIndex& block_index(std::uint32_t number) const {
+    return indices_[number];
+  }
+  [[nodiscard]] const Value* cells(std::uint32_t number) const {
+    return values_.data() + number * kCells;
+  }
+
+  /// The cell's value, or `empty` where there is no block.
+  [[nodiscard]] Value get(const VoxelIndex& cell, Cursor& cursor) const {
+    const VoxelKey key = voxel_key(block_of(cell));
+    if (key != cursor.key) {
+      const auto found = numbers_.find(key);
+      if (found == numbers_.end()) return empty_;
+      cursor = {key, found->second};
+    }
+    return values_[cursor.block * kCells + offset(cell)];
+  }
+  /// The cell, which is made if it does not exist. References that earlier calls returned may then
+  /// no longer be valid.
+  Value& make(const VoxelIndex& cell, Cursor& cursor) {
+    const VoxelIndex index = block_of(cell);
+    const VoxelKey key = voxel_key(index);
+    if (key != cursor.key) {
+      const auto [found, fresh] = numbers_.emplace(key, static_cast<std::uint32_t>(block_count()));
+      if (fresh) {
+        indices_.push_back(index);
+        values_.resize(values_.size() + kCells, empty_);
+      }
+      cursor = {key, found->second};
+    }
+    return values_[cursor.block * kCells + offset(cell)];
+  }
+
+ private:
+  Value empty_;
+  VoxelMap<std::uint32_t> numbers_;
+  std::vector<VoxelIndex> indices_;
+  std::vector<Value> values_;
+};
+
+}  // namespace raymoval::raymoval_plus_method

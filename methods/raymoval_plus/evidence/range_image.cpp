@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/evidence/range_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/angle.h"
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+// Numbers of this step; EXPERIMENTS.md has the first two at half and at double their values.
+/// A bin is a little wider than a beam, so that few bins stay empty where a surface goes on.
+constexpr double kBeamsPerColumn = 1.45;
+/// A bin is half as high as beams are apart, so that two beams that are not quite evenly spaced do
+/// not share a row; the window of two rows to either side spans two beams.
+constexpr double kBeamsPerRow = 0.5;
+/// The size of a bin for a sensor whose steps are not known: about that of 64 beams.
+constexpr double kUnknownColumn = 0.25 * kDegree, kUnknownRow = 0.2 * kDegree;
+/// Rows beyond either end of the field of view, for the windows of places just outside it.
+constexpr double kMarginRows = 4.0;
+/// Columns that are repeated at either end, so that no window has to wrap around. They limit
+/// `window_columns` to 30.
+constexpr int kMargin = 32;
+/// Bounds of an image. The finest sensors of today need half of these bins. A step that no sensor
+/// has (in a model written by hand, or by a hopeless estimate) costs no more memory.
+constexpr double kLeastRow = 0.01 * kDegree, kFewestColumns = 90.0, kMostColumns = 7200.0;
+constexpr int kMostBins = 4'000'000;
+/// 30 degrees in rows of 1 degree are 30 rows, also if their quotient is a little more.
+constexpr double kRounding = 1e-6;
+/// Windows grow with nearness. Where they start to, roundings may go either way, so that places a
+/// little farther are looked at, too.
+constexpr float kWindowsGrow = 1.001F;
+
+/// Memory for what the kernels say of places; each thread has its own.
+struct SightRoom {
+  AlignedArray<float> range;
+  AlignedArray<std::int32_t> column, row;
+  AlignedArray<std::uint32_t> chosen;
+
+  kernels::Sights room_for(std::size_t places) {
+    range.require(places + kernels::kMostLanes);
+    column.require(places + kernels::kMostLanes);
+    row.require(places + kernels::kMostLanes);
+    chosen.require(places);
+    return {range.data(), column.data(), row.data()};
+  }
+};
+
+kernels::SightPlaces in_sensor_frame(const float* places, std::size_t count, const Pose& pose) {
+  kernels::SightPlaces job{places, count, {}, {}};
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(job.rotation.data()) =
+      pose.linear().cast<float>();
+  Eigen::Map<Eigen::Vector3f>(job.translation.data()) = pose.translation().cast<float>();
+  return job;
+}
+
+}  // namespace
+
+RangeImage::RangeImage(const SensorModel& sensor, const Parameters& parameters, InstructionSet set)
+    : parameters_(parameters),
+      kernels_(kernels::sight_kernels_for(set)),
+      half_voxel_(static_cast<float>(0.5 * parameters.voxel_size)),
+      agree_{static_cast<float>(parameters.agree_constant),
+             static_cast<float>(parameters.agree_slope)},
+      occluded_{static_cast<float>(parameters.occluded_constant),
+                static_cast<float>(parameters.occluded_slope)} {
+  choose_steps(sensor);
+}
+
+void RangeImage::choose_steps(const SensorModel& sensor) {
+  const double azimuth_beam =
+      sensor.azimuth_step > 0.0 ? kBeamsPerColumn * sensor.azimuth_step : kUnknownColumn;
+  const double elevation_beam =
+      sensor.elevation_step > 0.0 ? kBeamsPerRow * sensor.elevation_step : kUnknownRow;
+  const double width =
+      parameters_.azimuth_bin > 0.0 ? parameters_.azimuth_bin * kDegree : azimuth_beam;
+  const double height = std::max(
+      parameters_.elevation_bin > 0.0 ? parameters_.elevation_bin * kDegree : elevation_beam,
+      kLeastRow);
+  const int columns = static_cast<int>(
+      std::clamp(std::round(2.0 * std::numbers::pi / width), kFewestColumns, kMostColumns));
+  azimuth_step_ = 2.0F * kPi / static_cast<float>(columns);
+  const double low = std::max(sensor.elevation_min - kMarginRows * height, -std::numbers::pi / 2.0);
+  const double high = std::min(sensor.elevation_max + kMarginRows * height, std::numbers::pi / 2.0);
+  // Rows are as high as they are to be, whatever the field of view is. If beams fall on every
+  // second row, they then do so in all of the image.
+  const int most_rows = kMostBins / columns;
+  const double rows = std::ceil((high - low) / height - kRounding);
+  rows_ = static_cast<int>(std::clamp(rows, 1.0, static_cast<double>(most_rows)));
+  elevation_step_ = static_cast<float>(rows > most_rows ? (high - low) / most_rows : height);
+  stride_ = columns + 2 * kMargin;
+  grid_ = {1.0F / azimuth_step_, 1.0F / elevation_step_, static_cast<float>(low), columns};
+}
+
+void RangeImage::fill(const Scan& scan, const RunContext& context) {
+  const StageScope timed(context.times, "range image");
+  bins_.assign(row_start(rows_), {kInfinite, -kInfinite});
+  SightRoom sights;
+  kernels_.locate(grid_,
+                  in_sensor_frame(scan.points.empty() ? nullptr : scan.points.front().data(),
+                                  scan.size(), Pose::Identity()),
+                  sights.room_for(scan.size()));
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const float range = sights.range[k];
+    const int r = sights.row[k];
+    if (range < static_cast<float>(parameters_.minimum_range) || r < 0 || r >= rows_) continue;
+    Bin& bin = bins_[row_start(r) + static_cast<std::size_t>(sights.column[k] + kMargin)];
+    bin.nearest = std::min(bin.nearest, range);
+    bin.farthest = std::max(bin.farthest, range);
+  }
+  for (int r = 0; r < rows_; ++r) {
+    Bin* const bins = bins_.data() + row_start(r);
+    std::copy_n(bins + grid_.columns, kMargin, bins);
+    std::copy_n(bins + kMargin, kMargin, bins + kMargin + grid_.columns);
+  }
+  fill_windows();
+}
+
+void RangeImage::fill_windows() {
+  const auto widen = [](Bin& sum, const Bin& bin) {
+    sum.nearest = std::min(sum.nearest, bin.nearest);
+    sum.farthest = std::max(sum.farthest, bin.farthest);
+  };
+  const int wide = std::min(parameters_.window_columns, kMargin - 1);
+  const int high = std::min(parameters_.window_rows, rows_ - 1);
+  row_windows_ = bins_;
+  for (int r = 0; r < rows_; ++r) {
+    Bin* const to = row_windows_.data() + row_start(r);
+    const Bin* const from = bins_.data() + row_start(r);
+    for (int shift = -wide; shift <= wide; ++shift) {
+      if (shift == 0) continue;
+      for (int c = wide; c < stride_ - wide; ++c) widen(to[c], from[c + shift]);
+    }
+  }
+  windows_ = row_windows_;
+  for (int r = 0; r < rows_; ++r) {
+    Bin* const to = windows_.data() + row_start(r);
+    for (int other = std::max(r - high, 0); other <= std::min(r + high, rows_ - 1); ++other) {
+      if (other == r) continue;
+      const Bin* const from = row_windows_.data() + row_start(other);
+      for (int c = 0; c < stride_; ++c) widen(to[c], from[c]);
+    }
+  }
+}
+
+Observation RangeImage::observe(const Eigen::Vector3f& place) const {
+  SightRoom sights;
+  kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights.room_for(1));
+  return observe_window<true>(sights.range[0], sights.column[0], sights.row[0]);
+}
+
+void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_places,
+                         std::vector<ObservedPlace>& observed) const {
+  thread_local SightRoom sights;
+  const std::size_t count = places.size() / 3;
+  kernels::SightWindows windows;
+  windows.pairs = &windows_.front().nearest;
+  windows.stride = stride_;
+  windows.margin = kMargin;
+  windows.rows = rows_;
+  windows.least_range = kWindowsGrow * half_voxel_ /
+                        std::min(azimuth_step_ * static_cast<float>(parameters_.window_columns + 1),
+                                 elevation_step_ * static_cast<float>(parameters_.window_rows + 1));
+  windows.agree = agree_;
+  windows.range_min = static_cast<float>(parameters_.evidence_range_min);
+  windows.range_max = static_cast<float>(parameters_.evidence_range_max);
+  const kernels::Sights room = sights.room_for(count);
+  const std::size_t chosen =
+      kernels_.choose(grid_, in_sensor_frame(places.data(), count, T_sensor_places), windows, room,
+                      sights.chosen.data());
+  observed.clear();
+  for (std::size_t i = 0; i < chosen; ++i) {
+    const std::uint32_t k = sights.chosen[i];
+    const Observation observation =
+        observe_window<false>(sights.range[k], sights.column[k], sights.row[k]);
+    if (observation == Observation::kAgree || observation == Observation::kFree) {
+      observed.push_back({k, observation, sights.range[k]});
+    }
+  }
+}
+
+RangeImage::Window RangeImage::window_at(float range) const {
+  const float half = half_voxel_ / range;
+  return {
+      std::clamp(static_cast<int>(half / azimuth_step_), parameters_.window_columns, kMargin - 1),
+      std::max(static_cast<int>(half / elevation_step_), parameters_.window_rows)};
+}
+
+template <bool kEveryBin>
+Observation RangeImage::observe_window(float range, int column, int row) const {
+  const auto [wide, high] = window_at(range);
+  const float agree = agree_[0] + agree_[1] * range;
+  const float beyond = range + occluded_[0] + occluded_[1] * range;
+  const float farther = std::max(range + agree, beyond);
+  const std::ptrdiff_t place = kMargin + column;
+  bool occluded = false, below = false;
+  for (int r = std::max(row - high, 0); r <= std::min(row + high, rows_ - 1); ++r) {
+    if (!kEveryBin && wide == parameters_.window_columns) {
+      // Few rows have returns at about the place's range. The others say the same as their nearest.
+      const Bin all = row_windows_[row_start(r) + static_cast<std::size_t>(place)];
+      if (all.farthest < range - agree || all.nearest > farther) {
+        occluded |= all.nearest < beyond;
+        below |= all.nearest < kInfinite && r <= row;
+        continue;
+      }
+    }
+    const Bin* const bins = bins_.data() + row_start(r) + place;
+    for (int c = -wide; c <= wide; ++c) {
+      if (std::abs(bins[c].nearest - range) <= agree ||
+          std::abs(bins[c].farthest - range) <= agree) {
+        return Observation::kAgree;
+      }
+      occluded |= bins[c].nearest < beyond;
+      below |= bins[c].nearest < kInfinite && r <= row;
+    }
+  }
+  if (occluded) return Observation::kOccluded;
+  return below ? Observation::kFree : Observation::kUnknown;
+}
+
+}  // namespace raymoval::raymoval_plus_method

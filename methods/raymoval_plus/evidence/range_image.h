@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/scan/scan.h"
+#include "core/scan/sensor_model.h"
+#include "methods/raymoval_plus/common/parameters.h"
+#include "methods/raymoval_plus/evidence/sight_kernels.h"
+#include "methods/remover.h"
+
+namespace raymoval::raymoval_plus_method {
+
+/// What one scan says of a place.
+enum class Observation : std::uint8_t { kUnknown, kAgree, kOccluded, kFree };
+
+/// A place that a scan agrees with or sees through.
+struct ObservedPlace {
+  std::uint32_t place;  ///< Its number among those that were asked about.
+  Observation observation;
+  float range;  ///< Metres from the sensor.
+};
+
+/// Step 3: the nearest and the farthest return of a scan in each direction, about one beam to a
+/// bin, and the three-way test of a place against the bins around it.
+class RangeImage {
+ public:
+  /// @param set which kernels to use; the answer is the same for all
+  RangeImage(const SensorModel& sensor, const Parameters& parameters,
+             InstructionSet set = InstructionSet::kBest);
+
+  /// The number of bins. It is at most about four million, whatever the sensor's steps are.
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(grid_.columns);
+  }
+
+  /// Replaces the image with that of `scan`.
+  void fill(const Scan& scan, const RunContext& context);
+  /// What the scan says of a place of the sensor frame (metres). It **agrees** if any return of the
+  /// window lies at the place's range. Else the place is **occluded** if any return is nearer, else
+  /// **free** if there is a return at or below it, else **unknown**. So any agreement saves a
+  /// place, and any occlusion says nothing. This looks at every bin of the window, which is slow:
+  /// it is what the other `observe` is compared with.
+  [[nodiscard]] Observation observe(const Eigen::Vector3f& place) const;
+  /// Replaces `observed` with all places within the evidence range that the scan agrees with or
+  /// sees through, in ascending order. Most places need no look at their window, so this is many
+  /// times faster.
+  /// @param places x y z, x y z, ... of any frame, metres, not far from its origin
+  void observe(const std::vector<float>& places, const Pose& T_sensor_places,
+               std::vector<ObservedPlace>& observed) const;
+
+ private:
+  /// The nearest and the farthest return of some directions, metres; +-infinity without a return.
+  struct Bin {
+    float nearest, farthest;
+  };
+  struct Window {
+    int wide, high;  ///< Half sizes, bins.
+  };
+  void choose_steps(const SensorModel& sensor);
+  [[nodiscard]] std::size_t row_start(int r) const {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
+  }
+  /// Finds the nearest and the farthest return of the least window around each bin.
+  void fill_windows();
+  [[nodiscard]] Window window_at(float range) const;
+  /// @param row may lie beyond the image
+  template <bool kEveryBin>
+  [[nodiscard]] Observation observe_window(float range, int column, int row) const;
+
+  Parameters parameters_;
+  kernels::SightKernels kernels_;
+  kernels::SightGrid grid_;
+  float azimuth_step_ = 0.0F, elevation_step_ = 0.0F;  ///< Size of a bin, radians.
+  int rows_ = 0;
+  int stride_ = 0;                         ///< Bins in a row, those of its margins included.
+  float half_voxel_;                       ///< Metres.
+  std::array<float, 2> agree_, occluded_;  ///< Metres at range 0, and for each metre of it.
+  std::vector<Bin> bins_, row_windows_, windows_;  ///< Returns of a bin, of `window_columns` around
+                                                   ///< it, and of `window_rows` of these.
+};
+
+}  // namespace raymoval::raymoval_plus_method

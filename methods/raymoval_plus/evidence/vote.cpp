@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/evidence/vote.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "methods/raymoval_plus/evidence/evidence.h"
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+constexpr int kSide = EvidenceMap::Blocks::kSideXY;
+/// Blocks that a thread takes at a time: with fewer it would allocate its sums more often.
+constexpr std::size_t kBlocksATask = 256;
+
+/// A sum of votes has the number of dynamic voxels in its upper 16 bits and the number of all
+/// decided voxels in the lower ones. A cube of the largest radius has 17^3 = 4,913 cells, which
+/// fits.
+std::uint32_t vote_of(Verdict decision) {
+  if (decision == Verdict::kUndecided) return 0;
+  return decision == Verdict::kDynamic ? 0x10001U : 1U;
+}
+
+/// The votes in a cube of cells that holds a block and `radius` cells to either side of it.
+class Ballot {
+ public:
+  explicit Ballot(int radius) : radius_(radius), side_(kSide + 2 * radius) {
+    votes_.resize(static_cast<std::size_t>(side_ * side_ * side_));
+    planes_.resize(static_cast<std::size_t>(side_ * side_ * kSide));
+    rows_.resize(static_cast<std::size_t>(side_ * kSide * kSide));
+  }
+  void clear() { std::fill(votes_.begin(), votes_.end(), 0U); }
+  /// Adds those votes of another block that lie in the cube.
+  /// @param corner cells from this block's lowest corner to that of the other one
+  void add(const VoxelIndex& corner, const Verdict* decisions) {
+    const VoxelIndex low = (corner.array() + radius_).max(0);
+    const VoxelIndex high = (corner.array() + radius_ + kSide).min(side_);
+    for (int z = low.z(); z < high.z(); ++z) {
+      for (int y = low.y(); y < high.y(); ++y) {
+        const Verdict* const row =
+            decisions + ((z - corner.z() - radius_) * kSide + y - corner.y() - radius_) * kSide;
+        std::uint32_t* const votes = votes_.data() + (z * side_ + y) * side_;
+        for (int x = low.x(); x < high.x(); ++x) votes[x] = vote_of(row[x - corner.x() - radius_]);
+      }
+    }
+  }
+  /// Sums the votes around each of the block's cells: over planes, then over their rows, then over
+  /// the cells of a row.
+  void count() {
+    sum_windows(votes_.data(), side_ * side_, planes_.data());
+    for (int z = 0; z < kSide; ++z) {
+      sum_windows(planes_.data() + z * side_ * side_, side_, rows_.data() + z * kSide * side_);
+    }
+    for (int line = 0; line < kSide * kSide; ++line) {
+      sum_windows(rows_.data() + line * side_, 1, sums_.data() + line * kSide);
+    }
+  }
+  /// The votes within `radius` cells of one of the block's cells, given its place in the block.
+  [[nodiscard]] std::uint32_t around(std::size_t cell) const { return sums_[cell]; }
+
+ private:
+  /// There are `side_` slices of `size` votes each. `sums` becomes `kSide` slices, each the sum of
+  /// 2 `radius_` + 1 slices in a row: the next is the last one, less what leaves, plus what enters.
+  void sum_windows(const std::uint32_t* slices, int size, std::uint32_t* sums) const {
+    std::copy_n(slices, size, sums);
+    for (int s = 1; s <= 2 * radius_; ++s) {
+      for (int i = 0; i < size; ++i) sums[i] += slices[s * size + i];
+    }
+    for (int s = 1; s < kSide; ++s) {
+      const std::uint32_t* const leaves = slices + (s - 1) * size;
+      const std::uint32_t* const enters = slices + (s + 2 * radius_) * size;
+      for (int i = 0; i < size; ++i) {
+        sums[s * size + i] = sums[(s - 1) * size + i] - leaves[i] + enters[i];
+      }
+    }
+  }
+
+  int radius_, side_;
+  std::vector<std::uint32_t> votes_, planes_, rows_;
+  std::array<std::uint32_t, EvidenceMap::Blocks::kCells> sums_{};
+};
+
+/// Replaces `around` with the blocks around a block, itself included.
+void find_around(const EvidenceMap& map, std::uint32_t block, int reach,
+                 std::vector<std::uint32_t>& around) {
+  around.clear();
+  const VoxelIndex& center = map.blocks().block_index(block);
+  for (int z = -reach; z <= reach; ++z) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        const std::uint32_t other = map.blocks().block(center + VoxelIndex(x, y, z));
+        if (other != EvidenceMap::kNone) around.push_back(other);
+      }
+    }
+  }
+}
+
+/// Calls `visit(voxel, cell)` for each voxel of a block; `cell` is its place in the block.
+template <class Visit>
+void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
+  const std::uint32_t* const cells = map.blocks().cells(block);
+  for (std::size_t i = 0; i < EvidenceMap::Blocks::kCells; ++i) {
+    if (cells[i] != EvidenceMap::kNone) visit(cells[i], i);
+  }
+}
+
+/// The verdict on a voxel, from its own decision and the votes around it.
+Verdict verdict_by_votes(Verdict decision, std::uint32_t votes, const Parameters& parameters) {
+  const double decided = votes & 0xFFFFU, dynamic = votes >> 16U;
+  if (decided == 0) return Verdict::kUndecided;
+  const double share = decision == Verdict::kDynamic ? parameters.vote_keep : parameters.vote_share;
+  return dynamic >= share * decided ? Verdict::kDynamic : Verdict::kStatic;
+}
+
+void vote_in_block(std::uint32_t block, const Parameters& parameters, Ballot& ballot,
+                   std::vector<std::uint32_t>& around, EvidenceMap& map) {
+  find_around(map, block, (parameters.vote_radius + kSide - 1) / kSide, around);
+  if (std::none_of(around.begin(), around.end(),
+                   [&](std::uint32_t other) { return map.dynamic_in(other) > 0; })) {
+    for_voxels(map, block,
+               [&](std::uint32_t v, std::size_t) { map.set_verdict(v, map.decision(v)); });
+    return;
+  }
+  const VoxelIndex center = map.blocks().block_index(block);
+  ballot.clear();
+  for (const std::uint32_t other : around) {
+    ballot.add((map.blocks().block_index(other) - center) * kSide, map.decisions(other));
+  }
+  ballot.count();
+  for_voxels(map, block, [&](std::uint32_t v, std::size_t cell) {
+    const Verdict decision = map.decision(v);
+    map.set_verdict(v, was_always_there(map.evidence(v), parameters)
+                           ? decision
+                           : verdict_by_votes(decision, ballot.around(cell), parameters));
+  });
+}
+
+}  // namespace
+
+void vote(const std::vector<std::uint32_t>& blocks, const Parameters& parameters,
+          const RunContext& context, EvidenceMap& map) {
+  const StageScope timed(context.times, "vote");
+  const auto vote_in_blocks = [&](std::size_t begin, std::size_t end) {
+    Ballot ballot(parameters.vote_radius);
+    std::vector<std::uint32_t> around;
+    for (std::size_t i = begin; i < end; ++i) {
+      vote_in_block(blocks[i], parameters, ballot, around, map);
+    }
+  };
+  parallel_chunks(context.threads, blocks.size(), kBlocksATask, vote_in_blocks);
+}
+
+void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& map) {
+  std::vector<std::uint32_t> blocks(map.blocks().block_count());
+  std::iota(blocks.begin(), blocks.end(), 0U);
+  vote(blocks, parameters, context, map);
+}
+
+std::vector<std::uint32_t> blocks_of(const LocatedScan& scan, const EvidenceMap& map) {
+  std::vector<std::uint32_t> blocks;
+  for (const std::uint32_t voxel : scan.voxel) {
+    if (voxel == EvidenceMap::kNone) continue;
+    const std::uint32_t block = map.block_of(voxel);
+    if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
+  }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  return blocks;
+}
+
+}  // namespace raymoval::raymoval_plus_method

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "methods/raymoval_plus/common/parameters.h"
+#include "methods/raymoval_plus/evidence/located_scan.h"
+#include "methods/raymoval_plus/objects/tracks.h"
+
+namespace raymoval::raymoval_plus_method {
+
+using Verdicts = std::vector<Verdict>;  ///< One for each point of a scan.
+
+/// A cluster of a scan's points that stand clear of the ground.
+struct Cluster {
+  int points = 0;
+  int dynamic = 0;  ///< How many of these are dynamic.
+  /// What stands against a wall is one cluster with it. Such a cluster is divided: the points of
+  /// voxels that many scans agree with stay in it, and the others make parts of their own.
+  bool is_part = false;
+  bool is_hardly_dynamic = false;  ///< The cluster, or the one that it is a part of, is.
+};
+
+/// A scan with the verdicts on its points' voxels, and its clusters.
+struct SegmentedScan : LocatedScan {
+  Verdicts verdict;  ///< Of each point's voxel (steps 4 and 5); ground is static.
+  std::vector<std::size_t> high_points;  ///< The points that were clustered, ascending.
+  std::vector<int> cluster_of;           ///< The cluster of each of these.
+  std::vector<Cluster> clusters;
+};
+
+/// Step 6: finds the clusters, and divides those that are mixed.
+SegmentedScan find_objects(LocatedScan scan, const EvidenceMap& map, const Parameters& parameters,
+                           const RunContext& context);
+
+/// What step 7 needs of the clusters. Those too small or too wide to be followed are left out.
+std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const EvidenceMap& map,
+                                             const Parameters& parameters,
+                                             const RunContext& context);
+
+/// Steps 6 and 7: the verdicts after each cluster was taken as one thing. Mostly dynamic ones and
+/// those that a track marked are dynamic as a whole. Hardly dynamic ones are static, except for
+/// groups of dynamic points that hang together.
+/// @param marked numbers of the clusters that a track marked
+Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marked,
+                        const Parameters& parameters, const RunContext& context);
+
+/// Step 8: the verdicts after the points near the ground have followed what stands above them.
+/// @param verdict of each point, from the steps before
+Verdicts decide_low_points(const LocatedScan& scan, Verdicts verdict, const Parameters& parameters,
+                           const RunContext& context);
+
+}  // namespace raymoval::raymoval_plus_method

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects/tracks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+// Numbers of this step; EXPERIMENTS.md has each at half and at double its value.
+/// Scans that a track may miss, while something passes before the object.
+constexpr int kLongestGap = 2;
+/// Dynamic objects that a track needs: one or two may be chance.
+constexpr int kLeastDynamic = 3;
+/// An object moved if its centre did by so many metres, and by this share of its length: the centre
+/// of a standing thing shifts by less when other sides of it come into sight.
+constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;
+/// An object may be so many metres from where its track is expected, and farther by this share of
+/// the way that it should have gone: things speed up, brake, turn, and are seen in part.
+constexpr double kGate = 0.6, kGateShare = 0.35;
+/// Along each axis its box may change by so many metres, and by this share of the larger one.
+constexpr double kResize = 0.6, kResizeShare = 0.3;
+/// The weight of the last step in a track's velocity: the mean of it and all before.
+constexpr double kLastStep = 0.5;
+/// So many scans more may agree with an object than its length and speed explain: one when it comes
+/// and one when it leaves are in part.
+constexpr double kScansMore = 2.0;
+
+int scans_between(std::size_t a, std::size_t b) {
+  return static_cast<int>(std::abs(static_cast<long>(a) - static_cast<long>(b)));
+}
+
+bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
+  return object.dynamic >= parameters.object_dynamic_share * object.points &&
+         object.dynamic >= parameters.object_points;
+}
+
+int dynamic_objects(const Track& track, const Parameters& parameters) {
+  return static_cast<int>(
+      std::count_if(track.nodes.begin(), track.nodes.end(),
+                    [&](const Track::Node& node) { return is_dynamic(node.object, parameters); }));
+}
+
+/// The distance of an object from where the track is expected, metres, if it can be the same
+/// object.
+std::optional<double> mismatch(const Track& track, const ObjectSummary& found, int scans) {
+  const ObjectSummary& last = track.nodes.back().object;
+  const Eigen::Vector3d expected = last.center + track.velocity * scans;
+  const double distance = (found.center - expected).head<2>().norm();
+  if (distance > kGate + kGateShare * track.velocity.norm() * scans) return std::nullopt;
+  const Eigen::Array3d size = last.high - last.low, found_size = found.high - found.low;
+  if (((size - found_size).abs() > kResize + kResizeShare * size.max(found_size)).any()) {
+    return std::nullopt;
+  }
+  return distance;
+}
+
+void extend(Track& track, const Track::Node& node) {
+  const Track::Node& last = track.nodes.back();
+  const Eigen::Vector3d moved =
+      (node.object.center - last.object.center) / scans_between(last.scan, node.scan);
+  track.velocity =
+      track.nodes.size() == 1 ? moved : Eigen::Vector3d(kLastStep * (track.velocity + moved));
+  track.nodes.push_back(node);
+}
+
+struct Motion {
+  double length;  ///< Of the object, metres.
+  double speed;   ///< Metres a scan.
+};
+
+/// How the object of a track moved, if it is known to have moved.
+std::optional<Motion> motion_of(const Track& track, const Parameters& parameters) {
+  const int dynamic = dynamic_objects(track, parameters);
+  if (dynamic < kLeastDynamic ||
+      dynamic < parameters.track_dynamic_share * static_cast<double>(track.nodes.size())) {
+    return std::nullopt;
+  }
+  std::vector<double> widths;
+  const Track::Node *first = nullptr, *last = nullptr;
+  for (const Track::Node& node : track.nodes) {
+    widths.push_back(node.object.width());
+    if (!is_dynamic(node.object, parameters)) continue;
+    if (first == nullptr) first = &node;
+    last = &node;
+  }
+  const auto median = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), median, widths.end());
+  const double moved = (last->object.center - first->object.center).head<2>().norm();
+  if (moved < std::max(kLeastMotion, kLeastMotionShare * *median)) return std::nullopt;
+  return Motion{*median, moved / scans_between(first->scan, last->scan)};
+}
+
+/// Whether an object is not dynamic by itself, but belongs to one that moved: scans agree on it no
+/// longer than its length and speed explain.
+bool is_marked(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
+  if (is_dynamic(object, parameters)) return false;
+  const double reach = parameters.agree_constant + parameters.agree_slope * object.range;
+  const double scans = (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
+  return object.agree_scans <= parameters.track_slack * scans + kScansMore;
+}
+
+}  // namespace
+
+void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& objects) {
+  scan_ = scan;
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+  for (std::size_t t = 0; t < active_.size(); ++t) {
+    const int scans = scans_between(active_[t].nodes.back().scan, scan);
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+      if (const auto distance = mismatch(active_[t], objects[k], scans)) {
+        pairs.emplace_back(*distance, t, k);
+      }
+    }
+  }
+  // The nearest pair first; each object belongs to one track at most.
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<std::uint8_t> is_used(objects.size(), 0), is_extended(active_.size(), 0);
+  for (const auto& [distance, t, k] : pairs) {
+    if (is_used[k] != 0 || is_extended[t] != 0) continue;
+    is_used[k] = is_extended[t] = 1;
+    extend(active_[t], {scan, objects[k]});
+  }
+  end_tracks(scan);
+  for (std::size_t k = 0; k < objects.size(); ++k) {
+    if (is_used[k] == 0 && is_dynamic(objects[k], parameters_)) {
+      active_.push_back({{{scan, objects[k]}}});
+    }
+  }
+}
+
+void ObjectTracker::end_tracks(std::size_t scan) {
+  std::vector<Track> kept;
+  for (Track& track : active_) {
+    if (scans_between(track.nodes.back().scan, scan) <= kLongestGap) {
+      kept.push_back(std::move(track));
+    } else if (dynamic_objects(track, parameters_) >= kLeastDynamic) {
+      ended_.push_back(std::move(track));
+    }
+  }
+  active_ = std::move(kept);
+}
+
+std::vector<Track> ObjectTracker::finish() {
+  for (Track& track : active_) ended_.push_back(std::move(track));
+  active_.clear();
+  return std::move(ended_);
+}
+
+std::vector<int> ObjectTracker::marked_now() const {
+  std::vector<int> marked;
+  for (const Track& track : active_) {
+    const auto& [scan, object] = track.nodes.back();
+    if (scan != scan_) continue;
+    const auto motion = motion_of(track, parameters_);
+    if (motion && is_marked(object, *motion, parameters_)) marked.push_back(object.cluster);
+  }
+  return marked;
+}
+
+std::vector<std::vector<int>> objects_on_tracks(
+    const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
+    const RunContext& context) {
+  const StageScope timed(context.times, "tracks");
+  std::vector<std::vector<int>> marked(scans.size());
+  for (const bool backward : {false, true}) {
+    ObjectTracker tracker(parameters);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      const std::size_t scan = backward ? scans.size() - 1 - i : i;
+      tracker.follow(scan, scans[scan]);
+    }
+    for (const Track& track : tracker.finish()) {
+      const auto motion = motion_of(track, parameters);
+      if (!motion) continue;
+      for (const auto& [scan, object] : track.nodes) {
+        if (is_marked(object, *motion, parameters)) marked[scan].push_back(object.cluster);
+      }
+    }
+  }
+  return marked;
+}
+
+}  // namespace raymoval::raymoval_plus_method

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "methods/raymoval_plus/common/parameters.h"
+#include "methods/remover.h"
+
+namespace raymoval::raymoval_plus_method {
+
+/// What step 7 knows of a cluster of one scan; world frame, metres.
+struct ObjectSummary {
+  /// Bounding box.
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = -low;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< Mean of the points.
+  float range = 0.0F;                                ///< Distance of the centre from the sensor.
+  /// The number of scans that agree with a point, on average over the points that are not dynamic.
+  float agree_scans = 0.0F;
+  int points = 0;
+  int dynamic = 0;  ///< How many points are dynamic.
+  int cluster = 0;  ///< Number within its scan.
+
+  [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
+};
+
+/// One object in the scans in which it was found.
+struct Track {
+  struct Node {
+    std::size_t scan;
+    ObjectSummary object;
+  };
+  std::vector<Node> nodes;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Metres a scan, in the order followed.
+};
+
+/// Follows dynamic objects from scan to scan. Scans come in ascending or in descending order.
+class ObjectTracker {
+ public:
+  explicit ObjectTracker(const Parameters& parameters) : parameters_(parameters) {}
+
+  /// Takes the objects of the next scan.
+  void follow(std::size_t scan, const std::vector<ObjectSummary>& objects);
+  /// All tracks so far. Those that ended with too few dynamic objects are forgotten.
+  [[nodiscard]] std::vector<Track> finish();
+  /// The clusters of the last scan that were seen moving before, though their own rays do not say
+  /// so.
+  [[nodiscard]] std::vector<int> marked_now() const;
+
+ private:
+  void end_tracks(std::size_t scan);
+
+  Parameters parameters_;
+  std::size_t scan_ = 0;
+  std::vector<Track> active_, ended_;
+};
+
+/// Step 7: the clusters of each scan that were seen moving before or after, though their own rays
+/// do not say so. A track of dynamic objects passes through them, forward or backward in time.
+std::vector<std::vector<int>> objects_on_tracks(
+    const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
+    const RunContext& context);
+
+}  // namespace raymoval::raymoval_plus_method

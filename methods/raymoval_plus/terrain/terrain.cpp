@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/terrain/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+// Numbers of this step; EXPERIMENTS.md has each at half and at double its value.
+/// Heights are counted in steps of so many metres, which is less than `ground_height`.
+constexpr double kStep = 0.05;
+/// A column with fewer points has no ground of its own: they may be false echoes.
+constexpr std::uint64_t kLeastPoints = 3;
+/// A column is compared with those around it, so many to either side: 3.6 m across, more than a pit
+/// of false echoes is wide. With fewer than `kLeastNeighbours` that have ground it is dropped.
+constexpr int kNeighbours = 4, kLeastNeighbours = 4;
+/// The second round finds columns that were beside another pit.
+constexpr int kPitRounds = 2;
+/// A distance of three columns of 0.4 m is not to be more than 1.2 m.
+constexpr double kRounding = 1e-9;
+constexpr float kNoGround = std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+Terrain::Terrain(const Parameters& parameters)
+    : parameters_(parameters),
+      inverse_cell_(1.0 / parameters.terrain_cell),
+      reach_(static_cast<int>(std::floor(parameters.terrain_reach * inverse_cell_ + kRounding))),
+      margin_(kPitRounds * kNeighbours + reach_),
+      side_(kTile + 2 * margin_),
+      counts_(0),
+      ground_(-kNoGround) {}
+
+void Terrain::add(const std::vector<Eigen::Vector3d>& points, const RunContext& context) {
+  const StageScope timed(context.times, "terrain");
+  Counts::Cursor cursor;
+  const Eigen::Array3d scale(inverse_cell_, inverse_cell_, 1.0 / kStep);
+  std::uint32_t last = Counts::kNone;
+  for (const Eigen::Vector3d& point : points) {
+    const VoxelIndex cell = voxel_index(point.array() * scale, 1.0);
+    ++counts_.make(cell, cursor);
+    if (cursor.block != last) mark_changed(counts_.block_index(cursor.block));
+    last = cursor.block;
+  }
+}
+
+void Terrain::mark_changed(const VoxelIndex& block) {
+  const auto [extent, fresh] =
+      extents_.emplace(voxel_key(block.x(), block.y(), 0), std::pair{block.z(), block.z()});
+  extent.value().first = std::min(extent->second.first, block.z());
+  extent.value().second = std::max(extent->second.second, block.z());
+  const VoxelIndex corner = block * Counts::kSideXY, margin(margin_, margin_, 0);
+  const VoxelIndex low = Heights::block_of(corner - margin);
+  const VoxelIndex high = Heights::block_of(corner.array() + Counts::kSideXY - 1 + margin.array());
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) changed_.insert(voxel_key(x, y, 0));
+  }
+}
+
+Terrain::Window Terrain::low_quantiles(const VoxelIndex& tile) const {
+  Window window(static_cast<std::size_t>(side_ * side_), kNoGround);
+  const int left = tile.x() * kTile - margin_, bottom = tile.y() * kTile - margin_;
+  const VoxelIndex low = Counts::block_of({left, bottom, 0});
+  const VoxelIndex high = Counts::block_of({left + side_ - 1, bottom + side_ - 1, 0});
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      const auto extent = extents_.find(voxel_key(x, y, 0));
+      if (extent == extents_.end()) continue;
+      fill_quantiles({x, y, 0}, extent->second.first, extent->second.second, left, bottom, window);
+    }
+  }
+  return window;
+}
+
+void Terrain::fill_quantiles(const VoxelIndex& block, int low_z, int high_z, int left, int bottom,
+                             Window& window) const {
+  constexpr std::size_t kColumns = std::size_t{Counts::kSideXY} * Counts::kSideXY;
+  std::vector<std::pair<int, const std::uint32_t*>> stack;  // Blocks, the lowest first.
+  for (int z = low_z; z <= high_z; ++z) {
+    const std::uint32_t number = counts_.block({block.x(), block.y(), z});
+    if (number != Counts::kNone) stack.emplace_back(z * Counts::kSideZ, counts_.cells(number));
+  }
+  for (std::size_t c = 0; c < kColumns; ++c) {
+    const int x = block.x() * Counts::kSideXY + static_cast<int>(c) % Counts::kSideXY - left;
+    const int y = block.y() * Counts::kSideXY + static_cast<int>(c) / Counts::kSideXY - bottom;
+    if (x < 0 || y < 0 || x >= side_ || y >= side_) continue;
+    std::uint64_t points = 0;
+    for (const auto& [z, cells] : stack) {
+      for (std::size_t k = 0; k < Counts::kSideZ; ++k) points += cells[k * kColumns + c];
+    }
+    if (points < kLeastPoints) continue;
+    const double wanted = parameters_.terrain_quantile * static_cast<double>(points);
+    std::uint64_t below = 0;
+    float& ground = window[static_cast<std::size_t>(y * side_ + x)];
+    for (auto level = stack.begin(); level != stack.end() && ground == kNoGround; ++level) {
+      for (std::size_t k = 0; k < Counts::kSideZ; ++k) {
+        const std::uint32_t count = level->second[k * kColumns + c];
+        if (count != 0 && static_cast<double>(below + count) >= wanted) {
+          const double share = (wanted - static_cast<double>(below)) / count;
+          ground = static_cast<float>((level->first + static_cast<int>(k) + share) * kStep);
+          break;
+        }
+        below += count;
+      }
+    }
+  }
+}
+
+Terrain::Window Terrain::without_pits(const Window& ground) const {
+  Window kept(ground.size(), kNoGround);
+  const auto drop = static_cast<float>(parameters_.terrain_drop);
+  for (int y = 0; y < side_; ++y) {
+    for (int x = 0; x < side_; ++x) {
+      const float value = ground[static_cast<std::size_t>(y * side_ + x)];
+      if (value == kNoGround) continue;
+      int around = 0, not_above = 0;
+      for (int v = std::max(y - kNeighbours, 0); v <= std::min(y + kNeighbours, side_ - 1); ++v) {
+        const float* const row = ground.data() + static_cast<std::size_t>(v * side_);
+        for (int u = std::max(x - kNeighbours, 0); u <= std::min(x + kNeighbours, side_ - 1); ++u) {
+          around += row[u] < kNoGround ? 1 : 0;
+          not_above += row[u] <= value + drop ? 1 : 0;
+        }
+      }
+      // The lower quartile of the columns around is at most value + drop.
+      if (around >= kLeastNeighbours && not_above > around / 4) {
+        kept[static_cast<std::size_t>(y * side_ + x)] = value;
+      }
+    }
+  }
+  return kept;
+}
+
+Terrain::Window Terrain::no_steeper_than_slope(const Window& ground) const {
+  // Columns without points of their own take the ground from beside them.
+  Window lowest(std::size_t{kTile} * kTile, kNoGround);
+  for (int dy = -reach_; dy <= reach_; ++dy) {
+    for (int dx = -reach_; dx <= reach_; ++dx) {
+      const double distance = std::hypot(dx, dy) * parameters_.terrain_cell;
+      if (distance > parameters_.terrain_reach + kRounding) continue;
+      const auto rise = static_cast<float>(parameters_.terrain_slope * distance);
+      for (int y = 0; y < kTile; ++y) {
+        const float* const from = ground.data() + (y + margin_ + dy) * side_ + margin_ + dx;
+        float* const to = lowest.data() + y * kTile;
+        for (int x = 0; x < kTile; ++x) to[x] = std::min(to[x], from[x] + rise);
+      }
+    }
+  }
+  return lowest;
+}
+
+void Terrain::update(const RunContext& context) {
+  const StageScope timed(context.times, "terrain");
+  std::vector<VoxelKey> tiles(changed_.begin(), changed_.end());
+  changed_.clear();
+  std::sort(tiles.begin(), tiles.end());
+  std::vector<Window> found(tiles.size());
+  parallel_for(context.threads, tiles.size(), 1, [&](std::size_t i) {
+    Window ground = low_quantiles(voxel_index(tiles[i]));
+    for (int round = 0; round < kPitRounds; ++round) ground = without_pits(ground);
+    found[i] = no_steeper_than_slope(ground);
+  });
+  Heights::Cursor cursor;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const VoxelIndex corner = voxel_index(tiles[i]) * kTile;
+    float* const cells = &ground_.make(corner, cursor);
+    std::transform(found[i].begin(), found[i].end(), cells,
+                   [](float ground) { return ground < kNoGround ? ground : -kNoGround; });
+  }
+}
+
+std::vector<float> Terrain::heights(const std::vector<Eigen::Vector3d>& points,
+                                    const RunContext& context) const {
+  std::vector<float> heights(points.size());
+  parallel_chunks(
+      context.threads, points.size(), kPointsATask, [&](std::size_t begin, std::size_t end) {
+        Heights::Cursor cursor;
+        for (std::size_t k = begin; k < end; ++k) {
+          const VoxelIndex column(static_cast<int>(std::floor(points[k].x() * inverse_cell_)),
+                                  static_cast<int>(std::floor(points[k].y() * inverse_cell_)), 0);
+          heights[k] = static_cast<float>(points[k].z()) - ground_.get(column, cursor);
+        }
+      });
+  return heights;
+}
+
+}  // namespace raymoval::raymoval_plus_method

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/scan/scan_source.h"
+
+namespace raymoval::toy {
+
+/// Scans held in memory.
+class HeldScans : public ScanSource {
+ public:
+  explicit HeldScans(const SensorModel& sensor = {}) : sensor_(sensor) {}
+
+  /// @param points sensor frame, metres
+  void add(std::vector<Eigen::Vector3f> points, const Pose& T_world_sensor = Pose::Identity()) {
+    Scan scan;
+    scan.index = scans_.size();
+    scan.name = std::to_string(scan.index);
+    scan.T_world_sensor = T_world_sensor;
+    scan.stored_point_count = points.size();
+    scan.points = std::move(points);
+    scans_.push_back(std::move(scan));
+  }
+  /// @param world points in world coordinates; the sensor frame's single precision rounds them
+  void add_world(const Pose& T_world_sensor, const std::vector<Eigen::Vector3d>& world) {
+    std::vector<Eigen::Vector3f> points;
+    for (const Eigen::Vector3d& point : world) {
+      points.emplace_back((T_world_sensor.inverse() * point).cast<float>());
+    }
+    add(std::move(points), T_world_sensor);
+  }
+  /// The same from a sensor at `position`, whose axes are the world's.
+  void add_world(const Eigen::Vector3d& position, const std::vector<Eigen::Vector3d>& world) {
+    add_world(Pose(Eigen::Translation3d(position)), world);
+  }
+
+  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
+  [[nodiscard]] Scan load(std::size_t i) const override { return scans_.at(i); }
+  [[nodiscard]] Pose pose(std::size_t i) const override { return scans_.at(i).T_world_sensor; }
+  [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
+
+ private:
+  std::vector<Scan> scans_;
+  SensorModel sensor_;
+};
+
+}  // namespace raymoval::toy

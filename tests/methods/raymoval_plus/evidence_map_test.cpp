@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/evidence/evidence_map.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <random>
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+TEST_CASE("blocks hold what was put into their cells, for either sign") {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> coordinate(-40, 40);
+  DenseBlocks<int, 2, 4> blocks(-1);
+  DenseBlocks<int, 2, 4>::Cursor cursor, reading;
+  std::map<VoxelKey, int> oracle;
+  for (int i = 0; i < 5000; ++i) {
+    const VoxelIndex cell(coordinate(random), coordinate(random), coordinate(random));
+    blocks.make(cell, cursor) = i;
+    oracle[voxel_key(cell)] = i;
+  }
+  for (int i = 0; i < 20000; ++i) {
+    const VoxelIndex cell(coordinate(random), coordinate(random), coordinate(random));
+    const auto found = oracle.find(voxel_key(cell));
+    REQUIRE(blocks.get(cell, reading) == (found == oracle.end() ? -1 : found->second));
+  }
+  CHECK(blocks.get({1000, 0, 0}, reading) == -1);
+}
+
+TEST_CASE("a voxel has the mean of its points, and is found within range of it") {
+  EvidenceMap map(0.2);
+  EvidenceMap::Blocks::Cursor cursor;
+  // Two points of one voxel, and one of a voxel 40 m away, some tiles of 12.8 m farther.
+  const auto near = map.add({-0.15, 0.05, 1.05}, cursor);
+  CHECK(map.add({-0.05, 0.15, 1.05}, cursor) == near);
+  const auto far = map.add({40.1, 0.1, 1.1}, cursor);
+  CHECK(map.size() == 2);
+  CHECK(map.find({-0.01, 0.01, 1.19}, cursor) == near);
+  CHECK(map.find({0.01, 0.01, 1.19}, cursor) == EvidenceMap::kNone);
+  CHECK((map.centroid(near) - Eigen::Vector3d(-0.1, 0.1, 1.05)).norm() < 0.001);  // 1/256 of 0.2 m
+
+  map.update_means();
+  const auto tiles = map.tiles_near({0.0, 0.0, 0.0}, 5.0);
+  REQUIRE(tiles.size() == 1);
+  REQUIRE(tiles[0]->voxels == std::vector{near});
+  const Eigen::Vector3f mean = Eigen::Map<const Eigen::Vector3f>(tiles[0]->places.data());
+  CHECK((tiles[0]->origin + mean.cast<double>() - map.centroid(near)).norm() < 1e-5);
+  CHECK(map.tiles_near({0.0, 0.0, 0.0}, 40.0).size() == 2);
+
+  map.set_decision(far, Verdict::kDynamic);
+  CHECK(map.dynamic_in(map.block_of(far)) == 1);
+  map.set_decision(far, Verdict::kStatic);
+  CHECK(map.dynamic_in(map.block_of(far)) == 0);
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/evidence/evidence.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/methods/toy_world.h"
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+namespace {
+
+/// The image of a scan with one return `range` metres ahead of the sensor.
+RangeImage image_of_return(float range) {
+  Scan scan;
+  scan.points.emplace_back(range, 0.02F, 0.02F);
+  RangeImage image(toy::Scanner{}.model(), Parameters{});
+  image.fill(scan, RunContext{});
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("scans that see through are weighed against scans that agree") {
+  const auto decided = [](std::uint16_t free, std::uint16_t agree, std::uint16_t leading = 0,
+                          std::uint16_t trailing = 0) {
+    return decide({free, agree, leading, trailing}, Parameters{});
+  };
+  // Needed: 1 + 0.3 x the scans that agree.
+  CHECK(decided(1, 0) == Verdict::kDynamic);
+  CHECK(decided(3, 10) == Verdict::kStatic);
+  CHECK(decided(4, 10) == Verdict::kDynamic);
+  CHECK(decided(0, 1) == Verdict::kUndecided);
+  CHECK(decided(0, 2) == Verdict::kStatic);
+  // Or four in a row, before the first or after the last scan that agrees.
+  CHECK(decided(4, 100, 4, 0) == Verdict::kDynamic);
+  CHECK(decided(4, 100, 0, 4) == Verdict::kDynamic);
+  CHECK(decided(6, 100, 3, 3) == Verdict::kStatic);
+}
+
+TEST_CASE("runs of scans that see through are counted at either end of a voxel's story") {
+  using enum Observation;
+  const Parameters parameters;
+  VoxelEvidence evidence;
+  for (const Observation seen : {kFree, kOccluded, kFree, kAgree, kFree, kAgree, kUnknown, kFree}) {
+    add_observation(seen, 10.0F, parameters, evidence);
+  }
+  add_observation(kFree, 30.0F, parameters, evidence);  // Farther than 20 m: not of a run.
+  CHECK(evidence.agree_scans == 2);
+  CHECK(evidence.free_scans == 5);
+  CHECK(evidence.leading_free == 2);
+  CHECK(evidence.trailing_free == 1);
+}
+
+TEST_CASE("every voxel in range is asked of a scan, and decided on") {
+  // Voxels 5, 10 and 15 m ahead, one to the side. The scan has a return at 10 m.
+  EvidenceMap map(0.2);
+  EvidenceMap::Blocks::Cursor cursor;
+  const auto front = map.add({5.02, 0.02, 0.02}, cursor),
+             hit = map.add({10.02, 0.02, 0.02}, cursor);
+  const auto behind = map.add({15.02, 0.02, 0.02}, cursor),
+             aside = map.add({0.0, 9.0, 0.0}, cursor);
+  for (int scan = 0; scan < 2; ++scan) {
+    add_evidence(image_of_return(10.0F), Pose::Identity(), Parameters{}, RunContext{}, map);
+  }
+  CHECK(map.evidence(front).free_scans == 2);
+  CHECK(map.decision(front) == Verdict::kDynamic);
+  CHECK(map.evidence(hit).agree_scans == 2);
+  CHECK(map.decision(hit) == Verdict::kStatic);
+  for (const auto unseen : {behind, aside}) {
+    CHECK(map.evidence(unseen).free_scans + map.evidence(unseen).agree_scans == 0);
+    CHECK(map.decision(unseen) == Verdict::kUndecided);
+  }
+}
+
+TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") {
+  // Of scans 0 to 4 every second one is kept, and of these the last two: 2 and 4. Scan 0 would
+  // agree.
+  Parameters parameters;
+  parameters.history_scans = 2;
+  EarlierScans earlier(parameters);
+  for (const float range : {5.0F, 5.0F, 10.0F, 5.0F, 10.0F}) {
+    earlier.keep(image_of_return(range), Pose::Identity());
+  }
+  EvidenceMap map(0.2);
+  EvidenceMap::Blocks::Cursor cursor;
+  const auto known = map.add({5.02, 0.02, 0.02}, cursor),
+             fresh = map.add({5.22, 0.02, 0.02}, cursor);
+  earlier.add_evidence(fresh, {0.0, 0.0, 0.0}, RunContext{}, map);
+  CHECK(map.evidence(fresh).free_scans == 2);
+  CHECK(map.evidence(fresh).agree_scans == 0);
+  CHECK(map.decision(fresh) == Verdict::kDynamic);
+  CHECK(map.evidence(known).free_scans == 0);
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects/objects.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "methods/raymoval_plus/objects/reasons.h"
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+namespace {
+
+/// A scan from the origin, whose points get the verdicts on their voxels that a test wants. The
+/// ground is at height 0.
+class Scene {
+ public:
+  Parameters parameters;
+  EvidenceMap map{0.2};
+  LocatedScan scan;
+
+  void add(const Eigen::Vector3d& point, Verdict verdict, int agree_scans = 3) {
+    const std::uint32_t voxel = map.add(point, cursor_);
+    map.evidence(voxel).agree_scans = static_cast<std::uint16_t>(agree_scans);
+    map.set_decision(voxel, verdict);
+    map.set_verdict(voxel, verdict);
+    scan.points.push_back(point);
+    scan.scan.points.push_back(point.cast<float>());
+    scan.height.push_back(static_cast<float>(point.z()));
+    scan.voxel.push_back(voxel);
+  }
+  /// Points in a column above (x, y), 0.1 m from each other, from `low` metres upward.
+  void add_column(double x, double y, double low, int points, Verdict verdict) {
+    for (int k = 0; k < points; ++k) add({x, y, low + 0.1 * k}, verdict);
+  }
+  [[nodiscard]] SegmentedScan segmented() const {
+    return find_objects(scan, map, parameters, RunContext{});
+  }
+  /// The number of dynamic points from number `first` to before `end`, after step 6.
+  [[nodiscard]] int dynamic(int first, int end, const std::vector<int>& marked = {}) const {
+    const Verdicts verdicts = decide_objects(segmented(), marked, parameters, RunContext{});
+    return static_cast<int>(
+        std::count(verdicts.begin() + first, verdicts.begin() + end, Verdict::kDynamic));
+  }
+
+ private:
+  EvidenceMap::Blocks::Cursor cursor_;
+};
+
+}  // namespace
+
+TEST_CASE("a cluster goes if half of it is dynamic, and stays if a tenth is") {
+  for (const int dynamic : {2, 3, 9, 10}) {
+    Scene scene;
+    scene.add_column(5.05, 0.05, 0.4, dynamic, Verdict::kDynamic);
+    scene.add_column(5.25, 0.05, 0.4, 20 - dynamic, Verdict::kStatic);
+    // 2 of 20 are a tenth; 3 and 9 are left as their voxels are; 10 are half of 20.
+    CHECK(scene.dynamic(0, 20) == (dynamic == 2 ? 0 : dynamic == 10 ? 20 : dynamic));
+    CHECK(scene.dynamic(0, 20, {0}) == 20);  // A track marked it.
+  }
+}
+
+TEST_CASE("a large group of dynamic points is spared in a static cluster") {
+  // A wall of 400 points, and before it 19 or 20 dynamic points: less than a tenth.
+  for (const int dynamic : {19, 20}) {
+    Scene scene;
+    scene.parameters.settled_scans = 0;  // Mixed clusters are not divided.
+    for (int y = 0; y < 20; ++y) scene.add_column(5.3, 0.2 * y, 0.4, 20, Verdict::kStatic);
+    scene.add_column(5.1, 2.0, 0.4, dynamic, Verdict::kDynamic);
+    CHECK(scene.dynamic(0, 400) == 0);
+    CHECK(scene.dynamic(400, 400 + dynamic) == (dynamic == 20 ? 20 : 0));
+  }
+}
+
+TEST_CASE("a person against a wall goes with all of its points") {
+  // One cluster: a wall of 400 points that 50 scans agree with, a person of 60 points 0.2 m before
+  // it. Two thirds of the person are dynamic, the rest three scans agree with.
+  Scene scene;
+  for (int i = 0; i < 40; ++i) {
+    for (int k = 0; k < 10; ++k) {
+      scene.add({5.3, -4.0 + 0.2 * i, 0.4 + 0.2 * k}, Verdict::kStatic, 50);
+    }
+  }
+  for (int i = 0; i < 60; ++i) {
+    const bool low = i < 20;
+    scene.add({5.1, 0.02 * (i % 10), 0.4 + 0.2 * (i / 10)},
+              low ? Verdict::kStatic : Verdict::kDynamic, low ? 3 : 2);
+  }
+  CHECK(scene.dynamic(0, 400) == 0);
+  CHECK(scene.dynamic(400, 460) == 60);
+  // Not divided, the person is a group in a wall: its dynamic points go, its feet stay.
+  scene.parameters.settled_scans = 0;
+  CHECK(scene.dynamic(0, 460) == 40);
+}
+
+TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans agree with it") {
+  Scene scene;
+  scene.add_column(4.05, 3.05, 0.4, 4, Verdict::kDynamic);
+  scene.add_column(4.25, 3.05, 0.4, 4, Verdict::kStatic);   // three scans agree
+  scene.add_column(9.05, 3.05, 0.4, 3, Verdict::kDynamic);  // too few points
+  const auto objects =
+      summarise_objects(scene.segmented(), scene.map, scene.parameters, RunContext{});
+  REQUIRE(objects.size() == 1);
+  CHECK(objects[0].cluster == 0);
+  CHECK(objects[0].points == 8);
+  CHECK(objects[0].dynamic == 4);
+  CHECK(objects[0].agree_scans == 3.0F);
+  CHECK(objects[0].center.isApprox(Eigen::Vector3d(4.15, 3.05, 0.55)));
+  CHECK(objects[0].width() == Approx(0.2));
+}
+
+TEST_CASE("low points follow what stands above them, if two thirds of that agree") {
+  // Feet at 0.1 m and 0.2 m, and a leg of ten points from 0.3 m on, of which some are dynamic.
+  for (const int dynamic : {3, 5, 7}) {
+    Scene scene;
+    for (const double z : {0.1, 0.25}) scene.add({5.05, 0.05, z}, Verdict::kDynamic);
+    scene.add({5.05, 0.05, 0.15}, Verdict::kStatic);
+    Verdicts verdicts(3, Verdict::kDynamic);
+    verdicts[2] = Verdict::kStatic;
+    for (int k = 0; k < 10; ++k) {
+      verdicts.push_back(k < dynamic ? Verdict::kDynamic : Verdict::kStatic);
+      scene.add({5.05, 0.25, 0.3 + 0.06 * k}, verdicts.back());  // In the column beside.
+    }
+    // What is higher than 1 m does not stand on these points.
+    for (int k = 0; k < 100; ++k) {
+      verdicts.push_back(Verdict::kDynamic);
+      scene.add({5.05, 0.05, 1.0 + 0.01 * k}, Verdict::kDynamic);
+    }
+    const Verdicts decided =
+        decide_low_points(scene.scan, verdicts, scene.parameters, RunContext{});
+    const auto feet = std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic);
+    CHECK(feet == (dynamic == 3   ? 0
+                   : dynamic == 5 ? 2
+                                  : 3));  // With half of it they are as they were.
+    CHECK(std::equal(decided.begin() + 3, decided.end(), verdicts.begin() + 3));
+  }
+}
+
+TEST_CASE("the reason for a verdict is the step that made it") {
+  // Six voxels and a point of the ground: whether it was seen through, what the vote, then the
+  // objects, then the low points made of it.
+  struct Story {
+    bool seen_through, voted, object, removed;
+    const char* reason;
+  };
+  const std::vector<Story> stories{
+      {false, false, false, false, "no scan, or too few, saw through its voxel"},
+      {true, true, true, true, "scans saw through its voxel, more than agree with it allow"},
+      {false, true, true, true, "most of the decided voxels around its own were seen through"},
+      {true, false, false, false,
+       "its voxel was seen through, but few of the voxels around it were"},
+      {true, false, true, true,
+       "it belongs to an object that was seen moving or is mostly seen through"},
+      {true, true, false, false, "it belongs to an object that hardly anything was seen through"},
+      {false, false, false, true, "what stands above it moved"},
+      {true, true, true, false, "what stands above it stays"},
+      {false, false, false, false, "it is ground"}};
+  const auto verdict = [](bool dynamic) { return dynamic ? Verdict::kDynamic : Verdict::kStatic; };
+  Scene scene;
+  SegmentedScan scan;
+  Verdicts by_objects, decided;
+  for (std::size_t k = 0; k < stories.size(); ++k) {
+    scene.add({5.1 + static_cast<double>(k), 0.1, 0.1}, verdict(stories[k].seen_through));
+    scan.verdict.push_back(verdict(stories[k].voted));
+    by_objects.push_back(verdict(stories[k].object));
+    decided.push_back(verdict(stories[k].removed));
+  }
+  scan.voxel = scene.scan.voxel;
+  scan.voxel.back() = EvidenceMap::kNone;
+  const auto reasons = reasons_for(scan, scene.map, by_objects, decided);
+  const auto sentences = reason_sentences();
+  for (std::size_t k = 0; k < stories.size(); ++k) {
+    CHECK(sentences.at(reasons[k]) == stories[k].reason);
+  }
+}

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/evidence/range_image.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <random>
+
+#include "core/angle.h"
+#include "tests/methods/toy_world.h"
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+namespace {
+
+/// The image of a scan of some points, by a sensor with steps of half a degree.
+RangeImage image_of(std::vector<Eigen::Vector3f> points,
+                    const SensorModel& sensor = toy::Scanner{}.model(),
+                    InstructionSet set = InstructionSet::kBest) {
+  Scan scan;
+  scan.points = std::move(points);
+  RangeImage image(sensor, Parameters{}, set);
+  image.fill(scan, RunContext{});
+  return image;
+}
+
+Eigen::Vector3d direction(double azimuth, double elevation) {
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+          std::sin(elevation)};
+}
+
+}  // namespace
+
+TEST_CASE("a place agrees with, hides behind or stands in front of a return") {
+  const RangeImage image = image_of({{10.0F, 0.0F, 0.0F}});
+  CHECK(image.observe({10.1F, 0.0F, 0.0F}) == Observation::kAgree);     // 0.1 <= 0.2 + 0.005 * 10.1
+  CHECK(image.observe({11.0F, 0.0F, 0.0F}) == Observation::kOccluded);  // the return is 1 m nearer
+  CHECK(image.observe({5.0F, 0.0F, 0.0F}) == Observation::kFree);       // it is 5 m farther
+  // 0.27 m is more than 0.2 + 0.005 * 9.73, but 10 < 9.73 + 0.25 + 0.005 * 9.73.
+  CHECK(image.observe({9.73F, 0.0F, 0.0F}) == Observation::kOccluded);
+  CHECK(image.observe({0.0F, 5.0F, 0.0F}) == Observation::kUnknown);  // no return that way
+}
+
+TEST_CASE("steps that no sensor has cost no more memory than the finest sensor") {
+  for (const double step : {0.0, 1e-300, 1e-9, 1e-4, 3.0}) {
+    INFO(step);
+    SensorModel sensor = toy::Scanner{}.model();
+    sensor.elevation_min = -1.6;
+    sensor.elevation_max = 1.6;
+    sensor.azimuth_step = sensor.elevation_step = step;
+    const RangeImage image = image_of({{10.0F, 0.0F, 0.0F}}, sensor);
+    CHECK(image.size() <= 4'000'000);
+    CHECK(image.size() >= 90);
+    CHECK(image.observe({10.0F, 0.0F, 0.0F}) == Observation::kAgree);
+  }
+}
+
+TEST_CASE("rows are half a beam high, wherever the field of view ends") {
+  // 16 beams 2 degrees apart are 30 rows of 1 degree, and 4 more at either end.
+  SensorModel sensor = toy::Scanner{}.model();
+  sensor.azimuth_step = 0.2 * kDegree;
+  sensor.elevation_step = 2.0 * kDegree;
+  sensor.elevation_min = -15.0 * kDegree;
+  sensor.elevation_max = 15.0 * kDegree;
+  CHECK(image_of({}, sensor).size() == 38 * 1241);
+  sensor.elevation_max += 0.3 * kDegree;
+  CHECK(image_of({}, sensor).size() == 39 * 1241);
+}
+
+TEST_CASE("agreement saves before occlusion abstains before freedom counts") {
+  const RangeImage image = image_of({{4.0F, 0.0F, 0.0F}, {10.0F, 0.0F, 0.0F}, {30.0F, 0.0F, 0.0F}});
+  CHECK(image.observe({30.0F, 0.0F, 0.0F}) == Observation::kAgree);     // the farthest of the bin
+  CHECK(image.observe({10.0F, 0.0F, 0.0F}) == Observation::kOccluded);  // a middle one is not kept
+  CHECK(image.observe({3.0F, 0.0F, 0.0F}) == Observation::kFree);
+}
+
+TEST_CASE("a return above a place does not make it free") {
+  // Two rows of half a step above the place: within the window, not at or below it.
+  const float slope = std::tan(0.5F * 0.01745329F);
+  const RangeImage image = image_of({{10.0F, 0.0F, 10.0F * slope}});
+  CHECK(image.observe({5.0F, 0.0F, 0.0F}) == Observation::kUnknown);
+  CHECK(image.observe({5.0F, 0.0F, 5.0F * slope}) == Observation::kFree);
+}
+
+TEST_CASE("places are observed alike one by one, all at once, and by every instruction set") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.4F, 0.3F), range(1.0F, 90.0F);
+  const auto somewhere = [&](float steeper) {
+    const float a = angle(random);
+    return Eigen::Vector3f(
+        range(random) *
+        Eigen::Vector3f(std::cos(a), std::sin(a), steeper * slope(random)).normalized());
+  };
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 20000; ++i) points.push_back(somewhere(1.0F));
+  std::vector<float> places;
+  for (int i = 0; i < 50003; ++i) {
+    const Eigen::Vector3f place = somewhere(1.5F);
+    places.insert(places.end(), place.data(), place.data() + 3);
+  }
+  const Parameters parameters;
+  std::array<int, 4> found{};
+  for (const InstructionSet set : supported_instruction_sets()) {
+    const RangeImage image = image_of(points, toy::Scanner{}.model(), set);
+    std::vector<ObservedPlace> observed;
+    image.observe(places, Pose::Identity(), observed);
+    auto next = observed.begin();
+    for (std::uint32_t k = 0; k < places.size() / 3; ++k) {
+      const Eigen::Vector3f place = Eigen::Map<const Eigen::Vector3f>(places.data() + 3 * k);
+      const bool near = place.norm() >= static_cast<float>(parameters.evidence_range_min) &&
+                        place.norm() <= static_cast<float>(parameters.evidence_range_max);
+      const Observation wanted = image.observe(place);
+      ++found[static_cast<std::size_t>(wanted)];
+      const bool told = next != observed.end() && next->place == k;
+      REQUIRE(told == (near && (wanted == Observation::kAgree || wanted == Observation::kFree)));
+      if (!told) continue;
+      REQUIRE(next->observation == wanted);
+      ++next;
+    }
+    CHECK(next == observed.end());
+  }
+  for (const int count : found) CHECK(count > 100);
+}
+
+TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders") {
+  std::mt19937 random(4);
+  std::normal_distribution<float> place(0.0F, 20.0F);
+  const float columns = 1440.0F, full = 2.0F * std::numbers::pi_v<float>;
+  const kernels::SightGrid grid{columns / full, 300.0F, -0.5F, 1440};
+  const Pose turned(Eigen::Translation3d(3.0, -2.0, 1.0) *
+                    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+  const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> rotation = turned.linear().cast<float>();
+  std::vector<Eigen::Vector3f> places(5001);
+  for (Eigen::Vector3f& at : places) at = {place(random), place(random), 0.3F * place(random)};
+  kernels::SightPlaces job{places.front().data(), places.size(), {}, {3.0F, -2.0F, 1.0F}};
+  std::copy_n(rotation.data(), 9, job.rotation.begin());
+  for (const InstructionSet set : supported_instruction_sets()) {
+    std::vector<float> range(places.size() + kernels::kMostLanes);
+    std::vector<std::int32_t> column(range.size()), row(range.size());
+    kernels::sight_kernels_for(set).locate(grid, job, {range.data(), column.data(), row.data()});
+    int on_borders = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Eigen::Vector3d at = turned * places[k].cast<double>();
+      const double r = at.norm();
+      const double x =
+          (std::atan2(at.y(), at.x()) + std::numbers::pi) * static_cast<double>(columns / full);
+      const double y = (std::asin(at.z() / r) + 0.5) * 300.0;
+      REQUIRE(range[k] == Approx(r).epsilon(1e-6));
+      // 1e-3 of a bin is 3e-6 radians or more.
+      const auto on_border = [](double bin) { return std::abs(bin - std::round(bin)) < 1e-3; };
+      if (on_border(x) || on_border(y)) {
+        ++on_borders;
+        continue;
+      }
+      REQUIRE(column[k] == static_cast<int>(x));
+      REQUIRE(row[k] == static_cast<int>(std::floor(y)));
+    }
+    CHECK(on_borders < 50);
+  }
+}
+
+TEST_CASE("a place is looked up where the formulas of azimuth and elevation say") {
+  // One return a direction; the same direction agrees, others as far apart as two windows do not.
+  for (int degrees = -180; degrees <= 180; degrees += 7) {
+    for (const int up : {-9, -3, 0, 8}) {
+      const double a = degrees * kDegree, e = up * kDegree;
+      const RangeImage image = image_of({(20.0 * direction(a, e)).cast<float>()});
+      CHECK(image.observe((20.1 * direction(a, e)).cast<float>()) == Observation::kAgree);
+      const Eigen::Vector3d aside = 20.1 * direction(a + 8.0 * kDegree, e);
+      CHECK(image.observe(aside.cast<float>()) == Observation::kUnknown);
+    }
+  }
+}

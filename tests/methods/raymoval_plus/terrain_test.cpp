@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/terrain/terrain.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+namespace {
+
+float height_of(const Terrain& terrain, const Eigen::Vector3d& point) {
+  return terrain.heights({point}, RunContext{})[0];
+}
+
+}  // namespace
+
+TEST_CASE("ground is the low quantile, without pits and walls") {
+  Terrain terrain{Parameters{}};
+  CHECK(std::isinf(height_of(terrain, {0.1, 0.1, -1.7})));
+  std::vector<Eigen::Vector3d> points;
+  for (int x = -20; x <= 20; ++x) {
+    for (int y = -20; y <= 20; ++y) {
+      for (int k = 0; k < 4; ++k) {
+        const double z = x == 5 && y == 5 ? -3.0 : -1.7;  // one column of false echoes
+        points.emplace_back(0.4 * x + 0.05 + 0.08 * k, 0.4 * y + 0.2, z);
+      }
+    }
+  }
+  terrain.add(points, RunContext{});
+  terrain.update(RunContext{});
+  CHECK(height_of(terrain, {0.1, 0.1, -1.7}) == Approx(0.0).margin(0.05));
+  CHECK(height_of(terrain, {2.2, 2.2, 0.3}) == Approx(2.0).margin(0.3));  // in the pit
+  CHECK(std::isinf(height_of(terrain, {100.0, 0.0, 0.0})));
+}
+
+TEST_CASE("under a roof the ground rises no more than the slope allows") {
+  // Columns are 0.4 m. Ground at 0 m up to x = 4 m; from there on all returns come from a roof at 2
+  // m.
+  Terrain terrain{Parameters{}};
+  std::vector<Eigen::Vector3d> points;
+  for (int x = 0; x < 20; ++x) {
+    for (int y = -10; y < 10; ++y) {
+      for (int k = 0; k < 3; ++k) points.emplace_back(0.4 * x + 0.2, 0.4 * y + 0.2, x < 10 ? 0 : 2);
+    }
+  }
+  terrain.add(points, RunContext{});
+  terrain.update(RunContext{});
+  CHECK(height_of(terrain, {3.8, 0.2, 0.0}) == Approx(0.0).margin(0.05));
+  // 0.4 m and 1.2 m beyond the last column of ground it may rise by 0.08 m and 0.24 m; farther away
+  // that column says nothing.
+  CHECK(height_of(terrain, {4.2, 0.2, 2.0}) == Approx(1.92).margin(0.05));
+  CHECK(height_of(terrain, {5.0, 0.2, 2.0}) == Approx(1.76).margin(0.05));
+  CHECK(height_of(terrain, {5.4, 0.2, 2.0}) == Approx(0.0).margin(0.05));
+}
+
+TEST_CASE("ground found scan by scan is the ground found at once") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-60.0, 60.0), rough(0.0, 0.3);
+  Terrain at_once{Parameters{}}, in_parts{Parameters{}};
+  std::vector<Eigen::Vector3d> all;
+  for (int scan = 0; scan < 5; ++scan) {
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 40000; ++i) {
+      const double x = place(random), y = place(random);
+      points.emplace_back(x, y, 0.1 * x + rough(random));
+    }
+    in_parts.add(points, RunContext{});
+    in_parts.update(RunContext{.threads = 2});
+    all.insert(all.end(), points.begin(), points.end());
+  }
+  at_once.add(all, RunContext{});
+  at_once.update(RunContext{});
+  std::vector<Eigen::Vector3d> asked;
+  for (int i = 0; i < 2000; ++i) asked.emplace_back(place(random), place(random), 0.0);
+  REQUIRE(at_once.heights(asked, RunContext{}) ==
+          in_parts.heights(asked, RunContext{.threads = 2}));
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects/tracks.h"
+
+#include <catch2/catch.hpp>
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+namespace {
+
+using Scans = std::vector<std::vector<ObjectSummary>>;
+
+/// A walker of half a metre who moves 0.2 m a scan along x; `dynamic` of 20 points are dynamic.
+ObjectSummary walker(int scan, int dynamic, float agree_scans) {
+  ObjectSummary object;
+  object.center = {0.2 * scan, 0.0, 1.0};
+  object.low = object.center - Eigen::Vector3d(0.25, 0.25, 0.7);
+  object.high = object.center + Eigen::Vector3d(0.25, 0.25, 0.7);
+  object.range = 10.0F;
+  object.points = 20;
+  object.dynamic = dynamic;
+  object.agree_scans = agree_scans;
+  return object;
+}
+
+std::vector<std::vector<int>> marked_by_tracks(const Scans& scans) {
+  return objects_on_tracks(scans, Parameters{}, RunContext{});
+}
+
+}  // namespace
+
+TEST_CASE("an object is followed past its last evidence, a standing one is not") {
+  Scans scans;
+  for (int i = 0; i < 10; ++i) {
+    // Nothing was seen after the last three scans, so their voxels are not found free.
+    scans.push_back({walker(i, i < 7 ? 18 : 0, 4.0), walker(0, 0, 10.0)});
+    scans.back()[1].center.y() += 5.0;
+  }
+  const auto marked = marked_by_tracks(scans);
+  for (int i = 0; i < 10; ++i) {
+    CHECK(marked[static_cast<std::size_t>(i)] == (i < 7 ? std::vector<int>{} : std::vector{0}));
+  }
+  // Scan by scan: the walker of scan 7 is marked by its own past.
+  ObjectTracker tracker{Parameters{}};
+  for (std::size_t i = 0; i < 8; ++i) tracker.follow(i, scans[i]);
+  CHECK(tracker.marked_now() == std::vector{0});
+  // Scans agree on it for far longer than half a metre at 0.2 m a scan explains: something else.
+  for (auto& objects : scans) objects[0].agree_scans = 60.0F;
+  CHECK(marked_by_tracks(scans)[9].empty());
+}
+
+TEST_CASE("an object is followed backward in time to before its first evidence") {
+  Scans scans;
+  for (int i = 0; i < 10; ++i) scans.push_back({walker(i, i < 3 ? 0 : 18, 4.0)});
+  const auto marked = marked_by_tracks(scans);
+  for (std::size_t i = 0; i < 10; ++i) {
+    CHECK(marked[i] == (i < 3 ? std::vector{0} : std::vector<int>{}));
+  }
+}
+
+TEST_CASE("a track may miss two scans, and not three") {
+  // The walker is found in scans 0 to 5 and once more, undecided, after a gap.
+  for (const int missed : {2, 3}) {
+    Scans scans;
+    for (int i = 0; i < 6; ++i) scans.push_back({walker(i, 18, 4.0)});
+    scans.resize(static_cast<std::size_t>(6 + missed));
+    scans.push_back({walker(6 + missed, 0, 4.0)});
+    CHECK(marked_by_tracks(scans).back() == (missed == 2 ? std::vector{0} : std::vector<int>{}));
+  }
+}
+
+TEST_CASE("an object that did not move, or changed its size, marks nothing") {
+  Scans standing, growing;
+  for (int i = 0; i < 10; ++i) {
+    standing.push_back({walker(0, i < 7 ? 18 : 0, 4.0)});
+    growing.push_back({walker(i, i < 7 ? 18 : 0, 4.0)});
+    if (i >= 7) growing.back()[0].high.z() += 2.0;  // 2 m more than 0.6 m + 0.3 x 3.4 m.
+  }
+  CHECK(marked_by_tracks(standing)[9].empty());
+  CHECK(marked_by_tracks(growing)[7].empty());
+}

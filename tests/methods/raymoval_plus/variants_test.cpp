@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "tests/methods/moved_world.h"
+
+using namespace raymoval;
+
+namespace {
+
+ConfiguredMethod variant(const std::string& name) {
+  return MethodRegistry::built_in().configure("raymoval_plus:" + name);
+}
+
+}  // namespace
+
+TEST_CASE("raymoval_plus takes the movers off a street and leaves the rest") {
+  const toy::World world = toy::street(16);
+  const MaskStore masks = toy::masks_of(*variant("offline").make(), world);
+  // The car drives off ahead: its last places are hidden by itself.
+  CHECK(toy::removed_share(world, masks, 3, 0, 15) > 0.7);
+  CHECK(toy::removed_share(world, masks, 4, 0, 15) > 0.99);
+  for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, masks, fixed, 0, 15) < 0.001);
+  // The person walks past the pole within reach of the vote.
+  CHECK(toy::removed_share(world, masks, 2, 0, 15) < 0.1);
+}
+
+TEST_CASE("raymoval_plus answers the same on any number of threads") {
+  const toy::World world = toy::street(10);
+  for (const char* const name : {"offline", "online", "online-map"}) {
+    const ConfiguredMethod method = variant(name);
+    const MaskStore one = toy::masks_of(*method.make(), world, 1);
+    CHECK(one.removed_count() > 0);
+    for (const int threads : {2, 8}) {
+      CHECK(toy::different_verdicts(one, toy::masks_of(*method.make(), world, threads), 10) == 0);
+    }
+  }
+}
+
+TEST_CASE("raymoval_plus online knows nothing of later scans") {
+  const ConfiguredMethod method = variant("online");
+  const MaskStore all = toy::masks_of(*method.make(), toy::street(12));
+  const MaskStore some = toy::masks_of(*method.make(), toy::street(7));
+  CHECK(toy::different_verdicts(some, all, 7) == 0);
+}
+
+TEST_CASE("one pass removes nearly what four do") {
+  const toy::World world = toy::street(16);
+  const MaskStore masks = toy::masks_of(*variant("online-map").make(), world);
+  CHECK(toy::removed_share(world, masks, 4, 0, 15) > 0.9);
+  for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, masks, fixed, 0, 15) < 0.005);
+}
+
+TEST_CASE("raymoval_plus takes no scans, empty scans and single points") {
+  toy::World none{toy::Scanner{}};
+  CHECK(toy::masks_of(*variant("offline").make(), none).removed_count() == 0);
+  toy::World empty{toy::Scanner{}};
+  empty.scan({}, Pose::Identity());
+  empty.scan({{{5.0, -0.01, -0.01}, {5.1, 0.05, 0.05}}}, Pose::Identity());
+  CHECK(toy::masks_of(*variant("offline").make(), empty).removed_count() == 0);
+}
+
+TEST_CASE("raymoval_plus depends on the lattice of its voxels within bounds") {
+  const toy::World world = toy::street(10);
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
+  const auto changed =
+      toy::verdicts_changed_by(toy::whole_motion(0.07, 0.11, 0.05, 0), variant("offline"), world);
+  CHECK(static_cast<double>(changed) < 0.02 * static_cast<double>(points));
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/evidence/vote.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+namespace {
+
+/// A row of voxels along x.
+class Row {
+ public:
+  EvidenceMap map{0.2};
+
+  std::uint32_t add(int cell, Verdict decision) {
+    const auto voxel = map.add(middle(cell), cursor_);
+    map.set_decision(voxel, decision);
+    return voxel;
+  }
+  Verdict verdict(int cell) { return map.verdict(map.find(middle(cell), cursor_)); }
+
+ private:
+  static Eigen::Vector3d middle(int cell) { return {0.2 * cell + 0.1, 0.1, 0.1}; }
+  EvidenceMap::Blocks::Cursor cursor_;
+};
+
+}  // namespace
+
+TEST_CASE("a pole that scans always agreed with stays in a crowd") {
+  // Static voxels at cell 0, dynamic ones at the two on either side of each: 4 of 5 votes.
+  const Parameters parameters;
+  struct Pole {
+    int agree_scans, free_scans;
+    Verdict verdict;
+  };
+  for (const Pole pole :
+       {Pole{parameters.settled_scans, 0, Verdict::kStatic},
+        Pole{parameters.settled_scans - 1, 0, Verdict::kDynamic}, Pole{50, 1, Verdict::kDynamic}}) {
+    Row row;
+    for (const int cell : {-2, -1, 1, 2}) row.add(cell, Verdict::kDynamic);
+    VoxelEvidence& evidence = row.map.evidence(row.add(0, Verdict::kStatic));
+    evidence.agree_scans = static_cast<std::uint16_t>(pole.agree_scans);
+    evidence.free_scans = static_cast<std::uint16_t>(pole.free_scans);
+    vote(parameters, RunContext{}, row.map);
+    CHECK(row.verdict(0) == pole.verdict);
+    CHECK(row.verdict(1) == Verdict::kDynamic);
+  }
+}
+
+TEST_CASE("neighbours outvote a voxel within three cells and no farther") {
+  Row row;
+  for (const int cell : {0, 1, 2, 3}) row.add(cell, Verdict::kDynamic);
+  row.add(6, Verdict::kStatic);
+  row.add(10, Verdict::kUndecided);
+  vote(Parameters{}, RunContext{}, row.map);
+  CHECK(row.verdict(0) == Verdict::kDynamic);
+  CHECK(row.verdict(6) == Verdict::kDynamic);  // one dynamic voxel (3) of two within 3 cells: half
+  CHECK(row.verdict(10) == Verdict::kUndecided);
+}
+
+TEST_CASE("only the blocks of a scan get new verdicts when it arrives") {
+  // Cells 0 and 3 are of one block of 4 x 4 x 4, cell 20 is of another.
+  Row row;
+  LocatedScan scan;
+  for (const int cell : {20, 0, 3}) scan.voxel.push_back(row.add(cell, Verdict::kDynamic));
+  scan.voxel[0] = EvidenceMap::kNone;  // Ground.
+  const auto blocks = blocks_of(scan, row.map);
+  CHECK(blocks == std::vector{row.map.block_of(scan.voxel[1])});
+  vote(blocks, Parameters{}, RunContext{}, row.map);
+  CHECK(row.verdict(0) == Verdict::kDynamic);
+  CHECK(row.verdict(20) == Verdict::kUndecided);
+}
+
+TEST_CASE("votes are those of a count over all voxels, whatever the radius") {
+  std::mt19937 random(7);
+  EvidenceMap map(0.2);
+  EvidenceMap::Blocks::Cursor cursor;
+  std::uniform_int_distribution<int> place(-11, 12), kind(0, 5);
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector3d point(place(random), place(random), place(random));
+    const auto voxel = map.add(0.2 * (point + Eigen::Vector3d::Constant(0.5)), cursor);
+    const int k = kind(random);
+    map.set_decision(voxel, k == 0   ? Verdict::kUndecided
+                            : k == 1 ? Verdict::kDynamic
+                                     : Verdict::kStatic);
+  }
+  const int radius = GENERATE(1, 2, 3, 4, 5, 8);
+  Parameters parameters;
+  parameters.vote_radius = radius;
+  parameters.vote_share = parameters.vote_keep = 0.2;
+  vote(parameters, RunContext{.threads = 2}, map);
+  int wrong = 0, dynamic_verdicts = 0;
+  for (std::size_t v = 0; v < map.size(); ++v) {
+    int decided = 0, dynamic = 0;
+    for (std::size_t w = 0; w < map.size(); ++w) {
+      if ((map.index(v) - map.index(w)).cwiseAbs().maxCoeff() > radius) continue;
+      decided += map.decision(w) != Verdict::kUndecided ? 1 : 0;
+      dynamic += map.decision(w) == Verdict::kDynamic ? 1 : 0;
+    }
+    const bool expected = decided > 0 && dynamic >= 0.2 * decided;
+    wrong += expected != (map.verdict(v) == Verdict::kDynamic) ? 1 : 0;
+    dynamic_verdicts += expected ? 1 : 0;
+  }
+  CHECK(wrong == 0);
+  CHECK(dynamic_verdicts > 100);
+  CHECK(dynamic_verdicts < static_cast<int>(map.size()) - 100);
+}
