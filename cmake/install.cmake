@@ -1,13 +1,14 @@
-# find_package(raymoval) gives raymoval::core, raymoval::datasets, raymoval::methods, raymoval::eval.
+# find_package(raymoval) gives raymoval::core, raymoval::datasets, raymoval::methods, raymoval::eval,
+# and raymoval::harness: the whole program as a function.
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/raymoval)
 
-install(TARGETS raymoval_core raymoval_datasets raymoval_methods raymoval_eval
+install(TARGETS raymoval_core raymoval_datasets raymoval_methods raymoval_eval raymoval_benchmark
         EXPORT raymovalTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS raymoval_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(room core datasets methods eval)
-  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raymoval
-          FILES_MATCHING PATTERN "*.h")
+foreach(header ${raymoval_public_headers})
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raymoval/${folder})
 endforeach()
 install(DIRECTORY benchmark/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
         FILES_MATCHING PATTERN "*.json")
@@ -28,7 +29,7 @@ if(NOT RAYMOVAL_SANITIZE)
   endforeach()
 endif()
 # Where pages and pictures stand in the repository, so that their links lead there.
-install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      docs/*.md methods/README.md methods/*/*.md datasets/*/README.md
      results/pictures/*.png results/schema/*.json)

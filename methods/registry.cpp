@@ -41,7 +41,7 @@ void MethodRegistry::add(MethodEntry entry) {
   if (entry.variants.empty()) {
     throw ConfigurationError("method '" + entry.name + "' needs at least one variant.");
   }
-  entries_.push_back(std::make_unique<MethodEntry>(std::move(entry)));
+  entries_.push_back(std::make_shared<const MethodEntry>(std::move(entry)));
 }
 
 const MethodEntry& MethodRegistry::find(const std::string& name) const {

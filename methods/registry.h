@@ -9,7 +9,7 @@
 
 namespace raymoval {
 
-/// The methods by name, in the order in which they are shown.
+/// The methods by name, in the order in which they are shown. Copies share their entries.
 class MethodRegistry {
  public:
   /// The methods that come with raymoval.
@@ -17,7 +17,7 @@ class MethodRegistry {
 
   /// @throws ConfigurationError if the name is taken, or the entry has no variant.
   void add(MethodEntry entry);
-  [[nodiscard]] const std::vector<std::unique_ptr<MethodEntry>>& entries() const {
+  [[nodiscard]] const std::vector<std::shared_ptr<const MethodEntry>>& entries() const {
     return entries_;
   }
   /// @throws UsageError that suggests the nearest name
@@ -31,7 +31,7 @@ class MethodRegistry {
  private:
   [[nodiscard]] ConfiguredMethod configure_external(const std::string& manifest) const;
 
-  std::vector<std::unique_ptr<MethodEntry>> entries_;
+  std::vector<std::shared_ptr<const MethodEntry>> entries_;
 };
 
 }  // namespace raymoval

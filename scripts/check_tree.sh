@@ -11,8 +11,8 @@ case ${1:-} in
 esac
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
-known='.ci .clang-format .gitattributes .gitignore CHANGELOG.md CITATION.cff CMakeLists.txt
-CMakePresets.json LICENSE README.md benchmark cmake core datasets docs eval examples methods results
+known='.ci .clang-format .clang-tidy .gitattributes .gitignore .pre-commit-config.yaml CHANGELOG.md CITATION.cff CMakeLists.txt
+CMakePresets.json CONTRIBUTING.md LICENSE README.md benchmark cmake core datasets docs eval examples methods results
 scripts tests'
 most_bytes=1048576
 

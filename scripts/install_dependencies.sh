@@ -20,7 +20,7 @@ case ${1:-} in
   "") ;;
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
   --tests) packages+=(snakemake python3-jsonschema python3-numpy texlive-latex-base
-    texlive-latex-recommended chromium) ;;
+    texlive-latex-recommended chromium doxygen) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing or --tests." >&2; exit 2 ;;
 esac
 # npm fetches three.js. One that did not come from Debian will do, and would be in Debian's way.

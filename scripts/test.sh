@@ -61,33 +61,14 @@ check_format() {
   git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
 }
 
-check_consumer() {
-  local prefix
-  prefix=$(mktemp -d)
-  cmake --install build/release --prefix "$prefix/installed" >/dev/null &&
-    cmake -G Ninja -S tests/consumer -B "$prefix/build" -DCMAKE_BUILD_TYPE=Release \
-      -DCMAKE_PREFIX_PATH="$prefix/installed" &&
-    cmake --build "$prefix/build" &&
-    "$prefix/build/near_points/near_points" &&
-    "$prefix/build/methods_only" >/dev/null &&
-    [[ $(wc -l <examples/cpp_method/near_points.cpp) -le 60 ]] &&
-    ! grep -rqF "$PWD/" "$prefix/installed" &&
-    "$prefix/installed/bin/raymoval" list methods >/dev/null
-  local status=$?
-  rm -rf "$prefix"
-  return $status
-}
-
 step "dependencies" scripts/install_dependencies.sh --tests
 step "includes" scripts/check_includes.sh
 step "tree" scripts/check_tree.sh
 step "format" check_format
-step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_UNITY=benchmark
+step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_REPORT_3D=ON -DRAYMOVAL_UNITY=benchmark
 run_tests release
 step "reference results" scripts/check_reference.sh
-step "installed library" check_consumer
-step "package" tests/package/package_test.sh build/release
-step "sanitizer build" build asan-ubsan
+step "sanitizer build" build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release"
 run_tests asan-ubsan
 
 [[ ${#failures[@]} -eq 0 ]] || printf 'failed: %s\n' "${failures[@]}"

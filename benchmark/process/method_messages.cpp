@@ -11,7 +11,6 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/cell_json.h"
-#include "benchmark/result/json_fields.h"
 #include "benchmark/suite/suite_json.h"
 #include "core/error.h"
 #include "core/files/descriptor_io.h"
@@ -158,9 +157,7 @@ MethodAnswer read_answer(int file) {
   if (!status) throw MethodError("the answer is damaged");
   answer.status = *status;
   answer.reason = head.reason;
-  const nlohmann::ordered_json measured = head.measured;
-  const std::string place = "the answer";
-  answer.measured = measurement_from(JsonFields(measured, place));
+  answer.measured = measurement_from(head.measured, "the answer");
   if (!head.loaded.empty()) answer.loaded = head.loaded.front();
   answer.masks = MaskStore(head.points.size());
   for (std::size_t i = 0; i < head.points.size(); ++i) {

@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "benchmark/result/reasons.h"
+#include "benchmark/result/removals/reasons.h"
 #include "core/morton.h"
 #include "core/scan/local_frame.h"
 #include "eval/columns/removal_tally.h"

@@ -9,13 +9,24 @@
 
 namespace raymoval {
 
-class JsonFields;
+/// A field of a result file is missing or of the wrong type.
+class FieldError : public DataError {
+ public:
+  using DataError::DataError;
+};
+
+/// A result file is of another version of its layout.
+class SchemaVersionError : public DataError {
+ public:
+  using DataError::DataError;
+};
 
 /// The content of cell.json without its checksum, and back. Keys, their order and the texts of
 /// numbers are fixed: a cell that is read and written again has the same bytes.
 nlohmann::ordered_json to_json(const Cell& cell);
-/// @throws DataError naming the file and the field that is missing or of the wrong type
-Cell cell_from(const JsonFields& fields);
+/// @param file stands in messages
+/// @throws FieldError naming the file and the field
+Cell cell_from(const nlohmann::ordered_json& json, const std::string& file);
 
 /// Reads a sealed cell.json. @throws DataError if it is missing, damaged or of another version
 Cell read_cell(const std::filesystem::path& file);
@@ -28,16 +39,14 @@ void write_repeat(const std::filesystem::path& file, const RepeatRecord& repeat)
 /// Hash of all that the counts of a cell depend on. Any change changes the key.
 std::string cell_key(const CellIdentity& identity);
 
-// Parts of a cell, which stand in other files too. Reading throws as `cell_from` does.
+// Parts of a cell, which stand in other files and in what commands print.
 
 nlohmann::ordered_json to_json(const DataRecord& data);
-DataRecord data_from(const JsonFields& fields);
 nlohmann::ordered_json to_json(const MethodRecord& method);
 nlohmann::ordered_json to_json(const ProtocolRecord& protocol);
-ProtocolRecord protocol_from(const JsonFields& fields);
 nlohmann::ordered_json to_json(const ColumnRecord& columns);
 nlohmann::ordered_json to_json(const Measurement& measured);
-Measurement measurement_from(const JsonFields& fields);
+Measurement measurement_from(const nlohmann::ordered_json& json, const std::string& place);
 /// Counts and rates; an undefined rate is null, and its reason stands below "undefined".
 nlohmann::ordered_json to_json(const ProtocolResult& result);
 

@@ -220,9 +220,9 @@ RunResults shown_results(const ResultsRecord& results) {
     shown.protocol_kinds[protocol.name] = protocol.protocol;
   }
   for (const SuiteMethodRecord& method : results.run.methods) {
-    if (method.sweep.empty()) continue;
-    SweptCell swept{method.name, method.sweep_of, {}};
-    for (const auto& [key, value] : method.sweep) {
+    if (!method.sweep) continue;
+    SweptCell swept{method.name, method.sweep->of, {}};
+    for (const auto& [key, value] : method.sweep->values) {
       const auto* text = std::get_if<std::string>(&value);
       swept.values.emplace_back(key, text != nullptr ? *text : value_text(value));
     }

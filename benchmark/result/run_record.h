@@ -19,15 +19,19 @@ struct SequenceRecord {
   std::optional<SequenceRequest> place = std::nullopt;
 };
 
+/// What a method of a run is a point of.
+struct SweepRecord {
+  std::string of;        ///< Name without the swept values, "raymoval:offline".
+  Configuration values;  ///< The swept values of this point.
+};
+
 /// A method of a run.
 struct SuiteMethodRecord {
   std::string name;    ///< Unique in the suite.
   std::string method;  ///< With its variant, "raymoval:online".
   std::string version;
   Configuration parameters = {};
-  std::string sweep_of =
-      {};                    ///< Name without the swept values; empty if it is no point of a sweep.
-  Configuration sweep = {};  ///< The swept values.
+  std::optional<SweepRecord> sweep = std::nullopt;  ///< No value if it is no point of a sweep.
 };
 
 /// Says which cell of a run is meant.

@@ -6,6 +6,7 @@
 #include "benchmark/result/results.h"
 #include "benchmark/tables/text_table.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
@@ -17,7 +18,7 @@ constexpr const char* kKept = "  (kept)";
 
 std::size_t widest(const std::vector<std::string>& names, std::size_t most) {
   std::size_t width = 0;
-  for (const std::string& name : names) width = std::max(width, shown_length(name));
+  for (const std::string& name : names) width = std::max(width, character_count(name));
   return std::min(width, most);
 }
 
@@ -81,7 +82,7 @@ std::string CellLines::line(std::size_t number, const Cell& cell, bool kept) con
   }
   for (const std::string& piece : pieces) {
     const std::size_t reserved = std::string(kKept).size();
-    if (shown_length(text) + 2 + piece.size() + reserved > kTerminalWidth) break;
+    if (character_count(text) + 2 + piece.size() + reserved > kTerminalWidth) break;
     text += "  " + piece;
   }
   return text + (kept ? kKept : "");

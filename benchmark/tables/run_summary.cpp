@@ -6,6 +6,7 @@
 #include "benchmark/tables/rate_tables.h"
 #include "benchmark/tables/text_table.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
@@ -65,7 +66,7 @@ std::string fitting_text(TextTable table) {
   const auto width_of = [](const std::string& text) {
     std::size_t width = 0;
     for (const std::string_view line : split(text, '\n')) {
-      width = std::max(width, shown_length(std::string(line)));
+      width = std::max(width, character_count(std::string(line)));
     }
     return width;
   };

@@ -20,23 +20,6 @@ std::size_t character_at(const std::string& text, std::size_t number) {
   return at;
 }
 
-/// Bytes of the UTF-8 sequence that starts at `at`; 0 if it is none that XML may hold.
-std::size_t sequence_length(const std::string& text, std::size_t at) {
-  const auto first = static_cast<unsigned char>(text[at]);
-  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
-  const std::size_t length = first >= 0xF0 ? 4 : (first >= 0xE0 ? 3 : 2);
-  if (first < 0xC2 || first > 0xF4 || at + length > text.size()) return 0;
-  std::uint32_t code = first & (0x7FU >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto next = static_cast<unsigned char>(text[at + i]);
-    if ((next & 0xC0U) != 0x80U) return 0;
-    code = code << 6U | (next & 0x3FU);
-  }
-  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  return overlong || surrogate || code > 0x10FFFF || (code & 0xFFFEU) == 0xFFFEU ? 0 : length;
-}
-
 std::string markdown_escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -76,7 +59,7 @@ std::vector<std::size_t> column_widths(const Lines& lines) {
   std::vector<std::size_t> widths(lines.front().size(), 3);
   for (const auto& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) {
-      widths[i] = std::max(widths[i], shown_length(line[i]));
+      widths[i] = std::max(widths[i], character_count(line[i]));
     }
   }
   return widths;
@@ -148,20 +131,16 @@ std::vector<RowRange> blocks_of(const TextTable& table) {
   return blocks;
 }
 
-std::size_t shown_length(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
-}
-
 std::string padded(const std::string& text, std::size_t width) {
-  return text + std::string(width - std::min(width, shown_length(text)), ' ');
+  return text + std::string(width - std::min(width, character_count(text)), ' ');
 }
 
 std::string padded_left(const std::string& text, std::size_t width) {
-  return std::string(width - std::min(width, shown_length(text)), ' ') + text;
+  return std::string(width - std::min(width, character_count(text)), ' ') + text;
 }
 
 std::string shortened_middle(const std::string& text, std::size_t most) {
-  const std::size_t length = shown_length(text);
+  const std::size_t length = character_count(text);
   if (length <= most) return text;
   const std::size_t head = (most - 3) / 2, tail = most - 3 - head;
   return text.substr(0, character_at(text, head)) + "..." +
@@ -169,44 +148,14 @@ std::string shortened_middle(const std::string& text, std::size_t most) {
 }
 
 std::string shortened_end(const std::string& text, std::size_t most) {
-  if (shown_length(text) <= most) return text;
+  if (character_count(text) <= most) return text;
   return text.substr(0, character_at(text, most - 3)) + "...";
-}
-
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = sequence_length(text, at);
-    if (length == 0) {
-      escaped += static_cast<unsigned char>(text[at]) < 0x20 ? " " : "\xEF\xBF\xBD";
-      ++at;
-      continue;
-    }
-    switch (text[at]) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += text.substr(at, length);
-    }
-    at += length;
-  }
-  return escaped;
 }
 
 std::string wrapped(const std::string& text, std::size_t most) {
   std::string lines, line;
   for (const std::string_view word : split_blanks(text)) {
-    if (!line.empty() && shown_length(line) + 1 + shown_length(std::string(word)) > most) {
+    if (!line.empty() && character_count(line) + 1 + character_count(std::string(word)) > most) {
       lines += line + "\n";
       line.clear();
     }

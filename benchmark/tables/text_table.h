@@ -59,9 +59,6 @@ std::vector<TableCell*> column_cells(TextTable& table, std::size_t place, const 
 /// marked alike. If fewer than two cells have a value, none is marked.
 void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better);
 
-/// Characters of a UTF-8 text.
-std::size_t shown_length(const std::string& text);
-
 /// `text` with blanks behind it up to `width` characters, or in front of it.
 std::string padded(const std::string& text, std::size_t width);
 std::string padded_left(const std::string& text, std::size_t width);
@@ -74,9 +71,6 @@ std::string shortened_end(const std::string& text, std::size_t most);
 
 /// Lines of at most `most` characters, broken between words, each with its end of line.
 std::string wrapped(const std::string& text, std::size_t most);
-
-/// Text for XML: markup is escaped, and characters that XML does not have are replaced.
-std::string xml_escaped(const std::string& text);
 
 /// How wide text for a terminal is at most.
 inline constexpr std::size_t kTerminalWidth = 100;

@@ -91,7 +91,7 @@ std::vector<std::pair<const nlohmann::json*, std::string>> ConfigObject::list(
   std::vector<std::pair<const nlohmann::json*, std::string>> values;
   if (!has(key)) return values;
   const nlohmann::json& items = json_.at(key);
-  if (!items.is_array()) fail(key, "a list [ ... ]");
+  if (!items.is_array()) fail(key, "a list of values [ ... ]");
   for (std::size_t i = 0; i < items.size(); ++i) {
     values.emplace_back(&items[i], fmt::format("{}[{}]", place(key), i));
   }

@@ -1,59 +1,56 @@
 // SPDX-License-Identifier: MIT
-// A method of one's own, registered beside the built-in ones and run on the built-in scene.
-#include <cstdio>
-
-#include "core/scan/mask_store.h"
-#include "datasets/open_sequence.h"
-#include "eval/protocol_registry.h"
-#include "methods/registry.h"
+// A method of one's own, in a program that has all commands of raymoval:
+//   near_points run --sequence street --method near --method raymoval --out out/near
+#include "benchmark/harness.h"
+#include "methods/remover.h"
 
 using namespace raymoval;
 
-/// Removes whatever is nearer to the sensor than a limit.
+struct NearParameters {
+  double limit = 10.0;
+};
+
+/// Removes what is nearer to the sensor than a limit.
 class NearRemover : public Remover {
  public:
-  explicit NearRemover(double limit) : limit_(limit) {}
+  explicit NearRemover(const NearParameters& parameters) : parameters_(parameters) {}
+
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
+    context.begin_pass("near points", scans.size());
     for (std::size_t i = 0; i < scans.size(); ++i) {
       context.check_cancelled();
       const Scan scan = scans.load(i);
-      Mask mask(scan.size());
-      for (std::size_t k = 0; k < scan.size(); ++k) mask[k] = scan.points[k].norm() < limit_;
-      sink.accept(i, mask);
+      Mask removed(scan.size(), 0);
+      for (std::size_t k = 0; k < scan.size(); ++k) {
+        removed[k] = scan.points[k].norm() < parameters_.limit ? 1 : 0;
+      }
+      sink.accept(i, removed);
+      context.advance();
     }
   }
 
  private:
-  double limit_;
+  NearParameters parameters_;
 };
 
-struct StoreSink : RemovalSink {
-  explicit StoreSink(std::size_t scans) : masks(scans) {}
-  void accept(std::size_t scan, const Mask& mask) override { masks.set(scan, mask); }
-  MaskStore masks;
-};
+std::unique_ptr<Remover> make_near(const NearParameters& parameters) {
+  return std::make_unique<NearRemover>(parameters);
+}
 
-int main() {
+MethodEntry near_entry() {
+  static const auto table = ParameterTable<NearParameters>().number(
+      "limit", &NearParameters::limit,
+      {.unit = "m", .minimum = 0.0, .maximum = 200.0, .sentence = "Nearer points are removed."});
   MethodEntry entry;
   entry.name = "near";
-  entry.parameters = {{"limit", 10.0, {.unit = "m", .minimum = 0.0}, {}}};
-  entry.variants = {{"default", "Removes what is near.", true, {}}};
-  entry.make = [](const Configuration& values) {
-    return std::make_unique<NearRemover>(std::get<double>(values.front().second));
-  };
-  MethodRegistry registry;
-  registry.add(entry);
+  entry.sentence = "Removes what is near the sensor.";
+  entry.variants = {{"default", "Each scan by itself.", true, {}}};
+  entry.bind(table, make_near);
+  return entry;
+}
 
-  const Sequence street = open_sequence("street", {.frames = parse_frame_range("0:4")});
-  StoreSink sink(street.scans->size());
-  registry.configure("near").make()->run(*street.scans, sink, {});
-
-  EvaluationInput input;
-  input.scans = street.scans.get();
-  input.labels = street.labels.get();
-  const auto protocol = make_protocol("erasor", protocol_defaults("erasor"));
-  const ProtocolResult result = protocol->open(input)->score(sink.masks);
-  const auto rate = result.rate("PR");
-  std::printf("removed %zu points, PR %.3f\n", sink.masks.removed_count(), rate.value_or(-1.0));
-  return sink.masks.removed_count() > 0 && rate && *rate > 0.0 && *rate < 100.0 ? 0 : 1;
+int main(int argc, char** argv) {
+  MethodRegistry methods = MethodRegistry::built_in();
+  methods.add(near_entry());
+  return run_command_line(argc, argv, methods);
 }

@@ -16,7 +16,7 @@ page_text() { cat "$source_folder/$1"; }
 anchors() {
   sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'
 }
-for page in "${pages[@]}" methods/README.md; do
+for page in "${pages[@]}" CONTRIBUTING.md methods/README.md examples/cpp_method/README.md; do
   while read -r link; do
     target=$source_folder/$(dirname "$page")/${link%%#*}
     [[ $link != \#* ]] || target=$source_folder/$page
@@ -65,7 +65,7 @@ check_command() {
 code_lines() { page_text "$1" | grep -E '^    [^ ]' | sed -E 's/^    //; s/  +#.*$//; s/ # .*$//'; }
 # spans PAGE: what stands between backticks, a line each.
 spans() { page_text "$1" | grep -v '^    ' | tr '\n' ' ' | grep -oE '`[^`]+`' | tr -d '`'; }
-for page in "${pages[@]}" methods/README.md; do
+for page in "${pages[@]}" CONTRIBUTING.md methods/README.md examples/cpp_method/README.md; do
   while read -r line; do
     line=${line%%|*}  # What follows is another program's.
     eval "words=(${line//[<>()]/ })" 2>/dev/null || continue

@@ -13,7 +13,7 @@
 
 #include <unistd.h>
 
-#include "benchmark/cli/command_line.h"
+#include "benchmark/harness.h"
 #include "methods/controls/controls.h"
 
 namespace {

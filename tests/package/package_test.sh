@@ -47,6 +47,7 @@ done
 mkdir root
 holds "it unpacks into an empty root" dpkg-deb --extract "$package" root
 for path in bin/raymoval include/raymoval/methods/remover.h include/raymoval/methods/registry.h \
+  include/raymoval/benchmark/harness.h lib/libraymoval_harness.a \
   lib/libraymoval_core.a lib/libraymoval_datasets.a lib/libraymoval_methods.a \
   lib/libraymoval_eval.a lib/cmake/raymoval/raymovalConfig.cmake \
   share/raymoval/suites/quick.json share/raymoval/published/raymoval_table2.json \

@@ -134,7 +134,7 @@ ExitCode list(const std::string& what) {
 Command add_list_command(CommandParser& program) {
   auto what = std::make_shared<std::string>();
   CommandOptions options =
-      program.add_command("list", "Names methods, protocols, sensors, scenes, suites");
+      program.add_command("list", "Lists methods, protocols, sensors, scenes, suites");
   options.add("what", "WHAT", *what,
               "methods, variants, protocols, columns, sensors, sequences, scenes, "
               "simulated-sensors or suites; all if empty");

@@ -24,8 +24,8 @@ std::string chart_style();
 // give the same bytes. Controls are left out.
 
 /// Shows what is kept (upwards) against what is removed (to the right). Each sequence has a panel.
-/// There are lines of equal headline rate if that is the harmonic mean of both, and a line joins the
-/// points of a sweep. The text is empty if no cell has both rates.
+/// There are lines of equal headline rate if that is the harmonic mean of both, and a line joins
+/// the points of a sweep. The text is empty if no cell has both rates.
 /// @param protocol its name in the run
 std::string pr_rr_chart(const RunResults& results, const std::string& protocol,
                         ChartPlace place = ChartPlace::kFile);

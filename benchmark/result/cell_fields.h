@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "benchmark/result/cell.h"
+#include "benchmark/result/record_fields.h"
+
+namespace raymoval {
+
+// The fields of cell.json and of its parts, in the order of the file. Only the *_json.cpp files of
+// this folder include this header.
+
+void describe_rates(RecordWriter& writer, const std::vector<Rate>& rates);
+void describe_rates(RecordReader& reader, std::vector<Rate>& rates);
+void describe_rates(RecordWriter& writer, const std::vector<Interval>& rates);
+void describe_rates(RecordReader& reader, std::vector<Interval>& rates);
+void describe(RecordWriter& writer, const ColumnRecord& columns);
+void describe(RecordReader& reader, ColumnRecord& columns);
+
+/// A column without its name, under which it stands.
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<ColumnValue> column) {
+  visitor.field("part", column.share.part);
+  visitor.field("whole", column.share.whole);
+  std::optional<double> percent = column.share.percent();
+  visitor.require("percent");
+  visitor.nullable("percent", percent);
+  if (!percent) visitor.later_field("undefined", column.undefined_reason);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<EgoRecord> ego) {
+  visitor.field("asked", ego.asked);
+  visitor.field("left_out", ego.left_out);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<LabelRule> rule) {
+  visitor.field("name", rule.name);
+  visitor.field("moving", rule.moving);
+  visitor.field("ignored", rule.ignored);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<RangeLimits> range) {
+  visitor.field("min", range.min);
+  visitor.limit("max", range.max, RangeLimits{}.max);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<DataRecord> data) {
+  visitor.field("name", data.name);
+  visitor.field("layout", data.layout);
+  visitor.field("source", data.source);
+  visitor.field("frames", data.frames);
+  visitor.field("scans", data.scans);
+  visitor.field("poses", data.poses);
+  visitor.field("sensor", data.sensor);
+  visitor.optional("sensor_basis", data.sensor_basis);
+  visitor.optional("up", data.up);
+  visitor.optional("up_source", data.up_source);
+  visitor.nullable("scan_period_s", data.scan_period_s);
+  visitor.field("range_m", data.range_m);
+  visitor.optional("drop_ego", data.drop_ego);
+  visitor.nullable("label_rule", data.label_rule);
+  visitor.optional("fingerprint", data.fingerprint);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<MethodRecord> method) {
+  visitor.field("name", method.name);
+  visitor.field("variant", method.variant);
+  visitor.field("version", method.version);
+  visitor.field("online", method.online);
+  visitor.field("control", method.control);
+  visitor.field("parameters", method.parameters);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<ProtocolRecord> protocol) {
+  visitor.field("name", protocol.name);
+  visitor.field("protocol", protocol.protocol);
+  visitor.optional("version", protocol.version);
+  visitor.field("options", protocol.options);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<CellIdentity> identity) {
+  visitor.schema_version();
+  visitor.field("method", identity.method);
+  visitor.field("data", identity.data);
+  visitor.nested("columns",
+                 [](auto& columns) { columns.field("version", std::string(kColumnsVersion)); });
+  visitor.optional("protocols", identity.protocols);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<Intervals> intervals) {
+  visitor.field("level", intervals.options.level);
+  visitor.field("replicates", intervals.options.replicates);
+  visitor.field("seed", intervals.options.seed);
+  visitor.field("block_scans", intervals.block_scans);
+  describe_rates(visitor, intervals.rates);
+}
+
+/// What a Score and a ProtocolResult have in common.
+template <class Visitor, class Result>
+void describe_result(Visitor& visitor, Result& result) {
+  visitor.field("counts", result.counts);
+  describe_rates(visitor, result.rates);
+  visitor.field("warnings", result.warnings);
+  visitor.optional("intervals", result.intervals);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<ProtocolResult> result) {
+  describe_result(visitor, result);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<Score> score) {
+  visitor.require("version");
+  describe(visitor, score.protocol);
+  describe_result(visitor, score);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<MaskRecord> masks) {
+  visitor.field("digest", masks.digest);
+  visitor.field("removed", masks.removed);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<StageSeconds> stage) {
+  visitor.field("name", stage.name);
+  visitor.field("seconds", stage.seconds);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<Measurement> measured) {
+  visitor.field("threads", measured.threads);
+  visitor.nested("seconds_per_scan", [&](auto& by_scan) {
+    by_scan.field("mean", measured.mean_seconds);
+    by_scan.nullable("median", measured.median_seconds);
+    by_scan.nullable("p90", measured.p90_seconds);
+    by_scan.nullable("early", measured.early_seconds);
+    by_scan.nullable("late", measured.late_seconds);
+  });
+  visitor.field("seconds_total", measured.total_seconds);
+  visitor.field("seconds_load", measured.load_seconds);
+  visitor.field("stages", measured.stages);
+  visitor.nullable("peak_memory_mib", measured.peak_memory_mib);
+  visitor.optional("repeats", measured.repeats);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<Cell> cell) {
+  visitor.schema_version();
+  visitor.field("sequence", cell.sequence);
+  visitor.field("name", cell.name);
+  visitor.nullable("key", cell.key);
+  visitor.field("status", cell.status);
+  visitor.field("reason", cell.reason);
+  visitor.field("output_tail", cell.output_tail);
+  visitor.field("method", cell.method);
+  visitor.nullable("data", cell.data);
+  visitor.field("protocols", cell.scores);
+  visitor.nullable("columns", cell.columns);
+  visitor.nullable("masks", cell.masks);
+  visitor.nullable("measured", cell.measured);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<RepeatRecord> repeat) {
+  visitor.schema_version();
+  visitor.field("key", repeat.key);
+  visitor.field("repeat", repeat.number);
+  visitor.field("digest", repeat.digest);
+  visitor.field("measured", repeat.measured);
+}
+
+}  // namespace raymoval
