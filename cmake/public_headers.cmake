@@ -8,6 +8,7 @@ set(first_headers
   core/scan/mask_store.h
   core/scan/voxel_key.h
   datasets/open_sequence.h
+  datasets/sequence.h
   eval/protocol.h
   eval/protocol_registry.h
   methods/common/scan_passes.h
