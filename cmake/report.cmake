@@ -27,7 +27,7 @@ function(raymoval_fetch_three problem)
     execute_process(COMMAND ${RAYMOVAL_NPM} pack three@${three_version} --loglevel=error
                             --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-timeout=60000
                             --pack-destination ${report_build}
-                    WORKING_DIRECTORY ${report_build} RESULT_VARIABLE status
+                    WORKING_DIRECTORY ${report_build} INPUT_FILE /dev/null RESULT_VARIABLE status
                     OUTPUT_VARIABLE told ERROR_VARIABLE told)
     if(NOT status EQUAL 0 OR NOT EXISTS ${archive})
       set(${problem} "npm could not fetch three ${three_version}:\n${told}" PARENT_SCOPE)

@@ -43,7 +43,9 @@ if(RAYMOVAL_PCH)
   # GCC 12 does not take what is inlined of these headers for a system's, and warns wrongly on it
   # (the kin of GCC bug 105651). A build without them has these warnings.
   target_compile_options(raymoval_options INTERFACE
-    "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>")
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>"
+    # Where they do not fit a file, it is compiled without them.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-error=invalid-pch>)
 endif()
 
 # raymoval_precompile(TARGET): for a library.
