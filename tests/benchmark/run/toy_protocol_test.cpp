@@ -65,7 +65,9 @@ void run_street(const std::filesystem::path& out, const std::string& step,
     "protocols": ["toy", "erasor"], "controls": true})");
   RunOptions options;
   options.out = out;
-  const RunSummary summary = run_suite(read_suite(file, methods(), ""), options);
+  Suite suite = read_suite(file, methods(), "");
+  add_controls(suite, methods());
+  const RunSummary summary = run_suite(suite, options);
   CHECK(summary.controls.empty());
   REQUIRE(summary.good());
 }
