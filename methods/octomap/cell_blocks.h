@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scan/voxel_key.h"
-
 namespace raymoval::octomap_method {
 
 /// Morton code of a leaf of a tree of depth 16: the bits of the three 16-bit keys interleaved, x
@@ -49,25 +47,28 @@ struct CellBlock {
 
 inline constexpr int kBlockBits = 9;  ///< Bits of a code that name the cell within its block.
 
-/// Free and occupied cells of (a part of) a scan, block by block.
+/// Free and occupied cells of (a part of) a scan, block by block. The table of blocks is one of its
+/// own: with tsl::robin_map the whole method takes a quarter more time.
 class CellBlocks {
  public:
+  CellBlocks() : slots_(kFirstSlots) {}
+
   /// The block of all codes that begin with `block` (code >> kBlockBits). It is made if there is
   /// none. The reference holds until the next call.
   CellBlock& block(std::uint64_t block) {
-    const auto [found, is_new] =
-        numbers_.try_emplace(block, static_cast<std::uint32_t>(blocks_.size()));
-    if (is_new) {
-      names_.push_back(block);
-      blocks_.emplace_back();
+    std::size_t at = slot_of(block);
+    while (slots_[at].used) {
+      if (slots_[at].block == block) return blocks_[slots_[at].number];
+      at = (at + 1) & (slots_.size() - 1);
     }
-    return blocks_[found->second];
+    return add(block, at);
   }
 
   /// The same block, or null if there is none.
   [[nodiscard]] const CellBlock* find(std::uint64_t block) const {
-    const auto found = numbers_.find(block);
-    return found == numbers_.end() ? nullptr : &blocks_[found->second];
+    std::size_t at = slot_of(block);
+    while (slots_[at].used && slots_[at].block != block) at = (at + 1) & (slots_.size() - 1);
+    return slots_[at].used ? &blocks_[slots_[at].number] : nullptr;
   }
 
   void occupy(CellCode cell) {
@@ -81,13 +82,42 @@ class CellBlocks {
 
   /// Forgets all cells, keeps the memory.
   void clear() {
-    numbers_.clear();
+    slots_.assign(slots_.size(), {});
     names_.clear();
     blocks_.clear();
   }
 
  private:
-  VoxelMap<std::uint32_t> numbers_;  ///< The number of each block by its name.
+  struct Slot {
+    std::uint64_t block = 0;
+    std::uint32_t number = 0;
+    bool used = false;
+  };
+  static constexpr std::size_t kFirstSlots = 1 << 12;
+
+  [[nodiscard]] std::size_t slot_of(std::uint64_t block) const {
+    const std::uint64_t hash = block * 0x9E3779B97F4A7C15ULL;
+    return (hash ^ hash >> 32) & (slots_.size() - 1);
+  }
+
+  CellBlock& add(std::uint64_t block, std::size_t at) {
+    slots_[at] = {block, static_cast<std::uint32_t>(blocks_.size()), true};
+    names_.push_back(block);
+    blocks_.emplace_back();
+    if (2 * blocks_.size() > slots_.size()) grow();
+    return blocks_.back();
+  }
+
+  void grow() {
+    slots_.assign(2 * slots_.size(), {});
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      std::size_t at = slot_of(names_[i]);
+      while (slots_[at].used) at = (at + 1) & (slots_.size() - 1);
+      slots_[at] = {names_[i], static_cast<std::uint32_t>(i), true};
+    }
+  }
+
+  std::vector<Slot> slots_;  ///< Open addressing; a power of two, at most half used.
   std::vector<std::uint64_t> names_;
   std::vector<CellBlock> blocks_;
 };
