@@ -3,7 +3,7 @@
 // better), goes through every output. Nothing but its registration says what it is.
 #include <catch2/catch.hpp>
 
-#include "benchmark/cli/command_line.h"
+#include "benchmark/harness.h"
 #include "benchmark/result/controls_check.h"
 #include "benchmark/result/result_sets.h"
 #include "benchmark/result/run_record_json.h"
