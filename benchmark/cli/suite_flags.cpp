@@ -10,6 +10,7 @@
 #include "benchmark/suite/shipped_suites.h"
 #include "core/error.h"
 #include "datasets/clouds/frames.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {

@@ -10,11 +10,12 @@
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/mask_spool.h"
 #include "benchmark/process/method_run.h"
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/process/proc_files.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
 

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "benchmark/cli/command.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/files.h"
 #include "core/terminal_colour.h"

@@ -6,6 +6,7 @@
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval {
 namespace {

@@ -11,7 +11,7 @@
 #include "benchmark/picture/maps/map_picture.h"
 #include "benchmark/picture/maps/overview_picture.h"
 #include "benchmark/picture/maps/range_picture.h"
-#include "benchmark/run/kept_run.h"
+#include "benchmark/run/folder/kept_run.h"
 #include "core/files/files.h"
 #include "core/text.h"
 

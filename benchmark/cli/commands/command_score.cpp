@@ -5,12 +5,13 @@
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/scored_sequence.h"
 #include "core/files/files.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {

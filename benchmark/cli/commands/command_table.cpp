@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "benchmark/cli/command.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/column_tables.h"
 #include "benchmark/tables/published_columns.h"

@@ -7,6 +7,7 @@
 #include "benchmark/suite/shipped_suites.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "eval/protocol_registry.h"
 
@@ -14,12 +15,6 @@ namespace raymoval {
 namespace {
 
 using Words = std::vector<std::string>;
-
-Words scene_words() {
-  Words words = simulated_scene_names();
-  words.emplace_back("street");
-  return words;
-}
 
 Words method_words(const MethodRegistry& methods) {
   Words words;
@@ -44,7 +39,7 @@ Words words_of_methods_to_run(const MethodRegistry& methods) {
 /// Suites, and the scenes that may stand in their place.
 Words suite_words() {
   Words words = shipped_suite_names();
-  const Words scenes = scene_words();
+  const Words scenes = scene_names();
   words.insert(words.end(), scenes.begin(), scenes.end());
   return words;
 }
@@ -84,7 +79,7 @@ std::vector<ValueSet> common_values(const MethodRegistry& methods) {
           {.name = "described", .words = described_words(methods)},
           {.name = "settings", .words = setting_words(methods), .goes_on = true},
           {.name = "protocols", .words = protocol_words()},
-          {.name = "sequences", .words = scene_words(), .folders = true},
+          {.name = "sequences", .words = scene_names(), .folders = true},
           {.name = "scenes", .words = simulated_scene_names(), .files = true},
           {.name = "suites", .words = suite_words(), .files = true},
           {.name = "sensors", .words = sensor_model_names()},
