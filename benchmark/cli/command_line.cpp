@@ -7,7 +7,7 @@
 #include <exception>
 #include <new>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "core/terminal_colour.h"
 
 namespace raymoval {

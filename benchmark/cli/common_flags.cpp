@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/suite/amounts.h"
 #include "core/parallel.h"
 #include "core/text.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/suite/suite.h"
 
 namespace raymoval {

@@ -6,7 +6,7 @@
 #include "benchmark/clean/clean_checks.h"
 #include "benchmark/clean/clean_outputs.h"
 #include "benchmark/clean/clean_process.h"
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/mask_spool.h"
 #include "benchmark/process/method_run.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/files.h"

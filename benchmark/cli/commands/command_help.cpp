@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/cli/shell/completion.h"
 #include "benchmark/cli/shell/manual_page.h"
 #include "core/text.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/suite/shipped_suites.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"

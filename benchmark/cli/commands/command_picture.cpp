@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/picture/charts/chart_file.h"
 #include "benchmark/picture/charts/charts.h"

@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
 #include "benchmark/cli/suite_flags.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/report/page.h"
 #include "benchmark/report/page_files.h"
 #include "benchmark/result/checks/result_sets.h"

@@ -2,7 +2,7 @@
 #include <memory>
 #include <optional>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/method_process.h"
 #include "benchmark/result/results.h"

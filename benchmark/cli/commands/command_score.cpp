@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/clean/cleaned_cloud.h"
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/result/sealed_json.h"

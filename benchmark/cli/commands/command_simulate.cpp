@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "core/text.h"
 #include "datasets/semantickitti/semantickitti.h"
 #include "datasets/simulation/scene/library.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "benchmark/cli/commands.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/column_tables.h"
