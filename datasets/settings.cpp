@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/files/fields.h"
 #include "core/files/files.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
-#include "datasets/fields.h"
 
 namespace raymoval {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/files/config_object.h"
+#include "core/files/fields.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
@@ -23,11 +23,11 @@ using nlohmann::ordered_json;
 
 // A suite file.
 
-std::optional<std::string> text_of(const ConfigObject& object, const char* key) {
+std::optional<std::string> text_of(const Fields& object, const char* key) {
   return object.has(key) ? std::optional(object.text(key, "")) : std::nullopt;
 }
 
-RangeLimits range_of(const ConfigObject& object) {
+RangeLimits range_of(const Fields& object) {
   RangeLimits range;
   range.min = object.number("min", range.min);
   range.max = object.number("max", range.max);
@@ -81,9 +81,7 @@ std::string sequence_path(const std::string& path, Places& places, const std::st
 
 SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
   if (item.is_string()) return {sequence_path(item.get<std::string>(), places, where), {}};
-  const ConfigObject object(
-      item, where,
-      {"path", "name", "frames", "poses", "label_rule", "range_m", "sensor", "up", "drop_ego"});
+  const Fields object(item, where, "path name frames poses label_rule range_m sensor up drop_ego");
   SequenceRequest request{sequence_path(object.text("path"), places, where), {}};
   SequenceOptions& options = request.options;
   options.name = text_of(object, "name");
@@ -96,8 +94,7 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
     options.drop_ego = ego_region_value(object.member("drop_ego"), where + ".drop_ego");
   }
   if (object.has("range_m")) {
-    options.range_m =
-        range_of(ConfigObject(object.member("range_m"), where + ".range_m", {"min", "max"}));
+    options.range_m = range_of(Fields(object.member("range_m"), where + ".range_m", "min max"));
   }
   return request;
 }
@@ -116,7 +113,7 @@ void apply_object(const json& object, const std::string& owner, const std::strin
 }
 
 /// The values of the "set" object; none if there is no such object.
-json set_of(const ConfigObject& item) {
+json set_of(const Fields& item) {
   if (!item.has("set")) return json::object();
   if (!item.member("set").is_object()) item.fail("set", "an object { \"key\": value }");
   return item.member("set");
@@ -135,7 +132,7 @@ std::vector<SweepPoint> sweep_points(const json& set, const std::string& where) 
   std::vector<SweepPoint> points = {{}};
   for (const auto& [key, value] : set.items()) {
     if (!is_sweep(value)) continue;
-    const ConfigObject sweep(value, where + ".set." + key, {"sweep"});
+    const Fields sweep(value, where + ".set." + key, "sweep");
     const auto swept = sweep.list("sweep");
     if (swept.empty()) sweep.fail("sweep", "a list of values [ ... ]");
     std::vector<SweepPoint> longer;
@@ -198,7 +195,7 @@ void read_method(const json& item, const std::string& where, const Places& place
     }
     return;
   }
-  const ConfigObject object(item, where, {"method", "set", "as"});
+  const Fields object(item, where, "method set as");
   const std::string name = located_method(object.text("method"), places);
   const std::vector<std::string> names = expanded_methods(name, registry);
   const std::string as = object.text("as", "");
@@ -216,7 +213,7 @@ void read_protocol(const json& item, const std::string& where, Suite& suite) {
     add_protocol(suite, item.get<std::string>(), "");
     return;
   }
-  const ConfigObject object(item, where, {"protocol", "set", "as"});
+  const Fields object(item, where, "protocol set as");
   ProtocolRequest& added = add_protocol(suite, object.text("protocol"), object.text("as", ""));
   apply_object(set_of(object), added.protocol, where, protocol_entry(added.protocol).parameters,
                added.options);
@@ -236,9 +233,9 @@ void check_data_given(const Places& places, const std::string& where) {
 Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry,
                  const std::string& data) {
   const json content = read_json(path);
-  const ConfigObject file(content, path.string(),
-                          {"name", "sequences", "methods", "protocols", "controls", "threads",
-                           "repeats", "time_limit_s", "memory_limit_mib"});
+  const Fields file(
+      content, path.string(),
+      "name sequences methods protocols controls threads repeats time_limit_s memory_limit_mib");
   Suite suite;
   Places places{path.parent_path(), data};
   suite.name = file.text("name", path.stem().string());

@@ -71,10 +71,6 @@ ProcessState state_of(pid_t process) {
   return state;
 }
 
-void kill_all(const std::vector<pid_t>& processes) {
-  for (const pid_t process : processes) ::kill(process, SIGKILL);
-}
-
 /// `process` and its descendants; with `stop` each is stopped before its children are looked for.
 void add_with_descendants(pid_t process, bool stop, std::vector<pid_t>& found) {
   if (std::find(found.begin(), found.end(), process) != found.end()) return;
@@ -139,12 +135,12 @@ std::vector<pid_t> ProcessFamily::stopped_members() const {
 
 void ProcessFamily::end() const {
   const auto started = std::chrono::steady_clock::now();
-  for (auto members = stopped_members();
-       !members.empty() && std::chrono::steady_clock::now() - started < kMostPatience;
-       members = stopped_members()) {
-    kill_all(members);
+  do {
+    const std::vector<pid_t> members = stopped_members();
+    if (members.empty()) break;
+    for (const pid_t process : members) ::kill(process, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  } while (std::chrono::steady_clock::now() - started < kMostPatience);
   ::kill(-head_, SIGKILL);  // The process group of the head: at once, whatever it does meanwhile.
   ::kill(head_, SIGKILL);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/files/config_object.h"
+#include "core/files/fields.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
@@ -26,7 +26,7 @@ void check_name(const std::string& name, const std::string& where) {
   }
 }
 
-ParameterValue default_of(const ConfigObject& item) {
+ParameterValue default_of(const Fields& item) {
   const json& value = item.member("default");
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_number_integer()) return value.get<std::int64_t>();
@@ -35,7 +35,7 @@ ParameterValue default_of(const ConfigObject& item) {
   item.fail("default", "true, false, a number or a text");
 }
 
-ParameterSpec parameter_of(const ConfigObject& item, const std::string& method) {
+ParameterSpec parameter_of(const Fields& item, const std::string& method) {
   ParameterSpec spec;
   spec.name = item.text("name");
   check_name(spec.name, item.where());
@@ -57,13 +57,11 @@ ParameterSpec parameter_of(const ConfigObject& item, const std::string& method) 
   return spec;
 }
 
-std::vector<ParameterSpec> parameters_of(const ConfigObject& file, const std::string& method) {
+std::vector<ParameterSpec> parameters_of(const Fields& file, const std::string& method) {
   std::vector<ParameterSpec> specs;
   for (const auto& [item, where] : file.list("parameters")) {
-    ParameterSpec spec = parameter_of(ConfigObject(*item, where,
-                                                   {"name", "default", "unit", "minimum", "maximum",
-                                                    "choices", "source", "sentence"}),
-                                      method);
+    ParameterSpec spec = parameter_of(
+        Fields(*item, where, "name default unit minimum maximum choices source sentence"), method);
     for (const ParameterSpec& known : specs) {
       if (known.name != spec.name) continue;
       throw ConfigurationError(where + ": there are two parameters '" + spec.name + "'.");
@@ -73,7 +71,7 @@ std::vector<ParameterSpec> parameters_of(const ConfigObject& file, const std::st
   return specs;
 }
 
-bool online_of(const ConfigObject& file) {
+bool online_of(const Fields& file) {
   if (file.has("online")) return file.flag("online", false);
   throw ConfigurationError(file.where() + ": 'online' is missing: true if the answer for a scan " +
                            "comes from it and earlier scans only.");
@@ -178,9 +176,9 @@ Manifest read_manifest(const std::filesystem::path& path) {
   Manifest manifest;
   manifest.path = absolute_file(path);
   const json content = read_json(manifest.path);
-  const ConfigObject file(content, manifest.path.string(),
-                          {"name", "sentence", "source", "version", "online", "notes", "command",
-                           "files", "time_limit_s", "disk_limit_gib", "parameters"});
+  const Fields file(content, manifest.path.string(),
+                    "name sentence source version online notes command files time_limit_s "
+                    "disk_limit_gib parameters");
   manifest.name = file.text("name");
   check_name(manifest.name, file.where());
   manifest.sentence = file.text("sentence");

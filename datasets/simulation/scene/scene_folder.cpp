@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/files/descriptor.h"
+#include "core/files/descriptor_io.h"
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
@@ -36,15 +36,8 @@ constexpr int kManifestVersion = 1;
 void write_synced(const fs::path& path, const void* data, std::size_t size) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.valid()) throw_unwritable(path);
-  const char* next = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t put = ::write(file.get(), next, size);
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) throw_unwritable(path);
-    next += put;
-    size -= static_cast<std::size_t>(put);
-  }
-  if (::fsync(file.get()) != 0) throw_unwritable(path);
+  const bool written = write_at(file.get(), {static_cast<const char*>(data), size}, 0);
+  if (!written || ::fsync(file.get()) != 0) throw_unwritable(path);
 }
 
 std::string hash_of(const void* data, std::size_t size) {

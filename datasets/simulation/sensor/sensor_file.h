@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/files/fields.h"
 #include "core/scan/sensor_model.h"
-#include "datasets/fields.h"
 
 namespace raymoval::simulated {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "datasets/fields.h"
+#include "core/files/fields.h"
 #include "datasets/simulation/shapes/parts.h"
 #include "datasets/simulation/world/ego.h"
 #include "datasets/simulation/world/ground.h"

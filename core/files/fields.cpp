@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/fields.h"
+#include "core/files/fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +56,13 @@ double Fields::number(const std::string& key, double fallback, double low, doubl
   return number;
 }
 
+double Fields::positive(const std::string& key, double fallback) const {
+  if (!has(key)) return fallback;
+  const double value = is_number(key) ? json_.at(key).get<double>() : 0.0;
+  if (!(value > 0.0) || !std::isfinite(value)) fail(key, "a number greater than 0");
+  return value;
+}
+
 int Fields::integer(const std::string& key, int fallback, int low, int high) const {
   const double value = number(key, fallback, low, high);
   if (value != std::floor(value)) fail(key, "a whole number");
@@ -72,6 +79,22 @@ std::string Fields::text(const std::string& key, const std::string& fallback) co
   if (!has(key)) return fallback;
   if (!json_.at(key).is_string()) fail(key, "text in quotes");
   return json_.at(key).get<std::string>();
+}
+
+std::string Fields::text(const std::string& key) const {
+  static_cast<void>(member(key));
+  std::string value = text(key, "");
+  if (value.empty()) fail(key, "a text that is not empty");
+  return value;
+}
+
+std::vector<std::string> Fields::texts(const std::string& key) const {
+  std::vector<std::string> texts;
+  for (const auto& [item, item_place] : list(key)) {
+    if (!item->is_string()) fail(key, "a list of texts [ \"...\", ... ]");
+    texts.push_back(item->get<std::string>());
+  }
+  return texts;
 }
 
 std::string Fields::choice(const std::string& key, const std::string& fallback,
