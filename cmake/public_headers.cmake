@@ -8,6 +8,8 @@ set(first_headers
   core/scan/mask_store.h
   core/scan/voxel_key.h
   datasets/sequence.h
+  eval/points/checked_scan.h
+  eval/points/scan_loops.h
   eval/protocol.h
   eval/protocol_registry.h
   methods/common/scan_passes.h

@@ -20,6 +20,7 @@ methods    registry
 methods/raymoval       kernels .
 eval       . points columns|erasor|dynamicmap protocol_registry comparison|published
 benchmark  harness suite result process tables run clean picture report cli
+benchmark/tables       text comparison .
 benchmark  kernels
 "
 

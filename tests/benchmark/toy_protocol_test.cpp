@@ -116,10 +116,9 @@ TEST_CASE("A protocol of one's own is in every output") {
   const std::string tables = read_text(out / "table.md");
   std::string words = tables;  // Notes are broken into lines.
   std::replace(words.begin(), words.end(), '\n', ' ');
-  CHECK_THAT(words,
-             Contains("Accuracy by protocol toy") && Contains("Controls by protocol toy") &&
-                 Contains("lost and left and mistakes as a fraction; lower is better for") &&
-                 Contains("mistakes counts left and lost points together."));
+  CHECK_THAT(words, Contains("Accuracy by protocol toy") && Contains("Controls by protocol toy") &&
+                        Contains("lost and left and mistakes as a fraction; lower is better for") &&
+                        Contains("mistakes counts left and lost points together."));
   CHECK_THAT(part_from(tables, "## Sweep of swept over step by protocol toy"),
              Contains("step=20") && Contains("**0.0"));
   CHECK_THAT(part_from(tables, "## Ranking by protocol"), Contains("toy mistakes"));
