@@ -60,6 +60,7 @@ foreach(case ${cases})
   as_written("${case}" name)
   # What has a meaning in a choice of tests.
   string(REPLACE "\\" "\\\\" spec "${name}")
+  string(REPLACE "\"" "\\\"" spec "${spec}")
   string(REPLACE "," "\\," spec "${spec}")
   string(REPLACE "[" "\\[" spec "${spec}")
   string(REPLACE "]" "\\]" spec "${spec}")

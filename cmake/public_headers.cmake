@@ -7,6 +7,7 @@ set(first_headers
   core/scan/local_frame.h
   core/scan/mask_store.h
   core/scan/voxel_key.h
+  datasets/open_sequence.h
   datasets/sequence.h
   eval/points/checked_scan.h
   eval/points/scan_loops.h

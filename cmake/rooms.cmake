@@ -40,6 +40,10 @@ if(RAYMOVAL_PCH)
   target_precompile_headers(raymoval_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <cstdio>
     <filesystem> <functional> <limits> <map> <memory> <optional> <set> <string> <string_view>
     <utility> <variant> <vector> <Eigen/Geometry>)
+  # GCC 12 does not take what is inlined of these headers for a system's, and warns wrongly on it
+  # (the kin of GCC bug 105651). A build without them has these warnings.
+  target_compile_options(raymoval_options INTERFACE
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>")
 endif()
 
 # raymoval_precompile(TARGET): for a library.

@@ -9,26 +9,12 @@
 #include "core/files/files.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
-#include "datasets/clouds/frames.h"
+#include "datasets/fields.h"
 
 namespace raymoval {
 namespace {
 
 using nlohmann::json;
-
-std::string text_value(const json& value, const std::string& where) {
-  if (!value.is_string()) throw ConfigurationError(where + ": expected a text in quotes.");
-  return value.get<std::string>();
-}
-
-double positive_value(const json& value, const std::string& where, bool zero_allowed) {
-  const double number = value.is_number() ? value.get<double>() : -1.0;
-  if (!std::isfinite(number) || number < 0.0 || (number == 0.0 && !zero_allowed)) {
-    throw ConfigurationError(where + ": " + value.dump() + " is not a number " +
-                             (zero_allowed ? "from 0 on." : "above 0."));
-  }
-  return number;
-}
 
 /// "-y", or a list of three numbers.
 Eigen::Vector3d up_value(const json& value, const std::string& where) {
@@ -37,16 +23,17 @@ Eigen::Vector3d up_value(const json& value, const std::string& where) {
     text = value[0].dump() + "," + value[1].dump() + "," + value[2].dump();
   }
   const auto up = parse_up(text);
-  if (!up)
+  if (!up) {
     throw ConfigurationError(where + ": " + value.dump() + " is no direction; " + kUpForm + ".");
+  }
   return *up;
 }
 
-RangeLimits range_value(const json& value, const std::string& where) {
-  check_keys(value, {"min", "max"}, where);
+RangeLimits range_value(const Fields& file) {
+  const Fields f(file.member("range_m"), file.place("range_m"), "min max");
   RangeLimits range;
-  if (value.contains("min")) range.min = positive_value(value["min"], where + ".min", true);
-  if (value.contains("max")) range.max = positive_value(value["max"], where + ".max", false);
+  range.min = f.number("min", range.min, 0.0);
+  range.max = f.number("max", range.max, 0.0);
   return range;
 }
 
@@ -57,37 +44,28 @@ std::optional<std::string> sensor_value(const std::string& name) {
 }
 
 void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
-  const std::string where = path.string();
-  const json file = read_json(path);
-  check_keys(file,
-             {"name", "source", "sensor", "up", "scan_period_s", "poses", "poses_are_lidar",
-              "range_m", "labels", "drop_ego"},
-             where);
-  const auto at = [&where](const char* key) { return where + ": " + key; };
-  if (file.contains("name")) settings.name = text_value(file["name"], at("name"));
-  if (file.contains("source")) settings.source = text_value(file["source"], at("source"));
-  if (file.contains("sensor")) {
-    settings.sensor = sensor_value(text_value(file["sensor"], at("sensor")));
+  const json content = read_json(path);
+  const Fields file(
+      content, path.string(),
+      "name source sensor up scan_period_s poses poses_are_lidar range_m labels drop_ego");
+  settings.name = file.text("name", settings.name);
+  settings.source = file.text("source", settings.source);
+  if (file.has("sensor")) settings.sensor = sensor_value(file.text("sensor", ""));
+  if (file.has("up")) settings.up = up_value(file.member("up"), file.place("up"));
+  if (file.has("drop_ego")) {
+    settings.drop_ego = ego_region_value(file.member("drop_ego"), file.place("drop_ego"));
   }
-  if (file.contains("up")) settings.up = up_value(file["up"], at("up"));
-  if (file.contains("drop_ego")) {
-    settings.drop_ego = ego_region_value(file["drop_ego"], at("drop_ego"));
+  if (file.has("poses")) settings.poses = file.text("poses", "");
+  if (file.has("scan_period_s")) {
+    settings.scan_period_s = file.number("scan_period_s", 0.0);
+    if (!(*settings.scan_period_s > 0.0)) file.fail("scan_period_s", "a number above 0");
   }
-  if (file.contains("poses")) settings.poses = text_value(file["poses"], at("poses"));
-  if (file.contains("scan_period_s")) {
-    settings.scan_period_s = positive_value(file["scan_period_s"], at("scan_period_s"), false);
-  }
-  if (file.contains("poses_are_lidar")) {
-    if (!file["poses_are_lidar"].is_boolean()) {
-      throw ConfigurationError(at("poses_are_lidar") + ": expected true or false.");
-    }
-    settings.poses_are_lidar = file["poses_are_lidar"].get<bool>();
-  }
-  if (file.contains("range_m")) settings.range_m = range_value(file["range_m"], at("range_m"));
-  if (file.contains("labels")) {
+  settings.poses_are_lidar = file.flag("poses_are_lidar", settings.poses_are_lidar);
+  if (file.has("range_m")) settings.range_m = range_value(file);
+  if (file.has("labels")) {
     LabelRule base = settings.label_rule;
     if (!settings.name.empty()) base.name = settings.name;
-    settings.label_rule = label_rule_from_json(file["labels"], base, at("labels"));
+    settings.label_rule = label_rule_from_json(file.member("labels"), base, file.place("labels"));
     settings.label_rule_given = true;
   }
 }
@@ -135,7 +113,8 @@ std::string folder_name(const std::filesystem::path& folder) {
 EgoRegion ego_region_value(const json& value, const std::string& where) {
   try {
     if (value.is_number()) return parse_ego_region(number_text(value.get<double>()));
-    return parse_ego_region(text_value(value, where));
+    if (!value.is_string()) throw UsageError("expected a text in quotes.");
+    return parse_ego_region(value.get<std::string>());
   } catch (const UsageError& error) {
     throw ConfigurationError(where + ": " + error.what());
   }
@@ -171,21 +150,6 @@ SequenceSettings read_settings(const std::filesystem::path& folder, const Sequen
   if (!defaults.name.empty()) settings.name = defaults.name;
   if (settings.name.empty()) settings.name = folder_name(folder);
   return apply_options(options, settings);
-}
-
-Sequence make_sequence(const SequenceSettings& settings, const std::string& layout,
-                       const FrameRange& range) {
-  Sequence sequence;
-  sequence.name = settings.name;
-  sequence.layout = layout;
-  sequence.label_rule = settings.label_rule;
-  sequence.range_m = settings.range_m;
-  sequence.drop_ego = settings.drop_ego;
-  sequence.frames = frame_range_text(range);
-  sequence.source = settings.source;
-  sequence.scan_period_s = settings.scan_period_s;
-  sequence.up_choice = std::make_shared<UpChoice>(settings.up);
-  return sequence;
 }
 
 std::filesystem::path find_pose_file(const std::filesystem::path& folder, const std::string& name) {

@@ -10,20 +10,21 @@
 
 namespace raymoval {
 
-/// What holds for a sequence: the user's options over its sequence.json over defaults.
+/// What holds for a sequence. The user's options stand above its sequence.json, and that stands
+/// above the layout's defaults.
 struct SequenceSettings {
   std::string name;
   std::string source;
   FrameRange frames;
-  std::optional<std::string> poses;  ///< As given: a name in the folder or a path.
-  bool poses_are_lidar = false;      ///< Poses need no calibration.
+  std::optional<std::string> poses;  ///< As the user gives it: a name in the folder or a path.
+  bool poses_are_lidar = false;      ///< The poses are those of the LiDAR, not of a camera.
   std::optional<std::string> sensor;
   std::optional<Eigen::Vector3d> up;  ///< Unit vector of the world frame.
   EgoRegion drop_ego;
   std::optional<double> scan_period_s;
   RangeLimits range_m;
   LabelRule label_rule;
-  bool label_rule_given = false;  ///< By an option or sequence.json.
+  bool label_rule_given = false;  ///< Whether an option or sequence.json gives it.
 };
 
 /// Reads `folder`/sequence.json if there is one and lays `options` over it. Its keys, all optional:
@@ -43,11 +44,6 @@ SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings 
 
 /// Seconds between scans where nothing says otherwise: spinning sensors mostly turn at 10 Hz.
 inline constexpr double kUsualScanPeriod = 0.1;
-
-/// A sequence with everything but its scans, labels and pose file filled in.
-/// @param range as used, both ends set
-Sequence make_sequence(const SequenceSettings& settings, const std::string& layout,
-                       const FrameRange& range);
 
 /// The pose file `name`: one in `folder`, else a path. @throws DataError naming what there is
 std::filesystem::path find_pose_file(const std::filesystem::path& folder, const std::string& name);

@@ -30,20 +30,21 @@ class RemovalSink {
 class ReasonSink {
  public:
   virtual ~ReasonSink() = default;
-  /// @param sentences of the codes 0, 1, ..., at most 127; to be called once, before `accept`
+  /// Says what the codes mean. To be called once, before `accept`.
+  /// @param sentences of the codes 0, 1, ..., at most 127
   virtual void explain(const std::vector<std::string>& sentences) = 0;
-  /// Reasons for a scan's mask, each scan at most once, from any thread.
+  /// Takes the reasons for a scan's mask, for each scan at most once, from any thread.
   /// @param codes as long as the scan has points
   virtual void accept(std::size_t scan, const std::vector<std::uint8_t>& codes) = 0;
 };
 
 /// What a run gives a method besides its data. Everything optional may be null.
 struct RunContext {
-  int threads = 1;  ///< At most this many; never changes the answer.
+  int threads = 1;  ///< The method uses at most so many; the answer never depends on it.
   Progress* progress = nullptr;
   StageTimes* times = nullptr;
   const std::atomic<bool>* cancel = nullptr;
-  ReasonSink* reasons = nullptr;  ///< For a method that can say why; most cannot and need not.
+  ReasonSink* reasons = nullptr;  ///< For a method that can give reasons; most cannot and need not.
 
   /// @throws Cancelled if the run was asked to stop. Call it once a scan.
   void check_cancelled() const {

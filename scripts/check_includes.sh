@@ -8,20 +8,28 @@
 # A line is a room, or a folder of a room, with what is in it from below to above. `.` stands for the
 # files right in it, and NAME for the files right in NAME/, or for NAME.h and NAME.cpp. What is in a
 # folder below NAME/ belongs to NAME if NAME has a line of its own, which then orders it. Names that
-# `|` joins lie side by side: none includes from another. What is not in the table is an error.
+# `|` joins lie side by side: none includes from another. What is not in the table is an error. A
+# room may have several lines; one that begins with `|` goes on with the last names side by side.
 rooms="core datasets|methods|eval benchmark"
 folders="
-core       . files process scan simd
-datasets   simulation/world simulation/shapes simulation . clouds semantickitti|dynamicmap|files ego
-datasets   reading inspection
-methods    remover method_entry common
-methods    controls|dufomap|erasor|octomap|peopleremover|raymoval|raymoval_plus|removert|external
-methods    registry
+core                   . files process scan simd
+datasets               clouds|fields|geometry ego|world_axes sequence_record sequence
+datasets               reading|settings layout semantickitti|dynamicmap|files
+datasets               simulation layouts open_sequence inspection
+datasets/simulation    shapes world sensor scene|street .
+datasets/inspection    evidence checks .
+methods                remover method_entry common
+methods                controls|external|raymoval|raymoval_plus
+methods                |octomap|peopleremover|removert|erasor|dufomap registry
 methods/raymoval       kernels .
-eval       . points columns|erasor|dynamicmap protocol_registry comparison|published
-benchmark  harness suite result process tables run clean picture report cli
+methods/raymoval_plus  common terrain evidence objects .
+eval                   . points dynamicmap|erasor protocol_registry columns|comparison|published
+benchmark              harness suite result process tables run clean picture report cli cli/shell cli/commands
+benchmark              kernels
+benchmark/picture      canvas charts|maps
+benchmark/result       . removals|checks
+benchmark/run          folder .
 benchmark/tables       text comparison .
-benchmark  kernels
 "
 
 set -euo pipefail
@@ -39,7 +47,7 @@ grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](core|datasets|metho
     function add_places(room, first, count, words,    i, k, names, n) {
       for (i = first; i <= count; ++i) {
         n = split(words[i], names, "|")
-        ++rank[room]
+        if (words[i] !~ /^\|/) ++rank[room]
         for (k = 1; k <= n; ++k) level[room, names[k]] = rank[room]
       }
       known[room] = 1
@@ -49,8 +57,8 @@ grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](core|datasets|metho
       rest = room == "" ? file : substr(file, length(room) + 2)
       name = rest
       sub(/\.(h|cpp)$/, "", name)
-      if ((room, name) in level) return name
-      if (!sub(/\/[^\/]*$/, "", name)) return (room, ".") in level ? "." : ""
+      if (name !~ /\//) return (room, name) in level ? name : (room, ".") in level ? "." : ""
+      sub(/\/[^\/]*$/, "", name)
       if ((room, name) in level) return name
       while (sub(/\/[^\/]*$/, "", name)) {
         if ((room, name) in level && (room == "" ? name : room "/" name) in known) return name

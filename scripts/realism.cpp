@@ -21,7 +21,7 @@
 #include "core/error.h"
 #include "core/scan/voxel_key.h"
 #include "core/text.h"
-#include "datasets/sequence.h"
+#include "datasets/open_sequence.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"

@@ -5,14 +5,10 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <new>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/suite/amounts.h"
-#include "core/files/file_kind.h"
 #include "core/terminal_colour.h"
-#include "core/text.h"
 
 namespace raymoval {
 namespace {
@@ -60,7 +56,7 @@ ExitCode run_program(int argc, const char* const* argv) {
   return ExitCode::kDone;
 }
 
-ExitCode tell(const std::string& message, ExitCode code) {
+ExitCode show_error(const std::string& message, ExitCode code) {
   std::fprintf(stderr, "%s %s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
                message.c_str());
   return code;
@@ -81,20 +77,6 @@ const std::atomic<bool>& interrupt_flag() {
   return interrupted;
 }
 
-int parse_threads(const std::string& text) {
-  if (text.empty()) return 0;
-  const auto value = parse_number<int>(text);
-  if (value && *value >= 1 && *value <= 4096) return *value;
-  throw UsageError("--threads " + text + ": expected a whole number from 1 to 4096.");
-}
-
-double parse_positive(const std::string& option, const std::string& text) {
-  const auto value = parse_number<double>(text);
-  if (value && *value > 0.0 && *value < 1e6) return *value;
-  throw UsageError(option + " " + text +
-                   ": expected a number greater than 0 and less than 1,000,000, without a unit.");
-}
-
 void print(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0) {
@@ -105,21 +87,19 @@ void print(const std::string& text) {
 int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods) {
   known_methods = &methods;
   given_arguments.assign(argv + std::min(argc, 1), argv + argc);
-  // A file that outgrows its limit is then an error of writing, told like a full disk.
+  // A file that outgrows its limit is then an error of writing, like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   ExitCode code = ExitCode::kInternal;
   try {
     code = run_program(argc, argv);
-  } catch (const InternalError& error) {
-    code =
-        tell(std::string("internal error, please report it: ") + error.what(), error.exit_code());
-  } catch (const Error& error) {
-    code = tell(error.what(), error.exit_code());
   } catch (const std::bad_alloc&) {
-    code = tell("there was not enough memory. Choose fewer --frames.", ExitCode::kCannotDo);
+    code = show_error("there was not enough memory. Choose fewer --frames.", ExitCode::kCannotDo);
   } catch (const std::exception& error) {
-    code =
-        tell(std::string("internal error, please report it: ") + error.what(), ExitCode::kInternal);
+    const auto* known = dynamic_cast<const Error*>(&error);
+    code = known == nullptr ? ExitCode::kInternal : known->exit_code();
+    const bool internal = code == ExitCode::kInternal;
+    show_error((internal ? "internal error, please report it: " : "") + std::string(error.what()),
+               code);
   }
   return static_cast<int>(code);
 }

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
-#include "datasets/sequence.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval {
 namespace {

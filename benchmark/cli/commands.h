@@ -8,6 +8,7 @@
 
 #include "benchmark/cli/command_parser.h"
 #include "core/error.h"
+#include "core/progress.h"
 #include "datasets/sequence.h"
 #include "methods/registry.h"
 
@@ -33,9 +34,9 @@ Command add_clean_command(CommandParser& program);
 Command add_simulate_command(CommandParser& program);
 Command add_inspect_command(CommandParser& program);
 Command add_report_command(CommandParser& program);
-Command add_help_command(
-    CommandParser& program);  ///< `program` has to live as long as the command.
-Command add_completion_command(CommandParser& program);  ///< The same.
+/// `program` has to live as long as the next two commands.
+Command add_help_command(CommandParser& program);
+Command add_completion_command(CommandParser& program);
 
 /// What the program was started with, without its own name.
 const std::vector<std::string>& program_arguments();
@@ -56,17 +57,33 @@ struct SequenceFlags {
   [[nodiscard]] std::string first_given() const;
 };
 
-/// `--threads N`: 0 if it was not given. @throws UsageError unless a whole number from 1 to 4096.
+/// The number of `--threads N`, or 0 if it was not given.
+/// @throws UsageError unless it is a whole number from 1 to 4096
 int parse_threads(const std::string& text);
 
-/// @throws UsageError unless `text` is a decimal number greater than 0; `option` is for the
-/// message.
+/// How progress is shown: on standard error, unless the user wants quiet.
+ProgressStyle progress_style(bool quiet);
+
+/// The options --threads and --quiet of a command that works for long.
+struct WorkFlags {
+  std::string threads;
+  bool quiet = false;
+
+  void add_to(CommandOptions& options);
+  /// As many threads as were asked for, or one for each core. @throws UsageError
+  [[nodiscard]] int thread_count() const;
+  [[nodiscard]] ProgressStyle style() const { return progress_style(quiet); }
+};
+
+/// @param option for the message
+/// @throws UsageError unless `text` is a decimal number greater than 0
 double parse_positive(const std::string& option, const std::string& text);
 
 /// Set to true by the first Ctrl-C; a second one ends the program at once.
 const std::atomic<bool>& interrupt_flag();
 
-/// Prints to standard output. @throws DataError if nobody can read it (a full disk, a closed pipe).
+/// Prints to standard output. @throws DataError if it cannot be written (a full disk, a closed
+/// pipe)
 void print(const std::string& text);
 
 }  // namespace raymoval

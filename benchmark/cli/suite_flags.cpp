@@ -10,6 +10,7 @@
 #include "benchmark/suite/shipped_suites.h"
 #include "core/error.h"
 #include "datasets/clouds/frames.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
@@ -137,7 +138,7 @@ void SuiteFlags::add_to(CommandOptions& options) {
               "protocol:NAME.key=...");
   options.add("--protocol", "NAME", protocols, "Protocol to score by (default: erasor)");
   sequence.add_to(options);
-  options.add("--threads", "N", threads, "At most so many threads (default: all cores)");
+  options.add("--threads", "N", threads, "Use at most N threads (default: all cores)");
   options.add("--time-limit", "TIME", time_limit,
               "Time a cell may take, in seconds or as 5min, 2h (default: 30 s for each scan, at "
               "least 600 s)");

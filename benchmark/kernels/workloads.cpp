@@ -8,7 +8,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
-#include "datasets/sequence.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval::kernels_bench {
 namespace {

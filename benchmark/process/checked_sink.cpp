@@ -56,6 +56,42 @@ const MaskStore& CheckedSink::finish() const {
   return masks_;
 }
 
+void ReasonStore::explain(const std::vector<std::string>& sentences) {
+  const std::lock_guard lock(mutex_);
+  if (!reasons_.sentences.empty()) {
+    throw MethodError("method '" + method_ + "' named its reasons twice, expected once.");
+  }
+  constexpr std::size_t kMost = 127;
+  if (sentences.empty() || sentences.size() > kMost) {
+    throw MethodError("method '" + method_ + "' has " + std::to_string(sentences.size()) +
+                      " reasons, expected 1 to 127.");
+  }
+  reasons_.sentences = sentences;
+  reasons_.codes.resize(scans_.size());
+}
+
+void ReasonStore::accept(std::size_t scan, const std::vector<std::uint8_t>& codes) {
+  const std::lock_guard lock(mutex_);
+  const std::string who = "method '" + method_ + "', reasons of scan " + std::to_string(scan);
+  if (scan >= reasons_.codes.size()) {
+    throw MethodError(who + ": there is no such scan, or they came before their sentences.");
+  }
+  if (codes.size() != scans_.point_count(scan)) {
+    throw MethodError(who + ": there are " + grouped_text(codes.size()) +
+                      ", expected one for each of the scan's " +
+                      grouped_text(scans_.point_count(scan)) + " points.");
+  }
+  const std::size_t end = reasons_.sentences.size();
+  if (std::any_of(codes.begin(), codes.end(), [&](std::uint8_t code) { return code >= end; })) {
+    throw MethodError(who + ": a code has no sentence.");
+  }
+  reasons_.codes[scan] = codes;
+}
+
+Reasons ReasonStore::finish() {
+  return std::move(reasons_);
+}
+
 std::string mask_digest(const MaskStore& masks) {
   ContentHasher hasher;
   for (std::size_t scan = 0; scan < masks.size(); ++scan) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "benchmark/process/timed_source.h"
+#include "benchmark/result/removals/reasons.h"
 #include "core/scan/mask_store.h"
 #include "methods/remover.h"
 
@@ -37,6 +38,27 @@ class CheckedSink : public RemovalSink {
   const TimedSource& scans_;
   std::mutex mutex_;
   MaskStore masks_;
+};
+
+/// Keeps a method's reasons and holds it to the contract of `ReasonSink`.
+class ReasonStore : public ReasonSink {
+ public:
+  /// @param method name for messages
+  ReasonStore(std::string method, const TimedSource& scans)
+      : method_(std::move(method)), scans_(scans) {}
+
+  /// @throws MethodError for no or more than 127 sentences, or a second call
+  void explain(const std::vector<std::string>& sentences) override;
+  /// @throws MethodError before `explain`, and for an unknown scan, a wrong size or an unknown code
+  void accept(std::size_t scan, const std::vector<std::uint8_t>& codes) override;
+  /// What was given; scans without reasons have none.
+  [[nodiscard]] Reasons finish();
+
+ private:
+  std::string method_;
+  const TimedSource& scans_;
+  std::mutex mutex_;
+  Reasons reasons_;
 };
 
 /// Hash of all masks. Two methods gave the same answer exactly if their hashes are equal.

@@ -11,6 +11,7 @@
 #include "core/files/descriptor_io.h"
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
+#include "datasets/open_sequence.h"
 #include "methods/external/external.h"
 
 namespace raymoval {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "benchmark/result/cell.h"
-#include "benchmark/result/reasons.h"
+#include "benchmark/result/removals/reasons.h"
 #include "benchmark/suite/suite.h"
 #include "core/progress.h"
 #include "core/scan/mask_store.h"

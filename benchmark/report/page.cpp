@@ -8,7 +8,7 @@
 #include "benchmark/picture/charts/charts.h"
 #include "benchmark/report/page_files.h"
 #include "benchmark/report/scene.h"
-#include "benchmark/result/reasons.h"
+#include "benchmark/result/removals/reasons.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/suite/suite.h"
 #include "core/error.h"

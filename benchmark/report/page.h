@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmark/report/sections.h"
-#include "benchmark/run/kept_run.h"
+#include "benchmark/run/folder/kept_run.h"
 #include "core/progress.h"
 
 namespace raymoval {

@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "benchmark/result/reasons.h"
+#include "benchmark/result/removals/reasons.h"
 #include "core/morton.h"
 #include "core/scan/local_frame.h"
 #include "eval/columns/removal_tally.h"
@@ -76,7 +76,7 @@ class SceneBuilder {
     scene_.error_cell = errors_.cell();
     scene_.other_cell = others_.cell();
     for (const auto& [id, kind] : labels_) {
-      scene_.labels.push_back({id, class_name(sequence_.label_rule.name, id), kind});
+      scene_.labels.push_back({id, sequence_.label_rule.class_name(id), kind});
     }
     gather();
     return std::move(scene_);

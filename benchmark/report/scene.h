@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmark/report/thinned_points.h"
-#include "benchmark/run/kept_run.h"
+#include "benchmark/run/folder/kept_run.h"
 #include "core/progress.h"
 
 namespace raymoval {

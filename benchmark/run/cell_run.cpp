@@ -8,8 +8,8 @@
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/method_process.h"
 #include "benchmark/result/cell_json.h"
-#include "benchmark/result/reasons.h"
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/reasons.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "methods/external/external.h"
 
 namespace raymoval {

@@ -5,10 +5,11 @@
 
 #include "benchmark/process/method_run.h"
 #include "benchmark/run/cell_run.h"
-#include "benchmark/run/run_folder.h"
+#include "benchmark/run/folder/run_folder.h"
 #include "core/files/file_kind.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
@@ -105,6 +106,11 @@ ScoredSequence OpenedSuite::take_sequence(std::size_t sequence) {
 
 void OpenedSuite::give_back(std::size_t sequence, ScoredSequence scored) {
   scored_sequences_[sequence].emplace(std::move(scored));
+}
+
+StoredCell OpenedSuite::stored_cell(ScoredSequence& scored, CellIndex cell) const {
+  const ScanSource* scans = options_.keep_removals ? scored.sequence().scans.get() : nullptr;
+  return store_.find(name(cell), cell_identity(scored, method(cell)), scans);
 }
 
 CellIndex OpenedSuite::find(const std::string& wanted) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/run/cell_store.h"
-#include "benchmark/run/folder_content.h"
+#include "benchmark/run/folder/cell_store.h"
+#include "benchmark/run/folder/folder_content.h"
 #include "benchmark/run/run_options.h"
 #include "benchmark/run/scored_sequence.h"
 #include "benchmark/suite/suite.h"
@@ -54,6 +54,9 @@ class OpenedSuite {
   /// or a new one.
   [[nodiscard]] ScoredSequence take_sequence(std::size_t sequence);
   void give_back(std::size_t sequence, ScoredSequence scored);
+
+  /// What the run folder holds of a cell. @throws DataError if the data cannot be read
+  [[nodiscard]] StoredCell stored_cell(ScoredSequence& scored, CellIndex cell) const;
 
   /// The cell with the name "SEQUENCE/NAME", which takes no reading of data, or with this key.
   /// @throws UsageError if there is none

@@ -10,12 +10,12 @@ namespace raymoval {
 namespace {
 
 /// Looks into the run folder whether a cell is there already, with its repeats.
-void look_for_cell(const OpenedSuite& suite, ScoredSequence& scored, const MethodRequest& method,
+void look_for_cell(const OpenedSuite& suite, ScoredSequence& scored, CellIndex index,
                    PlannedCell& planned) {
-  const StoredCell stored = suite.store().find(scored, method, suite.options().keep_removals);
+  const StoredCell stored = suite.stored_cell(scored, index);
   planned.why = stored.why;
   planned.to_run = stored.state != StoredCell::State::kFresh;
-  if (is_control(method.method.entry->name)) return;
+  if (is_control(suite.method(index).method.entry->name)) return;
   for (int round = 2; round <= suite.suite().repeats && !planned.to_run; ++round) {
     if (suite.store().find_repeat(planned.cell, round, planned.key)) continue;
     planned.to_run = true;
@@ -35,7 +35,7 @@ PlannedCell plan_cell(const OpenedSuite& suite, ScoredSequence& scored, CellInde
     planned.why = "its data cannot be read: " + unreadable;
   } else {
     planned.key = current_key(scored, method);
-    if (!suite.options().out.empty()) look_for_cell(suite, scored, method, planned);
+    if (!suite.options().out.empty()) look_for_cell(suite, scored, index, planned);
   }
   if (!suite.is_selected(index)) {
     planned.to_run = false;

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "benchmark/result/controls_check.h"
-#include "benchmark/result/flat_sweeps.h"
+#include "benchmark/result/checks/controls_check.h"
+#include "benchmark/result/checks/flat_sweeps.h"
 #include "benchmark/result/run_record_json.h"
-#include "benchmark/run/folder_lock.h"
-#include "benchmark/run/run_folder.h"
+#include "benchmark/run/folder/folder_lock.h"
+#include "benchmark/run/folder/run_folder.h"
 #include "benchmark/run/sequence_run.h"
 
 namespace raymoval {

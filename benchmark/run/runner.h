@@ -23,8 +23,8 @@ struct RunSummary {
 
 /// Runs every selected cell of `suite` that is not yet in the run folder with the right key, then
 /// writes results and tables of all cells that are there: also of those that earlier runs left and
-/// that belong together with these (benchmark/run/folder_content.h). A cell that fails is recorded,
-/// and the rest goes on. The folder is locked meanwhile.
+/// that belong together with these (benchmark/run/folder/folder_content.h). A cell that fails is
+/// recorded, and the rest goes on. The folder is locked meanwhile.
 /// @throws UsageError if the folder holds other results and they are not to be overwritten;
 /// UsageError, DataError or ConfigurationError if the suite cannot start, none of its
 /// sequences can be read, or results cannot be written; Cancelled (finished cells stay and are used

@@ -112,7 +112,7 @@ void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
   const bool selected = suite_.is_selected(index);
   if (suite_.is_alone() && !selected) return;
   const MethodRequest& method = suite_.method(index);
-  StoredCell stored = suite_.store().find(scored, method, suite_.options().keep_removals);
+  StoredCell stored = suite_.stored_cell(scored, index);
   const bool to_run = selected && !suite_.options().collect;
   if (stored.state == StoredCell::State::kFresh ||
       (!to_run && stored.state == StoredCell::State::kFailed)) {

@@ -6,7 +6,7 @@
 #include "core/files/file_kind.h"
 #include "core/parameter_condition.h"
 #include "core/text.h"
-#include "datasets/simulation/scene/simulated.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
@@ -36,7 +36,7 @@ void check_cell_name(const std::string& name) {
 /// "town" of "town:scans=60": a scene that the program brings along.
 bool is_built_in(const std::string& path) {
   const std::string name = path.substr(0, path.find(':'));
-  return path == "street" || contains(simulated_scene_names(), name);
+  return contains(scene_names(), name);
 }
 
 }  // namespace

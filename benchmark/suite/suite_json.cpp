@@ -10,8 +10,8 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "datasets/settings.h"
-#include "datasets/simulation/scene/scene_text.h"
 #include "eval/protocol_registry.h"
 #include "methods/external/external.h"
 
@@ -54,8 +54,8 @@ std::string located(const std::string& path, Places& places) {
     return places.data + path.substr(kData.size());
   }
   const std::filesystem::path given(path);
-  if (given.is_absolute() || path == "street") return path;
-  if (path.find('/') == std::string::npos && names_scene(path)) return path;
+  if (given.is_absolute()) return path;
+  if (path.find('/') == std::string::npos && is_scene(path)) return path;
   const std::filesystem::path beside = places.folder / given;
   const std::string text = beside.string();
   const std::size_t colon = text.rfind(':');

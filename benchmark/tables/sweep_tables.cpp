@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "benchmark/result/flat_sweeps.h"
+#include "benchmark/result/checks/flat_sweeps.h"
 #include "benchmark/tables/rate_grid.h"
 #include "benchmark/tables/tables.h"
 #include "core/text.h"

@@ -33,6 +33,50 @@ std::vector<std::uint16_t> read_ids(const nlohmann::json& json, const std::strin
 
 }  // namespace
 
+const ClassNames& semantickitti_class_names() {
+  // From the data set's own list (semantic-kitti.yaml).
+  static const ClassNames names = {{0, "unlabelled"},
+                                   {1, "outlier"},
+                                   {10, "car"},
+                                   {11, "bicycle"},
+                                   {13, "bus"},
+                                   {15, "motorcycle"},
+                                   {16, "on-rails"},
+                                   {18, "truck"},
+                                   {20, "other-vehicle"},
+                                   {30, "person"},
+                                   {31, "bicyclist"},
+                                   {32, "motorcyclist"},
+                                   {40, "road"},
+                                   {44, "parking"},
+                                   {48, "sidewalk"},
+                                   {49, "other-ground"},
+                                   {50, "building"},
+                                   {51, "fence"},
+                                   {52, "other-structure"},
+                                   {60, "lane-marking"},
+                                   {70, "vegetation"},
+                                   {71, "trunk"},
+                                   {72, "terrain"},
+                                   {80, "pole"},
+                                   {81, "traffic-sign"},
+                                   {99, "other-object"},
+                                   {252, "moving-car"},
+                                   {253, "moving-bicyclist"},
+                                   {254, "moving-person"},
+                                   {255, "moving-motorcyclist"},
+                                   {256, "moving-on-rails"},
+                                   {257, "moving-bus"},
+                                   {258, "moving-truck"},
+                                   {259, "moving-other-vehicle"}};
+  return names;
+}
+
+std::string LabelRule::class_name(std::uint16_t id) const {
+  const auto found = class_names.find(id);
+  return found != class_names.end() ? found->second : "label-" + std::to_string(id);
+}
+
 LabelClass LabelRule::classify(std::uint32_t word) const {
   const std::uint16_t id = semantic_id(word);
   if (contains(moving, id)) return LabelClass::kMoving;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -12,12 +13,20 @@ namespace raymoval {
 /// What a label word means for an evaluation.
 enum class LabelClass : std::uint8_t { kStatic = 0, kMoving = 1, kIgnored = 2 };
 
+/// What semantic ids are called, such as 252: "moving-car".
+using ClassNames = std::map<std::uint16_t, std::string>;
+/// The names of SemanticKITTI's ids.
+const ClassNames& semantickitti_class_names();
+
 /// Which semantic ids move and which are ignored; every other id is static.
 struct LabelRule {
   std::string name = "semantickitti";
   std::vector<std::uint16_t> moving = {252, 253, 254, 255, 256, 257, 258, 259};
   std::vector<std::uint16_t> ignored = {};
+  ClassNames class_names = semantickitti_class_names();
 
+  /// What `id` is called; "label-7" for an id without a name.
+  [[nodiscard]] std::string class_name(std::uint16_t id) const;
   [[nodiscard]] LabelClass classify(std::uint32_t word) const;
 };
 

@@ -5,24 +5,21 @@
 
 #include <cstdint>
 
-#include "core/simd/simd.h"
 #include "hwy/highway.h"
 
 namespace raymoval {
 
-/// Highway's bits for the vectors that `set` allows on this processor. 0 stands for none, the plain
-/// version.
-std::int64_t highway_targets(InstructionSet set);
+/// Highway's bits for the vectors that kernels may use on this processor. 0 stands for none, the
+/// plain version.
+std::int64_t highway_targets();
 
 }  // namespace raymoval
 
-/// The version of a kernel, made known by HWY_EXPORT, for `set`.
-#define RAYMOVAL_KERNEL_FOR(KERNEL, SET)                    \
-  ([](::raymoval::InstructionSet chosen_set) {              \
-    hwy::ChosenTarget chosen;                               \
-    chosen.Update(::raymoval::highway_targets(chosen_set)); \
-    return HWY_DISPATCH_TABLE(KERNEL)[chosen.GetIndex()];   \
-  }(SET))
-
-/// The version for the best set that this processor has, or for that of an `InstructionSetScope`.
-#define RAYMOVAL_BEST_KERNEL(KERNEL) RAYMOVAL_KERNEL_FOR(KERNEL, ::raymoval::InstructionSet::kBest)
+/// The version of a kernel, made known by HWY_EXPORT, for the best set that this processor has, or
+/// for the set of an `InstructionSetScope`.
+#define RAYMOVAL_BEST_KERNEL(KERNEL)                      \
+  ([] {                                                   \
+    hwy::ChosenTarget chosen;                             \
+    chosen.Update(::raymoval::highway_targets());         \
+    return HWY_DISPATCH_TABLE(KERNEL)[chosen.GetIndex()]; \
+  }())

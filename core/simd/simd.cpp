@@ -25,8 +25,8 @@ InstructionSetScope::~InstructionSetScope() {
   scoped_set = outer_;
 }
 
-std::int64_t highway_targets(InstructionSet set) {
-  if (set == InstructionSet::kBest) set = scoped_set;
+std::int64_t highway_targets() {
+  const InstructionSet set = scoped_set;
   if (set == InstructionSet::kPlain) return 0;
   static const std::int64_t here = hwy::SupportedTargets();  // Slow to find out.
 #if HWY_ARCH_X86

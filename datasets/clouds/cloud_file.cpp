@@ -13,7 +13,6 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_header.h"
-#include "datasets/clouds/cloud_writer.h"
 #include "datasets/clouds/poses.h"
 
 // Of PCL only the LZF decoder is used. Its readers trust counts in a header (a damaged file ends
@@ -310,15 +309,6 @@ Pose read_viewpoint(const std::filesystem::path& path) {
                     "tx ty tz qw qx qy qz.");
   }
   return rigid_pose(viewpoint->head<3>(), viewpoint->tail<4>(), path.string() + ": VIEWPOINT");
-}
-
-void write_cloud(const std::filesystem::path& path, const std::vector<Eigen::Vector3f>& points,
-                 const std::vector<float>& intensity) {
-  CloudWriter file(path);
-  file.start(!intensity.empty());
-  file.add(points, intensity);
-  file.finish();
-  file.commit();
 }
 
 }  // namespace raymoval

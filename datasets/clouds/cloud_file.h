@@ -37,13 +37,7 @@ Cloud read_cloud(const std::filesystem::path& path,
 /// @throws DataError if there is none or it is no rigid pose
 Pose read_viewpoint(const std::filesystem::path& path);
 
-/// Writes .pcd (binary), .ply (binary, little-endian) or .bin, atomically.
-/// @param intensity as long as `points`, or empty: then .pcd and .ply have no such field, and .bin
-///   holds zeros
-void write_cloud(const std::filesystem::path& path, const std::vector<Eigen::Vector3f>& points,
-                 const std::vector<float>& intensity = {});
-
-/// Bytes of a .bin scan. @throws DataError if `bytes` is not a multiple of 16
+/// Checks the size of a .bin scan. @throws DataError if `bytes` is not a multiple of 16
 void check_bin_size(const std::filesystem::path& path, std::uintmax_t bytes);
 
 }  // namespace raymoval

@@ -200,28 +200,22 @@ class PcdHeaderParser {
 };
 
 CloudField ply_field(const HeaderLines& lines, const std::vector<std::string_view>& words) {
-  static constexpr std::array<std::pair<std::string_view, std::pair<char, int>>, 16> kTypes = {{
-      {"char", {'I', 1}},
-      {"uchar", {'U', 1}},
-      {"short", {'I', 2}},
-      {"ushort", {'U', 2}},
-      {"int", {'I', 4}},
-      {"uint", {'U', 4}},
-      {"float", {'F', 4}},
-      {"double", {'F', 8}},
-      {"int8", {'I', 1}},
-      {"uint8", {'U', 1}},
-      {"int16", {'I', 2}},
-      {"uint16", {'U', 2}},
-      {"int32", {'I', 4}},
-      {"uint32", {'U', 4}},
-      {"float32", {'F', 4}},
-      {"float64", {'F', 8}},
-  }};
-  if (words.size() == 3) {
-    for (const auto& [name, type] : kTypes) {
-      if (words[1] == name) return {std::string(words[2]), type.first, type.second, 1};
-    }
+  struct Type {
+    std::string_view name, other_name;
+    char type;
+    int size;
+  };
+  static constexpr std::array<Type, 8> kTypes = {{{"char", "int8", 'I', 1},
+                                                  {"uchar", "uint8", 'U', 1},
+                                                  {"short", "int16", 'I', 2},
+                                                  {"ushort", "uint16", 'U', 2},
+                                                  {"int", "int32", 'I', 4},
+                                                  {"uint", "uint32", 'U', 4},
+                                                  {"float", "float32", 'F', 4},
+                                                  {"double", "float64", 'F', 8}}};
+  for (const Type& known : kTypes) {
+    if (words.size() != 3 || (words[1] != known.name && words[1] != known.other_name)) continue;
+    return {std::string(words[2]), known.type, known.size, 1};
   }
   lines.fail(
       "a vertex property has to be 'property TYPE NAME' with a plain number type (no list).");

@@ -122,4 +122,13 @@ void CloudWriter::finish() {
   file_.sync();
 }
 
+void write_cloud(const std::filesystem::path& path, const std::vector<Eigen::Vector3f>& points,
+                 const std::vector<float>& intensity) {
+  CloudWriter file(path);
+  file.start(!intensity.empty());
+  file.add(points, intensity);
+  file.finish();
+  file.commit();
+}
+
 }  // namespace raymoval

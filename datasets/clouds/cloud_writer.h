@@ -56,4 +56,10 @@ class CloudWriter {
   std::uint64_t points_ = 0;
 };
 
+/// Writes .pcd (binary), .ply (binary, little-endian) or .bin, atomically.
+/// @param intensity as long as `points`, or empty: then .pcd and .ply have no such field, and .bin
+///   holds zeros
+void write_cloud(const std::filesystem::path& path, const std::vector<Eigen::Vector3f>& points,
+                 const std::vector<float>& intensity = {});
+
 }  // namespace raymoval

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/sampling.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
@@ -114,11 +115,8 @@ SensorChoice::SensorChoice(const std::optional<std::string>& name) {
 const SensorModel& SensorChoice::get(std::size_t scan_count, const Load& load) const {
   std::call_once(once_, [&] {
     if (model_) return;
-    const std::size_t samples = std::min<std::size_t>(scan_count, 5);
     std::vector<Scan> scans;
-    for (std::size_t i = 0; i < samples; ++i) {
-      scans.push_back(load(samples == 1 ? 0 : i * (scan_count - 1) / (samples - 1)));
-    }
+    for (const std::size_t scan : evenly_spread(scan_count, 5)) scans.push_back(load(scan));
     model_ = estimate_sensor_model(scans);
   });
   return *model_;

@@ -7,10 +7,10 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "datasets/reading/left_out.h"
 
 namespace raymoval {
 
@@ -36,6 +36,31 @@ class SensorChoice {
  private:
   mutable std::once_flag once_;
   mutable std::optional<SensorModel> model_;
+};
+
+/// Adds up the points that are left out of each scan. A scan counts once, however often and by
+/// whichever thread it is read.
+class LeftOutTally {
+ public:
+  explicit LeftOutTally(std::size_t scans) : scans_(scans) {}
+  void set(std::size_t scan, std::uint64_t stored, std::uint64_t left_out) const {
+    const std::lock_guard lock(mutex_);
+    scans_[scan] = {stored, left_out};
+  }
+  /// The stored and the left out points of all scans that were set.
+  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> total() const {
+    const std::lock_guard lock(mutex_);
+    std::pair<std::uint64_t, std::uint64_t> sum{0, 0};
+    for (const auto& [stored, left_out] : scans_) {
+      sum.first += stored;
+      sum.second += left_out;
+    }
+    return sum;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::vector<std::pair<std::uint64_t, std::uint64_t>> scans_;
 };
 
 /// Scans in files of their own (.bin, .pcd, .ply). Points that stand for a missing return (a NaN

@@ -2,7 +2,6 @@
 #include "datasets/clouds/frames.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -101,6 +100,20 @@ std::vector<std::filesystem::path> list_files(const std::filesystem::path& folde
     return natural_less(a.filename().string(), b.filename().string());
   });
   return files;
+}
+
+std::string content_text(const std::filesystem::path& folder) {
+  constexpr std::size_t kMost = 8;
+  std::vector<std::string> names;
+  const std::vector<std::filesystem::path> folders = folders_in(folder);
+  for (const std::filesystem::path& path : entries_of(folder)) {
+    const bool is_one = std::find(folders.begin(), folders.end(), path) != folders.end();
+    names.push_back(path.filename().string() + (is_one ? "/" : ""));
+  }
+  if (names.empty()) return "nothing";
+  const std::size_t more = names.size() - std::min(names.size(), kMost);
+  names.resize(std::min(names.size(), kMost));
+  return join(names) + (more > 0 ? " and " + grouped_text(more) + " more" : "");
 }
 
 std::vector<NumberedFile> list_numbered_files(const std::filesystem::path& folder,

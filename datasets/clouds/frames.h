@@ -3,14 +3,25 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/files/file_kind.h"
-#include "datasets/sequence.h"
 
 namespace raymoval {
+
+/// `FIRST:LAST:STRIDE` over frame numbers, ends included; any part may be empty (`::2`).
+struct FrameRange {
+  std::optional<long> first;
+  std::optional<long> last;
+  long stride = 1;
+};
+
+/// @throws UsageError saying what the form is.
+FrameRange parse_frame_range(const std::string& text);
+std::string frame_range_text(const FrameRange& range);
 
 /// A scan file and the number its frame has in the data set.
 struct NumberedFile {
@@ -24,6 +35,10 @@ struct NumberedFile {
 std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder,
                                               const std::vector<std::string>& extensions);
 
+/// "calib.txt, labels/, velodyne/ and 3 more": up to eight names in `folder`, for messages.
+/// @throws DataError if the folder cannot be read
+std::string content_text(const std::filesystem::path& folder);
+
 /// Files named by their frame number, such as 000123.bin, in order of number.
 /// @throws DataError if a name is no number, a number occurs twice, or there is no file
 std::vector<NumberedFile> list_numbered_files(const std::filesystem::path& folder,
@@ -32,7 +47,7 @@ std::vector<NumberedFile> list_numbered_files(const std::filesystem::path& folde
 /// True if `a` comes before `b` with digit runs compared as numbers.
 bool natural_less(std::string_view a, std::string_view b);
 
-/// What a range selects from the files there are.
+/// The files that a range selects.
 struct ChosenFrames {
   std::vector<NumberedFile> files;
   FrameRange range;  ///< With both ends filled in.

@@ -60,10 +60,10 @@ void check_time(const PoseFile& file, const PoseFile::Row& row) {
                   "; expected times in seconds that do not decrease.");
 }
 
-}  // namespace
-
+/// The numbers of one line. @param first_column column of `text` in its line, from 1
+/// @throws DataError with file, line and column
 std::vector<double> parse_numbers(std::string_view text, const std::filesystem::path& path,
-                                  std::size_t line, std::size_t first_column) {
+                                  std::size_t line, std::size_t first_column = 1) {
   std::vector<double> numbers;
   for (const std::string_view piece : split_blanks(text)) {
     const auto value = parse_number<double>(piece);
@@ -77,6 +77,8 @@ std::vector<double> parse_numbers(std::string_view text, const std::filesystem::
   }
   return numbers;
 }
+
+}  // namespace
 
 PoseFile read_pose_file(const std::filesystem::path& path) {
   PoseFile file;

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/scan/scan.h"
@@ -51,10 +50,5 @@ Pose read_calibration(const std::filesystem::path& path, const std::string& key)
 
 /// One number a line, such as KITTI's times.txt. @throws DataError with line and column
 std::vector<double> read_number_column(const std::filesystem::path& path);
-
-/// Numbers of one line. @param first_column column of `text` in its line, from 1
-/// @throws DataError with file, line and column
-std::vector<double> parse_numbers(std::string_view text, const std::filesystem::path& path,
-                                  std::size_t line, std::size_t first_column = 1);
 
 }  // namespace raymoval

@@ -8,8 +8,18 @@
 #include "datasets/settings.h"
 
 namespace raymoval {
+namespace {
 
-Sequence open_dynamicmap(const std::filesystem::path& folder, const SequenceOptions& options) {
+/// Labels by value are those of SemanticKITTI; 0 and 1 say only what moves.
+ClassNames class_names() {
+  ClassNames names = semantickitti_class_names();
+  names.erase(0);
+  names.erase(1);
+  return names;
+}
+
+Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
+  const std::filesystem::path folder = path;
   SequenceSettings defaults;
   defaults.label_rule = {"dynamicmap", {1}, {}};
   const SequenceSettings settings = read_settings(folder, options, defaults);
@@ -22,21 +32,35 @@ Sequence open_dynamicmap(const std::filesystem::path& folder, const SequenceOpti
   const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
   std::vector<FrameEntry> entries;
   for (const NumberedFile& file : chosen.files) {
-    FrameEntry frame;
-    frame.path = file.path;
-    frame.name = file.path.stem().string();
-    frame.time_s = static_cast<double>(file.number - files.front().number) *
-                   settings.scan_period_s.value_or(kUsualScanPeriod);
-    frame.T_world_sensor = read_viewpoint(file.path);
-    entries.push_back(std::move(frame));
+    const double time = static_cast<double>(file.number - files.front().number) *
+                        settings.scan_period_s.value_or(kUsualScanPeriod);
+    entries.push_back({file.path, "", file.path.stem().string(), time, read_viewpoint(file.path)});
   }
 
-  Sequence sequence = make_sequence(settings, "dynamicmap", chosen.range);
+  Sequence sequence = make_sequence(settings, dynamicmap_layout(), chosen.range);
   sequence.poses_file = "VIEWPOINT";
   if (settings.label_rule_given) sequence.labels = std::make_shared<IntensityLabelSource>(entries);
   const FileScanSource::Traits traits{FileScanSource::PointFrame::kWorld, false};
   sequence.scans = std::make_shared<FileScanSource>(std::move(entries), traits, settings.sensor);
   return sequence;
+}
+
+}  // namespace
+
+Layout dynamicmap_layout() {
+  Layout layout;
+  layout.name = "dynamicmap";
+  layout.expected = "a DynamicMap sequence (pcd/*.pcd)";
+  layout.forms = {{"FOLDER", "a folder in DynamicMap layout (pcd/*.pcd)"}};
+  layout.scan_folder = "pcd";
+  layout.pose_place = PosePlace::kScanFile;
+  layout.points_in_world = layout.labels_in_intensity = true;
+  layout.class_names = class_names();
+  layout.recognise = [](Layout::Path path) {
+    return is_folder(path) && has_folder(std::filesystem::path(path) / "pcd");
+  };
+  layout.open = open_dynamicmap;
+  return layout;
 }
 
 }  // namespace raymoval

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sampling.h"
+
 namespace raymoval {
 namespace {
 
 using Eigen::Vector3d;
-using inspection::Surfel;
 
 /// The machine begins nearer to the sensor than the first, and ends nearer than the second.
 constexpr double kStart = 2.5, kEnd = 8.5, kReach = 9.0;
@@ -37,9 +38,7 @@ GroundPlane ground_of(std::size_t scans,
   plane.normal = normal.normalized();
   std::vector<double> offsets;
   for (const Vector3d& mean : flat) offsets.push_back(plane.normal.dot(mean));
-  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-  std::nth_element(offsets.begin(), middle, offsets.end());
-  plane.offset = *middle;
+  plane.offset = median(std::move(offsets));
   return plane;
 }
 
@@ -124,8 +123,7 @@ std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
   }
   if (apart.size() <= most) return apart;
   std::vector<std::size_t> chosen;
-  for (std::size_t k = 0; k < most; ++k)
-    chosen.push_back(apart[k * (apart.size() - 1) / (most - 1)]);
+  for (const std::size_t k : evenly_spread(apart.size(), most)) chosen.push_back(apart[k]);
   return chosen;
 }
 

@@ -7,18 +7,19 @@
 #include "core/scan/scan.h"
 #include "core/scan/voxel_key.h"
 #include "datasets/ego/ego_region.h"
-#include "datasets/inspection/surfels.h"
+#include "datasets/geometry/surfels.h"
 
 namespace raymoval {
 
 /// Edge of the cells that an estimate looks at, metres.
 inline constexpr double kEgoCell = 0.25;
 
-/// What goes along with the sensor.
+/// The part of the scans that goes along with the sensor.
 struct EgoEstimate {
-  std::size_t scans = 0;   ///< That were compared, a metre or more apart.
-  std::size_t steady = 0;  ///< Cells of the sensor frame that are occupied in nearly all of them.
-  VoxelSet own;            ///< Of these, the ones that belong to the machine at the sensor.
+  std::size_t scans = 0;  ///< How many were compared; they are a metre or more apart.
+  std::size_t steady =
+      0;         ///< How many cells of the sensor frame are occupied in nearly all of them.
+  VoxelSet own;  ///< Those of them that belong to the machine at the sensor.
 
   /// Whether the sensor moved enough to tell.
   [[nodiscard]] bool can_tell() const { return scans >= 5; }
@@ -41,8 +42,7 @@ std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
 /// vehicle ends. Nothing is found lower than 0.4 m above the ground, which keeps its place as well.
 /// @param scans scans apart, see `poses_apart`
 /// @param surfels of each of `scans`, see `find_surfels`, without those of the machine itself
-EgoEstimate estimate_ego(
-    const std::vector<const Scan*>& scans,
-    const std::function<const std::vector<inspection::Surfel>&(std::size_t)>& surfels);
+EgoEstimate estimate_ego(const std::vector<const Scan*>& scans,
+                         const std::function<const std::vector<Surfel>&(std::size_t)>& surfels);
 
 }  // namespace raymoval

@@ -1,44 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/ego/ego_free_source.h"
 
-#include <algorithm>
-#include <map>
-
 #include "core/error.h"
+#include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/ego/ego_estimate.h"
 
 namespace raymoval {
 namespace {
 
-/// Positions of at most `most` of `count` scans, evenly spread.
-std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
-  std::vector<std::size_t> chosen(std::min(count, most));
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    chosen[k] = count <= most ? k : k * (count - 1) / (most - 1);
-  }
-  return chosen;
-}
-
 EgoRegion estimated_region(const ScanSource& source) {
   constexpr std::size_t kCandidates = 400, kMostScans = 20;
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < source.size(); ++i) poses.push_back(source.pose(i));
   std::vector<Scan> scans;
-  for (const std::size_t i : poses_apart(poses, spread(poses.size(), kCandidates), kMostScans)) {
+  for (const std::size_t i :
+       poses_apart(poses, evenly_spread(poses.size(), kCandidates), kMostScans)) {
     scans.push_back(source.load(i));
   }
   std::vector<const Scan*> chosen;
-  for (const Scan& scan : scans) chosen.push_back(&scan);
-  std::map<std::size_t, std::vector<inspection::Surfel>> surfels;
+  std::vector<std::vector<Surfel>> surfels;
+  for (const Scan& scan : scans) {
+    chosen.push_back(&scan);
+    surfels.push_back(find_surfels(without_near(scan.points)));
+  }
   const EgoEstimate estimate =
-      estimate_ego(chosen, [&](std::size_t k) -> const std::vector<inspection::Surfel>& {
-        const auto found = surfels.find(k);
-        if (found != surfels.end()) return found->second;
-        return surfels
-            .emplace(k, inspection::find_surfels(inspection::without_near(scans[k].points)))
-            .first->second;
-      });
+      estimate_ego(chosen, [&](std::size_t k) -> const std::vector<Surfel>& { return surfels[k]; });
   if (!estimate.can_tell()) {
     throw DataError(
         "--drop-ego auto: only " + counted_text(estimate.scans, "scan") +
@@ -91,17 +78,6 @@ Scan EgoFreeSource::load(std::size_t index) const {
   }
   scan.stored_index = std::move(kept);
   return scan;
-}
-
-const EgoFreeSource* ego_free_source(const Sequence& sequence) {
-  return dynamic_cast<const EgoFreeSource*>(
-      (sequence.opened ? sequence.opened : sequence.scans).get());
-}
-
-const FileScanSource* file_source(const Sequence& sequence) {
-  const ScanSource* source = (sequence.opened ? sequence.opened : sequence.scans).get();
-  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) source = &without_ego->whole();
-  return dynamic_cast<const FileScanSource*>(source);
 }
 
 }  // namespace raymoval

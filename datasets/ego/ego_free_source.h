@@ -8,8 +8,6 @@
 #include "core/scan/scan_source.h"
 #include "datasets/clouds/file_source.h"
 #include "datasets/ego/ego_region.h"
-#include "datasets/reading/left_out.h"
-#include "datasets/sequence.h"
 
 namespace raymoval {
 
@@ -42,10 +40,5 @@ class EgoFreeSource : public ScanSource {
   mutable std::once_flag once_;
   mutable EgoRegion region_;
 };
-
-/// What leaves out the own vehicle of `sequence`; null if nothing does.
-const EgoFreeSource* ego_free_source(const Sequence& sequence);
-/// The files that `sequence` is read from; null if it is not read from any.
-const FileScanSource* file_source(const Sequence& sequence);
 
 }  // namespace raymoval

@@ -68,16 +68,9 @@ EgoRegion parse_ego_region(const std::string& text) {
 }
 
 std::string ego_region_text(const EgoRegion& region) {
-  switch (region.kind) {
-    case EgoRegion::Kind::kNone:
-      return "none";
-    case EgoRegion::Kind::kEstimated:
-      return "auto";
-    case EgoRegion::Kind::kRadius:
-      return number_text(region.radius);
-    case EgoRegion::Kind::kBox:
-      break;
-  }
+  if (region.kind == EgoRegion::Kind::kNone) return "none";
+  if (region.kind == EgoRegion::Kind::kEstimated) return "auto";
+  if (region.kind == EgoRegion::Kind::kRadius) return number_text(region.radius);
   std::string text;
   for (Eigen::Index k = 0; k < 3; ++k) {
     text +=

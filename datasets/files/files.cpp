@@ -41,9 +41,8 @@ void check_counts(const PoseFile& poses, const std::vector<NumberedFile>& files,
                   "); expected one row a scan in the order of the names.");
 }
 
-}  // namespace
-
-Sequence open_files(const std::filesystem::path& folder, const SequenceOptions& options) {
+Sequence open_files(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
+  const std::filesystem::path folder = path;
   const SequenceSettings settings = read_settings(folder, options, {});
   const auto files = scan_files(folder);
   const PoseFile poses =
@@ -53,18 +52,14 @@ Sequence open_files(const std::filesystem::path& folder, const SequenceOptions& 
   std::vector<FrameEntry> entries;
   for (const NumberedFile& file : chosen.files) {
     const auto row = static_cast<std::size_t>(file.number);
-    const auto& time = poses.rows[row].time_s;
-    FrameEntry frame;
-    frame.path = file.path;
-    frame.name = file.path.stem().string();
-    frame.time_s =
-        time ? *time - *poses.rows.front().time_s
-             : static_cast<double>(file.number) * settings.scan_period_s.value_or(kUsualScanPeriod);
-    frame.T_world_sensor = rigid_pose(poses, row);
-    entries.push_back(std::move(frame));
+    const auto& stamp = poses.rows[row].time_s;
+    const double time = stamp ? *stamp - *poses.rows.front().time_s
+                              : static_cast<double>(file.number) *
+                                    settings.scan_period_s.value_or(kUsualScanPeriod);
+    entries.push_back({file.path, "", file.path.stem().string(), time, rigid_pose(poses, row)});
   }
 
-  Sequence sequence = make_sequence(settings, "files", chosen.range);
+  Sequence sequence = make_sequence(settings, files_layout(), chosen.range);
   sequence.poses_file = poses.path.filename().string();
   if (find_label_files(folder / "labels", entries)) {
     sequence.labels = std::make_shared<LabelFileSource>(entries);
@@ -72,6 +67,22 @@ Sequence open_files(const std::filesystem::path& folder, const SequenceOptions& 
   sequence.scans = std::make_shared<FileScanSource>(std::move(entries), FileScanSource::Traits{},
                                                     settings.sensor);
   return sequence;
+}
+
+}  // namespace
+
+Layout files_layout() {
+  Layout layout;
+  layout.name = "files";
+  layout.expected = "a folder of .pcd, .ply or .bin scans with poses.txt";
+  layout.forms = {{"FOLDER", "a folder of .pcd, .ply or .bin scans with poses.txt"}};
+  layout.pose_place = PosePlace::kRowOfScan;
+  layout.class_names = semantickitti_class_names();
+  layout.recognise = [](Layout::Path path) {
+    return is_folder(path) && !list_files(path, cloud_extensions()).empty();
+  };
+  layout.open = open_files;
+  return layout;
 }
 
 }  // namespace raymoval

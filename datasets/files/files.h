@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
-
-#include "datasets/sequence.h"
+#include "datasets/layout.h"
 
 namespace raymoval {
 
-/// Opens a plain folder of scans in the sensor frame (.pcd, .ply, .bin), in natural order of their
-/// names, with one pose of the LiDAR a scan in `poses.txt` or the pose file named (KITTI or TUM
+/// Plain folders of scans in the sensor frame (.pcd, .ply, .bin), in natural order of their names,
+/// with one pose of the LiDAR for each scan in `poses.txt` or the pose file named (KITTI or TUM
 /// rows). Frame numbers are positions in that order, from 0. `labels/NAME.label` is used if there
-/// is such a folder.
-/// @throws DataError if the counts of poses and scans differ
-Sequence open_files(const std::filesystem::path& folder, const SequenceOptions& options);
+/// is such a folder. The counts of poses and scans have to be equal.
+Layout files_layout();
 
 }  // namespace raymoval

@@ -10,9 +10,23 @@
 
 namespace raymoval {
 
-namespace inspection {
+namespace {
 
-const std::vector<Check>& all_checks() {
+/// Fills in what the check says of all its findings.
+Finding completed(Finding finding, const InspectionCheck& check,
+                  const inspection::Samples& samples) {
+  if (finding.check.empty()) finding.check = check.name;
+  if (finding.expected.empty()) finding.expected = check.expected;
+  if (finding.remedy.empty()) finding.remedy = check.remedy;
+  finding.consequence = check.consequence;
+  if (finding.where.empty()) finding.where = samples.pose_source() + ", " + samples.all_frames();
+  return finding;
+}
+
+}  // namespace
+
+const std::vector<InspectionCheck>& inspection_checks() {
+  using namespace inspection;
   static const std::vector<Check> checks = [] {
     std::vector<Check> all;
     for (const auto& part : {point_checks(), pose_checks(), time_checks(), label_checks(),
@@ -24,21 +38,6 @@ const std::vector<Check>& all_checks() {
   return checks;
 }
 
-namespace {
-
-/// Fills in what the check says of all its findings.
-Finding completed(Finding finding, const Check& check, const Samples& samples) {
-  if (finding.check.empty()) finding.check = check.name;
-  if (finding.expected.empty()) finding.expected = check.expected;
-  if (finding.remedy.empty()) finding.remedy = check.remedy;
-  finding.consequence = check.consequence;
-  if (finding.where.empty()) finding.where = samples.pose_source() + ", " + samples.all_frames();
-  return finding;
-}
-
-}  // namespace
-}  // namespace inspection
-
 InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* cancel) {
   inspection::Samples samples(sequence, cancel);
   InspectionReport report;
@@ -46,10 +45,10 @@ InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* canc
   report.layout = sequence.layout;
   report.scans = samples.size();
   report.scans_read = samples.scans().size();
-  for (const inspection::Check& check : inspection::all_checks()) {
+  for (const InspectionCheck& check : inspection_checks()) {
     if (cancel != nullptr && cancel->load()) throw Cancelled();
     for (Finding& finding : check.look(samples)) {
-      report.findings.push_back(inspection::completed(std::move(finding), check, samples));
+      report.findings.push_back(completed(std::move(finding), check, samples));
     }
   }
   report.sensor = inspection::sensor_text(samples);
@@ -64,14 +63,6 @@ InspectionReport inspect_path(const std::string& path, const SequenceOptions& op
   report.findings = inspection::unopenable_findings(path, options);
   if (!report.findings.empty()) return report;
   return inspect(open_sequence(path, options, context), context.cancel);
-}
-
-std::vector<InspectionCheck> inspection_checks() {
-  std::vector<InspectionCheck> list;
-  for (const inspection::Check& check : inspection::all_checks()) {
-    list.push_back({check.name, check.finds, check.remedy, check.consequence});
-  }
-  return list;
 }
 
 }  // namespace raymoval

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "datasets/inspection/finding.h"
-#include "datasets/sequence.h"
+#include "datasets/inspection/checks/checks.h"
+#include "datasets/inspection/evidence/finding.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval {
 
@@ -15,17 +16,14 @@ namespace raymoval {
 /// @throws DataError if a scan cannot be read; Cancelled
 InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* cancel = nullptr);
 
-/// The same for a path as `open_sequence` takes it. Mistakes that keep a sequence from being opened
-/// but have a name (a pose file with another count, .pcd files without VIEWPOINT) are findings.
-/// @throws what `open_sequence` throws for all others
+/// The same for a path as `open_sequence` takes it. Some mistakes keep a sequence from being
+/// opened: those that have a name (a pose file with another count, .pcd files without VIEWPOINT)
+/// are findings. @throws for all others what `open_sequence` throws
 InspectionReport inspect_path(const std::string& path, const SequenceOptions& options,
                               const OpenContext& context = {});
 
-/// What `inspect` looks for: name, what it finds, remedy, what cleaning does about it.
-struct InspectionCheck {
-  std::string name, finds, remedy;
-  Consequence consequence;
-};
-std::vector<InspectionCheck> inspection_checks();
+/// All that `inspect` looks for, in the order in which it is looked for and reported.
+using InspectionCheck = inspection::Check;
+const std::vector<InspectionCheck>& inspection_checks();
 
 }  // namespace raymoval

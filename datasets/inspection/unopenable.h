@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/inspection/finding.h"
+#include "datasets/inspection/evidence/finding.h"
 #include "datasets/sequence.h"
 
 namespace raymoval::inspection {

@@ -35,21 +35,6 @@ std::string own_vehicle_line(const EgoFreeSource& source, const LeftOutPoints& p
 
 }  // namespace
 
-void LeftOutTally::set(std::size_t scan, std::uint64_t stored, std::uint64_t left_out) const {
-  const std::lock_guard lock(mutex_);
-  scans_[scan] = {stored, left_out};
-}
-
-std::pair<std::uint64_t, std::uint64_t> LeftOutTally::total() const {
-  const std::lock_guard lock(mutex_);
-  std::pair<std::uint64_t, std::uint64_t> sum{0, 0};
-  for (const auto& [stored, left_out] : scans_) {
-    sum.first += stored;
-    sum.second += left_out;
-  }
-  return sum;
-}
-
 LeftOutPoints left_out_points(const Sequence& sequence) {
   LeftOutPoints points;
   if (const EgoFreeSource* without_ego = ego_free_source(sequence)) {

@@ -5,40 +5,80 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
-#include "datasets/reading/fingerprint.h"
+#include "core/parallel.h"
 
 namespace raymoval {
 namespace {
 
-class WatchedScans : public ScanSource {
+/// Adds plain numbers as bytes.
+template <class Number>
+void add_number(ContentHasher& hasher, Number value) {
+  hasher.add(&value, sizeof value);
+}
+
+template <class Value>
+void add_vector(ContentHasher& hasher, const std::vector<Value>& values) {
+  add_number(hasher, std::uint64_t{values.size()});
+  hasher.add(values.data(), values.size() * sizeof(Value));
+}
+
+/// Adds time, pose, points and reflectance, but not the name.
+void add_scan(ContentHasher& hasher, const Scan& scan) {
+  add_number(hasher, scan.time_s);
+  const Eigen::Matrix4d pose = scan.T_world_sensor.matrix();
+  hasher.add(pose.data(), sizeof(double) * 16);
+  add_vector(hasher, scan.points);
+  add_vector(hasher, scan.reflectance);
+}
+
+void add_labels(ContentHasher& hasher, const std::vector<std::uint32_t>& labels) {
+  add_vector(hasher, labels);
+}
+
+/// Adds sensor model, range limits, label rule, and up where it is not the world's z.
+void add_settings(ContentHasher& hasher, const Sequence& sequence) {
+  const SensorModel& sensor = sequence.scans->sensor();
+  for (const double value :
+       {sensor.azimuth_min, sensor.azimuth_max, sensor.elevation_min, sensor.elevation_max,
+        sensor.azimuth_step, sensor.elevation_step, sensor.range_min, sensor.range_max,
+        sensor.missing_return_is_meaningful ? 1.0 : 0.0, sequence.range_m.min, sequence.range_m.max,
+        sequence.labels ? 1.0 : 0.0}) {
+    add_number(hasher, value);
+  }
+  add_vector(hasher, sequence.label_rule.moving);
+  add_vector(hasher, sequence.label_rule.ignored);
+  const UpDirection up = sequence.up();
+  if (!up.is_world_z()) hasher.add(up.direction.data(), sizeof(double) * 3);
+}
+
+std::string scan_hash(const Sequence& sequence, std::size_t index) {
+  const Scan scan = sequence.scans->load(index);
+  ContentHasher hasher;
+  add_scan(hasher, scan);
+  if (sequence.labels) add_labels(hasher, sequence.labels->labels(scan));
+  return hasher.digest();
+}
+
+class WatchedSources : public ScanSource, public LabelSource {
  public:
-  WatchedScans(std::shared_ptr<const ScanSource> scans, std::shared_ptr<LoadRecord> record)
-      : scans_(std::move(scans)), record_(std::move(record)) {}
+  WatchedSources(const Sequence& sequence, std::shared_ptr<LoadRecord> record)
+      : scans_(sequence.scans), labels_(sequence.labels), record_(std::move(record)) {}
   [[nodiscard]] std::size_t size() const override { return scans_->size(); }
   [[nodiscard]] Scan load(std::size_t index) const override {
     Scan scan = scans_->load(index);
-    record_->note(scan);
+    record_->add(scan);
     return scan;
   }
   [[nodiscard]] Pose pose(std::size_t index) const override { return scans_->pose(index); }
   [[nodiscard]] const SensorModel& sensor() const override { return scans_->sensor(); }
-
- private:
-  std::shared_ptr<const ScanSource> scans_;
-  std::shared_ptr<LoadRecord> record_;
-};
-
-class WatchedLabels : public LabelSource {
- public:
-  WatchedLabels(std::shared_ptr<const LabelSource> labels, std::shared_ptr<LoadRecord> record)
-      : labels_(std::move(labels)), record_(std::move(record)) {}
   [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override {
     std::vector<std::uint32_t> words = labels_->labels(scan);
-    record_->note(scan, words);
+    record_->add(scan, words);
     return words;
   }
 
  private:
+  std::shared_ptr<const ScanSource> scans_;
   std::shared_ptr<const LabelSource> labels_;
   std::shared_ptr<LoadRecord> record_;
 };
@@ -66,20 +106,20 @@ LoadRecord::LoadRecord(std::size_t scans) {
   data_.labels.resize(scans);
 }
 
-void LoadRecord::note(const Scan& scan) {
+void LoadRecord::add(const Scan& scan) {
   ContentHasher hasher;
   add_scan(hasher, scan);
-  note(data_.scans, scan, hasher.digest(), kScanParts);
+  add(data_.scans, scan, hasher.digest(), kScanParts);
 }
 
-void LoadRecord::note(const Scan& scan, const std::vector<std::uint32_t>& labels) {
+void LoadRecord::add(const Scan& scan, const std::vector<std::uint32_t>& labels) {
   ContentHasher hasher;
   add_labels(hasher, labels);
-  note(data_.labels, scan, hasher.digest(), kLabelParts);
+  add(data_.labels, scan, hasher.digest(), kLabelParts);
 }
 
-void LoadRecord::note(std::vector<std::string>& known, const Scan& scan, const std::string& hash,
-                      const char* what) {
+void LoadRecord::add(std::vector<std::string>& known, const Scan& scan, const std::string& hash,
+                     const char* what) {
   const std::lock_guard lock(mutex_);
   std::string& before = known.at(scan.index);
   if (before.empty()) before = hash;
@@ -111,8 +151,9 @@ WatchedSequence watched(Sequence sequence) {
   WatchedSequence result{std::move(sequence), nullptr};
   Sequence& inner = result.sequence;
   result.record = std::make_shared<LoadRecord>(inner.scans->size());
-  inner.scans = std::make_shared<WatchedScans>(inner.scans, result.record);
-  if (inner.labels) inner.labels = std::make_shared<WatchedLabels>(inner.labels, result.record);
+  const auto sources = std::make_shared<const WatchedSources>(inner, result.record);
+  inner.scans = sources;
+  if (inner.labels) inner.labels = sources;
   return result;
 }
 
@@ -134,6 +175,16 @@ std::string changed_data(const LoadedData& expected, const LoadedData& found) {
              "the data changed while it was used: poses, sensor, ranges or label rule are "
              "not what they were before. ") +
          kRemedy;
+}
+
+std::string fingerprint(const Sequence& sequence, int threads) {
+  const std::size_t count = sequence.scans->size();
+  std::vector<std::string> digests(count);
+  parallel_for(threads, count, 1, [&](std::size_t i) { digests[i] = scan_hash(sequence, i); });
+  ContentHasher hasher;
+  add_settings(hasher, sequence);
+  for (const std::string& digest : digests) hasher.add(digest);
+  return hasher.digest();
 }
 
 }  // namespace raymoval

@@ -12,35 +12,36 @@ namespace raymoval {
 
 /// Hashes of what was read of a sequence.
 struct LoadedData {
-  std::vector<std::string> names;   ///< By scan; empty: not read.
-  std::string settings;             ///< Sensor, ranges, label rule and all poses.
-  std::vector<std::string> scans;   ///< By scan: time, pose, points, reflectance; empty: not read.
-  std::vector<std::string> labels;  ///< By scan: its label words; empty: not read.
-  std::string change;               ///< What was read twice and differed; empty: nothing.
+  std::vector<std::string> names;  ///< Of each scan; empty if it was not read.
+  std::string settings;            ///< Sensor, ranges, label rule and all poses.
+  std::vector<std::string>
+      scans;  ///< Of each scan: time, pose, points, reflectance; empty if not read.
+  std::vector<std::string> labels;  ///< Of each scan: its label words; empty if not read.
+  std::string change;  ///< Says what differed when it was read again; empty if nothing did.
 };
 
-/// Remembers what is read of a sequence, and notices what has changed when it is read again.
-/// Thread-safe.
+/// Remembers hashes of what is read of a sequence, and notices if data has changed when it is read
+/// again. Thread-safe.
 class LoadRecord {
  public:
   explicit LoadRecord(std::size_t scans);
 
-  /// @throws DataError if this scan, or its labels, were read before and were others
-  void note(const Scan& scan);
-  void note(const Scan& scan, const std::vector<std::uint32_t>& labels);
+  /// @throws DataError if this scan, or its labels, were read before and have changed
+  void add(const Scan& scan);
+  void add(const Scan& scan, const std::vector<std::uint32_t>& labels);
   [[nodiscard]] LoadedData data() const;
 
  private:
-  void note(std::vector<std::string>& known, const Scan& scan, const std::string& hash,
-            const char* what);
+  void add(std::vector<std::string>& known, const Scan& scan, const std::string& hash,
+           const char* what);
 
   mutable std::mutex mutex_;
   LoadedData data_;
 };
 
-/// A sequence that tells what is read of it.
+/// A sequence whose reading is recorded.
 struct WatchedSequence {
-  Sequence sequence;  ///< As given; all that its sources load is noted in `record`.
+  Sequence sequence;  ///< As given; all that its sources load is added to `record`.
   std::shared_ptr<LoadRecord> record;
 
   /// What was read so far. @throws DataError if the sensor has to be estimated and a scan cannot be
@@ -50,8 +51,14 @@ struct WatchedSequence {
 
 WatchedSequence watched(Sequence sequence);
 
-/// What of `found` is not as in `expected`, where all was read; empty if all that was read is the
-/// same.
+/// Says what differs between `found` and `expected`, of which all was read. Empty if all that was
+/// read for `found` is the same.
 std::string changed_data(const LoadedData& expected, const LoadedData& found);
+
+/// Hash of everything a method or protocol reads: points, reflectance, times, poses and labels of
+/// the chosen frames, sensor model, label rule, range limits, and up where it is not the world's z.
+/// File and sequence names are left out: a copy of the data elsewhere has the same fingerprint.
+/// @param threads used for reading; the answer does not depend on it
+std::string fingerprint(const Sequence& sequence, int threads);
 
 }  // namespace raymoval

@@ -68,20 +68,10 @@ std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
   for (const NumberedFile& file : chosen) {
     check_bin_size(file.path, plain_file_size(file.path));
     const auto number = static_cast<std::size_t>(file.number);
-    FrameEntry frame;
-    frame.path = file.path;
-    frame.name = file.path.stem().string();
-    frame.time_s = times[number];
-    frame.T_world_sensor = Tr_inverse * rigid_pose(poses, number) * Tr;
-    frames.push_back(std::move(frame));
+    frames.push_back({file.path, "", file.path.stem().string(), times[number],
+                      Tr_inverse * rigid_pose(poses, number) * Tr});
   }
   return frames;
-}
-
-std::vector<std::string> sequences_of(const std::filesystem::path& root) {
-  std::vector<std::string> names;
-  for (const auto& path : folders_in(root / "sequences")) names.push_back(path.filename().string());
-  return names;
 }
 
 /// "0:3:2" of the frames there are; empty if no range has just them.
@@ -118,24 +108,7 @@ ChosenFrames chosen_frames(const std::vector<NumberedFile>& files, const FrameRa
   }
 }
 
-/// @throws UsageError if `root` holds no sequences at all
-void check_is_root(const std::filesystem::path& root) {
-  if (has_folder(root / "sequences")) return;
-  throw UsageError(root.string() +
-                   ": holds no folder sequences/; expected the root of SemanticKITTI, with "
-                   "sequences/00 and so on in it.");
-}
-
 }  // namespace
-
-const std::vector<PaperSegment>& paper_segments() {
-  static const std::vector<PaperSegment> segments = {
-      {"kitti-00", "00", {4390, 4530, 2}}, {"kitti-01", "01", {150, 250, 1}},
-      {"kitti-02", "02", {860, 950, 2}},   {"kitti-05", "05", {2350, 2670, 2}},
-      {"kitti-07", "07", {630, 820, 2}},
-  };
-  return segments;
-}
 
 Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
                             const std::string& name, const FrameRange& frames) {
@@ -155,7 +128,7 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   auto entries = frame_entries(chosen.files, poses, Tr.value_or(Pose::Identity()),
                                frame_times(folder, *settings.scan_period_s, files));
 
-  Sequence sequence = make_sequence(settings, "semantickitti", chosen.range);
+  Sequence sequence = make_sequence(settings, semantickitti_layout(), chosen.range);
   if (find_label_files(folder / "labels", entries)) {
     sequence.labels = std::make_shared<LabelFileSource>(entries);
   }
@@ -166,30 +139,23 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   return sequence;
 }
 
-Sequence open_semantickitti_root(const std::filesystem::path& root, const std::string& selection,
-                                 const SequenceOptions& options) {
-  check_is_root(root);
-  const std::vector<std::string> there = sequences_of(root);
-  std::vector<std::string> choices = there;
-  if (std::find(choices.begin(), choices.end(), selection) != choices.end()) {
-    return open_semantickitti(root / "sequences" / selection, options);
-  }
-  for (const PaperSegment& segment : paper_segments()) {
-    choices.push_back(segment.name);
-    if (segment.name != selection) continue;
-    const auto folder = root / "sequences" / segment.sequence;
-    if (!is_folder(folder)) {
-      throw DataError(folder.string() + ": no such folder; segment " + selection +
-                      " is part of sequence " + segment.sequence +
-                      " of SemanticKITTI, and sequences/ holds " +
-                      (there.empty() ? "no folder" : join(there)) + ".");
-    }
-    return open_semantickitti(folder, options, segment.name, segment.frames);
-  }
-  const auto near = closest_name(selection, choices);
-  throw UsageError(root.string() + ": has no sequence '" + selection + "'." +
-                   (near ? " Did you mean '" + *near + "'?" : "") +
-                   " A root holds sequences/NN; known here: " + join(choices) + ".");
+Layout semantickitti_layout() {
+  Layout layout;
+  layout.name = "semantickitti";
+  layout.expected = "a SemanticKITTI sequence (velodyne/*.bin, poses.txt, calib.txt)";
+  layout.forms = {
+      {"FOLDER", "a folder in SemanticKITTI layout (velodyne/*.bin, poses.txt, calib.txt)"}};
+  layout.scan_folder = "velodyne";
+  layout.calibration_file = "calib.txt";
+  layout.pose_place = PosePlace::kRowOfFrameNumber;
+  layout.class_names = semantickitti_class_names();
+  layout.recognise = [](Layout::Path path) {
+    return is_folder(path) && has_folder(std::filesystem::path(path) / "velodyne");
+  };
+  layout.open = [](Layout::Path path, const SequenceOptions& options, const OpenContext&) {
+    return open_semantickitti(path, options);
+  };
+  return layout;
 }
 
 }  // namespace raymoval

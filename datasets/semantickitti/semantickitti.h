@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/sequence.h"
+#include "datasets/layout.h"
 
 namespace raymoval {
 
@@ -19,22 +19,24 @@ struct PaperSegment {
 /// The five segments of the ERASOR protocol, with the strides of its published data.
 const std::vector<PaperSegment>& paper_segments();
 
-/// Opens a SemanticKITTI sequence folder: `velodyne/NNNNNN.bin`, `poses.txt` with one row per frame
-/// number from 0, `calib.txt` with the row `Tr:` (T_world_sensor = Tr^-1 P Tr), and perhaps
-/// `labels/NNNNNN.label`, `times.txt` and `sequence.json`.
+/// Sequences of SemanticKITTI: folders with `velodyne/NNNNNN.bin`, `poses.txt` with one row for
+/// each frame number from 0, `calib.txt` with the row `Tr:` (T_world_sensor = Tr^-1 P Tr), and
+/// perhaps `labels/NNNNNN.label`, `times.txt` and `sequence.json`.
 ///
 /// Without calib.txt the poses count as those of the LiDAR only if sequence.json says
 /// `"poses_are_lidar": true`. Frames may be absent from the disk (a partial copy), but each frame
 /// number there has to have a row in the pose file. Labels: 252-259 move, nothing is ignored.
+Layout semantickitti_layout();
+
+/// `ROOT:05` or `ROOT:kitti-05`: a sequence of a root folder, or a segment of papers.
+Layout semantickitti_root_layout();
+
+/// Opens a sequence folder of `semantickitti_layout`.
 /// @param name name of the sequence where no option gives one; empty: that of sequence.json, else
 ///   of the folder
 /// @param frames the frames where no option gives any
+/// @throws DataError, UsageError or ConfigurationError saying what was found and what was expected
 Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
                             const std::string& name = "", const FrameRange& frames = {});
-
-/// Opens `selection` of a root folder: a sequence such as "05", or the name of a paper's segment.
-/// @throws UsageError listing the sequences there are and the segments known
-Sequence open_semantickitti_root(const std::filesystem::path& root, const std::string& selection,
-                                 const SequenceOptions& options);
 
 }  // namespace raymoval

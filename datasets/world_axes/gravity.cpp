@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "core/angle.h"
+#include "core/sampling.h"
 #include "core/scan/local_frame.h"
-#include "datasets/world_axes/surface_patches.h"
+#include "datasets/geometry/surface_patches.h"
 
 namespace raymoval {
 namespace {
@@ -65,15 +66,15 @@ struct Surfaces {
 
 Surfaces collect(const ScanSource& scans) {
   Surfaces surfaces;
-  const std::size_t count = std::min(kScans, scans.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const Scan scan = scans.load(count == 1 ? 0 : i * (scans.size() - 1) / (count - 1));
+  const std::vector<std::size_t> chosen = evenly_spread(scans.size(), kScans);
+  for (const std::size_t index : chosen) {
+    const Scan scan = scans.load(index);
     const Matrix3d turn = scan.T_world_sensor.linear();
     for (const SurfacePatch& patch : surface_patches(scan)) {
       surfaces.all.push_back(
           {turn * patch.normal, turn * patch.mean, std::min(patch.area, kMostArea)});
     }
-    surfaces.sensor_z += turn.col(2) / static_cast<double>(count);
+    surfaces.sensor_z += turn.col(2) / static_cast<double>(chosen.size());
     surfaces.scans += 1.0;
   }
   return surfaces;
@@ -228,6 +229,18 @@ GravityEvidence estimate_gravity(const ScanSource& scans) {
   evidence.up.direction = tilted && clear ? evidence.upright : axis;
   if (!evidence.up.is_world_z()) evidence.up.source = UpDirection::Source::kEstimated;
   return evidence;
+}
+
+UpChoice::UpChoice(const std::optional<Eigen::Vector3d>& given) {
+  if (!given) return;
+  up_ = UpDirection{*given, UpDirection::Source::kGiven};
+}
+
+const UpDirection& UpChoice::get(const ScanSource& scans) const {
+  std::call_once(once_, [&] {
+    if (!up_) up_ = estimate_gravity(scans).up;
+  });
+  return *up_;
 }
 
 }  // namespace raymoval

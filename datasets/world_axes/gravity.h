@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <mutex>
+#include <optional>
+
 #include "core/scan/scan_source.h"
 #include "datasets/world_axes/up_direction.h"
 
@@ -36,5 +39,17 @@ struct GravityEvidence {
 /// changes it by rounding only, apart from the choice of the axis.
 /// @throws DataError if a scan cannot be read
 GravityEvidence estimate_gravity(const ScanSource& scans);
+
+/// What a user said about up, or the estimate, made when first asked for.
+class UpChoice {
+ public:
+  explicit UpChoice(const std::optional<Eigen::Vector3d>& given);
+  /// Thread-safe. @throws DataError if a scan cannot be read
+  const UpDirection& get(const ScanSource& scans) const;
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::optional<UpDirection> up_;
+};
 
 }  // namespace raymoval

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "datasets/world_axes/gravity.h"
 
 namespace raymoval {
 namespace {
@@ -46,15 +45,8 @@ std::string up_text(const Eigen::Vector3d& up) {
 }
 
 const char* up_source_name(UpDirection::Source source) {
-  switch (source) {
-    case UpDirection::Source::kWorldZ:
-      return "world z";
-    case UpDirection::Source::kEstimated:
-      return "estimated";
-    case UpDirection::Source::kGiven:
-      return "given";
-  }
-  return "";
+  if (source == UpDirection::Source::kWorldZ) return "world z";
+  return source == UpDirection::Source::kGiven ? "given" : "estimated";
 }
 
 std::string up_line(const UpDirection& up) {
@@ -63,18 +55,6 @@ std::string up_line(const UpDirection& up) {
          (up.source == UpDirection::Source::kGiven ? "as given"
                                                    : "estimated from the scans; --up z overrules") +
          ")";
-}
-
-UpChoice::UpChoice(const std::optional<Eigen::Vector3d>& given) {
-  if (!given) return;
-  up_ = UpDirection{*given, UpDirection::Source::kGiven};
-}
-
-const UpDirection& UpChoice::get(const ScanSource& scans) const {
-  std::call_once(once_, [&] {
-    if (!up_) up_ = estimate_gravity(scans).up;
-  });
-  return *up_;
 }
 
 }  // namespace raymoval

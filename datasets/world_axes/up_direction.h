@@ -2,11 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <mutex>
 #include <optional>
 #include <string>
-
-#include "core/scan/scan_source.h"
 
 namespace raymoval {
 
@@ -39,17 +36,5 @@ const char* up_source_name(UpDirection::Source source);
 
 /// "up is -y of the world (estimated from the scans; --up z overrules)"; empty where it is z.
 std::string up_line(const UpDirection& up);
-
-/// What a user said about up, or the estimate, made when first asked for.
-class UpChoice {
- public:
-  explicit UpChoice(const std::optional<Eigen::Vector3d>& given);
-  /// Thread-safe. @throws DataError if a scan cannot be read
-  const UpDirection& get(const ScanSource& scans) const;
-
- private:
-  mutable std::once_flag once_;
-  mutable std::optional<UpDirection> up_;
-};
 
 }  // namespace raymoval

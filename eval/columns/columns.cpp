@@ -151,7 +151,7 @@ std::vector<Column> class_columns(const RemovalTally& tally) {
   for (const bool moving : {true, false}) {
     for (const auto& [id, of_class] : tally.classes) {
       if (of_class.moving != moving) continue;
-      const std::string name = class_name(tally.label_rule, id);
+      const std::string name = tally.label_rule.class_name(id);
       columns.push_back(class_column(id, name, moving, whole_class));
       for (const Band& band : bands()) {
         if (band.part(of_class).points == 0) continue;

@@ -59,45 +59,6 @@ void add(const RemovalTally& scan, RemovalTally& all) {
   }
 }
 
-/// Names of the data set's own list (semantic-kitti.yaml).
-const std::map<std::uint16_t, const char*>& semantickitti_names() {
-  static const std::map<std::uint16_t, const char*> names = {{0, "unlabelled"},
-                                                             {1, "outlier"},
-                                                             {10, "car"},
-                                                             {11, "bicycle"},
-                                                             {13, "bus"},
-                                                             {15, "motorcycle"},
-                                                             {16, "on-rails"},
-                                                             {18, "truck"},
-                                                             {20, "other-vehicle"},
-                                                             {30, "person"},
-                                                             {31, "bicyclist"},
-                                                             {32, "motorcyclist"},
-                                                             {40, "road"},
-                                                             {44, "parking"},
-                                                             {48, "sidewalk"},
-                                                             {49, "other-ground"},
-                                                             {50, "building"},
-                                                             {51, "fence"},
-                                                             {52, "other-structure"},
-                                                             {60, "lane-marking"},
-                                                             {70, "vegetation"},
-                                                             {71, "trunk"},
-                                                             {72, "terrain"},
-                                                             {80, "pole"},
-                                                             {81, "traffic-sign"},
-                                                             {99, "other-object"},
-                                                             {252, "moving-car"},
-                                                             {253, "moving-bicyclist"},
-                                                             {254, "moving-person"},
-                                                             {255, "moving-motorcyclist"},
-                                                             {256, "moving-on-rails"},
-                                                             {257, "moving-bus"},
-                                                             {258, "moving-truck"},
-                                                             {259, "moving-other-vehicle"}};
-  return names;
-}
-
 }  // namespace
 
 PointTally& PointTally::operator+=(const PointTally& other) {
@@ -128,17 +89,9 @@ RemovalTally tally_removals(const EvaluationInput& input, const MaskStore& masks
   for_each_scan(input, "points by class",
                 [&](std::size_t i) { scans[i] = tally_scan(input, classes, masks, i); });
   RemovalTally all;
-  all.label_rule = input.label_rule.name;
+  all.label_rule = input.label_rule;
   for (const RemovalTally& scan : scans) add(scan, all);
   return all;
-}
-
-std::string class_name(const std::string& label_rule, std::uint16_t id) {
-  const auto found = semantickitti_names().find(id);
-  if (label_rule == "dynamicmap" || found == semantickitti_names().end()) {
-    return "label-" + std::to_string(id);
-  }
-  return found->second;
 }
 
 }  // namespace raymoval

@@ -50,7 +50,7 @@ struct ClassTally {
 
 /// Points of each semantic id that occurs, in the order of ids.
 struct RemovalTally {
-  std::string label_rule;  ///< Name of the rule; says what the ids mean.
+  LabelRule label_rule;  ///< Says what the ids mean.
   std::map<std::uint16_t, ClassTally> classes;
 };
 
@@ -58,9 +58,5 @@ struct RemovalTally {
 /// cropped), by index.
 /// @throws MethodError, DataError as `load_checked`
 RemovalTally tally_removals(const EvaluationInput& input, const MaskStore& masks);
-
-/// SemanticKITTI's name of a semantic id ("moving-car"); "label-1" for ids that it does not have,
-/// and for the two classes of DynamicMap files.
-std::string class_name(const std::string& label_rule, std::uint16_t id);
 
 }  // namespace raymoval

@@ -9,7 +9,8 @@
 
 namespace raymoval {
 
-/// Disjoint sets; the root of a set is its lowest element, so numbers do not depend on join order.
+/// Disjoint sets. The root of a set is its lowest element, so that numbers do not depend on the
+/// order of the joins.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) {
@@ -26,7 +27,8 @@ class DisjointSets {
     const std::uint32_t root_a = root(a), root_b = root(b);
     parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
   }
-  /// Number of each element's set, from 0, in order of their first elements.
+  /// The number of each element's set. Numbers begin at 0, in the order of the sets' first
+  /// elements.
   std::vector<int> numbers() {
     std::vector<int> number(parent_.size());
     int next = 0;

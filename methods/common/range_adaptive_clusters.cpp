@@ -20,18 +20,18 @@ struct Cell {
   Scalar farthest;  ///< Largest range of its points.
 };
 
-/// Cells above each other.
+/// The cells above each other.
 template <class Scalar>
 struct Column {
   int x, y;
   std::uint32_t first, last;
-  Scalar reach;        ///< The longest of its cells, in cell edges.
-  std::uint32_t root;  ///< Of all of its cells, or `kMixed`.
+  Scalar reach;        ///< The longest reach of its cells, in cell edges.
+  std::uint32_t root;  ///< The root that all of its cells have, or `kMixed`.
 };
 constexpr std::uint32_t kMixed = 0xFFFFFFFFU;
 
-/// Cells whose diagonal is the smallest reach save nearly all comparisons: what is in one is
-/// joined, and of two cells only the first pair near enough has to be found.
+/// Cells whose diagonal is the smallest reach save nearly all comparisons: the points of one cell
+/// are joined, and two cells are joined by the first pair of points that is near enough.
 template <class Scalar>
 class Clustering {
   using Vector = Eigen::Matrix<Scalar, 3, 1>;
@@ -44,7 +44,7 @@ class Clustering {
         ranges_(ranges),
         gap_(gap),
         growth_(growth),
-        // A rounding less, where the precision has room for it.
+        // Made smaller by a rounding error, where the precision has room for it.
         edge_(gap / std::sqrt(Scalar(3)) * static_cast<Scalar>(1.0 - 1e-9)) {
     sort_into_cells();
   }
@@ -54,19 +54,20 @@ class Clustering {
     // Cells beside each other first: what hangs together mostly does so by them, and whole columns
     // of one set need no second look.
     join_all(Pass::kBeside, sets);
-    note_roots(sets);
+    store_roots(sets);
     join_all(Pass::kInReach, sets);
     return numbered(sets);
   }
 
  private:
   [[nodiscard]] Scalar reach_at(Scalar range) const { return gap_ + growth_ * range; }
-  /// In cell edges, and a little more: cells are found in other roundings than distances.
+  /// The reach in cell edges, and a little more, since cells are found with other roundings than
+  /// distances.
   [[nodiscard]] Scalar reach_in_cells(Scalar range) const {
     return reach_at(range) / edge_ * static_cast<Scalar>(1.0 + 1e-4);
   }
 
-  /// Cells, columns and rows in order of y, x and z.
+  /// Makes cells, columns and rows, in order of y, x and z.
   void sort_into_cells() {
     std::vector<std::pair<VoxelKey, std::uint32_t>> keys;  // Key and number of each cell.
     const std::vector<std::uint32_t> cell_of = numbered_cells(keys);
@@ -152,7 +153,7 @@ class Clustering {
     }
   }
 
-  void note_roots(DisjointSets& sets) {
+  void store_roots(DisjointSets& sets) {
     for (Column<Scalar>& column : columns_) {
       column.root = sets.root(column.first);
       for (std::uint32_t c = column.first; c < column.last; ++c) {
@@ -161,7 +162,7 @@ class Clustering {
     }
   }
 
-  /// Every pair of columns once.
+  /// Joins every pair of columns of two rows once.
   void join_rows(std::size_t row, std::size_t other, Pass pass, DisjointSets& sets) const {
     const auto begin = columns_.begin() + rows_[other], end = columns_.begin() + rows_[other + 1];
     for (std::uint32_t c = rows_[row]; c < rows_[row + 1]; ++c) {

@@ -6,8 +6,9 @@
 
 namespace raymoval {
 
-/// Cluster number of each point, from 0, in order of each cluster's first point. Two points are
-/// joined if their distance is at most gap + growth * (the smaller of their ranges).
+/// The cluster number of each point. Numbers begin at 0, in the order of the clusters' first
+/// points. Two points are joined if their distance is at most gap + growth * (the smaller of their
+/// ranges).
 /// @param points metres, any frame; @param ranges distance of each point from the sensor, metres
 std::vector<int> range_adaptive_clusters(const std::vector<Eigen::Vector3d>& points,
                                          const std::vector<double>& ranges, double gap,

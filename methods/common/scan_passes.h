@@ -19,6 +19,7 @@ struct ScanSelection {
   std::size_t count = 0;
   std::ptrdiff_t step = 1;  ///< From a scan's number to the next one's; -1 goes backward.
 
+  [[nodiscard]] std::size_t size() const { return count; }
   [[nodiscard]] std::size_t operator[](std::size_t i) const {
     return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(first) +
                                     static_cast<std::ptrdiff_t>(i) * step);
@@ -41,11 +42,12 @@ inline ScanSelection every_nth_scan(std::size_t first, std::size_t end, std::siz
 /// One pass: calls `visit(Scan)` with each selected scan, one after the other. It shows progress,
 /// stops when it is asked to, and books the time of the visit, without loading, to the scan.
 /// @param what names the pass in progress lines
-template <class Visit>
-void for_each_scan(const char* what, const ScanSource& scans, const ScanSelection& selection,
+/// @param selection a `ScanSelection`, or a vector of scans' numbers
+template <class Selection, class Visit>
+void for_each_scan(const char* what, const ScanSource& scans, const Selection& selection,
                    const RunContext& context, Visit&& visit) {
-  context.begin_pass(what, selection.count);
-  for (std::size_t i = 0; i < selection.count; ++i) {
+  context.begin_pass(what, selection.size());
+  for (std::size_t i = 0; i < selection.size(); ++i) {
     context.check_cancelled();
     Scan scan = scans.load(selection[i]);
     const ScanScope timed(context.times, selection[i]);

@@ -79,7 +79,7 @@ std::vector<VoxelIndex> voxels_of(const Scan& scan, double voxel_size) {
 }
 
 std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex>& voxels,
-                                  const DufomapParameters& parameters, ScanGrid& grid) {
+                                  const Parameters& parameters, ScanGrid& grid) {
   const double nearest = parameters.minimum_range * parameters.minimum_range;
   std::vector<VoxelIndex> ends;
   ends.reserve(voxels.size());
@@ -94,8 +94,8 @@ std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex
   return by_sector(ends, scan.T_world_sensor.translation() / parameters.voxel_size);
 }
 
-void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends,
-                const DufomapParameters& parameters, ScanGrid& grid) {
+void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Parameters& parameters,
+                ScanGrid& grid) {
   const Eigen::Vector3d sensor = scan.T_world_sensor.translation() / parameters.voxel_size;
   const double extension = parameters.hit_extension / parameters.voxel_size;
   for (const VoxelIndex& end : ends) mark_hits(Beam(sensor, end), end, extension, grid);

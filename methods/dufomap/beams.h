@@ -16,11 +16,11 @@ std::vector<VoxelIndex> voxels_of(const Scan& scan, double voxel_size);
 /// ordered by direction around the sensor: neighbours on the list see the same voxels.
 /// @param voxels of each point; @param grid empty before and after
 std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex>& voxels,
-                                  const DufomapParameters& parameters, ScanGrid& grid);
+                                  const Parameters& parameters, ScanGrid& grid);
 
 /// Steps 1-3 for one scan: fills `grid` (empty before) with the hits and free voxels of the scan.
 /// @throws DataError for a beam of more than 131,072 voxels
-void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends,
-                const DufomapParameters& parameters, ScanGrid& grid);
+void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Parameters& parameters,
+                ScanGrid& grid);
 
 }  // namespace raymoval::dufomap_method

@@ -8,8 +8,7 @@
 #include "methods/dufomap/beams.h"
 #include "methods/dufomap/void_map.h"
 
-namespace raymoval {
-namespace dufomap_method {
+namespace raymoval::dufomap_method {
 namespace {
 
 /// What the steps find out about one scan; its memory is used again for later scans.
@@ -21,7 +20,7 @@ struct ScanWork {
 };
 
 /// Steps 1 to 4. The result for a scan does not depend on any other scan.
-void find_voids_of(const Scan& scan, const DufomapParameters& parameters, ScanWork& work) {
+void find_voids_of(const Scan& scan, const Parameters& parameters, ScanWork& work) {
   work.grid.clear();
   std::vector<VoxelIndex> ends;
   {
@@ -65,7 +64,7 @@ void for_each_batch(const char* what, const ScanSource& scans, const RunContext&
   }
 }
 
-void run(const DufomapParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   VoidMap voids;
   for_each_batch("dufomap", scans, context, [&](std::span<Scan> batch, auto& work) {
@@ -86,10 +85,9 @@ void run(const DufomapParameters& parameters, const ScanSource& scans, RemovalSi
 }
 
 }  // namespace
-}  // namespace dufomap_method
 
-std::unique_ptr<Remover> make_dufomap(const DufomapParameters& parameters) {
-  return remover_from(parameters, dufomap_method::run);
+std::unique_ptr<Remover> make_dufomap(const Parameters& parameters) {
+  return remover_from(parameters, run);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::dufomap_method

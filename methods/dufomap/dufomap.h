@@ -7,6 +7,7 @@
 #include "methods/method_entry.h"
 
 namespace raymoval {
+namespace dufomap_method {
 
 /// D. Duberg, Q. Zhang, M. Jia, P. Jensfelt: "DUFOMap: Efficient Dynamic Awareness Mapping", RA-L
 /// 2024. A voxel that one scan has once seen free for certain is a void; a point that ever falls in
@@ -19,7 +20,9 @@ namespace raymoval {
 ///  4. Void: not a hit, and all (2 d_p + 1)^3 voxels around it free.
 ///  5. Voids of all scans are united and never reset; a point is dynamic iff its voxel is a void.
 /// Decisions and deviations from the public code: `notes` of the entry.
-std::unique_ptr<Remover> make_dufomap(const DufomapParameters& parameters);
+std::unique_ptr<Remover> make_dufomap(const Parameters& parameters);
+
+}  // namespace dufomap_method
 
 MethodEntry dufomap_entry();
 

@@ -34,7 +34,7 @@ MethodEntry dufomap_entry() {
       {"offline-dp2", "Offline with d_p 2.", false, wide},
       {"online-dp2", "Online with d_p 2.", true, wide_online},
   };
-  entry.bind(dufomap_parameter_table(), make_dufomap);
+  entry.bind(dufomap_method::parameter_table(), dufomap_method::make_dufomap);
   return entry;
 }
 

@@ -12,13 +12,14 @@ namespace {
 
 using Fixed = std::int64_t;  ///< Voxels times 2^40.
 
-/// What no beam reaches is cut to `kLongest`; a block's side times that still fits.
+/// A length in fixed point. It is cut to `kLongest`, which no beam reaches, so that a block's side
+/// times it still fits.
 Fixed fixed(double voxels) {
   constexpr double kUnit = static_cast<double>(Fixed{1} << 40);
   return static_cast<Fixed>(std::min(voxels, FreeWalk::kLongest) * kUnit);
 }
 
-/// How far along a beam it crosses its next wall of an axis, and the distance between walls.
+/// The distance along a beam to its next wall of an axis, and from there on between walls.
 struct Axis {
   Fixed next, delta;
   int step;  ///< +1 or -1.
@@ -125,7 +126,7 @@ class Walk {
   Fixed end_;
   ScanBlock* block_;
   int column_;
-  int height_;  ///< In the block.
+  int height_;  ///< Of the voxel in its block.
 };
 
 }  // namespace

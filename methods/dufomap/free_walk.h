@@ -23,7 +23,7 @@ class FreeWalk {
   VoxelIndex mark_free(const Eigen::Vector3d& direction, double length);
 
  private:
-  std::uint64_t stopping_hits_;  ///< Which hits of a column end a beam: all or none.
+  std::uint64_t stopping_hits_;  ///< The hits of a column that end a beam: all or none.
   ScanGrid& grid_;
   VoxelIndex sensor_block_;
   Eigen::Vector3d sensor_;  ///< Voxels from the low corner of the sensor's block.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "methods/dufomap/parameters.h"
 
-namespace raymoval {
+namespace raymoval::dufomap_method {
 namespace {
 
-using Table = ParameterTable<DufomapParameters>;
-using P = DufomapParameters;
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
 
 Table make_table() {
   Table table;
@@ -41,9 +41,9 @@ Table make_table() {
 
 }  // namespace
 
-const ParameterTable<DufomapParameters>& dufomap_parameter_table() {
+const ParameterTable<Parameters>& parameter_table() {
   static const Table table = make_table();
   return table;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::dufomap_method

@@ -3,10 +3,10 @@
 
 #include "core/parameters.h"
 
-namespace raymoval {
+namespace raymoval::dufomap_method {
 
 /// Parameters of DUFOMap; defaults are those of its public configuration.
-struct DufomapParameters {
+struct Parameters {
   double voxel_size = 0.1;
   double hit_extension = 0.2;
   int unknown_inflation = 1;
@@ -18,6 +18,6 @@ struct DufomapParameters {
 };
 
 /// The one place where names, units, ranges and sources of the parameters stand.
-const ParameterTable<DufomapParameters>& dufomap_parameter_table();
+const ParameterTable<Parameters>& parameter_table();
 
-}  // namespace raymoval
+}  // namespace raymoval::dufomap_method

@@ -31,7 +31,7 @@ inline std::uint64_t bit_of(const VoxelIndex& voxel) {
   return std::uint64_t{1} << (voxel.z() & (kHeight - 1));
 }
 
-/// What one scan says of a column of voxels, a bit each, the lowest voxel in the lowest bit.
+/// What one scan says of a column of voxels. Each voxel has a bit, the lowest voxel the lowest bit.
 struct Column {
   std::uint64_t free = 0;  ///< The set F of step 3.
   std::uint64_t hit = 0;   ///< The set H of step 2.
@@ -39,18 +39,19 @@ struct Column {
 
 struct ScanBlock {
   VoxelIndex at = VoxelIndex::Zero();  ///< Block indices (see `block_of`).
-  /// Blocks below and above along x, y and z, as far as a beam went there.
+  /// The neighbours below and above along x, y and z, or null where no beam went there.
   std::array<std::array<ScanBlock*, 2>, 3> beside{};
   std::array<Column, kColumns> columns{};
 };
 
-/// Hits and free voxels of one scan, in sparse blocks. Clearing keeps the memory for the next scan.
+/// The hits and the free voxels of one scan, in sparse blocks. `clear` keeps the memory for the
+/// next scan.
 class ScanGrid {
  public:
-  /// More blocks (16 KiB each) than any scan of a real place needs.
+  /// The largest number of blocks (16 KiB each). No scan of a real place needs as many.
   static constexpr std::size_t kMostBlocks = std::size_t{1} << 18;
 
-  /// The block at these block indices, made if there is none yet. References stay valid until
+  /// The block at these block indices. It is made if there is none yet. References stay valid until
   /// `clear`. @throws DataError beyond `kMostBlocks`.
   ScanBlock& block(const VoxelIndex& at) {
     if (last_ != nullptr && last_->at == at) return *last_;
@@ -59,7 +60,7 @@ class ScanGrid {
     last_ = found != index_.end() ? blocks_[found->second].get() : &add_block(at, key);
     return *last_;
   }
-  /// The neighbour of a block along an axis, `step` = +1 or -1, made if there is none yet.
+  /// The neighbour of a block along an axis; `step` is +1 or -1. It is made if there is none yet.
   ScanBlock& beside(ScanBlock& from, Eigen::Index axis, int step) {
     ScanBlock*& link = from.beside[static_cast<std::size_t>(axis)][step > 0 ? 1 : 0];
     if (link == nullptr) {
@@ -92,7 +93,8 @@ class ScanGrid {
   VoxelMap<std::uint32_t> index_;
   std::vector<std::unique_ptr<ScanBlock>> blocks_;  ///< The first `used_` are this scan's.
   std::size_t used_ = 0;
-  ScanBlock* last_ = nullptr;  ///< Asked for last: mostly asked for again.
+  ScanBlock* last_ =
+      nullptr;  ///< The block that was asked for last, which is mostly asked for again.
 };
 
 }  // namespace raymoval::dufomap_method

@@ -55,7 +55,7 @@ bool add_neighbour(const ScanGrid& grid, const VoxelIndex& at, int dx, int dy, i
   return any != 0;
 }
 
-/// For each row: AND over `2 * inflation + 1` rows from it on.
+/// Replaces each row by the AND of `2 * inflation + 1` rows, itself the first of them.
 void erode_along_x(Padded& padded, int inflation) {
   const auto width = static_cast<std::size_t>(kSide + 2 * inflation);
   for (std::size_t x = 0; x < kSide; ++x) {
@@ -65,7 +65,7 @@ void erode_along_x(Padded& padded, int inflation) {
   }
 }
 
-/// Along y, into a block. @return false if nothing is left
+/// Erodes along y and stores the voids of a block. @return false if none is left
 bool erode_along_y(const Padded& padded, int inflation, const ScanBlock& block, VoidBits& voids) {
   std::uint64_t any = 0;
   for (std::size_t x = 0; x < kSide; ++x) {

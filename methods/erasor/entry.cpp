@@ -85,7 +85,7 @@ MethodEntry erasor_entry() {
       "Point Cloud Map Building, RA-L 2021";
   entry.notes = notes();
   entry.variants = variants();
-  entry.bind(erasor_parameter_table(), make_erasor);
+  entry.bind(erasor_method::parameter_table(), erasor_method::make_erasor);
   return entry;
 }
 

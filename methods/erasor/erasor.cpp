@@ -15,14 +15,13 @@
 #include "methods/erasor/polar_bins.h"
 #include "methods/erasor/scan_ratio_test.h"
 
-namespace raymoval {
-namespace erasor_method {
+namespace raymoval::erasor_method {
 namespace {
 
 /// The points of a query by bin, after thinning.
 struct QueryBins {
   std::vector<BinExtent> extents;
-  std::vector<int> bin_of_point;  ///< Of each raw point: the bin of its thinned point, or -1.
+  std::vector<int> bin_of_point;  ///< The bin of each raw point's thinned point, or -1.
 };
 
 /// The map's voxels in the volume of interest by bin.
@@ -38,7 +37,7 @@ struct MapBins {
 
 class ErasorRun {
  public:
-  ErasorRun(const ErasorParameters& parameters, const ScanSource& scans, const RunContext& context)
+  ErasorRun(const Parameters& parameters, const ScanSource& scans, const RunContext& context)
       : parameters_(parameters),
         scans_(scans),
         context_(context),
@@ -221,7 +220,7 @@ class ErasorRun {
     }
   }
 
-  const ErasorParameters& parameters_;
+  const Parameters& parameters_;
   const ScanSource& scans_;
   const RunContext& context_;
   PolarBins bins_;
@@ -230,7 +229,7 @@ class ErasorRun {
   std::vector<Eigen::Vector3d> world_;  ///< Of the scan at hand.
 };
 
-void run(const ErasorParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   ErasorRun erasor(parameters, scans, context);
   NaiveMap map = erasor.collect_naive_map();
@@ -239,9 +238,8 @@ void run(const ErasorParameters& parameters, const ScanSource& scans, RemovalSin
 }
 
 }  // namespace
-}  // namespace erasor_method
 
-std::unique_ptr<Remover> make_erasor(const ErasorParameters& parameters) {
+std::unique_ptr<Remover> make_erasor(const Parameters& parameters) {
   if (!(parameters.minimum_height < parameters.maximum_height)) {
     throw ConfigurationError(
         "erasor.min_h = " + number_text(parameters.minimum_height) +
@@ -254,7 +252,7 @@ std::unique_ptr<Remover> make_erasor(const ErasorParameters& parameters) {
         " is not below erasor.max_range = " + number_text(parameters.maximum_range) +
         ", so no point would be tested; raise max_range.");
   }
-  return remover_from(parameters, erasor_method::run);
+  return remover_from(parameters, run);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

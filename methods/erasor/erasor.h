@@ -7,6 +7,7 @@
 #include "methods/method_entry.h"
 
 namespace raymoval {
+namespace erasor_method {
 
 /// "ERASOR: Egocentric Ratio of Pseudo Occupancy-based Dynamic Object Removal for Static 3D Point
 /// Cloud Map Building" (Lim, Hwang, Myung, RA-L 2021), written from its description.
@@ -18,7 +19,9 @@ namespace raymoval {
 ///
 /// What differs from the public program is listed in the entry's `notes`.
 /// @throws ConfigurationError if the height window is empty or the ego radius leaves no range.
-std::unique_ptr<Remover> make_erasor(const ErasorParameters& parameters);
+std::unique_ptr<Remover> make_erasor(const Parameters& parameters);
+
+}  // namespace erasor_method
 
 MethodEntry erasor_entry();
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Mean height of the lowest points after the first few, which may be outliers.
 double lowest_point_representative(const std::vector<Eigen::Vector3d>& points,
-                                   const ErasorParameters& parameters) {
+                                   const Parameters& parameters) {
   std::vector<double> heights(points.size());
   std::transform(points.begin(), points.end(), heights.begin(),
                  [](const Eigen::Vector3d& point) { return point.z(); });
@@ -73,7 +73,7 @@ Plane fit_plane(const std::vector<Eigen::Vector3d>& points, const Mask& chosen) 
   return plane;
 }
 
-Mask find_ground(const std::vector<Eigen::Vector3d>& points, const ErasorParameters& parameters) {
+Mask find_ground(const std::vector<Eigen::Vector3d>& points, const Parameters& parameters) {
   const Mask all(points.size(), 1);
   if (points.empty()) return all;
   const double limit = lowest_point_representative(points, parameters) + parameters.seed_height;

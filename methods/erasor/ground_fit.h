@@ -25,6 +25,6 @@ Plane fit_plane(const std::vector<Eigen::Vector3d>& points, const Mask& chosen);
 /// R-GPF (region-wise ground plane fitting): which of a bin's map points are ground. `points` are
 /// in the body frame, metres. All of them if there is nothing to start from.
 /// @return 1 = ground, 0 = above it
-Mask find_ground(const std::vector<Eigen::Vector3d>& points, const ErasorParameters& parameters);
+Mask find_ground(const std::vector<Eigen::Vector3d>& points, const Parameters& parameters);
 
 }  // namespace raymoval::erasor_method

@@ -9,7 +9,7 @@
 
 namespace raymoval::erasor_method {
 
-/// Number of a voxel in a NaiveMap.
+/// The number of a voxel in a NaiveMap.
 using VoxelNumber = std::uint32_t;
 
 /// The map of all scans: filled voxels of the world lattice, each with one point and either in the
@@ -65,7 +65,7 @@ class NaiveMapBuilder {
     VoxelKey key;
     Eigen::Vector3d sum_of_means;
     std::uint32_t scans;
-    std::uint32_t slot;  ///< Where the present scan collects, if `in_scan_[slot]` says so too.
+    std::uint32_t slot;  ///< Its place in `in_scan_`, if `in_scan_[slot]` names this voxel too.
   };
   struct VoxelOfScan {
     VoxelNumber voxel;

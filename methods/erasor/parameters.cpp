@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "methods/erasor/parameters.h"
 
-namespace raymoval {
+namespace raymoval::erasor_method {
 namespace {
 
-using namespace erasor_method;
-using Table = ParameterTable<ErasorParameters>;
-using P = ErasorParameters;
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
 constexpr const char* kOurs = "not in the public code";
 
 void add_map(Table& table) {
@@ -99,7 +98,7 @@ void add_ground(Table& table) {
 
 }  // namespace
 
-const ParameterTable<ErasorParameters>& erasor_parameter_table() {
+const ParameterTable<Parameters>& parameter_table() {
   static const Table table = [] {
     Table t;
     add_map(t);
@@ -111,4 +110,4 @@ const ParameterTable<ErasorParameters>& erasor_parameter_table() {
   return table;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

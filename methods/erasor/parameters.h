@@ -3,8 +3,7 @@
 
 #include "core/parameters.h"
 
-namespace raymoval {
-namespace erasor_method {
+namespace raymoval::erasor_method {
 
 /// What R-GPF takes as the lowest height of a bin that holds too few points to skip outliers.
 enum class SparseGround {
@@ -12,13 +11,11 @@ enum class SparseGround {
   kZero,         ///< Zero, the road below the sensor, as in the public code.
 };
 
-}  // namespace erasor_method
-
 /// Parameters of ERASOR. The table in parameters.cpp gives them the public code's names, so that
 /// its configuration files carry over. The values are the general set: of the five sets that the
 /// authors published in 2021 (KITTI 00, 01, 02, 05, 07) the median, which for every value is also
 /// the most frequent one.
-struct ErasorParameters {
+struct Parameters {
   // Body frame and naive map.
   double sensor_height = 1.73;
   double minimum_range = 2.7;
@@ -47,10 +44,10 @@ struct ErasorParameters {
   int plane_iterations = 3;
   double ground_distance = 0.15;
   bool require_upright = false;
-  erasor_method::SparseGround sparse_ground = erasor_method::SparseGround::kLowestPoint;
+  SparseGround sparse_ground = SparseGround::kLowestPoint;
 };
 
 /// The one place where the parameters are named.
-const ParameterTable<ErasorParameters>& erasor_parameter_table();
+const ParameterTable<Parameters>& parameter_table();
 
-}  // namespace raymoval
+}  // namespace raymoval::erasor_method

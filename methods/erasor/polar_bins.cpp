@@ -6,7 +6,7 @@
 
 namespace raymoval::erasor_method {
 
-PolarBins::PolarBins(const ErasorParameters& parameters)
+PolarBins::PolarBins(const Parameters& parameters)
     : range_(parameters.maximum_range),
       minimum_height_(parameters.minimum_height),
       maximum_height_(parameters.maximum_height),

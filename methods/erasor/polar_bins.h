@@ -14,7 +14,7 @@ namespace raymoval::erasor_method {
 /// descriptor). Points are in the body frame: the sensor's axes, height 0 at the road below it.
 class PolarBins {
  public:
-  explicit PolarBins(const ErasorParameters& parameters);
+  explicit PolarBins(const Parameters& parameters);
 
   [[nodiscard]] std::size_t size() const {
     return static_cast<std::size_t>(rings_) * static_cast<std::size_t>(sectors_);
@@ -40,7 +40,7 @@ struct BinExtent {
     highest = std::max(highest, height);
     ++points;
   }
-  /// 0 for an empty bin.
+  /// The pseudo occupancy, metres; 0 for an empty bin.
   [[nodiscard]] double extent() const { return points == 0 ? 0.0 : highest - lowest; }
 };
 

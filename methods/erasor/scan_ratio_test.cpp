@@ -6,7 +6,7 @@
 namespace raymoval::erasor_method {
 
 BinFinding compare_extents(const BinExtent& map, const BinExtent& query,
-                           const ErasorParameters& parameters) {
+                           const Parameters& parameters) {
   if (query.points < parameters.minimum_points) return BinFinding::kTooFewPoints;
   if (map.points == 0) return BinFinding::kQueryOnly;
   const double of_map = map.extent(), of_query = query.extent();
@@ -16,7 +16,7 @@ BinFinding compare_extents(const BinExtent& map, const BinExtent& query,
   return of_map >= of_query ? BinFinding::kMapHigher : BinFinding::kCurrentHigher;
 }
 
-BinAction action_for(BinFinding finding, const BinExtent& map, const ErasorParameters& parameters) {
+BinAction action_for(BinFinding finding, const BinExtent& map, const Parameters& parameters) {
   BinAction action;
   if (finding == BinFinding::kMapHigher) {
     action.remove = parameters.version == 3 ? map.extent() > parameters.minimum_object_height

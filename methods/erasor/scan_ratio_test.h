@@ -17,7 +17,7 @@ enum class BinFinding {
 /// Compares the vertical extents of a bin (its pseudo occupancies): unequal if the smaller one is
 /// strictly less than `threshold` times the larger one.
 BinFinding compare_extents(const BinExtent& map, const BinExtent& query,
-                           const ErasorParameters& parameters);
+                           const Parameters& parameters);
 
 /// What is done to the map in a bin.
 struct BinAction {
@@ -28,6 +28,6 @@ struct BinAction {
 /// Version 3: only bins where the map is higher, and taller than `minimum_object_height`, change.
 /// Version 2: the map must reach above `minimum_top` instead, and bins of equal extents and those
 /// that only the query fills take in the query's points.
-BinAction action_for(BinFinding finding, const BinExtent& map, const ErasorParameters& parameters);
+BinAction action_for(BinFinding finding, const BinExtent& map, const Parameters& parameters);
 
 }  // namespace raymoval::erasor_method

@@ -58,7 +58,7 @@ MethodEntry octomap_entry() {
       {"ground-noise", "The KTH port with ground plane and noise filter ('w GF').", false,
        ground_noise},
   };
-  entry.bind(octomap_parameter_table(), make_octomap);
+  entry.bind(octomap_method::parameter_table(), octomap_method::make_octomap);
   return entry;
 }
 

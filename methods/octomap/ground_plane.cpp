@@ -32,7 +32,7 @@ class LevelPlane : public pcl::SampleConsensusModelPerpendicularPlane<pcl::Point
 
 }  // namespace
 
-Mask find_ground(const std::vector<octomap::point3d>& points, const OctomapParameters& parameters) {
+Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& parameters) {
   Mask ground(points.size(), 0);
   if (points.size() < static_cast<std::size_t>(parameters.ground_points)) return ground;
   const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);

@@ -8,7 +8,7 @@
 #include "methods/octomap/point_filters.h"
 
 namespace raymoval::octomap_method {
-Mask find_noise(const std::vector<octomap::point3d>& points, const OctomapParameters& parameters,
+Mask find_noise(const std::vector<octomap::point3d>& points, const Parameters& parameters,
                 int threads) {
   const auto neighbours = static_cast<std::size_t>(parameters.noise_neighbours);
   Mask noise(points.size(), 0);

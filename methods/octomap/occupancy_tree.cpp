@@ -49,7 +49,8 @@ class BlockUpdate {
     close(node);
   }
 
-  /// What liboctomap does on its way back up: merges equal leaves, else takes their maximum.
+  /// Does what liboctomap does on its way back up: it merges equal leaves, else it takes their
+  /// maximum.
   void close(Node* node) {
     if (merge_ && !tree_.pruneNode(node)) node->updateOccupancyChildren();
   }
@@ -129,7 +130,7 @@ octomap::OcTreeKey touched_key(std::uint64_t name, const CellBlock& cells) {
 
 }  // namespace
 
-OccupancyTree::OccupancyTree(const OctomapParameters& parameters)
+OccupancyTree::OccupancyTree(const Parameters& parameters)
     : tree_(parameters.resolution),
       exclusive_(!parameters.kth_nonexclusive),
       merge_(!parameters.lazy_eval) {

@@ -20,7 +20,7 @@ class OccupancyTree {
  public:
   using Node = octomap::OcTreeNode;
 
-  explicit OccupancyTree(const OctomapParameters& parameters);
+  explicit OccupancyTree(const Parameters& parameters);
 
   [[nodiscard]] const octomap::OcTree& tree() const { return tree_; }
 

@@ -13,15 +13,13 @@
 #include "methods/octomap/point_filters.h"
 #include "methods/octomap/scan_cells.h"
 
-namespace raymoval {
-namespace octomap_method {
+namespace raymoval::octomap_method {
 namespace {
 
 /// One run: the cells that matter, a map of all scans, then an answer for each point from the map.
 class OctomapRun {
  public:
-  OctomapRun(const OctomapParameters& parameters, const ScanSource& scans,
-             const RunContext& context)
+  OctomapRun(const Parameters& parameters, const ScanSource& scans, const RunContext& context)
       : parameters_(parameters),
         scans_(scans),
         context_(context),
@@ -63,7 +61,7 @@ class OctomapRun {
       const std::vector<octomap::point3d> points = in_tree_frame(scan);
       sink.accept(scan.index, removed(scan.index, points));
     });
-    tell_outside();
+    warn_of_points_outside();
   }
 
  private:
@@ -152,29 +150,29 @@ class OctomapRun {
     return node == nullptr ? parameters_.remove_unknown : !map_.tree().isNodeOccupied(node);
   }
 
-  void tell_outside() const {
+  void warn_of_points_outside() const {
     if (outside_ == 0 || context_.progress == nullptr) return;
     const double reach = CellLattice::kCentre * parameters_.resolution;
     context_.progress->say("octomap: " + grouped_text(outside_) + " points lie more than " +
                            fixed_text(reach, 1) +
                            " m from the first scan, outside the tree, and stay in the map "
-                           "unjudged; use a larger resolution, or fewer scans.");
+                           "without a verdict; use a larger resolution, or fewer scans.");
   }
 
-  const OctomapParameters& parameters_;
+  const Parameters& parameters_;
   const ScanSource& scans_;
   const RunContext& context_;
   CellLattice lattice_;
   ScanCells cells_;
   CellBlocks wanted_;  ///< Cells in which any scan has a point.
   OccupancyTree map_;
-  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< Of the tree, in the world.
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< The tree's centre in the world, metres.
   MaskStore kept_;     ///< Points on the ground, which stay whatever their leaf says.
   MaskStore dropped_;  ///< Points that the noise filter took out.
   std::atomic<std::uint64_t> outside_{0};
 };
 
-void run(const OctomapParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   OctomapRun octomap_run(parameters, scans, context);
   octomap_run.collect_cells();
@@ -183,14 +181,13 @@ void run(const OctomapParameters& parameters, const ScanSource& scans, RemovalSi
 }
 
 }  // namespace
-}  // namespace octomap_method
 
-std::unique_ptr<Remover> make_octomap(const OctomapParameters& parameters) {
+std::unique_ptr<Remover> make_octomap(const Parameters& parameters) {
   if (parameters.maximum_range == 0.0) {
     throw ConfigurationError(
         "octomap.maximum_range = 0 leaves no beam; give a range in metres, or -1 for unlimited.");
   }
-  return remover_from(parameters, octomap_method::run);
+  return remover_from(parameters, run);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -7,6 +7,7 @@
 #include "methods/octomap/parameters.h"
 
 namespace raymoval {
+namespace octomap_method {
 
 /// Occupancy mapping after Hornung et al., "OctoMap: an efficient probabilistic 3D mapping
 /// framework based on octrees" (Autonomous Robots 34, 2013), on liboctomap's own tree, as a way to
@@ -14,7 +15,9 @@ namespace raymoval {
 ///
 /// Decisions and deviations are the `notes` of the entry.
 /// @throws ConfigurationError if two parameters contradict each other
-std::unique_ptr<Remover> make_octomap(const OctomapParameters& parameters);
+std::unique_ptr<Remover> make_octomap(const Parameters& parameters);
+
+}  // namespace octomap_method
 
 MethodEntry octomap_entry();
 

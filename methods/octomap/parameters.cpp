@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "methods/octomap/parameters.h"
 
-namespace raymoval {
+namespace raymoval::octomap_method {
 namespace {
 
-using namespace octomap_method;
-using Table = ParameterTable<OctomapParameters>;
-using P = OctomapParameters;
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
 constexpr const char* kLibrary = "liboctomap's default";
 constexpr const char* kKth = "KTH port of OctoMap";
 constexpr const char* kKthPcl = "PCL's default, not set by the KTH port";
@@ -104,7 +103,7 @@ void add_noise(Table& table) {
 
 }  // namespace
 
-const ParameterTable<OctomapParameters>& octomap_parameter_table() {
+const ParameterTable<Parameters>& parameter_table() {
   static const Table table = [] {
     Table t;
     add_map(t);
@@ -116,4 +115,4 @@ const ParameterTable<OctomapParameters>& octomap_parameter_table() {
   return table;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

@@ -3,8 +3,7 @@
 
 #include "core/parameters.h"
 
-namespace raymoval {
-namespace octomap_method {
+namespace raymoval::octomap_method {
 
 /// What becomes of the points that the noise filter calls outliers.
 enum class NoisePoints {
@@ -12,11 +11,9 @@ enum class NoisePoints {
   kRemoved,   ///< They leave the scan and the map (KTH port, 2024).
 };
 
-}  // namespace octomap_method
-
 /// Parameters of the octomap method. Defaults are those of liboctomap; the cell size is that of the
 /// "OctoMap 0.2" rows.
-struct OctomapParameters {
+struct Parameters {
   // The map.
   double resolution = 0.2;
   double prob_hit = 0.7;
@@ -43,9 +40,9 @@ struct OctomapParameters {
   bool noise = false;
   int noise_neighbours = 50;
   double noise_sigma = 1.0;
-  octomap_method::NoisePoints noise_points = octomap_method::NoisePoints::kOccupied;
+  NoisePoints noise_points = NoisePoints::kOccupied;
 };
 
-const ParameterTable<OctomapParameters>& octomap_parameter_table();
+const ParameterTable<Parameters>& parameter_table();
 
-}  // namespace raymoval
+}  // namespace raymoval::octomap_method

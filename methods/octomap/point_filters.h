@@ -16,12 +16,12 @@ namespace raymoval::octomap_method {
 /// @param points world axes, metres
 /// @return 1 for each point within `ground_distance` of the plane; all 0 for fewer than
 /// `ground_points` points or where there is no such plane
-Mask find_ground(const std::vector<octomap::point3d>& points, const OctomapParameters& parameters);
+Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& parameters);
 
 /// Statistical outliers (Rusu et al., 2008; as PCL's filter): points whose mean distance to their
 /// `noise_neighbours` nearest others is above the scan's mean by more than `noise_sigma` standard
 /// deviations. Scans with no more points than that have none.
-Mask find_noise(const std::vector<octomap::point3d>& points, const OctomapParameters& parameters,
+Mask find_noise(const std::vector<octomap::point3d>& points, const Parameters& parameters,
                 int threads);
 
 }  // namespace raymoval::octomap_method

@@ -13,7 +13,7 @@ constexpr std::size_t kBeamsInTurn = 512;
 
 }  // namespace
 
-ScanCells::ScanCells(const OctomapParameters& parameters, int threads)
+ScanCells::ScanCells(const Parameters& parameters, int threads)
     : parameters_(parameters),
       lattice_(parameters.resolution),
       threads_(std::clamp(threads, 1, 64)),

@@ -11,17 +11,17 @@ namespace raymoval::octomap_method {
 
 /// What a point of a scan says about its cell and its beam.
 enum class PointRole : std::uint8_t {
-  kSurface,  ///< Its cell is hit, its beam is free.
-  kGround,   ///< Its beam is free, its cell gets nothing.
-  kNoise,    ///< Its cell is hit, no beam.
-  kLeftOut,  ///< Nothing.
+  kSurface,  ///< Its cell is hit, and its beam is free.
+  kGround,   ///< Its beam is free, and nothing is said about its cell.
+  kNoise,    ///< Its cell is hit, and it has no beam.
+  kLeftOut,  ///< It says nothing.
 };
 
 /// Computes the free and occupied cells of a scan. They depend on that scan alone; each cell counts
 /// once however many beams cross it.
 class ScanCells {
  public:
-  ScanCells(const OctomapParameters& parameters, int threads);
+  ScanCells(const Parameters& parameters, int threads);
 
   /// @param points end points in the tree's frame, metres
   /// @param roles one per point
@@ -45,7 +45,7 @@ class ScanCells {
   void add_beam(const octomap::point3d& end, CellCode last, PointRole role,
                 const octomap::point3d& origin);
 
-  const OctomapParameters& parameters_;
+  const Parameters& parameters_;
   CellLattice lattice_;
   int threads_;
   std::vector<Beam> beams_;

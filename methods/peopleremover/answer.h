@@ -9,7 +9,8 @@
 
 namespace raymoval::peopleremover_method {
 
-/// Steps 2.9 and 2.10: the verdicts of a scan from the final freed voxels. One per thread.
+/// Steps 2.9 and 2.10: the verdicts of a scan from the final freed voxels. Each thread needs one of
+/// its own.
 ///
 /// half(x) need not be stored: a point of scan i in voxel x is in it iff scan i has a point in a
 /// freed voxel near x, which the scan's own points tell.
@@ -32,7 +33,7 @@ class ScanVerdicts {
   int radius_;
   BrickFinder finder_;
   VoxelMarks own_freed_;  ///< Freed voxels in which the scan has a point.
-  VoxelMarks halo_;       ///< Those and all voxels near them.
+  VoxelMarks halo_;       ///< These voxels and all voxels near them.
 };
 
 }  // namespace raymoval::peopleremover_method

@@ -12,11 +12,11 @@ namespace raymoval::peopleremover_method {
 
 inline constexpr double kWholeBeam = std::numeric_limits<double>::infinity();
 
-/// Finds how far each beam of a scan may be followed (step 2.3, "point shadows"). One per thread;
-/// keeps its memory from scan to scan.
+/// Finds how far each beam of a scan may be followed (step 2.3, "point shadows"). Each thread
+/// needs one of its own; it keeps its memory from scan to scan.
 class BeamEnds {
  public:
-  explicit BeamEnds(const PeopleremoverParameters& parameters) : parameters_(parameters) {}
+  explicit BeamEnds(const Parameters& parameters) : parameters_(parameters) {}
 
   /// @param points of one scan, sensor frame, metres, none at the origin
   /// @return metres from the sensor along each beam; `kWholeBeam` for the whole of it
@@ -29,7 +29,7 @@ class BeamEnds {
   /// Unit normal of the surface through the neighbours, towards the sensor.
   [[nodiscard]] Eigen::Vector3d normal_at(std::size_t owner) const;
 
-  const PeopleremoverParameters& parameters_;
+  const Parameters& parameters_;
   DirectionIndex index_;
   std::vector<std::uint32_t> by_range_;  ///< Positions in the index, nearest first.
   std::vector<std::uint32_t> bucket_, start_;
@@ -38,8 +38,8 @@ class BeamEnds {
   std::vector<double> answer_;             ///< Metres, by point.
 };
 
-/// Unit eigenvector of the smallest eigenvalue; zero if the points of the covariance lie on a
-/// line (second eigenvalue below 1e-9 of the largest).
+/// The unit eigenvector of the smallest eigenvalue. It is zero if the points of the covariance lie
+/// on a line (second eigenvalue below 1e-9 of the largest).
 Eigen::Vector3d surface_normal(const Eigen::Matrix3d& covariance);
 
 }  // namespace raymoval::peopleremover_method

@@ -102,7 +102,8 @@ class BrickCollector {
   VoxelMap<BrickWord> bricks_;
 };
 
-/// Finds bricks quickly where one look-up lies near the last ones. One per thread.
+/// Finds bricks quickly where one look-up lies near the last ones. Each thread needs one of its
+/// own.
 class BrickFinder {
  public:
   explicit BrickFinder(const BrickMap& map) : map_(&map), slots_(kSlots) {}

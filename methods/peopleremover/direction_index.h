@@ -41,7 +41,7 @@ class DirectionIndex {
     }
   }
 
-  std::vector<std::uint32_t> number;       ///< In the scan.
+  std::vector<std::uint32_t> number;       ///< The number of each point in the scan.
   std::vector<double> range;               ///< r, metres.
   std::vector<Eigen::Vector3d> direction;  ///< u = p / r.
   std::vector<Eigen::Vector3d> point;      ///< p, metres.

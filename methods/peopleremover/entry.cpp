@@ -61,7 +61,7 @@ MethodEntry peopleremover_entry() {
        false,
        {{"reduce_points", std::int64_t{1}}, {"reduce_angle", 0.01}}},
   };
-  entry.bind(peopleremover_parameter_table(), make_peopleremover);
+  entry.bind(peopleremover_method::parameter_table(), peopleremover_method::make_peopleremover);
   return entry;
 }
 

@@ -16,7 +16,7 @@ class ComponentTaker {
   ComponentTaker(const BrickMap& map, std::vector<BrickWord>& left)
       : map_(map), finder_(map), left_(left) {}
 
-  /// All voxels connected with the lowest one left in `brick`.
+  /// Takes all voxels that are connected with the lowest one left in `brick`.
   const std::vector<Member>& take(BrickId brick) {
     members_.clear();
     move(brick, left_[brick] & -left_[brick]);

@@ -3,8 +3,7 @@
 
 namespace raymoval::peopleremover_method {
 
-void put_on_lattice(const Scan& scan, const PeopleremoverParameters& parameters,
-                    LatticeScan& result) {
+void put_on_lattice(const Scan& scan, const Parameters& parameters, LatticeScan& result) {
   const double inverse = 1.0 / parameters.voxel_size;
   const double minimum = parameters.effective_minimum_range();
   const Eigen::Vector3d position = scan.T_world_sensor.translation();

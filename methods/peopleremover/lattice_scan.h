@@ -22,7 +22,6 @@ struct LatticeScan {
 
 /// Step 2.1 of the reference: drops near points, and puts the others on the lattice. Reuses the
 /// memory of `result`. @throws DataError if a point lies beyond the lattice.
-void put_on_lattice(const Scan& scan, const PeopleremoverParameters& parameters,
-                    LatticeScan& result);
+void put_on_lattice(const Scan& scan, const Parameters& parameters, LatticeScan& result);
 
 }  // namespace raymoval::peopleremover_method

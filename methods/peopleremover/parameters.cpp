@@ -3,12 +3,11 @@
 
 #include <cmath>
 
-namespace raymoval {
+namespace raymoval::peopleremover_method {
 namespace {
 
-using namespace peopleremover_method;
-using Table = ParameterTable<PeopleremoverParameters>;
-using P = PeopleremoverParameters;
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
 constexpr const char* kConstant = "a constant in 3DTK";
 
 Table make_table() {
@@ -59,17 +58,17 @@ Table make_table() {
 
 }  // namespace
 
-double PeopleremoverParameters::voxel_diagonal() const {
+double Parameters::voxel_diagonal() const {
   return std::sqrt(3.0) * voxel_size;
 }
 
-double PeopleremoverParameters::effective_minimum_range() const {
+double Parameters::effective_minimum_range() const {
   return minimum_range > 0.0 ? minimum_range : voxel_diagonal();
 }
 
-const ParameterTable<PeopleremoverParameters>& peopleremover_parameter_table() {
+const ParameterTable<Parameters>& parameter_table() {
   static const Table table = make_table();
   return table;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::peopleremover_method

@@ -3,8 +3,7 @@
 
 #include "core/parameters.h"
 
-namespace raymoval {
-namespace peopleremover_method {
+namespace raymoval::peopleremover_method {
 
 /// Where a beam ends.
 enum class MaxrangeMethod {
@@ -12,13 +11,10 @@ enum class MaxrangeMethod {
   kNormals,  ///< Where it meets the plane that lies one voxel diagonal in front of the surface.
 };
 
-}  // namespace peopleremover_method
-
 /// Parameters of the Peopleremover, named as the options of its public program (3DTK).
-struct PeopleremoverParameters {
+struct Parameters {
   double voxel_size = 0.2;
-  peopleremover_method::MaxrangeMethod maxrange_method =
-      peopleremover_method::MaxrangeMethod::kNormals;
+  MaxrangeMethod maxrange_method = MaxrangeMethod::kNormals;
   double fuzz = 0.0;
   int diff = 0;
   int min_cluster_size = 5;
@@ -36,6 +32,6 @@ struct PeopleremoverParameters {
 };
 
 /// Names, units, legal ranges, sources and a sentence for each parameter.
-const ParameterTable<PeopleremoverParameters>& peopleremover_parameter_table();
+const ParameterTable<Parameters>& parameter_table();
 
-}  // namespace raymoval
+}  // namespace raymoval::peopleremover_method

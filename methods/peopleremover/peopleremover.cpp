@@ -15,8 +15,7 @@
 #include "methods/peopleremover/thinning.h"
 #include "methods/peopleremover/traversal.h"
 
-namespace raymoval {
-namespace peopleremover_method {
+namespace raymoval::peopleremover_method {
 namespace {
 
 /// The voxels of one scan as words of a map's bricks; a brick may come more than once.
@@ -37,7 +36,7 @@ OwnVoxels own_voxels(const LatticeScan& scan, BrickFinder& finder) {
 /// The voxels of scan i and of those within `diff` of it, for one i after the other.
 class ScanWindow {
  public:
-  ScanWindow(const ScanSource& scans, const PeopleremoverParameters& parameters)
+  ScanWindow(const ScanSource& scans, const Parameters& parameters)
       : scans_(scans), parameters_(parameters), diff_(static_cast<std::size_t>(parameters.diff)) {}
 
   /// Marks the voxels of the window around scan `i`, whose points are `points`.
@@ -64,7 +63,7 @@ class ScanWindow {
   }
 
   const ScanSource& scans_;
-  const PeopleremoverParameters& parameters_;
+  const Parameters& parameters_;
   std::size_t diff_;
   std::deque<OwnVoxels> held_;
   std::size_t next_ = 0;
@@ -73,7 +72,7 @@ class ScanWindow {
 
 /// What a thread needs to follow the beams of a scan.
 struct BeamWorkspace {
-  BeamWorkspace(const PeopleremoverParameters& parameters, const BrickMap& map, FreedVoxels& freed)
+  BeamWorkspace(const Parameters& parameters, const BrickMap& map, FreedVoxels& freed)
       : ends(parameters), finder(map), own(map.size()), walker(map, freed, own) {}
   LatticeScan points;
   BeamEnds ends;
@@ -89,11 +88,10 @@ struct AnswerWorkspace {
   ScanVerdicts verdicts;
 };
 
-/// One run over a sequence. Scans are read again in each step, never held.
+/// One run over a sequence. Scans are read again in each step and never held.
 class Pass {
  public:
-  Pass(const PeopleremoverParameters& parameters, const ScanSource& scans,
-       const RunContext& context)
+  Pass(const Parameters& parameters, const ScanSource& scans, const RunContext& context)
       : parameters_(parameters), scans_(scans), context_(context) {}
 
   /// Steps 2.1 and 2.2: the voxels that hold a point of any scan.
@@ -193,12 +191,12 @@ class Pass {
     }
   }
 
-  const PeopleremoverParameters& parameters_;
+  const Parameters& parameters_;
   const ScanSource& scans_;
   const RunContext& context_;
 };
 
-void run(const PeopleremoverParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   Pass pass(parameters, scans, context);
   const BrickMap map = pass.collect_occupied();
@@ -208,10 +206,9 @@ void run(const PeopleremoverParameters& parameters, const ScanSource& scans, Rem
 }
 
 }  // namespace
-}  // namespace peopleremover_method
 
-std::unique_ptr<Remover> make_peopleremover(const PeopleremoverParameters& parameters) {
-  return remover_from(parameters, peopleremover_method::run);
+std::unique_ptr<Remover> make_peopleremover(const Parameters& parameters) {
+  return remover_from(parameters, run);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::peopleremover_method

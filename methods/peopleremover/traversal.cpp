@@ -31,7 +31,7 @@ struct BeamWalker::Beam {
   [[nodiscard]] double time_of(std::size_t axis, int wall) const {
     return (wall - start[axis]) * inverse[axis];
   }
-  /// When the beam leaves voxel `at` along `axis`; never from the last one.
+  /// When the beam leaves voxel `at` along `axis`. It never leaves the last one.
   [[nodiscard]] double leaves_voxel(std::size_t axis, int at) const {
     if (at == last[axis]) return kNever;
     return time_of(axis, step[axis] > 0 ? at + 1 : at);
@@ -42,15 +42,15 @@ struct BeamWalker::Beam {
   }
 };
 
-/// How the beam comes into a brick: across the wall of `axis` at `time`, and when it leaves.
-/// In the first brick `time` is below every other.
+/// How a beam comes into a brick: across the wall of `axis` at `time`. It leaves at `until`. In the
+/// first brick `time` is below every other time.
 struct BeamWalker::Entry {
   Triple brick;
   double time;
   std::size_t axis;
   double until;
 
-  /// Voxels that the beam can reach between both times, and a few others at most.
+  /// The voxels that the beam can reach between both times, and at most a few others.
   [[nodiscard]] BrickWord reach(const Beam& beam) const;
   /// Whether the wall crossed at `crossing` lies behind the beam as it comes in.
   [[nodiscard]] bool is_behind(double crossing, std::size_t of_axis) const {

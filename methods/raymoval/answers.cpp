@@ -43,7 +43,7 @@ Mask candidates_of(ScanAgainstMap& test, Scan scan, StaticMap& map, MapSource so
 
 }  // namespace
 
-void answer_from_map(StaticMap& map, const RaymovalParameters& parameters, const ScanSource& scans,
+void answer_from_map(StaticMap& map, const Parameters& parameters, const ScanSource& scans,
                      RemovalSink& sink, const RunContext& context) {
   if (context.reasons != nullptr) context.reasons->explain(answer_reasons());
   map.occupied().update_boxes(context.threads);  // From here on the map is only read.

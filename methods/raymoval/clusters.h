@@ -22,16 +22,17 @@ struct Extent {
   [[nodiscard]] double thinnest_side() const { return (high - low).minCoeff(); }
 };
 
-/// Component number of each voxel, from 0, in order of each component's first voxel. Two voxels are
+/// The component number of each voxel. Numbers begin at 0, in the order of the components' first
+/// voxels. Two voxels are
 /// joined if they lie within `gap` cells of each other (Chebyshev).
 std::vector<int> voxel_components(const std::vector<VoxelKey>& voxels, int gap);
 
-/// Group number of each element: clusters that have elements in a common component are one group,
-/// numbered by its lowest component.
+/// The group number of each element. Clusters that have elements in a common component are one
+/// group, numbered by its lowest component.
 std::vector<int> joined_groups(const std::vector<int>& cluster_of,
                                const std::vector<int>& component_of);
 
-/// Members of each of the numbered sets that has any, sets and members ascending.
+/// The members of each numbered set that has any. Sets and members are in ascending order.
 std::vector<std::vector<int>> members_of(const std::vector<int>& numbers);
 
 }  // namespace raymoval::raymoval_method

@@ -31,7 +31,7 @@ double grazing_distance(double vertical, double height, double limit);
 /// A bin through which a scan sees.
 struct SeenThrough {
   int bin;
-  float nearest_return;  ///< Of the bin's neighbourhood, metres.
+  float nearest_return;  ///< The nearest return in the bin's neighbourhood, metres.
 };
 
 /// The opposite case, "erase" in the paper's overview: bins through which the scan sees. The

@@ -55,7 +55,7 @@ MethodEntry raymoval_entry() {
       "m(r) falls with the square of the range and d(r) is constant: the paper gives no form.",
   };
   entry.variants = variants();
-  entry.bind(raymoval_parameter_table(), make_raymoval);
+  entry.bind(raymoval_method::parameter_table(), raymoval_method::make_raymoval);
   return entry;
 }
 

@@ -14,7 +14,7 @@ namespace {
 /// wherever the surface goes on. Beams more than half a degree apart are no witnesses for each
 /// other: at 20 m that is 17 cm, about a voxel.
 int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
-                   const RaymovalParameters& parameters) {
+                   const Parameters& parameters) {
   if (parameters.erase_elevation_window >= 0) return parameters.erase_elevation_window;
   constexpr double kFarthest = 0.5 * std::numbers::pi / 180.0;
   const double step =
@@ -24,7 +24,7 @@ int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
 
 }  // namespace
 
-EvidenceFinder::EvidenceFinder(const RaymovalParameters& parameters, const SensorModel& sensor,
+EvidenceFinder::EvidenceFinder(const Parameters& parameters, const SensorModel& sensor,
                                const AngularGrid& grid)
     : parameters_(parameters),
       sensor_(sensor),

@@ -19,8 +19,7 @@ struct Evidence {
 class EvidenceFinder {
  public:
   /// @param parameters and `sensor` must outlive this
-  EvidenceFinder(const RaymovalParameters& parameters, const SensorModel& sensor,
-                 const AngularGrid& grid);
+  EvidenceFinder(const Parameters& parameters, const SensorModel& sensor, const AngularGrid& grid);
 
   /// Both kinds of evidence are read off the same map before any of it is erased.
   /// @param scan with its references found
@@ -35,12 +34,13 @@ class EvidenceFinder {
   std::vector<VoxelIndex> voxels_without_return(const ScanAgainstMap& scan, const OccupancyMap& map,
                                                 int threads);
 
-  const RaymovalParameters& parameters_;
+  const Parameters& parameters_;
   const SensorModel& sensor_;
   int erase_rows_;
   VoxelMap<int> scans_without_return_;
-  // Of the present scan; kept for their memory.
-  std::vector<std::uint32_t> number_of_;  ///< Of each brick that may be seen through; else 0.
+  // These belong to the scan at hand and are kept for their memory.
+  std::vector<std::uint32_t> number_of_;  ///< Of each brick: its number in `bricks` plus one, or 0
+                                          ///< if no ray passes through it in this scan.
   std::vector<float> nearest_return_;
 };
 

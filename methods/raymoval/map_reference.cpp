@@ -94,7 +94,7 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
 
 namespace {
 
-/// For grids too narrow for vectors.
+/// The same for grids that are too narrow for vectors.
 void slow_windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
                            int azimuth_radius, int elevation_radius, std::vector<float>& minimum) {
   for (int bin = 0; bin < grid.size(); ++bin) {

@@ -15,8 +15,8 @@ namespace raymoval::raymoval_method {
 float percentile_of_sorted(const float* sorted, int count, double quantile);
 
 /// Eqs 8-9: for each bin the `quantile` of the finite values in the (2 radius + 1)^2 window around
-/// it. The azimuth wraps around; rows beyond the grid do not count. Infinite where the window has
-/// no finite value.
+/// it. The azimuth wraps around; rows beyond the grid do not count. The result is infinite where
+/// the window has no finite value.
 std::vector<float> windowed_percentile(const std::vector<float>& values, const AngularGrid& grid,
                                        int radius, double quantile, int threads);
 
@@ -25,15 +25,15 @@ struct WindowPercentiles {
   std::vector<float> first, second;
 };
 
-/// Eqs 8-9 as `windowed_percentile`, for two quantiles at once and only for the bins where `wanted`
-/// is finite; what the others hold means nothing.
+/// Eqs 8-9 as in `windowed_percentile`, for two quantiles at once and only for the bins where
+/// `wanted` is finite. The values of the other bins mean nothing.
 /// @param percentiles replaced; their memory is used again
 void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
                           const AngularGrid& grid, int radius,
                           const std::array<double, 2>& quantiles, int threads,
                           WindowPercentiles& percentiles);
 
-/// Smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
+/// The smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
 /// @param minimum replaced; its memory is used again
 void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
                       int elevation_radius, int threads, std::vector<float>& minimum);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval/parameters.h"
 
-namespace raymoval {
+namespace raymoval::raymoval_method {
 namespace {
 
-using namespace raymoval_method;
-using Table = ParameterTable<RaymovalParameters>;
-using P = RaymovalParameters;
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
 constexpr const char* kOurs = "not in the paper";
 // When parameters act.
 constexpr const char* kForward = "forward_test is true and map_source is not naive";
@@ -185,7 +184,7 @@ void add_answer(Table& table) {
 
 }  // namespace
 
-const ParameterTable<RaymovalParameters>& raymoval_parameter_table() {
+const ParameterTable<Parameters>& parameter_table() {
   static const Table table = [] {
     Table t;
     add_grid(t);
@@ -198,4 +197,4 @@ const ParameterTable<RaymovalParameters>& raymoval_parameter_table() {
   return table;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

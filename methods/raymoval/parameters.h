@@ -3,22 +3,19 @@
 
 #include "core/parameters.h"
 
-namespace raymoval {
-namespace raymoval_method {
+namespace raymoval::raymoval_method {
 
 /// Which map a scan is tested against by eq. 11 (the paper says "prior map" and "static map").
 enum class MapSource {
-  kPrior,    ///< All points of all scans, less what any scan sees through; offline only.
+  kPrior,    ///< All points of all scans without what any scan sees through; offline only.
   kGrowing,  ///< The points of earlier scans that were judged static.
   kNaive,  ///< All points of all scans: each is its own first hit, so eq. 11 says nothing, and the
            ///< answer is what the scans see through; offline only.
 };
 
-}  // namespace raymoval_method
-
 /// Parameters of the paper's method. What the paper prints is named in the table of
 /// parameters.cpp; every other member settles something the paper leaves open.
-struct RaymovalParameters {
+struct Parameters {
   // Angular grid (eqs 2-5).
   int azimuth_bins = 720;
   int elevation_bins = 450;
@@ -27,7 +24,7 @@ struct RaymovalParameters {
   double voxel_size = 0.2;
   double maximum_range = 60.0;
   double minimum_range = 2.7;
-  raymoval_method::MapSource map_source = raymoval_method::MapSource::kPrior;
+  MapSource map_source = MapSource::kPrior;
   // Map reference (eqs 8-9).
   int neighbourhood = 1;
   double percentile = 0.9;
@@ -73,6 +70,6 @@ struct RaymovalParameters {
 };
 
 /// Names, units, legal ranges, sources and a sentence for each parameter.
-const ParameterTable<RaymovalParameters>& raymoval_parameter_table();
+const ParameterTable<Parameters>& parameter_table();
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

@@ -11,15 +11,13 @@
 #include "methods/raymoval/scan_against_map.h"
 #include "methods/raymoval/static_map.h"
 
-namespace raymoval {
-namespace raymoval_method {
+namespace raymoval::raymoval_method {
 namespace {
 
 /// One run: the map, and the scans that make it.
 class RaymovalRun {
  public:
-  RaymovalRun(const RaymovalParameters& parameters, const ScanSource& scans,
-              const RunContext& context)
+  RaymovalRun(const Parameters& parameters, const ScanSource& scans, const RunContext& context)
       : parameters_(parameters),
         scans_(scans),
         context_(context),
@@ -122,7 +120,7 @@ class RaymovalRun {
     for_each_scan("raymoval, backward", scans_, all_scans_backward(scans_), context_, visit);
   }
 
-  const RaymovalParameters& parameters_;
+  const Parameters& parameters_;
   const ScanSource& scans_;
   const RunContext& context_;
   StaticMap map_;
@@ -131,7 +129,7 @@ class RaymovalRun {
   std::vector<VoxelIndex> voxels_;  ///< Of the scan at hand, while the naive map is collected.
 };
 
-void run(const RaymovalParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   RaymovalRun raymoval_run(parameters, scans, context);
   if (parameters.offline) {
@@ -142,16 +140,14 @@ void run(const RaymovalParameters& parameters, const ScanSource& scans, RemovalS
 }
 
 }  // namespace
-}  // namespace raymoval_method
 
-std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters) {
-  using raymoval_method::MapSource;
+std::unique_ptr<Remover> make_raymoval(const Parameters& parameters) {
   if (!parameters.offline && parameters.map_source != MapSource::kGrowing) {
     throw ConfigurationError(
         "raymoval.map_source = prior and naive need all scans, which an online run (offline = "
         "false) does not have; use map_source = growing.");
   }
-  return remover_from(parameters, raymoval_method::run);
+  return remover_from(parameters, run);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_method

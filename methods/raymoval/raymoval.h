@@ -7,10 +7,13 @@
 #include "methods/raymoval/parameters.h"
 
 namespace raymoval {
+namespace raymoval_method {
 
 /// "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping".
 /// @throws ConfigurationError if the map that is asked for needs all scans, but the run is online
-std::unique_ptr<Remover> make_raymoval(const RaymovalParameters& parameters);
+std::unique_ptr<Remover> make_raymoval(const Parameters& parameters);
+
+}  // namespace raymoval_method
 
 MethodEntry raymoval_entry();
 

@@ -21,7 +21,7 @@ int bins_of(double width, double step, int otherwise, double most) {
 
 }  // namespace
 
-AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parameters) {
+AngularGrid grid_for(const SensorModel& sensor, const Parameters& parameters) {
   const double margin = parameters.elevation_margin * std::numbers::pi / 180.0;
   AngularGrid grid;
   grid.elevation_min = std::max(sensor.elevation_min - margin, -std::numbers::pi / 2.0);
@@ -39,7 +39,7 @@ AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parame
   return grid;
 }
 
-ScanAgainstMap::ScanAgainstMap(const RaymovalParameters& parameters, const SensorModel& sensor)
+ScanAgainstMap::ScanAgainstMap(const Parameters& parameters, const SensorModel& sensor)
     : parameters_(parameters),
       grid_(grid_for(sensor, parameters)),
       caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {

@@ -14,7 +14,7 @@
 namespace raymoval::raymoval_method {
 
 /// The grid of directions that `parameters` ask for with this sensor (eq. 2).
-AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parameters);
+AngularGrid grid_for(const SensorModel& sensor, const Parameters& parameters);
 
 /// One scan against a map: the steps of section 3 in their order, each of which needs those before
 /// it. It keeps its memory from scan to scan; each thread at work needs one of its own.
@@ -22,19 +22,19 @@ AngularGrid grid_for(const SensorModel& sensor, const RaymovalParameters& parame
 class ScanAgainstMap {
  public:
   /// @param parameters must outlive this
-  ScanAgainstMap(const RaymovalParameters& parameters, const SensorModel& sensor);
+  ScanAgainstMap(const Parameters& parameters, const SensorModel& sensor);
 
-  /// Eqs 1-3 and 10; also finds the voxel of each point.
+  /// Eqs 1-3 and 10. It also finds the voxel of each point.
   void project_scan(Scan scan, const RunContext& context);
-  /// Eqs 4-7. Changes nothing of a map whose boxes are up to date.
+  /// Eqs 4-7. It changes nothing of a map whose boxes are up to date.
   void cast_first_hits(OccupancyMap& map, const RunContext& context);
-  /// Eqs 8-9, for both tests, where the scan has a return; looks the points' voxels up.
+  /// Eqs 8-9 for both tests, where the scan has a return. It also looks the points' voxels up.
   void find_references(const StaticMap& map, const RunContext& context);
   /// Eq. 11, and the erase cases of Fig. 1: points in voxels that a scan saw through.
   [[nodiscard]] Mask find_candidates(const RunContext& context) const;
   /// Takes a scan and finds its points whose voxel is not in the map.
   [[nodiscard]] Mask find_off_map(Scan scan, const StaticMap& map, const RunContext& context);
-  /// Eqs 12-15; the candidates themselves if they are not to be validated.
+  /// Eqs 12-15. It gives back the candidates themselves if they are not to be validated.
   [[nodiscard]] Mask validate(const Mask& candidates, const OccupancyMap& static_map) const;
 
   [[nodiscard]] const Scan& scan() const { return scan_; }
@@ -43,7 +43,7 @@ class ScanAgainstMap {
   [[nodiscard]] const FirstHitImage& first_hit() const { return first_hit_; }
   /// d_map of the erase test.
   [[nodiscard]] const std::vector<float>& erase_reference() const { return references_.second; }
-  /// Of each point, in the world lattice.
+  /// The voxel of each point in the world lattice.
   [[nodiscard]] const std::vector<VoxelIndex>& voxels() const { return voxels_; }
   /// What the map knew of each point's voxel when it was looked up.
   [[nodiscard]] const VoxelLookup& known() const { return known_; }
@@ -52,7 +52,7 @@ class ScanAgainstMap {
   /// Whether what was seen through says something about the points that lie there.
   [[nodiscard]] bool erased_points_are_candidates() const;
 
-  const RaymovalParameters& parameters_;
+  const Parameters& parameters_;
   AngularGrid grid_;
   FirstHitCaster caster_;
   Scan scan_;

@@ -10,12 +10,12 @@ namespace raymoval::raymoval_method {
 enum class VoxelState : std::uint8_t {
   kEmpty,
   kOccupied,
-  kErased,  ///< Seen through, and not filled again.
+  kErased,  ///< A scan saw through it, and it was not filled again.
 };
 
 /// What a map knows of the voxels of a scan's points.
 struct VoxelLookup {
-  std::vector<OccupancyMap::Slot> slots;  ///< Bricks; kNoBrick where there is none.
+  std::vector<OccupancyMap::Slot> slots;  ///< The brick of each voxel; kNoBrick if there is none.
   std::vector<VoxelState> states;
 
   /// A brick that was found before. Points of the same part of a scan see much the same bricks from
@@ -24,8 +24,9 @@ struct VoxelLookup {
     VoxelKey key = ~VoxelKey{0};
     OccupancyMap::Slot slot = OccupancyMap::kNoBrick;
   };
-  bool remembers = false;                       ///< For look-ups scan after scan in one map.
-  std::vector<std::vector<KnownBrick>> bricks;  ///< By part of the scan, then by place.
+  bool remembers = false;  ///< True for look-ups scan after scan in one map.
+  std::vector<std::vector<KnownBrick>>
+      bricks;  ///< The bricks found before, by part of the scan, then by place.
 };
 
 /// The map M of the paper with what it must remember: which voxels were seen
@@ -78,7 +79,7 @@ class StaticMap {
 
   OccupancyMap occupied_;
   bool permanent_erase_;
-  /// Erased voxels of each brick: number in `erased_`. Few bricks have any.
+  /// Where the erased voxels of each brick are in `erased_`. Few bricks have any.
   std::vector<std::uint32_t> erased_of_;
   std::vector<Brick> erased_;
 };

@@ -40,14 +40,14 @@ double thinnest_voxel_side(const std::vector<int>& members, const ScanPoints& po
 
 /// m_min and d_min: whether a cluster's remainder is large enough to be an object.
 bool is_large_enough(const std::vector<int>& cluster, const ScanPoints& points,
-                     const RaymovalParameters& parameters) {
+                     const Parameters& parameters) {
   return static_cast<int>(cluster.size()) >= parameters.minimum_points &&
          extent_of(cluster, points).width() >= parameters.minimum_width;
 }
 
 /// Eqs 14-15: 1 for each member of a group that is dynamic.
 Mask check_groups(const std::vector<int>& group_of, const ScanPoints& points,
-                  const OccupancyMap& static_map, const RaymovalParameters& parameters) {
+                  const OccupancyMap& static_map, const Parameters& parameters) {
   Mask in_dynamic_group(points.size(), 0);
   for (const std::vector<int>& group : members_of(group_of)) {
     const double covered = coverage(group, points, static_map, parameters.coverage_dilation);
@@ -77,17 +77,17 @@ std::vector<VoxelKey> keys_of(const std::vector<VoxelIndex>& voxels) {
 
 }  // namespace
 
-double cluster_points_at(double range, const RaymovalParameters& parameters) {
+double cluster_points_at(double range, const Parameters& parameters) {
   const double shrink = 10.0 / std::max(range, 1.0);
   return std::max(3.0, parameters.cluster_points * shrink * shrink);
 }
 
-double cluster_width_at(double /*range*/, const RaymovalParameters& parameters) {
+double cluster_width_at(double /*range*/, const Parameters& parameters) {
   return parameters.cluster_width;
 }
 
 bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& points,
-                           const RaymovalParameters& parameters) {
+                           const Parameters& parameters) {
   const double range = median_range(members, points);
   return static_cast<double>(members.size()) >= cluster_points_at(range, parameters) &&
          extent_of(members, points).width() >= cluster_width_at(range, parameters);
@@ -106,8 +106,7 @@ double coverage(const std::vector<int>& members, const ScanPoints& points,
   return members.empty() ? 0.0 : inside / static_cast<double>(members.size());
 }
 
-bool belongs_to_static(double group_coverage, double thinnest_side,
-                       const RaymovalParameters& parameters) {
+bool belongs_to_static(double group_coverage, double thinnest_side, const Parameters& parameters) {
   constexpr double kRounding = 1e-9;  // Sides are multiples of the voxel size.
   return group_coverage >= parameters.coverage_static ||
          (group_coverage >= parameters.coverage_edge &&
@@ -140,8 +139,7 @@ double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const Oc
 }
 
 std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
-                                     const OccupancyMap& static_map,
-                                     const RaymovalParameters& parameters) {
+                                     const OccupancyMap& static_map, const Parameters& parameters) {
   if (parameters.support_share >= 1.0) return cluster;  // Nothing is supported, as documented.
   OccupancyMap removed(static_map.voxel_size());
   for (const int member : cluster) removed.insert(points.voxel[at(member)]);
@@ -159,7 +157,7 @@ std::vector<int> unsupported_members(const std::vector<int>& cluster, const Scan
 }
 
 Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& static_map,
-                         const RaymovalParameters& parameters) {
+                         const Parameters& parameters) {
   std::vector<int> screened;
   const std::vector<int> cluster_numbers = range_adaptive_clusters(
       candidates.position, candidates.range, parameters.cluster_gap, parameters.cluster_gap_growth);

@@ -15,39 +15,37 @@ namespace raymoval::raymoval_method {
 struct ScanPoints {
   std::vector<Eigen::Vector3d> position;  ///< World, metres.
   std::vector<VoxelIndex> voxel;
-  std::vector<double> range;  ///< From the sensor, metres.
+  std::vector<double> range;  ///< The distance from the sensor, metres.
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
 /// m(r) of eq. 13: points a cluster at range r needs, `cluster_points` at 10 m, falling with the
 /// square of the range as the solid angle of an object does, at least 3.
-double cluster_points_at(double range, const RaymovalParameters& parameters);
+double cluster_points_at(double range, const Parameters& parameters);
 
 /// d(r) of eq. 13: width a cluster at range r needs, metres; the same at all ranges.
-double cluster_width_at(double range, const RaymovalParameters& parameters);
+double cluster_width_at(double range, const Parameters& parameters);
 
 /// Eqs 12-13: whether a cluster is large enough to be an object.
 bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& points,
-                           const RaymovalParameters& parameters);
+                           const Parameters& parameters);
 
-/// Eq. 14: share of `members` that lie within `dilation` voxels of the static map.
+/// Eq. 14: the share of `members` that lies within `dilation` voxels of the static map.
 double coverage(const std::vector<int>& members, const ScanPoints& points,
                 const OccupancyMap& static_map, int dilation);
 
 /// Eq. 15: whether a group belongs to the static map after all. @param thinnest_side metres
-bool belongs_to_static(double group_coverage, double thinnest_side,
-                       const RaymovalParameters& parameters);
+bool belongs_to_static(double group_coverage, double thinnest_side, const Parameters& parameters);
 
-/// Share of static voxels among the static and the removed ones within `dilation` cells of `voxel`
-/// (itself included); 0 where there are none.
+/// The share of static voxels among the static and the removed ones within `dilation` cells of
+/// `voxel` (itself included). It is 0 where there are none.
 double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const OccupancyMap& removed,
                int dilation);
 
 /// Members of a dynamic cluster that do not stand among static voxels: their support, with the
 /// cluster's own voxels as the removed ones, is below `support_share`.
 std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
-                                     const OccupancyMap& static_map,
-                                     const RaymovalParameters& parameters);
+                                     const OccupancyMap& static_map, const Parameters& parameters);
 
 /// Spatial consistency validation of a scan's candidates (section 3 of the paper): range-adaptive
 /// clusters, screens (12-13), groups of neighbouring clusters against the static map (14-15), then
@@ -55,6 +53,6 @@ std::vector<int> unsupported_members(const std::vector<int>& cluster, const Scan
 /// narrower than minimum_width.
 /// @return 1 for each candidate that stays dynamic
 Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& static_map,
-                         const RaymovalParameters& parameters);
+                         const Parameters& parameters);
 
 }  // namespace raymoval::raymoval_method

@@ -3,14 +3,14 @@
 #include "methods/raymoval_plus/raymoval_plus.h"
 
 #include "core/scan/mask_store.h"
+#include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
 #include "methods/raymoval_plus/evidence/vote.h"
 #include "methods/raymoval_plus/objects/objects.h"
 #include "methods/raymoval_plus/objects/reasons.h"
 
-namespace raymoval {
-namespace raymoval_plus_method {
+namespace raymoval::raymoval_plus_method {
 namespace {
 
 Mask removed_points(const Verdicts& verdicts) {
@@ -106,18 +106,18 @@ class Run {
       unmarked.set(segmented.scan.index, removed_points(decided));
     });
     const auto marked = objects_on_tracks(objects, parameters_, context_);  // 7
-    context_.begin_pass("raymoval_plus, answers", scans_.size());
+    std::vector<std::size_t> again;  // Scans whose answer changes, or needs its reasons.
     for (std::size_t i = 0; i < scans_.size(); ++i) {
-      context_.check_cancelled();
       if (marked[i].empty() && context_.reasons == nullptr) {
         sink_.accept(i, unmarked.get(i));
       } else {
-        Scan scan = scans_.load(i);
-        const ScanScope timed(context_.times, i);
-        answer(segment(locate_scan(std::move(scan))), marked[i]);  // 6 to 8
+        again.push_back(i);
       }
-      context_.advance();
     }
+    for_each_scan("raymoval_plus, answers", scans_, again, context_, [&](Scan scan) {
+      const std::size_t index = scan.index;
+      answer(segment(locate_scan(std::move(scan))), marked[index]);  // 6 to 8
+    });
   }
 
   LocatedScan add_voxels(WorldScan world) {
@@ -151,55 +151,23 @@ class Run {
   EarlierScans earlier_scans_;
 };
 
-class RaymovalPlusRemover : public Remover {
- public:
-  explicit RaymovalPlusRemover(const Parameters& parameters) : parameters_(parameters) {}
-
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
-    Run steps(parameters_, scans, sink, context);
-    if (parameters_.at_once) {
-      steps.online();
-    } else if (parameters_.one_pass) {
-      steps.online_map();
-    } else {
-      steps.offline();
-    }
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
+  Run steps(parameters, scans, sink, context);
+  if (parameters.at_once) {
+    steps.online();
+  } else if (parameters.one_pass) {
+    steps.online_map();
+  } else {
+    steps.offline();
   }
-
- private:
-  Parameters parameters_;
-};
+}
 
 }  // namespace
 
 std::unique_ptr<Remover> make_raymoval_plus(const Parameters& parameters) {
-  return std::make_unique<RaymovalPlusRemover>(parameters);
+  return remover_from(parameters, run);
 }
 
-}  // namespace raymoval_plus_method
-
-MethodEntry raymoval_plus_entry() {
-  using namespace raymoval_plus_method;
-  MethodEntry entry;
-  entry.name = "raymoval_plus";
-  entry.sentence =
-      "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
-  entry.source = "this project";
-  entry.version = "4";
-  entry.parameters = parameter_table().specs();
-  entry.variants = {
-      {"offline", "Every point answered from all scans.", false, {}},
-      {"online", "Each scan answered when it comes.", true, {{"at_once", true}}},
-      {"online-map",
-       "One pass as the scans come, every point answered by the map as it is in the end.",
-       false,
-       {{"one_pass", true}}},
-  };
-  entry.make = [](const Configuration& configuration) {
-    return make_raymoval_plus(parameter_table().read(configuration));
-  };
-  return entry;
-}
-
-}  // namespace raymoval
+}  // namespace raymoval::raymoval_plus_method

@@ -38,7 +38,7 @@ class CellAnswer : public Answer {
   VoxelSet removed_;
 };
 
-/// For points some of which are in no cell of the map: holds every cell's centroid.
+/// Answers for points some of which are in no cell of the map. It holds every cell's centroid.
 class NearCellAnswer : public Answer {
  public:
   NearCellAnswer(const CellLattice& lattice, const MapPoints& kept, const MapPoints& removed)

@@ -63,7 +63,7 @@ MethodEntry removert_entry() {
       "is empty.",
   };
   entry.variants = variants();
-  entry.bind(removert_parameter_table(), make_removert);
+  entry.bind(removert_method::parameter_table(), removert_method::make_removert);
   return entry;
 }
 

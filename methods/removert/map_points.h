@@ -19,7 +19,7 @@ struct Ball {
 /// Map points in a cube of the world lattice.
 struct Block {
   VoxelKey key = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Of the cube, world frame, metres.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< The cube's centre, world frame, metres.
   std::size_t begin = 0, end = 0;                    ///< Its points.
   Ball ball;
 };
@@ -55,15 +55,15 @@ MapPoints take_points(MapPoints& points, const std::vector<std::uint8_t>& taken)
 MapPoints united(const MapPoints& a, const MapPoints& b);
 
 /// Cells of the map: cubes of `voxel` metres of the world lattice, in blocks of about 0.8 m.
-/// With voxel = 0 each point is its own.
+/// With voxel = 0 each point is a cell of its own.
 class CellLattice {
  public:
   explicit CellLattice(double voxel);
 
   struct Place {
     VoxelKey block;
-    std::uint32_t cell;  ///< Within the block; 0 if each point is its own.
-    VoxelIndex index;    ///< Of the cell in the world lattice.
+    std::uint32_t cell;  ///< The cell within the block; 0 if each point is a cell of its own.
+    VoxelIndex index;    ///< The cell in the world lattice.
   };
   /// @throws DataError beyond the lattice
   [[nodiscard]] Place place_of(const Eigen::Vector3d& world) const;
@@ -97,7 +97,7 @@ class MapBuilder {
  private:
   struct Entry {
     std::uint32_t id;
-    Eigen::Vector3f sum;  ///< Of offsets from the cell's centre.
+    Eigen::Vector3f sum;  ///< The sum of the offsets from the cell's centre, metres.
     std::uint32_t count;
   };
   struct OpenBlock {

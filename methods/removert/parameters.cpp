@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "methods/removert/parameters.h"
 
-namespace raymoval {
+namespace raymoval::removert_method {
 namespace {
 
-using namespace removert_method;
-using Table = ParameterTable<RemovertParameters>;
-using P = RemovertParameters;
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
 constexpr const char* kOurs = "not in the paper";
 constexpr const char* kCode = "public code";
 constexpr const char* kList = "KITTI settings of the ROS-free port";
@@ -21,21 +20,23 @@ void add_passes(Table& table) {
       .number("remove_resolution_1", &P::remove_resolution_1,
               {kUnit, 0, 20, kList, "Pixels per degree of the first remove pass; 0: no pass."})
       .number("remove_resolution_2", &P::remove_resolution_2,
-              {kUnit, 0, 20, kList, "Of the second remove pass; usually coarser than the first."})
+              {kUnit, 0, 20, kList,
+               "Pixels per degree of the second remove pass, usually fewer than of the first; 0: "
+               "no pass."})
       .number("remove_resolution_3", &P::remove_resolution_3,
-              {kUnit, 0, 20, kList, "Of the third remove pass."})
+              {kUnit, 0, 20, kList, "Pixels per degree of the third remove pass; 0: no pass."})
       .number("remove_resolution_4", &P::remove_resolution_4,
-              {kUnit, 0, 20, kOurs, "Of a fourth remove pass."})
+              {kUnit, 0, 20, kOurs, "Pixels per degree of a fourth remove pass; 0: no pass."})
       .number("revert_resolution_1", &P::revert_resolution_1,
               {kUnit, 0, 20, kRevertList,
                "Pixels per degree of the first revert pass, below the last remove pass's; 0: no "
-               "pass. Smaller: more points come back."})
+               "pass. With fewer pixels more points come back."})
       .number("revert_resolution_2", &P::revert_resolution_2,
-              {kUnit, 0, 20, kCode, "Of a second revert pass."})
+              {kUnit, 0, 20, kCode, "Pixels per degree of a second revert pass; 0: no pass."})
       .number("revert_resolution_3", &P::revert_resolution_3,
-              {kUnit, 0, 20, kCode, "Of a third revert pass."})
+              {kUnit, 0, 20, kCode, "Pixels per degree of a third revert pass; 0: no pass."})
       .number("revert_resolution_4", &P::revert_resolution_4,
-              {kUnit, 0, 20, kCode, "Of a fourth revert pass."});
+              {kUnit, 0, 20, kCode, "Pixels per degree of a fourth revert pass; 0: no pass."});
 }
 
 void add_test(Table& table) {
@@ -138,17 +139,17 @@ std::vector<double> positive(std::initializer_list<double> resolutions) {
 
 }  // namespace
 
-std::vector<double> RemovertParameters::remove_resolutions() const {
+std::vector<double> Parameters::remove_resolutions() const {
   return positive(
       {remove_resolution_1, remove_resolution_2, remove_resolution_3, remove_resolution_4});
 }
 
-std::vector<double> RemovertParameters::revert_resolutions() const {
+std::vector<double> Parameters::revert_resolutions() const {
   return positive(
       {revert_resolution_1, revert_resolution_2, revert_resolution_3, revert_resolution_4});
 }
 
-const ParameterTable<RemovertParameters>& removert_parameter_table() {
+const ParameterTable<Parameters>& parameter_table() {
   static const Table table = [] {
     Table t;
     add_passes(t);
@@ -161,4 +162,4 @@ const ParameterTable<RemovertParameters>& removert_parameter_table() {
   return table;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::removert_method

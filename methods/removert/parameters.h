@@ -5,8 +5,7 @@
 
 #include "core/parameters.h"
 
-namespace raymoval {
-namespace removert_method {
+namespace raymoval::removert_method {
 
 enum class DifferenceRule {
   kSigned,    ///< Only map points in front of the scan's return are dynamic.
@@ -18,11 +17,9 @@ enum class DecisionRule {
   kScore,  ///< Weighed counts of scans for and against.
 };
 
-}  // namespace removert_method
-
-/// See `removert_parameter_table` for units, ranges and sources. A resolution of 0 leaves its pass
+/// See `parameter_table` for units, ranges and sources. A resolution of 0 leaves its pass
 /// out.
-struct RemovertParameters {
+struct Parameters {
   double remove_resolution_1 = 2.5;
   double remove_resolution_2 = 2.2;
   double remove_resolution_3 = 2.0;
@@ -35,7 +32,7 @@ struct RemovertParameters {
   double gamma = 0.05;
   double tau_abs = 0.0;
   double diff_upper = 200.0;
-  removert_method::DifferenceRule difference = removert_method::DifferenceRule::kSigned;
+  DifferenceRule difference = DifferenceRule::kSigned;
 
   double vertical_fov = 50.0;
   double horizontal_fov = 360.0;
@@ -43,7 +40,7 @@ struct RemovertParameters {
   bool wrap_azimuth = true;
   bool world_axes = false;
 
-  removert_method::DecisionRule decision = removert_method::DecisionRule::kAny;
+  DecisionRule decision = DecisionRule::kAny;
   double static_weight = 0.3;
   double dynamic_weight = 0.7;
   double static_score = -0.1;
@@ -64,6 +61,6 @@ struct RemovertParameters {
   [[nodiscard]] std::vector<double> revert_resolutions() const;
 };
 
-const ParameterTable<RemovertParameters>& removert_parameter_table();
+const ParameterTable<Parameters>& parameter_table();
 
-}  // namespace raymoval
+}  // namespace raymoval::removert_method

@@ -37,7 +37,7 @@ inline float angle_in_quadrant(float a, float b) {
 
 }  // namespace
 
-PixelGrid::PixelGrid(const RemovertParameters& parameters, double resolution)
+PixelGrid::PixelGrid(const Parameters& parameters, double resolution)
     : rows_(std::max(1, static_cast<int>(std::lround(parameters.vertical_fov * resolution)))),
       columns_(std::max(1, static_cast<int>(std::lround(parameters.horizontal_fov * resolution)))),
       row_scale_(rows_ / (parameters.vertical_fov * kRadiansPerDegree)),

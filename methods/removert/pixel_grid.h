@@ -9,8 +9,10 @@
 
 namespace raymoval::removert_method {
 
-inline constexpr int kOutside = -1;    ///< In no pixel: outside the field of view.
-inline constexpr int kAmbiguous = -2;  ///< Too near a pixel's border to tell in single precision.
+inline constexpr int kOutside =
+    -1;  ///< The point is in no pixel: it lies outside the field of view.
+inline constexpr int kAmbiguous =
+    -2;  ///< The point is too near a pixel's border to tell in single precision.
 
 /// Pixels of a range image: rows from the top of the field of view down, columns with the azimuth
 /// from behind the sensor (-180 deg) counter-clockwise; pixel = row * columns + column.
@@ -20,7 +22,7 @@ inline constexpr int kAmbiguous = -2;  ///< Too near a pixel's border to tell in
 class PixelGrid {
  public:
   /// R = round(V * resolution), C = round(H * resolution).
-  PixelGrid(const RemovertParameters& parameters, double resolution);
+  PixelGrid(const Parameters& parameters, double resolution);
 
   [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] int columns() const { return columns_; }
@@ -92,8 +94,8 @@ class PixelGrid {
   float margin_;  ///< Pixels.
 };
 
-/// Up to `kSize` points of the sensor frame with their place in a grid, single precision, in
-/// arrays that a compiler can work on several at a time.
+/// Up to `kSize` points of the sensor frame with their places in a grid, in single precision. A
+/// compiler can work on several elements of the arrays at a time.
 struct PointBatch {
   static constexpr int kSize = 128;
   float x[kSize], y[kSize], z[kSize];             ///< In: sensor frame, metres.

@@ -13,8 +13,7 @@
 #include "methods/removert/scan_image.h"
 #include "methods/removert/visibility.h"
 
-namespace raymoval {
-namespace removert_method {
+namespace raymoval::removert_method {
 namespace {
 
 /// Centroids of the scan's points in cubes of `voxel` metres of the sensor frame, in order of first
@@ -33,7 +32,7 @@ std::vector<Eigen::Vector3f> thinned(std::vector<Eigen::Vector3f> points, double
 /// Remove, then revert, for scans [begin, end) of the input.
 class RemovertBatch {
  public:
-  RemovertBatch(const RemovertParameters& parameters, const ScanSource& scans, std::size_t begin,
+  RemovertBatch(const Parameters& parameters, const ScanSource& scans, std::size_t begin,
                 std::size_t end, const RunContext& context)
       : parameters_(parameters),
         scans_(scans),
@@ -164,15 +163,16 @@ class RemovertBatch {
                           });
   }
 
-  const RemovertParameters& parameters_;
+  const Parameters& parameters_;
   const ScanSource& scans_;
   std::size_t begin_, end_;
   const RunContext& context_;
   CellLattice lattice_;
-  std::vector<std::uint64_t> first_number_;  ///< Of each scan's first point, if all are in the map.
+  std::vector<std::uint64_t> first_number_;  ///< The number of each scan's first point, if all
+                                             ///< points are in the map.
 };
 
-void run(const RemovertParameters& parameters, const ScanSource& scans, RemovalSink& sink,
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   const std::size_t batch =
       parameters.batch_scans == 0 ? scans.size() : static_cast<std::size_t>(parameters.batch_scans);
@@ -183,9 +183,8 @@ void run(const RemovertParameters& parameters, const ScanSource& scans, RemovalS
 }
 
 }  // namespace
-}  // namespace removert_method
 
-std::unique_ptr<Remover> make_removert(const RemovertParameters& parameters) {
+std::unique_ptr<Remover> make_removert(const Parameters& parameters) {
   if (parameters.map_voxel > 0.0 && parameters.map_voxel < 0.01) {
     throw ConfigurationError(
         "removert.map_voxel is below 0.01 m; give 0 to keep every point, or at least 0.01.");
@@ -195,7 +194,7 @@ std::unique_ptr<Remover> make_removert(const RemovertParameters& parameters) {
         "removert.map_voxel = 0 answers for the points of the map only; points left out by "
         "keyframe_gap or scan_voxel need a voxel size, such as 0.05.");
   }
-  return remover_from(parameters, removert_method::run);
+  return remover_from(parameters, run);
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::removert_method

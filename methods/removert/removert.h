@@ -7,6 +7,7 @@
 #include "methods/removert/parameters.h"
 
 namespace raymoval {
+namespace removert_method {
 
 /// The method of "Remove, then Revert: Static Point cloud Map Construction using Multiresolution
 /// Range Images" (Kim and Kim, IROS 2020), written from its description; nothing of the public
@@ -15,9 +16,11 @@ namespace raymoval {
 /// What was decided where the paper's programs disagree or are silent is listed in the entry's
 /// `notes`. Of the map only centroids are held, at the peak about 75 bytes per cell of `map_voxel`;
 /// scans are read once per pass. `map_voxel` = 0 holds every point.
-MethodEntry removert_entry();
+/// @throws ConfigurationError if two parameters contradict each other
+std::unique_ptr<Remover> make_removert(const Parameters& parameters);
 
-/// @throws ConfigurationError for parameters that contradict each other
-std::unique_ptr<Remover> make_removert(const RemovertParameters& parameters);
+}  // namespace removert_method
+
+MethodEntry removert_entry();
 
 }  // namespace raymoval

@@ -35,8 +35,8 @@ std::vector<float> project_nearest(const std::vector<Eigen::Vector3f>& points,
   return nearest;
 }
 
-std::vector<float> limits_of(const std::vector<float>& nearest,
-                             const RemovertParameters& parameters, Candidates candidates) {
+std::vector<float> limits_of(const std::vector<float>& nearest, const Parameters& parameters,
+                             Candidates candidates) {
   std::vector<float> limit(nearest.size(), -1.0F);
   for (std::size_t u = 0; u < nearest.size(); ++u) {
     if (nearest[u] < 0.0F) continue;
@@ -92,13 +92,13 @@ std::vector<Eigen::Vector3f> points_in_image_axes(const Scan& scan, bool world_a
   return points;
 }
 
-float threshold(float range, const RemovertParameters& parameters) {
+float threshold(float range, const Parameters& parameters) {
   return std::max(static_cast<float>(parameters.tau_abs),
                   static_cast<float>(parameters.gamma) * range);
 }
 
 ScanImage::ScanImage(const std::vector<Eigen::Vector3f>& points, const PixelGrid& pixel_grid,
-                     const RemovertParameters& parameters, Candidates candidates)
+                     const Parameters& parameters, Candidates candidates)
     : grid(pixel_grid),
       nearest(project_nearest(points, grid)),
       limit(limits_of(nearest, parameters, candidates)),

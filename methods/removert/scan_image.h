@@ -14,8 +14,8 @@ class MaximumPyramid {
   /// @param image `rows * columns` values, row by row
   MaximumPyramid(const std::vector<float>& image, int rows, int columns);
 
-  /// At least the largest value in rows [row_from, row_to], columns [column_from, column_to], ends
-  /// inclusive and inside the image.
+  /// An upper bound of the values in rows [row_from, row_to] and columns [column_from, column_to].
+  /// The ends are included and lie inside the image.
   [[nodiscard]] float bound(int row_from, int row_to, int column_from, int column_to) const;
   [[nodiscard]] float top() const { return levels_.back().values.front(); }
 
@@ -29,11 +29,11 @@ class MaximumPyramid {
 
 /// Which map points a pass looks at.
 enum class Candidates {
-  kInFront,  ///< Those clearly in front of the scan: enough to find the dynamic ones.
-  kAll,      ///< All in pixels where the scan has a return.
+  kInFront,  ///< The points clearly in front of the scan, which suffice to find the dynamic ones.
+  kAll,      ///< All points in pixels where the scan has a return.
 };
 
-/// Points of a scan in the axes in which it is projected: its own, or the world's.
+/// The points of a scan in the axes in which it is projected: the scan's own axes, or the world's.
 /// @param world_axes turn them by the scan's rotation
 std::vector<Eigen::Vector3f> points_in_image_axes(const Scan& scan, bool world_axes);
 
@@ -41,16 +41,17 @@ std::vector<Eigen::Vector3f> points_in_image_axes(const Scan& scan, bool world_a
 struct ScanImage {
   /// @param points sensor at the origin, metres
   ScanImage(const std::vector<Eigen::Vector3f>& points, const PixelGrid& pixel_grid,
-            const RemovertParameters& parameters, Candidates candidates);
+            const Parameters& parameters, Candidates candidates);
 
   PixelGrid grid;
   std::vector<float> nearest;  ///< Metres; -1 where no point is.
-  /// A map point is looked at if its range is below this: I_Q - tau, everything, or nothing (-1).
+  /// A map point is looked at if its range is below this limit: I_Q - tau, infinite for all points,
+  /// or -1 for none.
   std::vector<float> limit;
   MaximumPyramid limit_pyramid;
 };
 
 /// tau: how much nearer than I_Q = `range` a map point must be, metres.
-float threshold(float range, const RemovertParameters& parameters);
+float threshold(float range, const Parameters& parameters);
 
 }  // namespace raymoval::removert_method

@@ -47,7 +47,7 @@ std::vector<Eigen::Vector3f> relative(const MapPoints& map, const Eigen::Vector3
 
 class NeighbourAnswer : public Answer {
  public:
-  NeighbourAnswer(const MapPoints& kept, const RemovertParameters& parameters)
+  NeighbourAnswer(const MapPoints& kept, const Parameters& parameters)
       : neighbours_(parameters.scan_side_neighbours),
         threshold_(parameters.scan_side_threshold),
         origin_(kept.blocks.empty() ? Eigen::Vector3d::Zero() : kept.blocks.front().centre),
@@ -74,8 +74,7 @@ class NeighbourAnswer : public Answer {
 
 }  // namespace
 
-std::unique_ptr<Answer> answer_by_neighbours(const MapPoints& kept,
-                                             const RemovertParameters& parameters) {
+std::unique_ptr<Answer> answer_by_neighbours(const MapPoints& kept, const Parameters& parameters) {
   return std::make_unique<NeighbourAnswer>(kept, parameters);
 }
 

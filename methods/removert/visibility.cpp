@@ -21,7 +21,7 @@ constexpr float kPixelSlack = 0.02F;
 
 constexpr float kPi = static_cast<float>(std::numbers::pi);
 
-/// At least the arc sine of 0 <= s <= 1.
+/// An upper bound of the arc sine of 0 <= s <= 1.
 float arc_sine_bound(float s) {
   return s * (1.0F + 0.5708F * s * s);
 }
@@ -59,8 +59,8 @@ std::pair<int, int> columns_around(const PixelGrid& grid, float azimuth, float h
   return {std::clamp(left, 0, grid.columns() - 1), std::clamp(right, 0, grid.columns() - 1)};
 }
 
-/// At least the largest limit in the pixels that points of a ball can fall into; -1 if they cannot
-/// fall into any or all lie too far.
+/// An upper bound of the limits in the pixels that points of a ball can fall into. It is -1 if they
+/// cannot fall into any pixel or all lie too far.
 float limit_around(const PixelGrid& grid, const MaximumPyramid& limits,
                    const Eigen::Vector3f& centre, float radius) {
   const float distance = centre.norm();
@@ -84,7 +84,7 @@ float limit_around(const PixelGrid& grid, const MaximumPyramid& limits,
   return nearest < limit ? limit : -1.0F;
 }
 
-/// One more scan; the sum does not depend on the order.
+/// Counts one more scan. The sum does not depend on the order.
 void count_scan(std::uint32_t& counter) {
   std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
 }
@@ -101,7 +101,7 @@ struct VisibilityPass::View {
   [[nodiscard]] float limit_around_ball(const Ball& ball) const {
     return limit_around(scan.grid, *limits, (pose * ball.centre).cast<float>(), ball.radius);
   }
-  /// From now on what lies behind the map points found so far is left out too.
+  /// From now on the points behind the map points found so far are left out too.
   void hide_behind(const std::vector<Nearest>& pixels) {
     std::vector<float> reach = scan.limit;
     for (std::size_t u = 0; u < reach.size(); ++u) {
@@ -118,7 +118,7 @@ struct VisibilityPass::View {
   std::optional<MaximumPyramid> hidden;
 };
 
-VisibilityPass::VisibilityPass(const MapPoints& map, const RemovertParameters& parameters,
+VisibilityPass::VisibilityPass(const MapPoints& map, const Parameters& parameters,
                                Candidates candidates)
     : map_(map), parameters_(parameters), candidates_(candidates) {
   votes_.dynamic.assign(map.size(), 0);

@@ -11,10 +11,12 @@
 
 namespace raymoval::removert_method {
 
-/// What the scans of a pass say of each map point; counts of scans.
+/// How many scans of a pass say what of each map point.
 struct Votes {
-  std::vector<std::uint32_t> dynamic;  ///< n_DM: nearest in its pixel and dynamic there.
-  std::vector<std::uint32_t> still;    ///< n_SM: nearest where the scan has a return, not dynamic.
+  std::vector<std::uint32_t>
+      dynamic;  ///< n_DM: scans in which it is the nearest in its pixel and dynamic.
+  std::vector<std::uint32_t> still;  ///< n_SM: scans with a return there, in which it is the
+                                     ///< nearest and not dynamic.
 };
 
 /// Compares a frozen map with scans, one range image each. The votes are the same in whatever order
@@ -24,7 +26,7 @@ struct Votes {
 /// decided in double precision, so that the answer is that of projecting every map point.
 class VisibilityPass {
  public:
-  VisibilityPass(const MapPoints& map, const RemovertParameters& parameters, Candidates candidates);
+  VisibilityPass(const MapPoints& map, const Parameters& parameters, Candidates candidates);
 
   /// Votes of one scan. Thread-safe.
   /// @param image made with the candidates of this pass
@@ -53,7 +55,7 @@ class VisibilityPass {
   void give_back(std::unique_ptr<Image> image);
 
   const MapPoints& map_;
-  const RemovertParameters& parameters_;
+  const Parameters& parameters_;
   Candidates candidates_;
   Votes votes_;
   std::mutex mutex_;

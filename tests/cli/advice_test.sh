@@ -159,7 +159,7 @@ for command in run plan score clean simulate inspect report picture table compar
   holds "$command --help names its values" test -z "$(grep -E '^ .*\b(TEXT|INT|FLOAT)\b' help.txt)"
 done
 expect 0 "default: raymoval_plus:offline" clean --help
-expect 0 "never judged" compare --help
+expect 0 "times are shown and not compared" compare --help
 expect 0 "About thirty" inspect --help
 for command in "" compare; do
   # shellcheck disable=SC2086

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "core/scan/mask_store.h"
-#include "datasets/sequence.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 #include "methods/registry.h"
 

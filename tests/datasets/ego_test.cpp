@@ -4,7 +4,9 @@
 
 #include "core/error.h"
 #include "datasets/ego/ego_free_source.h"
+#include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
+#include "datasets/reading/loaded_data.h"
 #include "tests/datasets/inspect_data.h"
 
 using namespace raymoval;

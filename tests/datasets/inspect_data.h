@@ -11,6 +11,7 @@
 
 #include "datasets/inspection/inspect.h"
 #include "datasets/simulation/scene/simulated.h"
+#include "datasets/world_axes/gravity.h"
 #include "tests/datasets/temporary_folder.h"
 
 namespace raymoval::test {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/text.h"
-#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/cloud_writer.h"
 #include "tests/datasets/inspect_data.h"
 #include "tests/datasets/temporary_folder.h"
 

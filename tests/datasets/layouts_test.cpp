@@ -2,8 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "datasets/clouds/cloud_file.h"
-#include "datasets/sequence.h"
+#include "datasets/clouds/cloud_writer.h"
+#include "datasets/open_sequence.h"
+#include "datasets/reading/loaded_data.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

@@ -2,6 +2,7 @@
 #include "datasets/reading/loaded_data.h"
 
 #include "core/error.h"
+#include "datasets/open_sequence.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

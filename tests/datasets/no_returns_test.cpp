@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/error.h"
+#include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
-#include "datasets/sequence.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

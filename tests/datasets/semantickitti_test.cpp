@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "datasets/open_sequence.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -300,7 +301,7 @@ TEST_CASE("sequence.json with a wrong key or value says which", "[semantickitti]
   check_says(error(R"({"range_m": {"mni": 1}})"), {"range_m", "'mni'", "Did you mean 'min'"});
   check_says(error(R"({"range_m": {"far": 1}})"), {"range_m", "'far'", "min, max"});
   check_says(error(R"({"range_m": {"min": 9, "max": 3}})"), {"min 9", "max 3"});
-  check_says(error(R"({"range_m": {"min": -1}})"), {"range_m.min", "-1"});
+  check_says(error(R"({"range_m": {"min": -1}})"), {"range_m", "'min' is -1"});
   check_says(error(R"({"scan_period_s": "fast"})"), {"scan_period_s", "fast"});
   check_says(error(R"({"sensor": "hdl65e"})"), {"'hdl65e'", "hdl64e", "estimated"});
   check_says(error(R"({"name": "a/b"})"), {"'a/b'", "slash"});

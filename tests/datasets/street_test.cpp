@@ -8,6 +8,8 @@
 #include <set>
 
 #include "core/error.h"
+#include "datasets/open_sequence.h"
+#include "datasets/reading/loaded_data.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

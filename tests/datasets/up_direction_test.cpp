@@ -3,7 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "datasets/sequence.h"
+#include "datasets/open_sequence.h"
+#include "datasets/reading/loaded_data.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

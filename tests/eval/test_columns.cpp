@@ -141,9 +141,9 @@ TEST_CASE("columns count the points that the erasor protocol evaluates", "[colum
 }
 
 TEST_CASE("classes have the names of the data set", "[columns]") {
-  CHECK(class_name("semantickitti", 252) == "moving-car");
-  CHECK(class_name("semantickitti", 9) == "label-9");
-  CHECK(class_name("dynamicmap", 1) == "label-1");
+  CHECK(LabelRule{}.class_name(252) == "moving-car");
+  CHECK(LabelRule{}.class_name(9) == "label-9");
+  CHECK(LabelRule{"dynamicmap", {1}, {}, {}}.class_name(1) == "label-1");
   // A column for each that says what it is, and no two of one name.
   for (const Column& column : general_columns()) {
     CHECK_FALSE(column.description.empty());

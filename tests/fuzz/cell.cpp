@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/cell_json.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/results.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"

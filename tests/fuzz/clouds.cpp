@@ -2,9 +2,10 @@
 // Scans: clouds, and the labels and removals of a scan.
 #include <cstring>
 
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "core/scan/label_rule.h"
 #include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/cloud_writer.h"
 #include "datasets/clouds/file_source.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"

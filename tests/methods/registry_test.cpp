@@ -46,18 +46,6 @@ TEST_CASE("a method's name is taken once and it has a variant") {
   CHECK_THROWS_AS(methods.add(bare), ConfigurationError);
 }
 
-TEST_CASE("a cancelled run stops") {
-  const toy::World world = small_world();
-  const std::atomic<bool> stop{true};
-  RunContext context;
-  context.cancel = &stop;
-  for (const char* name : {"noop", "raymoval:offline", "raymoval:online"}) {
-    toy::Masks masks(world.size());
-    CHECK_THROWS_AS(MethodRegistry::built_in().configure(name).make()->run(world, masks, context),
-                    Cancelled);
-  }
-}
-
 TEST_CASE("every parameter's default is legal and says what it does") {
   for (const auto& entry : MethodRegistry::built_in().entries()) {
     for (const ParameterSpec& spec : entry->parameters) {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "datasets/simulation/scene/simulated.h"
 #include "datasets/simulation/sensor/scanner.h"
 #include "datasets/simulation/sensor/sensor_file.h"
 #include "datasets/simulation/shapes/shapes.h"
@@ -63,24 +63,14 @@ inline Mover box_mover(const Ground& ground, double start, double speed) {
   return Mover("car", std::move(body), Track(route, ground), 0.0, 5);
 }
 
-/// A new folder that is removed at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string form = (std::filesystem::temp_directory_path() / "raymoval-XXXXXX").string();
-    if (mkdtemp(form.data()) == nullptr) throw std::runtime_error("no scratch folder");
-    path_ = form;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+/// Three scans of the town with few beams.
+inline SimulationOptions small_town(std::size_t scans = 3, std::uint64_t seed = 1) {
+  SimulationOptions options;
+  options.scene = "town";
+  options.sensor = "vlp16";
+  options.scans = scans;
+  options.seed = seed;
+  return options;
+}
 
 }  // namespace raymoval::simulated

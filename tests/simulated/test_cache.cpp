@@ -21,24 +21,17 @@
 #include "datasets/simulation/scene/making_place.h"
 #include "datasets/simulation/scene/scene_folder.h"
 #include "datasets/simulation/scene/simulated.h"
+#include "tests/datasets/temporary_folder.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
 using raymoval::simulated::MakingPlace;
-using raymoval::simulated::ScratchFolder;
+using raymoval::simulated::small_town;
+using raymoval::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
-
-SimulationOptions three_scans(std::uint64_t seed = 1) {
-  SimulationOptions options;
-  options.scene = "town";
-  options.sensor = "vlp16";
-  options.scans = 3;
-  options.seed = seed;
-  return options;
-}
 
 /// What is told in a log, as text.
 class Log {
@@ -90,8 +83,8 @@ void in_killed_process(const std::function<void()>& deed) {
 }  // namespace
 
 TEST_CASE("A scene of the cache that is not what was written there is made again, and said") {
-  const ScratchFolder scratch;
-  const fs::path folder = cached_simulation(three_scans(), scratch.path(), 2, nullptr);
+  const TemporaryFolder scratch;
+  const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
   const std::string whole = content_of(folder);
   const fs::path scan = folder / "velodyne/000001.bin";
   const std::vector<std::pair<std::string, std::function<void()>>> harms = {
@@ -129,53 +122,53 @@ TEST_CASE("A scene of the cache that is not what was written there is made again
   for (const auto& [problem, harm] : harms) {
     harm();
     Log log;
-    CHECK(cached_simulation(three_scans(), scratch.path(), 2, log.progress()) == folder);
+    CHECK(cached_simulation(small_town(), scratch.text(), 2, log.progress()) == folder);
     if (problem != "cannot be listed") CHECK_THAT(log.text(), Contains(problem));
     CHECK_THAT(log.text(), Contains("it is made again"));
     CHECK(content_of(folder) == whole);
     CHECK(entries_of(folder.parent_path()).size() == 1);  // Neither the old nor a lock is left.
   }
   Log log;
-  CHECK(cached_simulation(three_scans(), scratch.path(), 2, log.progress()) == folder);
+  CHECK(cached_simulation(small_town(), scratch.text(), 2, log.progress()) == folder);
   CHECK(log.text().empty());
 }
 
 TEST_CASE("The folder of another scene under a scene's name does not count") {
-  const ScratchFolder scratch;
-  const fs::path one = cached_simulation(three_scans(1), scratch.path(), 2, nullptr);
-  const fs::path two = cached_simulation(three_scans(2), scratch.path(), 2, nullptr);
+  const TemporaryFolder scratch;
+  const fs::path one = cached_simulation(small_town(), scratch.text(), 2, nullptr);
+  const fs::path two = cached_simulation(small_town(3, 2), scratch.text(), 2, nullptr);
   const std::string content = content_of(two);
   fs::remove_all(two);
   fs::copy(one, two, fs::copy_options::recursive);
-  cached_simulation(three_scans(2), scratch.path(), 2, nullptr);
+  cached_simulation(small_town(3, 2), scratch.text(), 2, nullptr);
   CHECK(content_of(two) == content);
 }
 
 TEST_CASE("Files beside a scene that nobody reads do no harm and are not lost") {
-  const ScratchFolder scratch;
-  const fs::path folder = cached_simulation(three_scans(), scratch.path(), 2, nullptr);
+  const TemporaryFolder scratch;
+  const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
   std::ofstream(folder / "notes.txt") << "mine";
   std::ofstream(folder / "velodyne/.DS_Store") << "x";
-  CHECK(cached_simulation(three_scans(), scratch.path(), 2, nullptr) == folder);
+  CHECK(cached_simulation(small_town(), scratch.text(), 2, nullptr) == folder);
   CHECK(read_text(folder / "notes.txt") == "mine");
 }
 
 TEST_CASE("Only names and sizes are looked at where the content is checked otherwise") {
-  const ScratchFolder scratch;
-  const fs::path folder = cached_simulation(three_scans(), scratch.path(), 2, nullptr);
+  const TemporaryFolder scratch;
+  const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
   const fs::path scan = folder / "velodyne/000001.bin";
   std::fstream(scan, std::ios::in | std::ios::out | std::ios::binary) << "xyz";
   const std::string harmed = content_of(folder);
-  cached_simulation(three_scans(), scratch.path(), 2, nullptr, nullptr, false);
+  cached_simulation(small_town(), scratch.text(), 2, nullptr, nullptr, false);
   CHECK(content_of(folder) == harmed);
   fs::remove(scan);
-  cached_simulation(three_scans(), scratch.path(), 2, nullptr, nullptr, false);
+  cached_simulation(small_town(), scratch.text(), 2, nullptr, nullptr, false);
   CHECK(content_of(folder) != harmed);
 }
 
 TEST_CASE("What a killed process left goes; what may be alive or another's stays") {
-  const ScratchFolder scratch;
-  const fs::path cache = scratch.path() / "simulated";
+  const TemporaryFolder scratch;
+  const fs::path cache = scratch / "simulated";
   fs::create_directories(cache);
   const fs::path target = cache / "town-0123456789abcdef";
   in_killed_process([&] {
@@ -197,7 +190,7 @@ TEST_CASE("What a killed process left goes; what may be alive or another's stays
   fs::create_directory(elsewhere);
   std::ofstream(elsewhere / "lock") << "00000000-0000-0000-0000-000000000000 7 7\n";
 
-  const fs::path made = cached_simulation(three_scans(), scratch.path(), 1, nullptr);
+  const fs::path made = cached_simulation(small_town(), scratch.text(), 1, nullptr);
   CHECK(fs::is_directory(alive.folder()));
   for (const fs::path& other : others) CHECK(fs::is_directory(other));
   CHECK(fs::is_directory(elsewhere));
@@ -206,8 +199,8 @@ TEST_CASE("What a killed process left goes; what may be alive or another's stays
 }
 
 TEST_CASE("A place that is made never takes the name of something that is there") {
-  const ScratchFolder scratch;
-  const fs::path target = scratch.path() / "town";
+  const TemporaryFolder scratch;
+  const fs::path target = scratch / "town";
   {
     MakingPlace place(target);
     std::ofstream(place.folder() / "new") << "1";
@@ -219,26 +212,26 @@ TEST_CASE("A place that is made never takes the name of something that is there"
     CHECK(fs::exists(target / "new"));
     CHECK_FALSE(fs::exists(target / "other"));
   }
-  CHECK(entries_of(scratch.path()).size() == 1);
-  MakingPlace second(scratch.path() / "second");
+  CHECK(entries_of(scratch.text()).size() == 1);
+  MakingPlace second(scratch / "second");
   CHECK(second.take_place());
-  CHECK(fs::is_directory(scratch.path() / "second"));
+  CHECK(fs::is_directory(scratch / "second"));
 }
 
 TEST_CASE("Who asks for a scene that another one makes waits for it, and may be stopped") {
-  const ScratchFolder scratch;
-  const fs::path folder = cached_simulation(three_scans(), scratch.path(), 1, nullptr);
+  const TemporaryFolder scratch;
+  const fs::path folder = cached_simulation(small_town(), scratch.text(), 1, nullptr);
   fs::remove(folder / "poses.txt");
   const fs::path lock_file = folder.string() + ".lock";
   auto other = std::make_unique<FileLock>(lock_file);
   REQUIRE(other->take(FileLock::Mode::kExclusive) == FileLock::State::kHeld);
   std::atomic<bool> cancel = true;
-  CHECK_THROWS_AS(cached_simulation(three_scans(), scratch.path(), 1, nullptr, &cancel), Cancelled);
+  CHECK_THROWS_AS(cached_simulation(small_town(), scratch.text(), 1, nullptr, &cancel), Cancelled);
   cancel = false;
   Log log;
   std::atomic<bool> done = false;
   std::thread asker([&] {
-    cached_simulation(three_scans(), scratch.path(), 1, log.progress(), &cancel);
+    cached_simulation(small_town(), scratch.text(), 1, log.progress(), &cancel);
     done = true;
   });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -251,9 +244,9 @@ TEST_CASE("Who asks for a scene that another one makes waits for it, and may be 
 }
 
 TEST_CASE("A scene that is written by hand lists its files with sizes and hashes") {
-  const ScratchFolder scratch;
-  const fs::path folder = scratch.path() / "own";
-  write_simulated(three_scans(), folder, 2, nullptr);
+  const TemporaryFolder scratch;
+  const fs::path folder = scratch / "own";
+  write_simulated(small_town(), folder, 2, nullptr);
   const auto manifest = read_json(folder / "manifest.json");
   CHECK(manifest.at("files").size() == 3 + 3 + 5);
   const auto& scan = manifest.at("files").at("velodyne/000002.bin");

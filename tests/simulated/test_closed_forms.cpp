@@ -16,17 +16,23 @@ namespace {
 constexpr Paint kPaint{Material::kPerfect, kLabelBuilding};
 using ClosedForm = std::function<std::optional<double>(const Vector3d& from, const Vector3d& to)>;
 
+/// Sweep `scan` of the plain sensor, without noise, from a place where it stands.
+Sweep sweep_from(const World& world, const Isometry3d& pose, std::size_t scan = 0,
+                 Rolling rolling = Rolling::kNone) {
+  const SensorFile sensor = plain_sensor();
+  return Scanner(
+             world, sensor, [&](double) { return pose; }, {1, rolling, true}, 1)
+      .sweep(scan);
+}
+
 /// Shoots every direction of the plain sensor at the world and compares with the closed form, which
 /// says at what distance a ray hits, or that it does not. Returns how many hits were compared.
 std::size_t compare(const World& world, const Isometry3d& pose, const ClosedForm& truth) {
-  const SensorFile sensor = plain_sensor();
-  const Scanner scanner(
-      world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, /*noise_free=*/true}, 1);
-  const Sweep sweep = scanner.sweep(0);
+  const Sweep sweep = sweep_from(world, pose);
   std::size_t next = 0;
   std::size_t compared = 0;
   double worst = 0.0;
-  for (const Shot& shot : sensor.shots(0, 1)) {
+  for (const Shot& shot : plain_sensor().shots(0, 1)) {
     const Vector3d direction = pose.linear() * shot.direction;
     const auto range = truth(pose.translation(), direction);
     const bool here = next < sweep.points.size() &&
@@ -134,11 +140,8 @@ TEST_CASE("a cylinder is met at the root of its quadratic") {
   world.add_standing(mesh, placed(-3.0, 4.0, 0.0));
   world.finish();
   const Isometry3d pose = tilted({1.0, 0.5, 0.0}, 0.4, -0.08, 0.02);
-  const SensorFile sensor = plain_sensor();
-  const Scanner scanner(
-      world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, true}, 1);
   std::size_t count = 0;
-  for (const Eigen::Vector3f& point : scanner.sweep(0).points) {
+  for (const Eigen::Vector3f& point : sweep_from(world, pose).points) {
     const Vector3d to = pose.linear() * point.cast<double>().normalized();
     const auto range = round_range(pose.translation() - Vector3d(-3.0, 4.0, 0.0), to, 0.5, true);
     REQUIRE(range);
@@ -157,11 +160,8 @@ TEST_CASE("a moving box is where its speed has brought it") {
   World world;
   world.add_mover(box_mover(ground, 30.0, 8.0));
   world.finish();
-  const SensorFile sensor = plain_sensor();
   const Isometry3d pose(Eigen::Translation3d(20.0, 0.0, 1.0));
-  const Scanner scanner(
-      world, sensor, [&](double) { return pose; }, {1, Rolling::kNone, true}, 1);
-  const Sweep sweep = scanner.sweep(15);
+  const Sweep sweep = sweep_from(world, pose, 15);
   REQUIRE(sweep.points.size() > 10);
   for (const Eigen::Vector3f& point : sweep.points) {
     const auto range =
@@ -208,11 +208,8 @@ TEST_CASE("a box that moves during a rolling scan is met where it then is") {
   World world;
   world.add_mover(box_mover(ground, 20.0, 20.0));
   world.finish();
-  const SensorFile sensor = plain_sensor();
   const Isometry3d pose(Eigen::Translation3d(0.0, 0.0, 1.0));
-  const Scanner scanner(
-      world, sensor, [&](double) { return pose; }, {1, Rolling::kSkewed, true}, 1);
-  const Sweep sweep = scanner.sweep(0);
+  const Sweep sweep = sweep_from(world, pose, 0, Rolling::kSkewed);
   REQUIRE(sweep.points.size() > 10);
   bool slanted = false;
   for (const Eigen::Vector3f& point : sweep.points) {

@@ -8,27 +8,22 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "datasets/sequence.h"
+#include "datasets/open_sequence.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "datasets/simulation/sensor/pose_noise.h"
+#include "tests/datasets/temporary_folder.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;
-using raymoval::simulated::ScratchFolder;
+using raymoval::simulated::small_town;
+using raymoval::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
-
-SimulationOptions small(std::size_t scans = 4) {
-  SimulationOptions options;
-  options.scene = "town";
-  options.sensor = "vlp16";
-  options.scans = scans;
-  return options;
-}
 
 std::string bytes_of(const Scan& scan) {
   std::string bytes;
@@ -49,21 +44,11 @@ std::string hash_of(const SimulatedSequence& sequence, std::size_t index) {
   return hasher.digest();
 }
 
-std::string text_of(const fs::path& path) {
-  return read_text(path);
-}
-
-std::size_t entries(const fs::path& folder) {
-  std::size_t count = 0;
-  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder)) ++count;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("the same seed gives the same bytes for any threads and any order") {
   for (const std::string sensor : {"vlp16", "solid-state", "rosette"}) {
-    SimulationOptions options = small(8);
+    SimulationOptions options = small_town(8);
     options.sensor = sensor;
     std::vector<std::string> expected;
     const auto first = make_simulated(options, 1);
@@ -81,7 +66,7 @@ TEST_CASE("the same seed gives the same bytes for any threads and any order") {
 }
 
 TEST_CASE("another seed gives other movers, noise and poses") {
-  SimulationOptions options = small(2);
+  SimulationOptions options = small_town(2);
   const auto a = make_simulated(options);
   options.seed = 2;
   const auto b = make_simulated(options);
@@ -91,11 +76,11 @@ TEST_CASE("another seed gives other movers, noise and poses") {
 }
 
 TEST_CASE("written files hold what the source gives, in SemanticKITTI's layout") {
-  const ScratchFolder scratch;
-  const fs::path folder = scratch.path() / "out";
-  write_simulated(small(), folder, 2, nullptr);
-  const auto sequence = make_simulated(small());
-  const std::string calib = text_of(folder / "calib.txt");
+  const TemporaryFolder scratch;
+  const fs::path folder = scratch / "out";
+  write_simulated(small_town(4), folder, 2, nullptr);
+  const auto sequence = make_simulated(small_town(4));
+  const std::string calib = read_text(folder / "calib.txt");
   const auto row = [](std::string_view line, std::size_t skip) {
     const auto fields = split_blanks(line);
     Pose pose = Pose::Identity();
@@ -109,39 +94,39 @@ TEST_CASE("written files hold what the source gives, in SemanticKITTI's layout")
   CHECK((Tr.linear() * Tr.linear().transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
   // The camera's z axis looks along the sensor's x: the transform is not the identity.
   CHECK(Tr(2, 0) > 0.99);
-  const std::string poses = text_of(folder / "poses.txt");
+  const std::string poses = read_text(folder / "poses.txt");
   const auto lines = split(poses, '\n');
   REQUIRE(lines.size() == sequence->size() + 1);
   for (std::size_t i = 0; i < sequence->size(); ++i) {
     const Scan scan = sequence->load(i);
-    CHECK(text_of(folder / "velodyne" / (scan.name + ".bin")) == bytes_of(scan));
+    CHECK(read_text(folder / "velodyne" / (scan.name + ".bin")) == bytes_of(scan));
     const auto labels = sequence->labels(scan);
-    const std::string words = text_of(folder / "labels" / (scan.name + ".label"));
+    const std::string words = read_text(folder / "labels" / (scan.name + ".label"));
     REQUIRE(words.size() == 4 * labels.size());
     CHECK(std::memcmp(words.data(), labels.data(), words.size()) == 0);
     const Pose pose = Tr.inverse() * row(lines[i], 0) * Tr;
     CHECK((pose.matrix() - scan.T_world_sensor.matrix()).norm() < 1e-9);
   }
-  CHECK(text_of(folder / "times.txt").starts_with("0\n0.1\n0.2"));
+  CHECK(read_text(folder / "times.txt").starts_with("0\n0.1\n0.2"));
   const auto json = read_json(folder / "sequence.json");
   CHECK(json.at("name") == "town");
   CHECK(json.at("sensor") == "vlp16");
   CHECK(json.at("scan_period_s") == 0.1);
   CHECK(read_json(folder / "movers.json").size() == sequence->movers(0).size());
-  CHECK(entries(scratch.path()) == 1);  // no temporary folder is left
-  CHECK_THROWS_AS(write_simulated(small(), folder, 1, nullptr), DataError);
+  CHECK(entries_of(scratch.text()).size() == 1);  // no temporary folder is left
+  CHECK_THROWS_AS(write_simulated(small_town(4), folder, 1, nullptr), DataError);
 }
 
 TEST_CASE("a mover that backs up is written as moving") {
-  const ScratchFolder scratch;
-  std::ofstream(scratch.path() / "reverse.json") << R"({
+  const TemporaryFolder scratch;
+  std::ofstream(scratch / "reverse.json") << R"({
     "roads": [{"name": "a", "points": [[0, 0], [99, 0]]}],
     "ego": {"road": "a", "speed": 5},
     "movers": [{"kind": "car", "road": "a", "start_m": 60, "speed": [[0, -3], [9, -3]]}]})";
-  SimulationOptions options = small();
-  options.scene = (scratch.path() / "reverse.json").string();
-  write_simulated(options, scratch.path() / "reverse", 1, nullptr);
-  const auto movers = read_json(scratch.path() / "reverse" / "movers.json");
+  SimulationOptions options = small_town(4);
+  options.scene = (scratch / "reverse.json").string();
+  write_simulated(options, scratch / "reverse", 1, nullptr);
+  const auto movers = read_json(scratch / "reverse" / "movers.json");
   REQUIRE(movers.size() == 1);
   CHECK(movers[0].at("moves") == true);
   CHECK(movers[0].at("when").size() == 1);
@@ -149,48 +134,49 @@ TEST_CASE("a mover that backs up is written as moving") {
 }
 
 TEST_CASE("the cache makes a sequence once, whoever asks at once") {
-  const ScratchFolder scratch;
-  const fs::path cache = scratch.path() / "simulated";
+  const TemporaryFolder scratch;
+  const fs::path cache = scratch / "simulated";
   // A half-written folder under a temporary name, of whatever age, is nobody's business here: see
   // test_cache.cpp for what is cleared away.
   fs::create_directories(cache / "town-0123456789abcdef.1.0.part");
   std::array<fs::path, 4> found;
   std::vector<std::thread> askers;
   for (auto& path : found) {
-    askers.emplace_back([&] { path = cached_simulation(small(), scratch.path(), 1, nullptr); });
+    askers.emplace_back(
+        [&] { path = cached_simulation(small_town(4), scratch.text(), 1, nullptr); });
   }
   for (auto& asker : askers) asker.join();
   for (const auto& path : found) CHECK(path == found[0]);
-  CHECK(entries(found[0] / "velodyne") == 4);
-  CHECK(entries(cache) == 2);  // the sequence and the leftover
+  CHECK(entries_of(found[0] / "velodyne").size() == 4);
+  CHECK(entries_of(cache).size() == 2);  // the sequence and the leftover
   // A second request does not write again.
   const auto written = fs::last_write_time(found[0] / "poses.txt");
-  CHECK(cached_simulation(small(), scratch.path(), 1, nullptr) == found[0]);
+  CHECK(cached_simulation(small_town(4), scratch.text(), 1, nullptr) == found[0]);
   CHECK(fs::last_write_time(found[0] / "poses.txt") == written);
 }
 
 TEST_CASE("a scene's name is told without generating it, and is the one it is opened by") {
-  const ScratchFolder scratch;
-  setenv("RAYMOVAL_CACHE", scratch.path().c_str(), 1);
+  const TemporaryFolder scratch;
+  setenv("RAYMOVAL_CACHE", scratch.text().c_str(), 1);
   for (const std::string path : {"town:scans=1,sensor=vlp16,seed=4", "street"}) {
     const std::string name = sequence_name(path, {});
-    CHECK_FALSE(fs::exists(scratch.path() / "simulated"));
+    CHECK_FALSE(fs::exists(scratch / "simulated"));
     CHECK(name == path.substr(0, path.find(':')));
     SequenceOptions named;
     named.name = "mine";
     CHECK(sequence_name(path, named) == "mine");
     CHECK(open_sequence(path, {}).name == name);
-    fs::remove_all(scratch.path() / "simulated");
+    fs::remove_all(scratch / "simulated");
   }
   unsetenv("RAYMOVAL_CACHE");
 }
 
 TEST_CASE("the cache tells apart whatever changes the bytes") {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto folder = [&](const SimulationOptions& options) {
-    return cached_simulation(options, scratch.path(), 2, nullptr);
+    return cached_simulation(options, scratch.text(), 2, nullptr);
   };
-  SimulationOptions other = small(2);
+  SimulationOptions other = small_town(2);
   std::vector<fs::path> folders = {folder(other)};
   other.seed = 9;
   folders.push_back(folder(other));
@@ -228,14 +214,14 @@ TEST_CASE("scenes and sensors are found by name or path, and names are suggested
   };
   CHECK(message("toown").find("'town'") != std::string::npos);
   CHECK(message("/nowhere/w.json").find("/nowhere/w.json") != std::string::npos);
-  const ScratchFolder scratch;
-  const fs::path own = scratch.path() / "mine.json";
+  const TemporaryFolder scratch;
+  const fs::path own = scratch / "mine.json";
   std::ofstream(own) << simulated_scene_text("town");
-  SimulationOptions options = small(1);
+  SimulationOptions options = small_town(1);
   options.scene = own.string();
   const auto sequence = make_simulated(options);
   CHECK(sequence->name() == "mine");
-  CHECK(hash_of(*sequence, 0) == hash_of(*make_simulated(small(1)), 0));
+  CHECK(hash_of(*sequence, 0) == hash_of(*make_simulated(small_town(1)), 0));
   std::ofstream(own) << "{ \"scans\": 3,\n }";
   CHECK(message(own.string()).find("line 2") != std::string::npos);
 }
@@ -261,7 +247,7 @@ TEST_CASE("pose errors scale with the severity, wander slowly and stay small") {
 }
 
 TEST_CASE("perfect poses are the true ones") {
-  SimulationOptions options = small(3);
+  SimulationOptions options = small_town(3);
   options.pose_noise = 0.0;
   const auto sequence = make_simulated(options);
   CHECK(sequence->pose(2).matrix() == sequence->true_pose(2).matrix());
@@ -270,7 +256,7 @@ TEST_CASE("perfect poses are the true ones") {
 }
 
 TEST_CASE("a sequence longer than its route is refused, one on a closed route is not") {
-  SimulationOptions options = small(5000);  // town: 380 m at 5 to 7 m/s are some 600 scans
+  SimulationOptions options = small_town(5000);  // town: 380 m at 5 to 7 m/s are some 600 scans
   CHECK_THROWS_AS(make_simulated(options), UsageError);
   options.scene = "long";
   options.scans = 6000;
@@ -278,19 +264,9 @@ TEST_CASE("a sequence longer than its route is refused, one on a closed route is
 }
 
 TEST_CASE("labels are refused for a scan that was changed") {
-  const auto sequence = make_simulated(small(2));
+  const auto sequence = make_simulated(small_town(2));
   Scan scan = sequence->load(1);
   scan.points.pop_back();
   CHECK_THROWS_AS(sequence->labels(scan), DataError);
   CHECK_THROWS_AS(sequence->load(2), UsageError);
-}
-
-TEST_CASE("the suites name scenes that exist") {
-  for (const SimulationSuite& suite : simulation_suites()) {
-    CHECK(&simulation_suite(suite.name) == &suite);
-    for (const SimulationOptions& options : suite.sequences) {
-      CHECK_FALSE(simulated_scene_text(options.scene).empty());
-    }
-  }
-  CHECK_THROWS_AS(simulation_suite("simulated-qick"), UsageError);
 }

@@ -10,12 +10,12 @@
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/mask_spool.h"
 #include "benchmark/process/method_run.h"
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "benchmark/suite/amounts.h"
-#include "core/parallel.h"
 #include "core/process/proc_files.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
 
@@ -23,14 +23,14 @@ namespace raymoval {
 namespace {
 
 struct CleanFlags {
-  std::string path, output, dynamic, labels, voxel, threads, memory_limit;
+  std::string path, output, dynamic, labels, voxel, memory_limit;
   std::string method = "raymoval_plus:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
   bool overwrite = false;
   bool force = false;
   bool in_process = false;
-  bool quiet = false;
+  WorkFlags work;
 };
 
 /// What `--range` keeps of the points of a scan.
@@ -63,10 +63,9 @@ ConfiguredMethod configured(const CleanFlags& flags) {
 void find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
                    const Sequence& sequence, const TimedSource& scans, MaskSpool& masks,
                    Progress& progress) {
-  const int given = parse_threads(flags.threads);
   const auto remover = make_remover(method, sequence);
   RunContext context;
-  context.threads = given > 0 ? given : hardware_threads();
+  context.threads = flags.work.thread_count();
   context.progress = &progress;
   context.cancel = &interrupt_flag();
   remover->run(scans, masks, context);
@@ -102,10 +101,8 @@ CleanPaths checked_paths(const CleanFlags& flags) {
 
 Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const ConfiguredMethod& method,
                 Progress& progress) {
-  const int given = parse_threads(flags.threads);
-  Sequence sequence =
-      open_sequence(flags.path, flags.reading.options(),
-                    {given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()});
+  Sequence sequence = open_sequence(flags.path, flags.reading.options(),
+                                    {flags.work.thread_count(), &progress, &interrupt_flag()});
   if (sequence.scans->size() == 0) {
     throw DataError("sequence '" + sequence.name + "' has no scan in the chosen frames (" +
                     sequence.frames + ").");
@@ -178,7 +175,7 @@ ExitCode clean(const CleanFlags& flags) {
   if (!flags.in_process) {
     return clean_apart(arguments_of_child(), paths, limit, interrupt_flag());
   }
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  Progress progress(flags.work.style());
   try {
     return clean_here(flags, paths, progress);
   } catch (...) {
@@ -194,40 +191,42 @@ Command add_clean_command(CommandParser& program) {
   CommandOptions options = program.add_command("clean", "Writes a map without moving objects");
   SequenceFlags::add_place_to(options, flags->path);
   options.add("-o,--output", "FILE", flags->output,
-              "Cleaned map in the world frame: .pcd, .ply, .bin");
-  options.add("--dynamic", "FILE", flags->dynamic, "What was removed, as a map");
-  options.add("--labels", "DIR", flags->labels,
-              "Folder for a label file per scan (251 = removed, 9 = kept, 0 = left out)");
-  options.add("--voxel", "METRES", flags->voxel, "One point per cell of this size");
+              "The cleaned map in the world frame: a .pcd, .ply or .bin file");
+  options.add("--dynamic", "FILE", flags->dynamic, "Also write what was removed, as a map");
+  options.add(
+      "--labels", "DIR", flags->labels,
+      "Also write a label file for each scan into this folder (251 = removed, 9 = kept, 0 = left "
+      "out)");
+  options.add("--voxel", "METRES", flags->voxel, "Keep one point in each cell of this size");
   options.add("--method", "NAME", flags->method,
-              "Method (default: raymoval_plus:offline, the best of them)");
-  options.add("--set", "SETTING", flags->settings, "Parameter: METHOD.key=value");
+              "The method (default: raymoval_plus:offline, which is the best)");
+  options.add("--set", "SETTING", flags->settings, "A parameter: METHOD.key=value");
   flags->reading.add_to(options);
-  options.set_sentence(
-      "--range",
-      "Metres from the sensor; points beyond are in no output, but the method sees them");
-  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
-  options.add("--memory-limit", "SIZE", flags->memory_limit,
-              "Memory it may use: MiB, or with a unit such as 2GB (default: nine tenths of the "
-              "machine's)");
+  options.set_sentence("--range",
+                       "Distance from the sensor in metres. Points outside it are in no output, "
+                       "but the method sees them");
+  options.add(
+      "--memory-limit", "SIZE", flags->memory_limit,
+      "The memory it may use, in MiB or with a unit such as 2GB (default: nine tenths of the "
+      "machine's)");
   options.add_flag("--force", flags->force,
-                   "Clean also where the data has mistakes that make the map wrong");
+                   "Clean even if the data has mistakes that make the map wrong");
   options.add_flag("--in-process", flags->in_process,
-                   "Stay in one process, for a debugger: without a limit on memory");
-  options.add_flag("--overwrite", flags->overwrite, "Replace outputs that are there already");
-  options.add_flag("--quiet", flags->quiet, "No progress");
+                   "Work in this process, for a debugger; there is then no limit on memory");
+  options.add_flag("--overwrite", flags->overwrite, "Replace outputs that exist already");
+  flags->work.add_to(options);
   options.set_footer(
       "Examples:\n"
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 "
       "--method raymoval:online\n"
       "  raymoval clean data/05 -o near.pcd --range 2:40 --drop-ego auto\n"
-      "The data is looked at first, as `raymoval inspect` does: mistakes that make the map wrong "
-      "are\nrefused (see `raymoval inspect --list`) unless --force is given. Points of the own "
-      "vehicle (--drop-ego)\nand missing returns (NaN or at the origin) are in no output, and 0 "
-      "in label files.\n"
-      "Memory does not grow with the number of scans, and every point is kept without --voxel. "
-      "Outputs\nappear when all is done; until then they stand in files *.part beside them.");
+      "The data is checked first, as `raymoval inspect` does. Mistakes that make the map wrong "
+      "are\nrefused (see `raymoval inspect --list`) unless --force is given. Points on the "
+      "sensor's vehicle (--drop-ego)\nand missing returns (NaN or at the origin) are in no output "
+      "and have label 0.\n"
+      "The memory does not grow with the number of scans. Without --voxel every point is kept. The "
+      "outputs\nappear when all is done; until then they are files *.part in the same folder.");
   return {options.name(), [flags] { return clean(*flags); }};
 }
 

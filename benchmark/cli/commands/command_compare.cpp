@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/tables/comparison/comparison_files.h"
 #include "core/files/files.h"
 #include "core/terminal_colour.h"
@@ -140,19 +140,22 @@ ExitCode compare(const CompareFlags& flags) {
 
 Command add_compare_command(CommandParser& program) {
   auto flags = std::make_shared<CompareFlags>();
-  CommandOptions options = program.add_command("compare", "Tells whether a run got worse");
+  CommandOptions options = program.add_command("compare", "Says whether a run got worse");
   options.add("run", "RUN", flags->run, "Run folder, or its results.json");
-  options.add("reference", "REFERENCE", flags->reference, "What it is compared with: the same");
+  options.add("reference", "REFERENCE", flags->reference,
+              "The run folder, or results.json, to compare with");
   options.add(
       "--tolerance", "TOLERANCE", flags->tolerances,
       "METRIC=NUMBER: this rate may get worse by at most NUMBER, in its own unit, and counts "
       "may differ; F1=0.01 allows F1 to fall by at most 0.01");
-  options.add("--across", "WHAT", flags->across,
-              "What may differ, parameters or version of methods or both "
-              "(parameters,version): such cells are compared by their rates");
-  options.add("--time-band", "FACTOR", flags->time_band,
-              "A run that is slower than the reference by more than this factor is worse (default: "
-              "times are shown, never judged)");
+  options.add(
+      "--across", "WHAT", flags->across,
+      "What may differ: parameters or version of methods, or both (parameters,version). Cells "
+      "that differ in it are compared by their rates");
+  options.add(
+      "--time-band", "FACTOR", flags->time_band,
+      "A method that is slower than the reference by more than this factor is worse (default: "
+      "times are shown and not compared)");
   options.add("--format", "FORMAT", flags->format, "text, md, junit or json (default: text)");
   options.add("-o,--output", "FILE", flags->output,
               "Write the comparison to this file, and print it as text");
@@ -161,16 +164,16 @@ Command add_compare_command(CommandParser& program) {
   options.add_flag("--with-times", flags->with_times,
                    "With --update: keep times and machine, for --time-band");
   options.set_footer(
-      "Counts must be equal; other data, protocols or parameters are not comparable. With "
-      "--tolerance\nthe rates that it names decide, in the protocols that have them. Each protocol "
-      "says which direction\nof a rate is better.\n"
-      "--across parameters checks a changed default: cells whose parameters differ are compared "
+      "Counts must be equal. Runs with other data, protocols or parameters cannot be compared. "
+      "With\n"
+      "--tolerance the rates that it names decide, in the protocols that have them. Each protocol\n"
+      "says which direction of a rate is better.\n"
+      "--across parameters is for a changed default: cells whose parameters differ are compared "
       "by\n"
-      "their rates, none of which may get worse by more than its tolerance (or at all, if the "
-      "protocol\nhas no rate with one). The output says what differs.\n"
-      "--format junit is XML for a CI server: a test suite for each sequence, a test case for "
-      "each\n"
-      "method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
+      "their rates, none of which may get worse by more than its tolerance (or at all, if the\n"
+      "protocol has no rate with one). The output says what differs.\n"
+      "--format junit is XML for a CI server: a test suite for each sequence, and a test case for\n"
+      "each method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
       "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\nExamples:\n"
       "  raymoval run quick --out out/quick\n"
       "  raymoval compare out/quick results/reference/street\n"

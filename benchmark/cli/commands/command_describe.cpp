@@ -72,12 +72,12 @@ ExitCode describe(const DescribeFlags& flags) {
 
 Command add_describe_command(CommandParser& program) {
   auto flags = std::make_shared<DescribeFlags>();
-  CommandOptions options =
-      program.add_command("describe", "Tells a method's or protocol's source and parameters");
+  CommandOptions options = program.add_command(
+      "describe", "Shows the source and the parameters of a method or protocol");
   options.add("name", "NAME", flags->name,
               "METHOD, METHOD:variant, external:MANIFEST, PROTOCOL or protocol:NAME");
-  options.add_flag("--markdown", flags->markdown, "As Markdown");
-  options.add_flag("--json", flags->json, "As JSON");
+  options.add_flag("--markdown", flags->markdown, "Print Markdown");
+  options.add_flag("--json", flags->json, "Print JSON");
   options.set_footer(
       "Examples:\n  raymoval describe raymoval:online\n  raymoval describe protocol:erasor --json");
   return {options.name(), [flags] { return describe(*flags); }};

@@ -5,16 +5,17 @@
 
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/commands/output_json.h"
-#include "core/parallel.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 
 namespace raymoval {
 namespace {
 
 struct InspectFlags {
-  std::string path, threads;
+  std::string path;
   SequenceFlags reading;
-  bool json = false, list = false, quiet = false;
+  bool json = false, list = false;
+  WorkFlags work;
 };
 
 std::string finding_line(const Finding& finding) {
@@ -66,11 +67,10 @@ ExitCode inspect_command(const InspectFlags& flags) {
     throw UsageError("inspect what? Name a sequence folder, ROOT:05, or a scene.");
   }
   check_not_both(flags.path);
-  const int given = parse_threads(flags.threads);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  Progress progress(flags.work.style());
   const InspectionReport report =
       inspect_path(flags.path, flags.reading.options(),
-                   {given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()});
+                   {flags.work.thread_count(), &progress, &interrupt_flag()});
   print(flags.json ? to_json(report).dump(2) + "\n" : report_text(report));
   return report.has_findings() ? ExitCode::kWorse : ExitCode::kDone;
 }
@@ -83,14 +83,14 @@ Command add_inspect_command(CommandParser& program) {
       program.add_command("inspect", "Finds mistakes in the data of a sequence");
   SequenceFlags::add_place_to(options, flags->path);
   flags->reading.add_to(options);
-  options.add_flag("--json", flags->json, "Print findings and measured numbers as JSON");
-  options.add_flag("--list", flags->list, "Say what is looked for, and what to do about each");
-  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
-  options.add_flag("--quiet", flags->quiet, "No progress");
+  options.add_flag("--json", flags->json, "Print the findings and the measured numbers as JSON");
+  options.add_flag("--list", flags->list, "List the checks, and what to do about what each finds");
+  flags->work.add_to(options);
   options.set_footer(
-      "One line per finding: what is wrong, where, what was expected, what to do; then the sensor\n"
-      "as it is named and as the scans show it. About thirty scans are read, and the poses, times\n"
-      "and file sizes of all.\n"
+      "Each finding is one line: what is wrong, where, what was expected, and what to do. Then "
+      "follows\n"
+      "the sensor as it is named and as the scans show it. About thirty scans are read, and the\n"
+      "poses, times and file sizes of all.\n"
       "Exit codes: 0 nothing found, 1 findings, 2 cannot be read as asked.\n"
       "Examples:\n"
       "  raymoval inspect data/05\n"

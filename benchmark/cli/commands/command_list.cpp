@@ -6,7 +6,7 @@
 #include "benchmark/suite/shipped_suites.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
-#include "datasets/semantickitti/semantickitti.h"
+#include "datasets/layouts.h"
 #include "datasets/simulation/scene/library.h"
 #include "datasets/simulation/scene/scene_text.h"
 #include "eval/columns/columns.h"
@@ -68,16 +68,9 @@ Lines simulated_sensor_lines() {
 }
 
 Lines sequence_lines() {
-  Lines lines = {{"street", "small built-in scene, needs no data"},
-                 {"SCENE", "a scene of `raymoval list scenes`, simulated once and cached"},
-                 {"SCENE:key=value,...",
-                  "the same with scans=N, seed=N, sensor=NAME, pose_noise=F, rolling=skewed"},
-                 {"FOLDER", "a folder in SemanticKITTI or DynamicMap layout, or one of scan files"},
-                 {"ROOT:05", "a whole sequence of a SemanticKITTI root folder"}};
-  for (const PaperSegment& segment : paper_segments()) {
-    lines.emplace_back("ROOT:" + segment.name, "sequence " + segment.sequence + ", frames " +
-                                                   frame_range_text(segment.frames) +
-                                                   ", as papers compare on");
+  Lines lines;
+  for (const Layout& layout : layouts()) {
+    lines.insert(lines.end(), layout.forms.begin(), layout.forms.end());
   }
   return lines;
 }
@@ -141,7 +134,7 @@ ExitCode list(const std::string& what) {
 Command add_list_command(CommandParser& program) {
   auto what = std::make_shared<std::string>();
   CommandOptions options =
-      program.add_command("list", "Names methods, protocols, sensors, scenes, suites");
+      program.add_command("list", "Lists methods, protocols, sensors, scenes, suites");
   options.add("what", "WHAT", *what,
               "methods, variants, protocols, columns, sensors, sequences, scenes, "
               "simulated-sensors or suites; all if empty");

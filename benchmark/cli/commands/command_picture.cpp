@@ -11,9 +11,8 @@
 #include "benchmark/picture/maps/map_picture.h"
 #include "benchmark/picture/maps/overview_picture.h"
 #include "benchmark/picture/maps/range_picture.h"
-#include "benchmark/run/kept_run.h"
+#include "benchmark/run/folder/kept_run.h"
 #include "core/files/files.h"
-#include "core/parallel.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -22,8 +21,8 @@ namespace {
 struct PictureFlags {
   std::string run, output, kind = "map";
   std::vector<std::string> only;
-  std::string sequence, method, scan, crop, resolution, size, protocol, data, threads;
-  bool quiet = false;
+  std::string sequence, method, scan, crop, resolution, size, protocol, data;
+  WorkFlags work;
 };
 
 const std::vector<std::string>& kinds() {
@@ -36,7 +35,7 @@ bool is_chart(const std::string& kind) {
   return kind == "pr-rr" || kind == "stages" || kind == "accuracy-time";
 }
 
-/// Options that say something about some kinds only.
+/// @throws UsageError for an option that says nothing about the kind of picture
 void check_options(const PictureFlags& flags) {
   const struct {
     const char* option;
@@ -103,7 +102,7 @@ int parse_size(const std::string& text) {
   throw UsageError("--size " + text + ": expected a whole number of pixels from 50 to 8000.");
 }
 
-/// The only one there is, where the user did not say which.
+/// What was given, or the only name there is. @throws UsageError if there are several
 std::string chosen(const std::string& given, const char* option,
                    const std::vector<std::string>& names) {
   if (!given.empty()) return given;
@@ -137,8 +136,7 @@ Canvas drawn(const PictureFlags& flags, Progress& progress) {
       throw UsageError("--scan " + flags.scan + ": expected the number of a frame, such as 30.");
     }
   }
-  const int given = parse_threads(flags.threads);
-  const OpenContext context{given > 0 ? given : hardware_threads(), &progress, &interrupt_flag()};
+  const OpenContext context{flags.work.thread_count(), &progress, &interrupt_flag()};
   const KeptRun run(flags.run, flags.data);
   if (flags.kind == "map") return map_picture(run, map, context);
   const KeptCell& cell = chosen_cell(flags, run);
@@ -168,7 +166,7 @@ DrawChart charted(const PictureFlags& flags) {
 
 ExitCode draw(const PictureFlags& flags) {
   check_flags(flags);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  Progress progress(flags.work.style());
   try {
     if (is_chart(flags.kind)) {
       write_chart(flags.output, charted(flags));
@@ -184,32 +182,35 @@ ExitCode draw(const PictureFlags& flags) {
 }
 
 void add_options(CommandOptions& options, PictureFlags& flags) {
-  options.add("run", "RUN", flags.run, "Run folder");
-  options.add("-o,--output", "FILE", flags.output,
-              "The picture: .png; charts also .svg and .pdf; replaced if there");
+  options.add("run", "RUN", flags.run, "The run folder");
+  options.add(
+      "-o,--output", "FILE", flags.output,
+      "The picture, a .png file; charts may also be .svg or .pdf. An existing file is replaced");
   options.add("--kind", "KIND", flags.kind,
               "map (default), range, overview, pr-rr, stages or accuracy-time; the last three "
               "are charts");
-  options.add("--only", "PATTERN", flags.only,
-              "map: only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the "
-              "two; default: all but the controls");
+  options.add(
+      "--only", "PATTERN", flags.only,
+      "map: only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?); "
+      "default: all but the controls");
   options.add("--sequence", "NAME", flags.sequence, "range, overview: which sequence");
   options.add("--method", "NAME", flags.method, "range, overview: which method");
   options.add("--scan", "FRAME", flags.scan,
-              "range: number of the frame (default: the middle one)");
+              "range: the number of the frame (default: the middle one)");
   options.add("--crop", "WINDOW", flags.crop,
-              "map, overview: XMIN:XMAX:YMIN:YMAX, metres of the world frame (default: the "
-              "sensor's way and 30 m around)");
+              "map, overview: XMIN:XMAX:YMIN:YMAX in metres of the world frame (default: the "
+              "sensor's path and 30 m around it)");
   options.add("--resolution", "METRES", flags.resolution,
-              "map: metres per pixel (default: by --size)");
+              "map: metres per pixel (default: --size decides)");
   options.add("--size", "PIXELS", flags.size,
-              "Longer side of a panel, or width of range images, in pixels");
-  options.add("--protocol", "NAME", flags.protocol, "pr-rr, accuracy-time: by this protocol");
-  options.add("--data", "PATH", flags.data,
-              "Where the sequences are, if no longer where the run found them: a sequence's "
-              "folder, or one that holds them by name");
-  options.add("--threads", "N", flags.threads, "At most so many threads (default: all cores)");
-  options.add_flag("--quiet", flags.quiet, "No progress");
+              "The longer side of a panel, or the width of range images, in pixels");
+  options.add("--protocol", "NAME", flags.protocol,
+              "pr-rr, accuracy-time: the protocol that is shown");
+  options.add(
+      "--data", "PATH", flags.data,
+      "Where the sequences are, if they are no longer where the run found them: the folder of a "
+      "sequence, or a folder that holds them by name");
+  flags.work.add_to(options);
 }
 
 }  // namespace
@@ -221,9 +222,10 @@ Command add_picture_command(CommandParser& program) {
   add_options(options, *flags);
   options.set_footer(
       "Pictures of points need a run with --keep-removals, and its data where the run found it. "
-      "Shown are\nthe points that are evaluated. A pixel of a map shows what became of most of its "
-      "moving points, if at\nleast a tenth as many move as stand, else of most of its static ones. "
-      "Charts need the run folder only.\nExamples:\n"
+      "They show\nthe points that are evaluated. If a pixel of a map has at least one moving point "
+      "for "
+      "ten static ones,\nit shows what became of most of its moving points, else of most of its "
+      "static ones.\nCharts need only the run folder.\nExamples:\n"
       "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
       "--keep-removals --out out/05\n"
       "  raymoval picture out/05 -o maps.png\n"

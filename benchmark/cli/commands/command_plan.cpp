@@ -23,7 +23,7 @@ std::string line_of(const nlohmann::ordered_json& json) {
 ExitCode plan(const PlanFlags& flags) {
   const Suite suite = flags.what.resolved();
   warn_of_settings_without_effect(suite);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  Progress progress(progress_style(flags.quiet));
   RunOptions options;
   options.out = flags.out;
   options.progress = &progress;
@@ -41,11 +41,11 @@ ExitCode plan(const PlanFlags& flags) {
 Command add_plan_command(CommandParser& program) {
   auto flags = std::make_shared<PlanFlags>();
   CommandOptions options =
-      program.add_command("plan", "Prints the cells of a suite, a JSON line each");
+      program.add_command("plan", "Prints a line of JSON for each cell of a suite");
   flags->what.add_to(options);
   options.add("--out", "DIR", flags->out,
-              "Run folder: also tell which cells are to be run, and why");
-  options.add_flag("--quiet", flags->quiet, "No progress");
+              "The run folder: also say which cells have to be run, and why");
+  options.add_flag("--quiet", flags->quiet, "Show no progress");
   options.set_footer(
       "Each cell may be run on a machine of its own: raymoval run SUITE --out DIR --cell KEY.\n"
       "Then raymoval run SUITE --out DIR --collect makes the tables.\n"

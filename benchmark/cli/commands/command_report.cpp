@@ -4,20 +4,19 @@
 #include "benchmark/cli/commands.h"
 #include "benchmark/report/page.h"
 #include "benchmark/report/page_files.h"
-#include "benchmark/result/result_sets.h"
-#include "benchmark/run/kept_run.h"
+#include "benchmark/result/checks/result_sets.h"
+#include "benchmark/run/folder/kept_run.h"
 #include "benchmark/tables/published_columns.h"
 #include "core/files/files.h"
-#include "core/parallel.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
 
 struct ReportFlags {
-  std::string run, output, against, data, points, threads;
+  std::string run, output, against, data, points;
   bool no_points = false;
-  bool quiet = false;
+  WorkFlags work;
 };
 
 std::size_t point_count(const ReportFlags& flags) {
@@ -28,7 +27,8 @@ std::size_t point_count(const ReportFlags& flags) {
                    ": expected a whole number from 1000 to 20000000, such as 300000.");
 }
 
-/// Whether the page gets a 3-D view. Whoever says where its points are, and gets none, is told.
+/// Whether the page gets a 3-D view.
+/// @throws UsageError if an option is about the 3-D view and the page gets none
 bool with_points(const ReportFlags& flags) {
   const bool built_in = !page_file("view.js").empty();
   const std::string given = !flags.data.empty()     ? "--data " + flags.data
@@ -46,7 +46,7 @@ bool with_points(const ReportFlags& flags) {
   return built_in && !flags.no_points;
 }
 
-/// Papers' rows, where they are shipped: a report is worth having without them.
+/// The papers' rows. If they are not shipped, the report is made without them.
 std::vector<OutsideColumn> papers() {
   try {
     return published_columns();
@@ -70,8 +70,8 @@ ExitCode report(const ReportFlags& flags) {
     }
     check_folder_of(flags.output);
   }
-  const int threads = parse_threads(flags.threads);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  const int threads = flags.work.thread_count();
+  Progress progress(flags.work.style());
   PageRequest request;
   request.points = point_count(flags);
   request.with_points = with_points(flags);
@@ -88,7 +88,7 @@ ExitCode report(const ReportFlags& flags) {
   }
   request.methods = &program_methods();
   request.points_needed = !flags.data.empty();  // Who says where the data is means it.
-  request.threads = threads > 0 ? threads : hardware_threads();
+  request.threads = threads;
   request.progress = &progress;
   request.cancel = &interrupt_flag();
   const Page page = make_page(request);
@@ -108,16 +108,15 @@ ExitCode report(const ReportFlags& flags) {
 Command add_report_command(CommandParser& program) {
   auto flags = std::make_shared<ReportFlags>();
   CommandOptions options = program.add_command("report", "Writes a run as a page with a 3-D view");
-  options.add("run", "RUN", flags->run, "Run folder");
-  options.add("-o,--output", "FILE", flags->output, "Page to write (default: RUN/report.html)");
-  options.add("--against", "RUN", flags->against, "Another run: tell what changed against it");
+  options.add("run", "RUN", flags->run, "The run folder");
+  options.add("-o,--output", "FILE", flags->output, "The page to write (default: RUN/report.html)");
+  options.add("--against", "RUN", flags->against, "Another run: show what changed since it");
   options.add("--data", "PATH", flags->data,
-              "Where the sequences are, if not where the run read them");
+              "Where the sequences are, if they are not where the run read them");
   options.add("--points", "N", flags->points,
-              "At most so many points in the page (default: 1000000)");
-  options.add_flag("--no-points", flags->no_points, "Without the 3-D view");
-  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
-  options.add_flag("--quiet", flags->quiet, "No progress");
+              "Put at most N points into the page (default: 1000000)");
+  options.add_flag("--no-points", flags->no_points, "Leave the 3-D view out");
+  flags->work.add_to(options);
   options.set_footer(
       "The page is one file: it needs no network, opens from disk, and can be handed around. Its\n"
       "3-D view shows the points of each cell that was run with --keep-removals.\n"

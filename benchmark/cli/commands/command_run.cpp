@@ -124,7 +124,7 @@ ExitCode run(const RunFlags& flags) {
   const Suite suite = flags.what.resolved();
   check_flags(flags);
   warn_of_settings_without_effect(suite);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  Progress progress(progress_style(flags.quiet));
   RunOptions options;
   options.out = flags.out;
   options.keep_removals = flags.keep_removals;
@@ -146,23 +146,26 @@ ExitCode run(const RunFlags& flags) {
 
 void add_options(CommandOptions& options, RunFlags& flags) {
   flags.what.add_to(options);
-  options.add("--out", "DIR", flags.out, "Folder for the results");
-  options.add("--only", "PATTERN", flags.only,
-              "Run only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two");
+  options.add("--out", "DIR", flags.out, "The folder for the results");
+  options.add(
+      "--only", "PATTERN", flags.only,
+      "Run only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?)");
   options.add("--shard", "I/N", flags.shard,
-              "Run only part I of N equal parts, for several machines");
-  options.add("--cell", "CELL", flags.cell,
-              "Run one cell: its key (see `raymoval plan`) or SEQUENCE/NAME; no tables");
+              "Run only part I of N equal parts, to use several machines");
+  options.add(
+      "--cell", "CELL", flags.cell,
+      "Run one cell, given by its key (see `raymoval plan`) or as SEQUENCE/NAME; make no tables");
   options.add_flag("--collect", flags.collect,
-                   "Run nothing, make tables of the cells that are there");
-  options.add_flag("--explain", flags.explain, "Run nothing, tell which cells would be and why");
+                   "Run nothing; make the tables of the cells that are there");
+  options.add_flag("--explain", flags.explain,
+                   "Run nothing; say which cells would be run, and why");
   options.add_flag("--keep-removals", flags.keep_removals,
-                   "Keep what each method removed, per scan");
+                   "Keep what each method removed from each scan");
   options.add_flag("--in-process", flags.in_process,
-                   "Run methods within this process, for a debugger: a crash ends all");
+                   "Run methods in this process, for a debugger; a crash then ends the whole run");
   options.add_flag("--overwrite", flags.overwrite,
-                   "Replace the results of another suite, or on other data, in the folder");
-  options.add_flag("--quiet", flags.quiet, "No progress");
+                   "Replace the folder's results if they are of another suite or on other data");
+  options.add_flag("--quiet", flags.quiet, "Show no progress");
 }
 
 }  // namespace

@@ -5,23 +5,23 @@
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/commands.h"
 #include "benchmark/cli/commands/output_json.h"
-#include "benchmark/result/removal_files.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/scored_sequence.h"
 #include "core/files/files.h"
-#include "core/parallel.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
 namespace {
 
 struct ScoreFlags {
-  std::string sequence, predictions, cloud, voxel, json, threads;
+  std::string sequence, predictions, cloud, voxel, json;
   std::vector<std::string> protocols, settings;
   SequenceFlags reading;
-  bool quiet = false;
+  WorkFlags work;
 };
 
 std::vector<ProtocolRecord> protocol_records(const ScoredSequence& scored) {
@@ -115,9 +115,8 @@ std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
 ExitCode score(const ScoreFlags& flags) {
   check_flags(flags);
   const std::vector<ProtocolRequest> protocols = requested_protocols(flags);
-  const int given = parse_threads(flags.threads);
-  const int threads = given > 0 ? given : hardware_threads();
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  const int threads = flags.work.thread_count();
+  Progress progress(flags.work.style());
   ScoredSequence scored(open_sequence(flags.sequence, flags.reading.options(),
                                       {threads, &progress, &interrupt_flag()}),
                         protocols, threads, &progress);
@@ -142,24 +141,25 @@ Command add_score_command(CommandParser& program) {
   CommandOptions options =
       program.add_command("score", "Scores label files or a cleaned map made by any program");
   SequenceFlags::add_place_to(options, flags->sequence);
-  options.add("--predictions", "DIR", flags->predictions,
-              "Folder of NNNNNN.label files: 251 to 259 = removed, others kept");
+  options.add(
+      "--predictions", "DIR", flags->predictions,
+      "A folder of NNNNNN.label files, in which 251 to 259 mean removed and other labels kept");
   options.add("--cloud", "FILE", flags->cloud,
-              "Cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
+              "A cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
   options.add("--voxel", "METRES", flags->voxel,
-              "Voxel to which the cloud was thinned; thins the oracle's likewise");
-  options.add("--protocol", "NAME", flags->protocols, "Protocol to score by (default: erasor)");
-  options.add("--set", "SETTING", flags->settings, "Option of a protocol: protocol:NAME.key=value");
+              "The voxel size to which the cloud was thinned; the oracle's cloud is thinned in the "
+              "same way");
+  options.add("--protocol", "NAME", flags->protocols, "The protocol to score by (default: erasor)");
+  options.add("--set", "SETTING", flags->settings,
+              "An option of a protocol: protocol:NAME.key=value");
   flags->reading.add_to(options);
   options.add("--json", "FILE", flags->json, "Write counts and rates to this file");
-  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
-  options.add_flag("--quiet", flags->quiet, "No progress");
+  flags->work.add_to(options);
   options.set_footer(
       "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "
       "perfect\ncleaner below 100. What the oracle's cloud scores in the same way is shown beside "
-      "it. That is a\nyardstick and no upper limit: whoever also removes static points beside "
-      "moving "
-      "ones can have a\nhigher RR or DA.\nExamples:\n"
+      "it. That is a\nyardstick and no upper limit: a method that also removes static points "
+      "beside moving ones\ncan have a higher RR or DA.\nExamples:\n"
       "  raymoval score --sequence data/05 --predictions out/labels\n"
       "  raymoval score --sequence data/05 --cloud static.pcd --voxel 0.1 --protocol erasor "
       "--protocol dynamicmap\n"

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
-#include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/semantickitti/semantickitti.h"
 #include "datasets/simulation/scene/library.h"
@@ -13,9 +12,9 @@ namespace raymoval {
 namespace {
 
 struct SimulateFlags {
-  std::string scene, output, seed, scans, sensor, pose_noise, rolling, threads;
+  std::string scene, output, seed, scans, sensor, pose_noise, rolling;
   bool perfect_poses = false;
-  bool quiet = false;
+  WorkFlags work;
 };
 
 SimulationOptions options_of(const SimulateFlags& flags) {
@@ -62,11 +61,9 @@ ExitCode simulate(const SimulateFlags& flags) {
   }
   if (flags.output.empty()) throw UsageError("-o DIR is missing: name the sequence's folder.");
   const SimulationOptions options = options_of(flags);
-  const int given = parse_threads(flags.threads);
-  Progress progress(flags.quiet ? ProgressStyle::kQuiet : progress_style_of_stderr());
+  Progress progress(flags.work.style());
   try {
-    write_simulated(options, flags.output, given > 0 ? given : hardware_threads(), &progress,
-                    &interrupt_flag());
+    write_simulated(options, flags.output, flags.work.thread_count(), &progress, &interrupt_flag());
   } catch (...) {
     progress.end();
     throw;
@@ -82,19 +79,19 @@ Command add_simulate_command(CommandParser& program) {
   CommandOptions options =
       program.add_command("simulate", "Writes a simulated sequence with labels");
   options.add("scene", "SCENE", flags->scene,
-              "Scene (see `raymoval list scenes`) or scene file, *.json");
-  options.add("-o,--output", "DIR", flags->output, "New folder, in SemanticKITTI layout");
-  options.add("--seed", "N", flags->seed, "Of movers, noise and poses (default: 1)");
-  options.add("--scans", "N", flags->scans, "Number of scans (default: the scene's own)");
+              "A scene (see `raymoval list scenes`) or a scene file, *.json");
+  options.add("-o,--output", "DIR", flags->output, "The new folder, in SemanticKITTI layout");
+  options.add("--seed", "N", flags->seed, "The seed of movers, noise and poses (default: 1)");
+  options.add("--scans", "N", flags->scans, "The number of scans (default: what the scene says)");
   options.add("--sensor", "NAME", flags->sensor,
-              "Sensor (see `raymoval list simulated-sensors`) or sensor file");
-  options.add_flag("--perfect-poses", flags->perfect_poses, "Poses without error: --pose-noise 0");
+              "A sensor (see `raymoval list simulated-sensors`) or a sensor file");
+  options.add_flag("--perfect-poses", flags->perfect_poses,
+                   "Write poses without error, as with --pose-noise 0");
   options.add("--pose-noise", "FACTOR", flags->pose_noise,
-              "Severity of the error of poses; 1 (default) is a good odometry");
+              "How large the error of the poses is; 1 (default) is that of a good odometry");
   options.add("--rolling", "KIND", flags->rolling,
               "skewed or corrected: a scan is taken while the sensor moves (default: none)");
-  options.add("--threads", "N", flags->threads, "At most so many threads (default: all cores)");
-  options.add_flag("--quiet", flags->quiet, "No progress");
+  flags->work.add_to(options);
   options.set_footer(
       "The same options give the same bytes. Commands that take a sequence also take a scene by\n"
       "name, such as town:scans=60,seed=3, and simulate it once into the cache folder\n"

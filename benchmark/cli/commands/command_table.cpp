@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "benchmark/cli/commands.h"
-#include "benchmark/result/result_sets.h"
+#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/published_columns.h"
 #include "benchmark/tables/tables.h"
@@ -109,18 +109,20 @@ void add_look_options(CommandOptions& options, TableFlags& flags) {
               "methods (default): a row for each method, a block for each sequence; paper: a "
               "row for each sequence, methods side by side");
   options.add("--rates", "RATES", flags.rates,
-              "Only these rates, in this order, such as PR,RR,F1; ms is the time per scan "
+              "Show only these rates, in this order, such as PR,RR,F1; ms is the time per scan "
               "(default: the main rates)");
   options.add("--decimals", "N", flags.decimals,
-              "Digits behind the point: 2, or of one rate, such as F1=3");
+              "How many digits stand behind the point: 2, or for one rate, such as F1=3");
   options.add("--names", "NAMES", flags.names,
-              "What a method or sequence is called in the tables: 'NAME=SHOWN', or a file with "
+              "The name of a method or sequence in the tables: 'NAME=SHOWN', or a file with "
               "such lines");
   options.add("--sort", "RATE", flags.sort,
-              "Best first by this rate or ms, by name, or none (default): as in the run");
-  options.add_flag("--disagreements", flags.disagreements,
-                   "Also the ranks on each sequence, and which pairs of methods protocols rank "
-                   "otherwise");
+              "Put the best first by this rate or by ms, or sort by name, or none (default): as in "
+              "the run");
+  options.add_flag(
+      "--disagreements", flags.disagreements,
+      "Also show the ranks on each sequence, and the pairs of methods that protocols rank "
+      "in a different order");
 }
 
 }  // namespace
@@ -128,17 +130,18 @@ void add_look_options(CommandOptions& options, TableFlags& flags) {
 Command add_table_command(CommandParser& program) {
   auto flags = std::make_shared<TableFlags>();
   CommandOptions options = program.add_command("table", "Prints the tables of a run");
-  options.add("run", "RUN", flags->run, "Run folder");
+  options.add("run", "RUN", flags->run, "The run folder");
   options.add("--format", "FORMAT", flags->format, "md (default), csv, tex or json");
-  options.add("--protocol", "NAME", flags->protocols,
-              "Only what this protocol says (default: all)");
-  options.add("--only", "PATTERN", flags->only,
-              "Only cells SEQUENCE/NAME that fit this pattern (* and ?), or either of the two");
+  options.add("--protocol", "NAME", flags->protocols, "Show only this protocol (default: all)");
+  options.add(
+      "--only", "PATTERN", flags->only,
+      "Show only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?)");
   add_look_options(options, *flags);
-  options.add_flag("--columns", flags->columns,
-                   "Instead of the usual tables: points by class, range and height, and intervals");
+  options.add_flag(
+      "--columns", flags->columns,
+      "Show points by class, range and height, and intervals, in place of the usual tables");
   options.add_flag("--with-published", flags->with_published,
-                   "Set papers' rows beside those of sequences that the papers have");
+                   "Show the papers' rows beside those of sequences that the papers have");
   options.set_footer(
       "Examples:\n"
       "  raymoval table out/street\n"

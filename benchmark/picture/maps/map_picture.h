@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmark/picture/maps/top_down.h"
-#include "benchmark/run/kept_run.h"
+#include "benchmark/run/folder/kept_run.h"
 
 namespace raymoval {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "benchmark/picture/canvas/canvas.h"
-#include "benchmark/run/kept_run.h"
+#include "benchmark/run/folder/kept_run.h"
 
 namespace raymoval {
 

@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "datasets/ego/ego_estimate.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/pose_fit.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 
 namespace raymoval::inspection {
 namespace {

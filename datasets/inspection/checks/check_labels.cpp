@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -118,15 +120,13 @@ std::string label_place(const Samples& samples, std::size_t scan) {
 }
 
 bool has_words(const Samples& samples) {
-  return samples.sequence().labels != nullptr && samples.sequence().layout != "dynamicmap";
+  return samples.sequence().labels != nullptr && !samples.layout().labels_in_intensity;
 }
 
 Finding shifted_finding(const Samples& samples, bool next, const std::string& what) {
-  Finding finding;
-  finding.where = label_place(samples, 0) + " and the others";
-  finding.what = "labels of frame N are those of the scan " +
-                 std::string(next ? "after" : "before") + " it: " + what;
-  return finding;
+  return {.where = label_place(samples, 0) + " and the others",
+          .what = fmt::format("labels of frame N are those of the scan {} it: {}",
+                              next ? "after" : "before", what)};
 }
 
 std::vector<Finding> look_for_shift(Samples& samples) {
@@ -136,11 +136,11 @@ std::vector<Finding> look_for_shift(Samples& samples) {
   if (counts.wrong > 0) {
     const std::size_t most = std::max(counts.as_next, counts.as_previous);
     if (most < 2 || 3 * most < counts.wrong) return {};
-    return {shifted_finding(samples, counts.as_next >= counts.as_previous,
-                            "in " + grouped_text(most) + " of the " + grouped_text(counts.wrong) +
-                                " scans whose count of labels is not "
-                                "their own it is that of this neighbour (not every neighbour was "
-                                "read)")};
+    return {shifted_finding(
+        samples, counts.as_next >= counts.as_previous,
+        fmt::format("in {} of the {} scans whose count of labels is not their own it is that of "
+                    "this neighbour (not every neighbour was read)",
+                    grouped_text(most), grouped_text(counts.wrong)))};
   }
   const double given = mean_confusion(samples, 0);
   const double next = mean_confusion(samples, -1), previous = mean_confusion(samples, 1);
@@ -150,23 +150,22 @@ std::vector<Finding> look_for_shift(Samples& samples) {
   const double best = std::min(next, previous);
   if (given < best + kClear || given < kTimes * best) return {};
   return {shifted_finding(samples, next <= previous,
-                          "neighbouring points differ in label " + fixed_text(100.0 * given, 1) +
-                              " % of the time, and " + fixed_text(100.0 * best, 1) +
-                              " % with the labels moved by one frame")};
+                          fmt::format("neighbouring points differ in label {} % of the time, and "
+                                      "{} % with the labels moved by one frame",
+                                      fixed_text(100.0 * given, 1), fixed_text(100.0 * best, 1)))};
 }
 
 std::vector<Finding> look_for_counts(Samples& samples) {
   if (!has_words(samples)) return {};
   const CountsSeen counts = look_at_counts(samples);
   if (counts.wrong == 0 || !look_for_shift(samples).empty()) return {};
-  Finding finding;
-  finding.where = label_place(samples, counts.first_wrong);
-  finding.what = grouped_text(counts.labels) + " labels for " + grouped_text(counts.points) +
-                 " points" +
-                 (counts.wrong > 1 ? "; the counts differ in " + grouped_text(counts.wrong) +
-                                         " of " + grouped_text(counts.frames) + " scans looked at"
-                                   : "");
-  return {finding};
+  const std::string more =
+      counts.wrong > 1 ? fmt::format("; the counts differ in {} of {} scans looked at",
+                                     grouped_text(counts.wrong), grouped_text(counts.frames))
+                       : "";
+  return {{.where = label_place(samples, counts.first_wrong),
+           .what = fmt::format("{} labels for {} points{}", grouped_text(counts.labels),
+                               grouped_text(counts.points), more)}};
 }
 
 /// Intensity of up to three scans as stored.
@@ -185,23 +184,14 @@ std::vector<float> stored_intensity(const Samples& samples) {
   return all;
 }
 
-bool is_label_id(std::uint32_t word) {
-  static const std::set<std::uint32_t> ids = {0,  1,  10,  11,  13,  15,  16,  18,  20,  30, 31, 32,
-                                              40, 44, 48,  49,  50,  51,  52,  60,  70,  71, 72, 80,
-                                              81, 99, 252, 253, 254, 255, 256, 257, 258, 259};
-  return ids.count(word & 0xFFFFU) > 0;
-}
-
 /// A strength of return has many values; labels are few whole numbers from a known list.
 std::vector<Finding> look_for_values(Samples& samples) {
-  const bool expected_here =
-      samples.sequence().layout == "dynamicmap" && samples.sequence().labels != nullptr;
-  if (expected_here) return {};
+  if (samples.layout().labels_in_intensity && samples.sequence().labels != nullptr) return {};
   std::set<std::uint32_t> values;
   for (const float value : stored_intensity(samples)) {
     if (!(value >= 0.0F && value < 16777216.0F) || value != std::floor(value)) return {};
     const auto word = static_cast<std::uint32_t>(value);
-    if (!is_label_id(word)) return {};
+    if (!semantickitti_class_names().contains(semantic_id(word))) return {};
     values.insert(word);
   }
   const bool zero_or_one = values == std::set<std::uint32_t>{0, 1};
@@ -210,17 +200,19 @@ std::vector<Finding> look_for_values(Samples& samples) {
   for (const std::uint32_t value : values) {
     if (seen.size() < 6) seen.push_back(grouped_text(value));
   }
-  const bool in_world = samples.stored_in_world();
-  Finding finding;
-  finding.where = "intensity of the scan files";
-  finding.what = "all values are labels (" + join(seen) + (values.size() > 6 ? ", ..." : "") + ")";
-  finding.remedy =
-      in_world ? std::string("Give a label rule: \"labels\": {\"moving\": [") +
-                     (zero_or_one ? "1" : "252, 253, 254, 255, 256, 257, 258, 259") +
-                     "]} in sequence.json (or --label-rule); without one there are no labels."
-               : "Write the labels to labels/NAME.label (uint32 a point) and the strength of the "
-                 "return, or 0, in their place: methods see intensity and must not see the answer.";
-  return {finding};
+  const std::string remedy =
+      samples.layout().labels_in_intensity
+          ? fmt::format(
+                "Give a label rule: \"labels\": {{\"moving\": [{}]}} in sequence.json (or "
+                "--label-rule); without one there are no labels.",
+                zero_or_one ? "1" : "252, 253, 254, 255, 256, 257, 258, 259")
+          : "Write the labels to labels/NAME.label (uint32 a point) and the strength of the "
+            "return, "
+            "or 0, in their place: methods see intensity and must not see the answer.";
+  return {{.where = "intensity of the scan files",
+           .what = fmt::format("all values are labels ({}{})", join(seen),
+                               values.size() > 6 ? ", ..." : ""),
+           .remedy = remedy}};
 }
 
 /// The bits of a small whole number, read as a float, are a number near 1e-43.
@@ -240,13 +232,11 @@ std::vector<Finding> look_for_bits(Samples& samples) {
   if (tiny == 0 || 99 * other > tiny) return {};
   const auto most = std::max_element(
       words.begin(), words.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  Finding finding;
-  finding.where = "intensity of the scan files";
-  finding.what = "values such as " +
-                 number_text(static_cast<double>(std::bit_cast<float>(most->first))) +
-                 " are the bits of whole numbers (" + grouped_text(most->first & 0xFFFFU) +
-                 "), not their values";
-  return {finding};
+  return {
+      {.where = "intensity of the scan files",
+       .what = fmt::format("values such as {} are the bits of whole numbers ({}), not their values",
+                           number_text(static_cast<double>(std::bit_cast<float>(most->first))),
+                           grouped_text(most->first & 0xFFFFU))}};
 }
 
 }  // namespace

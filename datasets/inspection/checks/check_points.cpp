@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,9 +9,10 @@
 
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
+#include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/pose_fit.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/reading/left_out.h"
 
 namespace raymoval::inspection {
@@ -18,12 +21,11 @@ namespace {
 std::vector<Finding> look_for_millimetres(Samples& samples) {
   samples.measures.emplace_back("median_extent_m", samples.median_range());
   if (samples.point_scale() == 1.0) return {};
-  Finding finding;
-  finding.where = "points of all scans read";
-  finding.what = "half of the points lie more than " + fixed_text(samples.median_range(), 0) +
-                 " from the middle of their scan; taken as millimetres that is " +
-                 fixed_text(samples.median_range() * samples.point_scale(), 1) + " m";
-  return {finding};
+  return {{.where = "points of all scans read",
+           .what = fmt::format("half of the points lie more than {} from the middle of their scan; "
+                               "taken as millimetres that is {} m",
+                               fixed_text(samples.median_range(), 0),
+                               fixed_text(samples.median_range() * samples.point_scale(), 1))}};
 }
 
 /// True of most drivers' files, and nothing has to be done: readers leave such points out.
@@ -31,10 +33,8 @@ std::vector<Finding> look_for_no_returns(Samples& samples) {
   const LeftOutPoints points = left_out_points(samples.sequence());
   std::vector<Finding> findings;
   for (const std::string& line : left_out_lines(samples.sequence())) {
-    findings.emplace_back();
-    findings.back().severity = Severity::kNote;
-    findings.back().where = "points of the scans read";
-    findings.back().what = line;
+    findings.push_back(
+        {.severity = Severity::kNote, .where = "points of the scans read", .what = line});
   }
   if (points.no_returns > 0) {
     samples.measures.emplace_back("share_of_no_returns", static_cast<double>(points.no_returns) /
@@ -61,12 +61,6 @@ std::vector<ScanSize> scan_sizes(const Samples& samples) {
   return sizes;
 }
 
-double middle_value(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Middle size of up to three scans before and three after.
 double size_around(const std::vector<ScanSize>& sizes, std::size_t at) {
   constexpr std::size_t kAround = 3;
@@ -75,7 +69,7 @@ double size_around(const std::vector<ScanSize>& sizes, std::size_t at) {
   for (std::size_t i = first; i <= at + kAround && i < sizes.size(); ++i) {
     if (i != at) around.push_back(sizes[i].size);
   }
-  return middle_value(std::move(around));
+  return median(std::move(around));
 }
 
 /// A file that was cut at a whole point reads well, but is smaller than those around it by far more
@@ -90,7 +84,7 @@ std::vector<Finding> look_for_few_points(Samples& samples) {
     shares.push_back(sizes[i].size / std::max(1.0, size_around(sizes, i)));
     losses.push_back(std::abs(1.0 - shares.back()));
   }
-  const double loss = std::clamp(kUsualLosses * middle_value(losses), kLeastLoss, kMostLoss);
+  const double loss = std::clamp(kUsualLosses * median(losses), kLeastLoss, kMostLoss);
   std::vector<std::size_t> small;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if (shares[i] < 1.0 - loss) small.push_back(i);
@@ -98,13 +92,12 @@ std::vector<Finding> look_for_few_points(Samples& samples) {
   if (small.empty()) return {};
   const std::size_t at = small.front();
   const std::string unit = samples.files().empty() ? " points" : " bytes";
-  Finding finding;
-  finding.where = samples.scan_name(sizes[at].scan);
-  finding.what =
-      "holds " + grouped_text(static_cast<std::uint64_t>(sizes[at].size)) + unit + ", " +
-      fixed_text(100.0 * shares[at], 0) + " % of what the scans around it hold; it looks cut off" +
-      (small.size() > 1 ? ", and so do " + grouped_text(small.size() - 1) + " more" : "");
-  return {finding};
+  return {{.where = samples.scan_name(sizes[at].scan),
+           .what = fmt::format(
+               "holds {}{}, {} % of what the scans around it hold; it looks cut off{}",
+               grouped_text(static_cast<std::uint64_t>(sizes[at].size)), unit,
+               fixed_text(100.0 * shares[at], 0),
+               small.size() > 1 ? ", and so do " + grouped_text(small.size() - 1) + " more" : "")}};
 }
 
 /// 16 KiB out of the middle of a file: enough to tell scans apart.
@@ -156,13 +149,11 @@ std::vector<Finding> look_for_duplicates(Samples& samples) {
   if (pairs.empty()) return {};
   std::sort(pairs.begin(), pairs.end(),
             [](const ScanPair& a, const ScanPair& b) { return a.to < b.to; });
-  Finding finding;
-  finding.where = samples.scan_name(pairs.front().to);
-  finding.what =
-      "is the same scan as " + samples.scan_name(pairs.front().from) +
-      (pairs.size() > 1 ? ", and there are " + grouped_text(pairs.size() - 1) + " more such pairs"
-                        : "");
-  return {finding};
+  const std::string more =
+      pairs.size() > 1 ? ", and there are " + grouped_text(pairs.size() - 1) + " more such pairs"
+                       : "";
+  return {{.where = samples.scan_name(pairs.front().to),
+           .what = "is the same scan as " + samples.scan_name(pairs.front().from) + more}};
 }
 
 double share_between(const std::vector<double>& sorted, double from, double to) {
@@ -199,19 +190,18 @@ std::vector<Finding> look_for_truncation(Samples& samples) {
   samples.measures.emplace_back("farthest_point_m", farthest);
   samples.measures.emplace_back("share_of_points_in_last_5_percent", last / count);
   const SensorModel& sensor = samples.sequence().scans->sensor();
-  const double usual =
-      sensor.name == "estimated" ? kUnknownSensor : kShareOfSensor * sensor.range_max;
+  const double usual = sensor.is_estimated() ? kUnknownSensor : kShareOfSensor * sensor.range_max;
   const bool cliff = last >= kCliff * before && last / count >= kLeast;
   if (samples.scans().size() < 2 || farthest > usual || !cliff) return {};
   if (farthest - nearest > kEqual * farthest) return {};
-  Finding finding;
-  finding.where = "points of all scans read";
-  finding.what = "every scan ends at " + fixed_text(farthest, 1) + " m with " +
-                 fixed_text(100.0 * last / count, 1) + " % of its points in the last 5 % of it" +
-                 (sensor.name == "estimated" ? std::string()
-                                             : "; a " + sensor.name + " sees up to " +
-                                                   fixed_text(sensor.range_max, 0) + " m");
-  return {finding};
+  const std::string sees =
+      sensor.is_estimated()
+          ? ""
+          : fmt::format("; a {} sees up to {} m", sensor.name, fixed_text(sensor.range_max, 0));
+  return {{.where = "points of all scans read",
+           .what = fmt::format(
+               "every scan ends at {} m with {} % of its points in the last 5 % of it{}",
+               fixed_text(farthest, 1), fixed_text(100.0 * last / count, 1), sees)}};
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/pose_fit.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -12,12 +12,8 @@ Check verdict_check(const std::string& name, const std::string& finds, const std
                     const std::string& remedy) {
   const auto look = [name](Samples& samples) {
     const PoseVerdict& verdict = pose_verdict(samples);
-    std::vector<Finding> findings;
-    if (verdict.check == name) {
-      findings.emplace_back();
-      findings.back().what = verdict.what;
-    }
-    return findings;
+    if (verdict.check != name) return std::vector<Finding>();
+    return std::vector<Finding>{{.what = verdict.what}};
   };
   return {name, finds, expected, remedy, look, Consequence::kRefused};
 }
@@ -36,7 +32,7 @@ std::size_t points_below(const Scan& scan, const Eigen::Vector3d& centre) {
 /// itself.
 std::vector<Finding> look_for_sensor(Samples& samples) {
   constexpr std::size_t kMany = 8, kFew = 2;
-  if (!samples.stored_in_world() || !pose_verdict(samples).check.empty()) return {};
+  if (!samples.layout().points_in_world || !pose_verdict(samples).check.empty()) return {};
   std::size_t given = 0, inverse = 0;
   for (const auto& [index, scan] : samples.scans()) {
     if (points_below(scan, scan.T_world_sensor.translation()) >= kMany) ++given;

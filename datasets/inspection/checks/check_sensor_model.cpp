@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/pose_fit.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -52,8 +54,8 @@ std::vector<Finding> look_for_other_sensor(Samples& samples) {
   std::vector<std::string> what;
   if (seen.has_beams()) {
     if (differs(named.azimuth_step, seen.azimuth_step)) {
-      what.push_back("its directions are " + degrees(named.azimuth_step) +
-                     " apart in azimuth and those of the scans " + degrees(seen.azimuth_step));
+      what.push_back(fmt::format("its directions are {} apart in azimuth and those of the scans {}",
+                                 degrees(named.azimuth_step), degrees(seen.azimuth_step)));
     }
     if (differs(named.elevation_step, seen.elevation_step)) {
       what.push_back("its beams are " + degrees(named.elevation_step) +
@@ -61,15 +63,12 @@ std::vector<Finding> look_for_other_sensor(Samples& samples) {
     }
   }
   if (out > kShare) {
-    what.push_back("it sees from " + degrees(named.elevation_min) + " to " +
-                   degrees(named.elevation_max) + " and " + fixed_text(100.0 * out, 1) +
-                   " % of the points lie beyond");
+    what.push_back(fmt::format("it sees from {} to {} and {} % of the points lie beyond",
+                               degrees(named.elevation_min), degrees(named.elevation_max),
+                               fixed_text(100.0 * out, 1)));
   }
   if (what.empty()) return {};
-  Finding finding;
-  finding.where = "sensor '" + named.name + "'";
-  finding.what = join(what, "; ");
-  return {finding};
+  return {{.where = "sensor '" + named.name + "'", .what = join(what, "; ")}};
 }
 
 }  // namespace

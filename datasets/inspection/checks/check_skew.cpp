@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,10 +10,11 @@
 #include <optional>
 
 #include "core/angle.h"
+#include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/overlap.h"
-#include "datasets/inspection/pose_fit.h"
+#include "datasets/inspection/evidence/overlap.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -140,11 +143,8 @@ std::vector<ScanPair> far_pairs(const Samples& samples) {
     if (j + 1 >= poses.size()) break;
     all.push_back({i, j});
   }
-  if (all.size() <= kPairs) return all;
   std::vector<ScanPair> chosen;
-  for (std::size_t k = 0; k < kPairs; ++k) {
-    chosen.push_back(all[k * (all.size() - 1) / (kPairs - 1)]);
-  }
+  for (const std::size_t k : evenly_spread(all.size(), kPairs)) chosen.push_back(all[k]);
   return chosen;
 }
 
@@ -221,13 +221,12 @@ std::vector<Finding> look_for_skew(Samples& samples) {
       "share_of_pairs_better_unskewed",
       static_cast<double>(fit.better(best)) / static_cast<double>(pairs.size()));
   if (gain < kClear || loss > 1.0 || 4 * fit.better(best) < 3 * pairs.size()) return {};
-  Finding finding;
-  finding.where = "points of all scans";
-  finding.what = "scans " + fixed_text(kDistance, 0) + " m apart agree " +
-                 fixed_text(100.0 * (gain - 1.0), 0) +
-                 " % better if the sensor's motion is undone within each (sweep " +
-                 sweeps.of(pairs.front().from)[best].text + ")";
-  return {finding};
+  return {
+      {.where = "points of all scans",
+       .what = fmt::format("scans {} m apart agree {} % better if the sensor's motion is undone "
+                           "within each (sweep {})",
+                           fixed_text(kDistance, 0), fixed_text(100.0 * (gain - 1.0), 0),
+                           sweeps.of(pairs.front().from)[best].text)}};
 }
 
 }  // namespace

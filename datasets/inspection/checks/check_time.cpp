@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/pose_fit.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -25,12 +28,6 @@ std::vector<double> periods(const Samples& samples) {
   return all;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::vector<Finding> look_for_gaps(Samples& samples) {
   constexpr double kGap = 1.6;
   const std::vector<double> all = periods(samples);
@@ -43,16 +40,15 @@ std::vector<Finding> look_for_gaps(Samples& samples) {
   }
   std::vector<Finding> findings;
   if (!still.empty()) {
-    findings.emplace_back();
-    findings.back().where = between(samples, still.front());
-    findings.back().what = "the time does not advance" + and_more(still.size());
-    findings.back().remedy = "Give each scan its own time, or leave times.txt out.";
+    findings.push_back({.where = between(samples, still.front()),
+                        .what = "the time does not advance" + and_more(still.size()),
+                        .remedy = "Give each scan its own time, or leave times.txt out."});
   }
   if (!gaps.empty() && usual > 0.0) {
-    findings.emplace_back();
-    findings.back().where = between(samples, gaps.front());
-    findings.back().what = fixed_text(all[gaps.front()], 3) + " s pass, where " +
-                           fixed_text(usual, 3) + " s are usual" + and_more(gaps.size());
+    findings.push_back(
+        {.where = between(samples, gaps.front()),
+         .what = fmt::format("{} s pass, where {} s are usual{}", fixed_text(all[gaps.front()], 3),
+                             fixed_text(usual, 3), and_more(gaps.size()))});
   }
   return findings;
 }
@@ -76,12 +72,10 @@ std::vector<Finding> look_for_jumps(Samples& samples) {
   }
   if (jumps.empty()) return {};
   const std::size_t at = jumps.front();
-  Finding finding;
-  finding.where = samples.pose_source() + ", " + between(samples, at);
-  finding.what = "the sensor moves " + fixed_text(steps[at], 2) + " m, but " +
-                 fixed_text(steps[at - 1], 2) + " m and " + fixed_text(steps[at + 1], 2) +
-                 " m before and after" + and_more(jumps.size());
-  return {finding};
+  return {{.where = samples.pose_source() + ", " + between(samples, at),
+           .what = fmt::format("the sensor moves {} m, but {} m and {} m before and after{}",
+                               fixed_text(steps[at], 2), fixed_text(steps[at - 1], 2),
+                               fixed_text(steps[at + 1], 2), and_more(jumps.size()))}};
 }
 
 }  // namespace

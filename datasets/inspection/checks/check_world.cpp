@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +8,7 @@
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/pose_fit.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/world_axes/gravity.h"
 
 namespace raymoval::inspection {
@@ -17,9 +19,10 @@ double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 std::string evidence_text(const GravityEvidence& evidence) {
-  return "the ground faces " + up_text(evidence.ground) + ", and of the other surfaces " +
-         fixed_text(100.0 * evidence.share_upright, 0) + " % by area stand upright if up is " +
-         up_text(evidence.upright);
+  return fmt::format(
+      "the ground faces {}, and of the other surfaces {} % by area stand upright if up is {}",
+      up_text(evidence.ground), fixed_text(100.0 * evidence.share_upright, 0),
+      up_text(evidence.upright));
 }
 
 /// Poses that do not fit the scans say nothing about up.
@@ -33,12 +36,11 @@ std::vector<Finding> look_at_axes(Samples& samples) {
   samples.measures.emplace_back("up_from_world_z_degrees",
                                 degrees_between(up.direction, Eigen::Vector3d::UnitZ()));
   if (up.source != UpDirection::Source::kEstimated) return {};
-  Finding finding;
-  finding.severity = Severity::kNote;
-  finding.what = "up is " + up_text(up.direction) + ": " +
-                 evidence_text(estimate_gravity(*samples.sequence().scans)) +
-                 "; methods get the world turned, results and maps stay as the poses have them";
-  return {finding};
+  const GravityEvidence evidence = estimate_gravity(*samples.sequence().scans);
+  return {{.severity = Severity::kNote,
+           .what = fmt::format("up is {}: {}; methods get the world turned, results and maps stay "
+                               "as the poses have them",
+                               up_text(up.direction), evidence_text(evidence))}};
 }
 
 /// What a user said against what the scans show.
@@ -49,10 +51,9 @@ std::vector<Finding> look_for_wrong_up(Samples& samples) {
   const GravityEvidence evidence = estimate_gravity(*samples.sequence().scans);
   const double apart = degrees_between(up.direction, evidence.up.direction);
   if (evidence.ground.isZero() || apart < kContradiction) return {};
-  Finding finding;
-  finding.what = "up is given as " + up_text(up.direction) + ", which is " + fixed_text(apart, 0) +
-                 " degrees from what the scans show: " + evidence_text(evidence);
-  return {finding};
+  return {
+      {.what = fmt::format("up is given as {}, which is {} degrees from what the scans show: {}",
+                           up_text(up.direction), fixed_text(apart, 0), evidence_text(evidence))}};
 }
 
 /// Step of float32 numbers at `magnitude`.
@@ -64,7 +65,7 @@ double float_step(double magnitude) {
 /// Points of a far world that were float32 once lie on a coarse lattice, however they are stored.
 std::vector<Finding> look_for_coarse_points(Samples& samples) {
   constexpr double kCoarse = 0.007, kExact = 0.02;
-  if (!samples.stored_in_world()) return {};
+  if (!samples.layout().points_in_world) return {};
   for (const auto& [index, scan] : samples.scans()) {
     const Eigen::Vector3d position = scan.T_world_sensor.translation();
     Eigen::Index axis = 0;
@@ -77,12 +78,11 @@ std::vector<Finding> look_for_coarse_points(Samples& samples) {
       on_lattice += std::abs(place - std::round(place)) < kExact ? 1 : 0;
     }
     if (10 * on_lattice < 9 * scan.size()) continue;
-    Finding finding;
-    finding.where = samples.scan_name(index);
-    finding.what = "points " + grouped_text(static_cast<std::uint64_t>(magnitude)) +
-                   " m from the world's origin lie in steps of " + fixed_text(step, 3) +
-                   " m, as float32 numbers do there";
-    return {finding};
+    return {{.where = samples.scan_name(index),
+             .what = fmt::format("points {} m from the world's origin lie in steps of {} m, as "
+                                 "float32 numbers do there",
+                                 grouped_text(static_cast<std::uint64_t>(magnitude)),
+                                 fixed_text(step, 3))}};
   }
   return {};
 }

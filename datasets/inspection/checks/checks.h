@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "datasets/inspection/finding.h"
-#include "datasets/inspection/samples.h"
+#include "datasets/inspection/evidence/finding.h"
+#include "datasets/inspection/evidence/samples.h"
 
 namespace raymoval::inspection {
 
-/// A defect that is looked for.
+/// A defect that inspection looks for.
 struct Check {
   std::string name;
   std::string finds;     ///< What is wrong with the data, a sentence without its full stop.
@@ -22,10 +22,8 @@ struct Check {
   Consequence consequence = Consequence::kWarned;
 };
 
-/// All checks, in the order in which they are run and reported.
-const std::vector<Check>& all_checks();
-
-/// The parts of the table, each in a file of its own. Those of poses share one `pose_verdict`.
+/// The parts of the table of checks, each in a file of its own. Those of poses share one
+/// `pose_verdict`.
 std::vector<Check> pose_checks();
 std::vector<Check> point_checks();
 std::vector<Check> label_checks();

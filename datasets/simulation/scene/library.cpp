@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/simulation/scene/library.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/strict_json.h"
 #include "core/text.h"
 #include "datasets/simulation/scene/simulated.h"
 
@@ -32,18 +32,6 @@ NamedText find(const std::vector<BuiltInFile>& files, const std::string& what,
                    suggestion(name, names_of(files)) + " A path to a file must end in .json.");
 }
 
-nlohmann::json parse(const NamedText& file) {
-  try {
-    return nlohmann::json::parse(file.text, nullptr, true, /*ignore_comments=*/true);
-  } catch (const nlohmann::json::parse_error& error) {
-    const std::size_t byte = std::min(error.byte, file.text.size());
-    const auto end = file.text.begin() + static_cast<std::ptrdiff_t>(byte);
-    const auto line = 1 + std::count(file.text.begin(), end, '\n');
-    throw ConfigurationError(file.file + ": line " + std::to_string(line) +
-                             ": not valid JSON (a comma or a quote is missing or surplus near).");
-  }
-}
-
 }  // namespace
 
 NamedText find_world(const std::string& name) {
@@ -54,11 +42,11 @@ NamedText find_sensor(const std::string& name) {
 }
 
 WorldFile parse_world(const NamedText& file) {
-  return world_from_json(parse(file), file.file);
+  return world_from_json(parse_json(file.text, file.file), file.file);
 }
 
 SensorFile parse_sensor(const NamedText& file) {
-  return sensor_from_json(parse(file), file.file);
+  return sensor_from_json(parse_json(file.text, file.file), file.file);
 }
 
 }  // namespace raymoval::simulated

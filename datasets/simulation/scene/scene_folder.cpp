@@ -48,9 +48,7 @@ void write_synced(const fs::path& path, const void* data, std::size_t size) {
 }
 
 std::string hash_of(const void* data, std::size_t size) {
-  ContentHasher hasher;
-  hasher.add(data, size);
-  return hasher.digest();
+  return content_hash({static_cast<const char*>(data), size});
 }
 
 struct ListedFile {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -99,11 +100,10 @@ double parse_pose_noise(const std::string& what, const std::string& text) {
 }
 
 Rolling parse_rolling(const std::string& what, const std::string& text) {
-  if (text == "none") return Rolling::kNone;
-  if (text == "skewed") return Rolling::kSkewed;
-  if (text == "corrected") return Rolling::kCorrected;
-  throw UsageError(what + " " + text + ": is unknown." +
-                   suggestion(text, {"none", "skewed", "corrected"}));
+  const std::vector<std::string> names(std::begin(kRollingNames), std::end(kRollingNames));
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) return static_cast<Rolling>(found - names.begin());
+  throw UsageError(what + " " + text + ": is unknown." + suggestion(text, names));
 }
 
 }  // namespace raymoval

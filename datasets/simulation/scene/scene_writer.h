@@ -10,7 +10,7 @@
 
 namespace raymoval::simulated {
 
-/// What is written, and how.
+/// What scene is written, and how.
 struct SceneWriting {
   const SimulationOptions& options;
   std::string identity;  ///< Written into the list of files; see `scene_folder_problem`.

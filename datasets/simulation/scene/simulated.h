@@ -12,19 +12,13 @@
 #include "core/progress.h"
 #include "core/scan/range_limits.h"
 #include "core/scan/scan_source.h"
+#include "datasets/simulation/sensor/rolling.h"
 
 namespace raymoval {
 
 namespace simulated {
 class World;
 }  // namespace simulated
-
-/// What happens to points taken while the sensor moves.
-enum class Rolling {
-  kNone,       ///< A whole scan is taken in one instant.
-  kSkewed,     ///< Each point is in the frame the sensor had when it was taken.
-  kCorrected,  ///< Each point is brought into the frame of the scan's reference time.
-};
 
 /// What to simulate. The same options give the same bytes, on any number of threads.
 struct SimulationOptions {
@@ -106,16 +100,5 @@ std::filesystem::path cached_simulation(const SimulationOptions& options,
                                         Progress* progress,
                                         const std::atomic<bool>* cancel = nullptr,
                                         bool check_content = true);
-
-/// Sequences that are run together.
-struct SimulationSuite {
-  std::string name;
-  std::string sentence;
-  std::vector<SimulationOptions> sequences;
-};
-/// "simulated", "simulated-quick", "simulated-long".
-const std::vector<SimulationSuite>& simulation_suites();
-/// @throws UsageError suggesting the nearest name.
-const SimulationSuite& simulation_suite(const std::string& name);
 
 }  // namespace raymoval

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "datasets/simulation/scene/simulated.h"
 #include "datasets/simulation/sensor/ray_tracer.h"
+#include "datasets/simulation/sensor/rolling.h"
 #include "datasets/simulation/sensor/sensor_file.h"
 #include "datasets/simulation/world/world.h"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/angle.h"
@@ -26,7 +25,7 @@ std::vector<double> read_beams(const Fields& f) {
     if (std::abs(beam) > 90.0) f.fail("elevations_deg", "numbers from -90 to 90");
   }
   for (const auto& [item, where] : f.list("banks")) {
-    const Fields bank(*item, where, {"from_deg", "to_deg", "count"});
+    const Fields bank(*item, where, "from_deg to_deg count");
     const int count = bank.integer("count", 0, 2, 1024);
     const double from = bank.number("from_deg", 0.0, -90.0, 90.0);
     const double to = bank.number("to_deg", 0.0, -90.0, 90.0);
@@ -49,8 +48,8 @@ void read_pattern(const Fields& f, SensorFile& sensor) {
     sensor.elevations = read_beams(f);
     sensor.azimuth_step = f.number("azimuth_step_deg", 0.2, 0.01, 10.0) * kDegree;
   } else if (sensor.kind == Kind::kRaster) {
-    const Interval azimuth = f.interval("azimuth_deg", {-60.0, 60.0}, -360.0, 360.0);
-    const Interval elevation = f.interval("elevation_deg", {-17.5, 17.5}, -90.0, 90.0);
+    const NumberRange azimuth = f.interval("azimuth_deg", {-60.0, 60.0}, -360.0, 360.0);
+    const NumberRange elevation = f.interval("elevation_deg", {-17.5, 17.5}, -90.0, 90.0);
     sensor.azimuth = {azimuth.low * kDegree, azimuth.high * kDegree};
     sensor.elevation = {elevation.low * kDegree, elevation.high * kDegree};
     sensor.columns = f.integer("columns", 600, 2, 10000);
@@ -183,27 +182,10 @@ SensorModel SensorFile::model() const {
 
 SensorFile sensor_from_json(const nlohmann::json& json, const std::string& file) {
   const Fields f(json, file,
-                 {"description",
-                  "kind",
-                  "banks",
-                  "elevations_deg",
-                  "elevation_jitter_deg",
-                  "azimuth_step_deg",
-                  "azimuth_deg",
-                  "elevation_deg",
-                  "columns",
-                  "rows",
-                  "points",
-                  "half_angle_deg",
-                  "prism_hz",
-                  "period_s",
-                  "range_m",
-                  "noise_m",
-                  "direction_noise_deg",
-                  "divergence_mrad",
-                  "pulse_m",
-                  "dropout",
-                  "range_at_10_percent_m"});
+                 "description kind banks elevations_deg elevation_jitter_deg "
+                 "azimuth_step_deg azimuth_deg elevation_deg columns rows points "
+                 "half_angle_deg prism_hz period_s range_m noise_m direction_noise_deg "
+                 "divergence_mrad pulse_m dropout range_at_10_percent_m");
   SensorFile sensor;
   sensor.name = std::filesystem::path(file).stem().string();
   sensor.description = f.text("description", "");

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scan/sensor_model.h"
-#include "datasets/simulation/shapes/fields.h"
+#include "datasets/fields.h"
 
 namespace raymoval::simulated {
 
@@ -31,13 +31,13 @@ struct SensorFile {
   Kind kind = Kind::kSpinning;
   std::vector<double> elevations;  ///< Spinning: of each beam, top first.
   double azimuth_step = 0.0;       ///< Spinning.
-  Interval azimuth, elevation;     ///< Raster: the window.
+  NumberRange azimuth, elevation;  ///< Raster: the window.
   int columns = 0, rows = 0;       ///< Raster.
   int points = 0;                  ///< Rosette: shots a sweep.
   double half_angle = 0.0;         ///< Rosette: of its cone.
   std::pair<double, double> prism_hz;
   double period_s = 0.1;
-  Interval range_m{0.9, 80.0};
+  NumberRange range_m{0.9, 80.0};
   double noise_m = 0.02;         ///< Standard deviation of a range.
   double direction_noise = 0.0;  ///< Of a direction, radians.
   double divergence = 0.0;       ///< Full angle of a beam, radians.

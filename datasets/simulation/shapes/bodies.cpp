@@ -13,17 +13,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Paint of(Material material) {
-  return {material, 0};
-}
-
 Paint random_paint(Random& random) {
-  return of(random.chance(0.6) ? Material::kBrightPaint : Material::kDarkPaint);
+  return paint_of(random.chance(0.6) ? Material::kBrightPaint : Material::kDarkPaint);
 }
 
 void add_wheel(Mesh& mesh, double x, double y, double radius, double width) {
   const double inner = y > 0 ? y - width : y + width;
-  add_tube(mesh, of(Material::kRubber), {x, inner, radius}, {x, y, radius}, radius, radius, 14);
+  add_tube(mesh, paint_of(Material::kRubber), {x, inner, radius}, {x, y, radius}, radius, radius,
+           14);
 }
 
 void add_wheels(Mesh& mesh, const std::vector<double>& axles, double half_width, double radius) {
@@ -39,7 +36,7 @@ struct Cabin {
 };
 
 void add_cabin(Mesh& mesh, const Cabin& c, Paint roof) {
-  add_frustum(mesh, of(Material::kGlass), roof,
+  add_frustum(mesh, paint_of(Material::kGlass), roof,
               {Vector3d(c.floor_back, -c.floor_half, c.floor_z),
                Vector3d(c.floor_front, -c.floor_half, c.floor_z),
                Vector3d(c.floor_front, c.floor_half, c.floor_z),
@@ -61,22 +58,12 @@ void add_cabin(Mesh& mesh, const Cabin& c, Paint roof) {
   }
 }
 
-Body vehicle(std::uint16_t parked, std::uint16_t moving, double length, double width) {
-  Body body;
-  body.parts.emplace_back();
-  body.static_label = parked;
-  body.moving_label = moving;
-  body.length_m = length;
-  body.width_m = width;
-  return body;
-}
-
 Body make_car(Random& random) {
   const double l = random.between(3.8, 4.8);
   const double w = random.between(1.70, 1.86);
   const double h = random.between(1.42, 1.62);
   const bool estate = random.chance(0.4);
-  Body body = vehicle(kLabelCar, kLabelMovingCar, l, w);
+  Body body = body_of(kLabelCar, kLabelMovingCar, l, w);
   Mesh& mesh = body.parts[0].mesh;
   const Paint paint = random_paint(random);
   const double f = 0.5 * l;
@@ -101,7 +88,7 @@ Body make_van(Random& random) {
   const double l = random.between(4.9, 6.2);
   const double w = random.between(1.9, 2.1);
   const double h = random.between(1.95, 2.6);
-  Body body = vehicle(kLabelCar, kLabelMovingCar, l, w);
+  Body body = body_of(kLabelCar, kLabelMovingCar, l, w);
   Mesh& mesh = body.parts[0].mesh;
   const Paint paint = random_paint(random);
   const double f = 0.5 * l;
@@ -110,7 +97,7 @@ Body make_van(Random& random) {
                  Vector2d(f - 1.35, h), Vector2d(-f + 0.08, h)},
                 w);
   // Panes a hand's breadth proud of the sheet, so that they are what the laser meets.
-  add_box(mesh, of(Material::kGlass), {f - 1.75, -0.5 * w - 0.01, 1.2},
+  add_box(mesh, paint_of(Material::kGlass), {f - 1.75, -0.5 * w - 0.01, 1.2},
           {f - 1.0, 0.5 * w + 0.01, h - 0.45});
   add_wheels(mesh, {-0.3 * l, 0.34 * l}, 0.5 * w + 0.01, 0.34);
   return body;
@@ -120,7 +107,7 @@ Body make_truck(Random& random) {
   const double l = random.between(8.0, 11.5);
   const double w = 2.5;
   const double h = random.between(3.2, 3.9);
-  Body body = vehicle(kLabelTruck, kLabelMovingTruck, l, w);
+  Body body = body_of(kLabelTruck, kLabelMovingTruck, l, w);
   Mesh& mesh = body.parts[0].mesh;
   const double f = 0.5 * l;
   const Paint cab = random_paint(random);
@@ -128,29 +115,29 @@ Body make_truck(Random& random) {
                 {Vector2d(f - 2.0, 0.5), Vector2d(f, 0.45), Vector2d(f, 1.4),
                  Vector2d(f - 0.2, 2.7), Vector2d(f - 2.0, 2.9)},
                 w - 0.1);
-  add_box(mesh, of(Material::kGlass), {f - 0.05, -1.05, 1.6}, {f - 0.02, 1.05, 2.4});
+  add_box(mesh, paint_of(Material::kGlass), {f - 0.05, -1.05, 1.6}, {f - 0.02, 1.05, 2.4});
   if (random.chance(0.5)) {
     add_box(mesh, random_paint(random), {-f, -0.5 * w, 1.0}, {f - 2.3, 0.5 * w, h});
   } else {  // tipper: an open trough
-    const Paint steel = of(Material::kMetal);
+    const Paint steel = paint_of(Material::kMetal);
     add_box(mesh, steel, {-f, -0.5 * w, 1.1}, {f - 2.3, 0.5 * w, 1.25});
     add_box(mesh, steel, {-f, -0.5 * w, 1.25}, {f - 2.3, -0.5 * w + 0.1, 2.4});
     add_box(mesh, steel, {-f, 0.5 * w - 0.1, 1.25}, {f - 2.3, 0.5 * w, 2.4});
     add_box(mesh, steel, {f - 2.4, -0.5 * w, 1.25}, {f - 2.3, 0.5 * w, 2.7});
   }
-  add_box(mesh, of(Material::kDarkPaint), {-f + 0.2, -0.5, 0.55}, {f - 1.0, 0.5, 1.0});
+  add_box(mesh, paint_of(Material::kDarkPaint), {-f + 0.2, -0.5, 0.55}, {f - 1.0, 0.5, 1.0});
   add_wheels(mesh, {-f + 1.4, -f + 2.7, f - 1.3}, 0.5 * w, 0.5);
   return body;
 }
 
 Body make_bus(Random& random) {
   const double l = random.between(11.0, 12.5);
-  Body body = vehicle(kLabelBus, kLabelMovingBus, l, 2.55);
+  Body body = body_of(kLabelBus, kLabelMovingBus, l, 2.55);
   Mesh& mesh = body.parts[0].mesh;
   const double f = 0.5 * l;
   const Paint paint = random_paint(random);
   add_box(mesh, paint, {-f, -1.275, 0.32}, {f, 1.275, 1.25});
-  add_box(mesh, of(Material::kGlass), {-f + 0.05, -1.26, 1.25}, {f - 0.02, 1.26, 2.45});
+  add_box(mesh, paint_of(Material::kGlass), {-f + 0.05, -1.26, 1.25}, {f - 0.02, 1.26, 2.45});
   add_box(mesh, paint, {-f, -1.275, 2.45}, {f, 1.275, 3.05});
   for (double x = -f; x < f; x += 1.7) {  // window posts
     add_box(mesh, paint, {x, -1.28, 1.25}, {x + 0.2, 1.28, 2.45});
@@ -160,7 +147,7 @@ Body make_bus(Random& random) {
 }
 
 Body make_tram(Random& random) {
-  Body body = vehicle(kLabelTram, kLabelMovingTram, 29.0, 2.4);
+  Body body = body_of(kLabelTram, kLabelMovingTram, 29.0, 2.4);
   body.parts.clear();
   const Paint paint = random_paint(random);
   for (const double along : {-9.8, 0.0, 9.8}) {
@@ -169,7 +156,7 @@ Body make_tram(Random& random) {
     car.along_m = along;
     const double f = 4.7;
     add_box(car.mesh, paint, {-f, -1.2, 0.25}, {f, 1.2, 1.2});
-    add_box(car.mesh, of(Material::kGlass), {-f + 0.04, -1.18, 1.2}, {f - 0.04, 1.18, 2.5});
+    add_box(car.mesh, paint_of(Material::kGlass), {-f + 0.04, -1.18, 1.2}, {f - 0.04, 1.18, 2.5});
     add_box(car.mesh, paint, {-f, -1.2, 2.5}, {f, 1.2, 3.3});
     for (double x = -f; x < f; x += 1.5) {
       add_box(car.mesh, paint, {x, -1.205, 1.2}, {x + 0.25, 1.205, 2.5});
@@ -180,6 +167,16 @@ Body make_tram(Random& random) {
 }
 
 }  // namespace
+
+Body body_of(std::uint16_t standing, std::uint16_t moving, double length, double width) {
+  Body body;
+  body.parts.emplace_back();
+  body.static_label = standing;
+  body.moving_label = moving;
+  body.length_m = length;
+  body.width_m = width;
+  return body;
+}
 
 const std::vector<std::string>& body_kinds() {
   static const std::vector<std::string> kinds = {"car",  "van",        "truck",   "bus",

@@ -46,6 +46,12 @@ Body make_body(const std::string& kind, Random& random);
 /// All parts at rest in one mesh, each triangle labelled `label`: for a parked car.
 Mesh resting_mesh(const Body& body, std::uint32_t label);
 
+/// A paint without a label: what a body is labelled depends on how it moves.
+constexpr Paint paint_of(Material material) {
+  return {material, 0};
+}
+/// A body with one fixed part, still empty. @param length, width metres
+Body body_of(std::uint16_t standing, std::uint16_t moving, double length, double width);
 /// A bicycle without its rider.
 void add_bicycle(Mesh& mesh);
 Body make_person(Random& random);

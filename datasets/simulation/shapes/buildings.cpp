@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/simulation/shapes/buildings.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/simulation/shapes/parts.h"
 #include "datasets/simulation/shapes/shapes.h"
-#include "datasets/simulation/world/world_parts.h"
 
 namespace raymoval::simulated {
 namespace {
@@ -94,7 +92,7 @@ void add_balcony(Mesh& mesh, double x, double y, double z) {
   add_box(mesh, steel, {x - 1.3, y - 1.12, z + 1.05}, {x + 1.3, y - 1.06, z + 1.1});
 }
 
-double chosen(double wished, Random& random, double low, double high) {
+double built(double wished, Random& random, double low, double high) {
   return wished > 0.0 ? wished * random.between(0.96, 1.04) : random.between(low, high);
 }
 
@@ -102,8 +100,8 @@ double chosen(double wished, Random& random, double low, double high) {
 
 Mesh make_block(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = chosen(spec.length_m, random, 11.0, 18.0);
-  const double depth = chosen(spec.width_m, random, 9.0, 12.0);
+  const double length = built(spec.length_m, random, 11.0, 18.0);
+  const double depth = built(spec.width_m, random, 9.0, 12.0);
   const Paint wall{random.chance(0.6) ? Material::kPlaster : Material::kBrick, kLabelBuilding};
   Front f;
   f.x0 = -0.5 * length;
@@ -128,8 +126,8 @@ Mesh make_block(const PartSpec& spec, Random& random) {
 
 Mesh make_house(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = chosen(spec.length_m, random, 9.0, 13.0);
-  const double depth = chosen(spec.width_m, random, 8.0, 10.0);
+  const double length = built(spec.length_m, random, 9.0, 13.0);
+  const double depth = built(spec.width_m, random, 8.0, 10.0);
   const Paint wall{random.chance(0.7) ? Material::kPlaster : Material::kBrick, kLabelBuilding};
   Front f{-0.5 * length,
           0.5 * length,
@@ -159,7 +157,7 @@ Mesh make_house(const PartSpec& spec, Random& random) {
 
 Mesh make_garage(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = chosen(spec.length_m, random, 3.2, 6.2);
+  const double length = built(spec.length_m, random, 3.2, 6.2);
   const Paint wall{Material::kPlaster, kLabelBuilding};
   const double h = 0.5 * length;
   add_box(mesh, wall, {-h, 0.0, -0.5}, {-h + 0.3, 6.0, 2.5});

@@ -9,10 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Paint of(Material material) {
-  return {material, 0};
-}
-
 /// A limb from a hip or shoulder to a foot or hand.
 BodyPart limb(const Vector3d& from, const Vector3d& to, double thick, double thin, double amplitude,
               double phase) {
@@ -21,24 +17,24 @@ BodyPart limb(const Vector3d& from, const Vector3d& to, double thick, double thi
   part.pivot = from;
   part.amplitude = amplitude;
   part.phase = phase;
-  add_tube(part.mesh, of(Material::kCloth), from, to, thick, thin, 7);
+  add_tube(part.mesh, paint_of(Material::kCloth), from, to, thick, thin, 7);
   return part;
 }
 
 void add_head(Mesh& mesh, const Vector3d& centre) {
-  add_ellipsoid(mesh, of(Material::kSkin), centre, {0.11, 0.09, 0.13}, 6, 9);
+  add_ellipsoid(mesh, paint_of(Material::kSkin), centre, {0.11, 0.09, 0.13}, 6, 9);
 }
 
 void add_spoked_wheel(Mesh& mesh, double x, double radius) {
   constexpr int kSides = 14;
-  const Paint tyre = of(Material::kRubber);
+  const Paint tyre = paint_of(Material::kRubber);
   const auto rim = [&](int i) {
     const auto turn = hinge(x, 0, radius, 2.0 * 3.14159265358979 * i / kSides);
     return Vector3d(turn * Vector3d(x + radius - 0.02, 0, radius));
   };
   for (int i = 0; i < kSides; ++i) add_tube(mesh, tyre, rim(i), rim(i + 1), 0.022, 0.022, 4);
   for (int i = 0; i < kSides; i += 2) {
-    add_tube(mesh, of(Material::kMetal), {x, 0, radius}, rim(i), 0.008, 0.006, 3);
+    add_tube(mesh, paint_of(Material::kMetal), {x, 0, radius}, rim(i), 0.008, 0.006, 3);
   }
 }
 
@@ -47,10 +43,10 @@ void add_rider(Body& body, double hip, double lean, double shoulder) {
   Mesh& mesh = body.parts[0].mesh;
   const Vector3d hips(-0.15, 0, hip);
   const Vector3d neck(-0.15 + lean, 0, hip + shoulder);
-  add_tube(mesh, of(Material::kCloth), hips, neck, 0.16, 0.19, 9);
+  add_tube(mesh, paint_of(Material::kCloth), hips, neck, 0.16, 0.19, 9);
   add_head(mesh, neck + Vector3d(0.08, 0, 0.2));
   for (const double side : {-1.0, 1.0}) {
-    add_tube(mesh, of(Material::kCloth), neck + Vector3d(0, 0.19 * side, -0.06),
+    add_tube(mesh, paint_of(Material::kCloth), neck + Vector3d(0, 0.19 * side, -0.06),
              {0.42, 0.27 * side, hip + 0.12}, 0.055, 0.04, 6);
   }
 }
@@ -60,7 +56,7 @@ void add_rider(Body& body, double hip, double lean, double shoulder) {
 void add_bicycle(Mesh& mesh) {
   add_spoked_wheel(mesh, -0.52, 0.34);
   add_spoked_wheel(mesh, 0.52, 0.34);
-  const Paint frame = of(Material::kBrightPaint);
+  const Paint frame = paint_of(Material::kBrightPaint);
   const auto bar = [&](const Vector3d& a, const Vector3d& b) {
     add_tube(mesh, frame, a, b, 0.02, 0.02, 5);
   };
@@ -74,20 +70,16 @@ void add_bicycle(Mesh& mesh) {
 
 Body make_person(Random& random) {
   const double scale = random.between(0.88, 1.08);  // of 1.75 m
-  Body body;
-  body.static_label = kLabelPerson;
-  body.moving_label = kLabelMovingPerson;
-  body.length_m = 0.5;
-  body.width_m = 0.55;
-  body.parts.emplace_back();
+  Body body = body_of(kLabelPerson, kLabelMovingPerson, 0.5, 0.55);
   const double hip = 0.88 * scale;
   const double shoulder = 1.42 * scale;
   Mesh& trunk = body.parts[0].mesh;
-  add_tube(trunk, of(Material::kCloth), {0, 0, hip - 0.05}, {0, 0, shoulder}, 0.15, 0.20, 10);
-  add_tube(trunk, of(Material::kSkin), {0, 0, shoulder}, {0, 0, shoulder + 0.1}, 0.06, 0.06, 6);
+  add_tube(trunk, paint_of(Material::kCloth), {0, 0, hip - 0.05}, {0, 0, shoulder}, 0.15, 0.20, 10);
+  add_tube(trunk, paint_of(Material::kSkin), {0, 0, shoulder}, {0, 0, shoulder + 0.1}, 0.06, 0.06,
+           6);
   add_head(trunk, {0.02, 0, shoulder + 0.21});
   if (random.chance(0.3)) {  // a rucksack
-    add_box(trunk, of(Material::kCloth), {-0.36, -0.15, hip + 0.1}, {-0.17, 0.15, shoulder});
+    add_box(trunk, paint_of(Material::kCloth), {-0.36, -0.15, hip + 0.1}, {-0.17, 0.15, shoulder});
   }
   for (const double side : {-1.0, 1.0}) {
     const double phase = side > 0 ? 0.0 : 0.5;
@@ -101,14 +93,9 @@ Body make_person(Random& random) {
 }
 
 Body make_cyclist(Random& random) {
-  Body body;
-  body.static_label = kLabelBicyclist;
-  body.moving_label = kLabelMovingBicyclist;
-  body.length_m = 1.75;
-  body.width_m = 0.6;
+  Body body = body_of(kLabelBicyclist, kLabelMovingBicyclist, 1.75, 0.6);
   body.stride_m = 4.5;
   body.pace_mps = 3.0;
-  body.parts.emplace_back();
   Mesh& mesh = body.parts[0].mesh;
   add_bicycle(mesh);
   add_rider(body, 0.93, random.between(0.2, 0.45), 0.55);
@@ -120,27 +107,23 @@ Body make_cyclist(Random& random) {
 }
 
 Body make_motorcyclist(Random& random) {
-  Body body;
-  body.static_label = kLabelMotorcyclist;
-  body.moving_label = kLabelMovingMotorcyclist;
-  body.length_m = 2.1;
-  body.width_m = 0.75;
-  body.parts.emplace_back();
+  Body body = body_of(kLabelMotorcyclist, kLabelMovingMotorcyclist, 2.1, 0.75);
   Mesh& mesh = body.parts[0].mesh;
-  const Paint rubber = of(Material::kRubber);
+  const Paint rubber = paint_of(Material::kRubber);
   add_tube(mesh, rubber, {-0.72, -0.08, 0.31}, {-0.72, 0.08, 0.31}, 0.31, 0.31, 14);
   add_tube(mesh, rubber, {0.72, -0.06, 0.31}, {0.72, 0.06, 0.31}, 0.31, 0.31, 14);
-  const Paint paint = of(random.chance(0.5) ? Material::kBrightPaint : Material::kDarkPaint);
+  const Paint paint = paint_of(random.chance(0.5) ? Material::kBrightPaint : Material::kDarkPaint);
   add_box(mesh, paint, {-0.45, -0.17, 0.3}, {0.42, 0.17, 0.82});
   add_box(mesh, paint, {-0.85, -0.14, 0.74}, {-0.1, 0.14, 0.86});
-  add_tube(mesh, of(Material::kMetal), {0.72, 0, 0.31}, {0.45, 0, 1.05}, 0.07, 0.06, 6);
-  add_tube(mesh, of(Material::kMetal), {0.42, -0.36, 1.05}, {0.42, 0.36, 1.05}, 0.03, 0.03, 5);
+  add_tube(mesh, paint_of(Material::kMetal), {0.72, 0, 0.31}, {0.45, 0, 1.05}, 0.07, 0.06, 6);
+  add_tube(mesh, paint_of(Material::kMetal), {0.42, -0.36, 1.05}, {0.42, 0.36, 1.05}, 0.03, 0.03,
+           5);
   add_rider(body, 0.88, random.between(0.15, 0.35), 0.56);
   for (const double side : {-1.0, 1.0}) {
-    add_tube(mesh, of(Material::kCloth), {-0.15, 0.15 * side, 0.88}, {0.25, 0.24 * side, 0.6}, 0.1,
-             0.08, 6);
-    add_tube(mesh, of(Material::kCloth), {0.25, 0.24 * side, 0.6}, {-0.05, 0.24 * side, 0.3}, 0.08,
-             0.06, 6);
+    add_tube(mesh, paint_of(Material::kCloth), {-0.15, 0.15 * side, 0.88}, {0.25, 0.24 * side, 0.6},
+             0.1, 0.08, 6);
+    add_tube(mesh, paint_of(Material::kCloth), {0.25, 0.24 * side, 0.6}, {-0.05, 0.24 * side, 0.3},
+             0.08, 0.06, 6);
   }
   return body;
 }

@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kRoad = 40;
+constexpr const char* kStreet = "street";
 
 constexpr std::uint32_t label_word(std::uint32_t semantic, std::uint32_t instance) {
   return (instance << 16U) | semantic;
@@ -132,11 +133,11 @@ class StreetScene {
   std::vector<Vector3d> directions_;  ///< Unit vectors, beam by beam.
 };
 
-class StreetScans : public ScanSource {
+class StreetScans : public ScanSource, public LabelSource {
  public:
-  StreetScans(std::shared_ptr<const StreetScene> scene, std::vector<std::size_t> frames,
+  StreetScans(StreetScene scene, std::vector<std::size_t> frames,
               const std::optional<std::string>& sensor)
-      : scene_(std::move(scene)), frames_(std::move(frames)), ideal_(scene_->sensor()) {
+      : scene_(std::move(scene)), frames_(std::move(frames)), ideal_(scene_.sensor()) {
     if (sensor) choice_ = std::make_unique<SensorChoice>(sensor);
   }
 
@@ -147,35 +148,22 @@ class StreetScans : public ScanSource {
     scan.index = index;
     scan.name = std::to_string(frame);
     scan.name.insert(0, 6 - std::min<std::size_t>(6, scan.name.size()), '0');
-    scan.time_s = scene_->time(frame);
+    scan.time_s = scene_.time(frame);
     scan.T_world_sensor = pose(index);
-    for (const Return& hit : scene_->cast(frame)) scan.points.push_back(hit.point);
+    for (const Return& hit : scene_.cast(frame)) scan.points.push_back(hit.point);
     scan.stored_point_count = scan.points.size();
     return scan;
   }
   [[nodiscard]] Pose pose(std::size_t index) const override {
-    return Pose(Eigen::Translation3d(scene_->position(frames_.at(index))));
+    return Pose(Eigen::Translation3d(scene_.position(frames_.at(index))));
   }
   [[nodiscard]] const SensorModel& sensor() const override {
     if (!choice_) return ideal_;
     return choice_->get(size(), [this](std::size_t index) { return load(index); });
   }
-
- private:
-  std::shared_ptr<const StreetScene> scene_;
-  std::vector<std::size_t> frames_;
-  SensorModel ideal_;
-  std::unique_ptr<SensorChoice> choice_;  ///< Where the user asks for another sensor.
-};
-
-class StreetLabels : public LabelSource {
- public:
-  StreetLabels(std::shared_ptr<const StreetScene> scene, std::vector<std::size_t> frames)
-      : scene_(std::move(scene)), frames_(std::move(frames)) {}
-
   [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override {
     std::vector<std::uint32_t> words;
-    for (const Return& hit : scene_->cast(frames_.at(scan.index))) words.push_back(hit.label);
+    for (const Return& hit : scene_.cast(frames_.at(scan.index))) words.push_back(hit.label);
     if (words.size() != scan.stored_point_count) {
       throw InternalError("scan " + scan.name + " is not one of this street");
     }
@@ -183,8 +171,10 @@ class StreetLabels : public LabelSource {
   }
 
  private:
-  std::shared_ptr<const StreetScene> scene_;
+  StreetScene scene_;
   std::vector<std::size_t> frames_;
+  SensorModel ideal_;
+  std::unique_ptr<SensorChoice> choice_;  ///< Where the user asks for another sensor.
 };
 
 void check_parameters(const StreetParameters& p) {
@@ -223,7 +213,7 @@ Sequence make_street(const StreetParameters& parameters, const std::vector<Stree
     throw UsageError("street: the built-in scene has its own poses; leave --poses out.");
   }
   SequenceSettings defaults;
-  defaults.name = "street";
+  defaults.name = kStreet;
   defaults.source = "built-in procedural scene";
   defaults.scan_period_s = parameters.scan_period_s;
   const SequenceSettings settings = apply_options(options, defaults);
@@ -236,16 +226,33 @@ Sequence make_street(const StreetParameters& parameters, const std::vector<Stree
     frames.push_back(static_cast<std::size_t>(file.number));
   }
 
-  Sequence sequence = make_sequence(settings, "simulated", chosen.range);
-  const auto scene = std::make_shared<const StreetScene>(parameters, boxes);
+  Sequence sequence = make_sequence(settings, street_layout(), chosen.range);
+  const auto street = std::make_shared<const StreetScans>(StreetScene(parameters, boxes),
+                                                          std::move(frames), settings.sensor);
   sequence.poses_file = "exact";
-  sequence.labels = std::make_shared<StreetLabels>(scene, frames);
-  sequence.scans = std::make_shared<StreetScans>(scene, frames, settings.sensor);
+  sequence.labels = street;
+  sequence.scans = street;
   return sequence;
 }
 
-Sequence open_street(const SequenceOptions& options) {
-  return make_street({}, street_boxes(), options);
+Layout street_layout() {
+  const auto its_name = [] { return std::vector<std::string>{kStreet}; };
+  const auto sequence_name = [](Layout::Path) { return std::string(kStreet); };
+  // It has no options by which it could be told from a folder.
+  const auto unmistakable = [](Layout::Path) {
+    return std::string("start where there is no such folder");
+  };
+  Layout layout;
+  layout.name = "simulated";
+  layout.expected = "'street', the built-in scene";
+  layout.forms = {{kStreet, "small built-in scene, needs no data"}};
+  layout.class_names = semantickitti_class_names();
+  layout.recognise = [](Layout::Path path) { return path == kStreet; };
+  layout.open = [](Layout::Path, const SequenceOptions& options, const OpenContext&) {
+    return make_street({}, street_boxes(), options);
+  };
+  layout.scenes = SceneNames{its_name, sequence_name, unmistakable};
+  return layout;
 }
 
 }  // namespace raymoval

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "datasets/sequence.h"
+#include "datasets/layout.h"
 
 namespace raymoval {
 
@@ -44,6 +44,6 @@ Sequence make_street(const StreetParameters& parameters, const std::vector<Stree
                      const SequenceOptions& options = {});
 
 /// The built-in scene `street`.
-Sequence open_street(const SequenceOptions& options);
+Layout street_layout();
 
 }  // namespace raymoval

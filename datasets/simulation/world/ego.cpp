@@ -86,8 +86,15 @@ double wobble(double time, double size, double phase) {
                  0.25 * std::sin(2 * kPi * 11.3 * time + 3.7 * phase));
 }
 
-}  // namespace
+/// Angles of an excavator at one instant, radians.
+struct ArmAngles {
+  double swing;   ///< Of the upper carriage about the vertical.
+  double boom;    ///< Above the horizontal, at its foot.
+  double stick;   ///< Against the boom.
+  double bucket;  ///< Against the stick.
+};
 
+/// Angles `phase` (0 .. 1) of the way through dig, lift, swing, dump and swing back.
 ArmAngles dig_cycle(double phase) {
   constexpr double d = kPi / 180.0;
   struct Key {
@@ -113,6 +120,8 @@ ArmAngles dig_cycle(double phase) {
           blend(a.angles.stick, b.angles.stick), blend(a.angles.bucket, b.angles.bucket)};
 }
 
+}  // namespace
+
 Ego::Ego(const EgoSpec& spec, const Ground& ground)
     : spec_(spec), track_(spec.route, ground), hull_(make_hull(spec.body)) {
   if (!has_arm()) return;
@@ -121,13 +130,9 @@ Ego::Ego(const EgoSpec& spec, const Ground& ground)
   bucket_ = make_bucket();
 }
 
-ArmAngles Ego::arm(double time) const {
-  return dig_cycle(time / spec_.dig_period_s);
-}
-
 Isometry3d Ego::base(double time) const {
   Isometry3d base = track_.frame(track_.along(time), 0.0, 2.6, 1.5);
-  if (has_arm()) base = base * placed(0, 0, 0, arm(time).swing);
+  if (has_arm()) base = base * placed(0, 0, 0, dig_cycle(time / spec_.dig_period_s).swing);
   Isometry3d shake = Isometry3d::Identity();
   shake.translation().z() = wobble(time, spec_.vibration_m, 0.3);
   shake.linear() = (Eigen::AngleAxisd(wobble(time, spec_.vibration_rad, 1.1), Vector3d::UnitY()) *
@@ -149,7 +154,7 @@ void Ego::place(double time, std::vector<PlacedPart>& parts) const {
   if (!hull_.empty()) parts.push_back({&hull_, carriage, 0});
   if (!has_arm()) return;
   const std::uint32_t label = (kArmInstance << 16) | kLabelMovingOtherVehicle;
-  const ArmAngles angles = arm(time);
+  const ArmAngles angles = dig_cycle(time / spec_.dig_period_s);
   const auto turned = [](double x, double y, double z, double up) {
     return Isometry3d(Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(-up, Vector3d::UnitY()));
   };

@@ -2,23 +2,25 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
+#include <string>
 #include <vector>
 
 #include "datasets/simulation/world/mover.h"
 
 namespace raymoval::simulated {
 
-/// Angles of an excavator at one instant, radians.
-struct ArmAngles {
-  double swing;   ///< Of the upper carriage about the vertical.
-  double boom;    ///< Above the horizontal, at its foot.
-  double stick;   ///< Against the boom.
-  double bucket;  ///< Against the stick.
+/// What carries the sensor.
+struct EgoSpec {
+  Route route;
+  std::string body = "car";  ///< car, excavator or none.
+  double sensor_height_m = 1.73;
+  double sensor_forward_m = 0.0;
+  double sensor_left_m = 0.0;
+  double sensor_pitch_rad = 0.0;  ///< Positive = looking down.
+  double vibration_m = 0.0;
+  double vibration_rad = 0.0;
+  double dig_period_s = 18.0;  ///< Of an excavator: one dig, swing, dump, swing back.
 };
-
-/// Angles `phase` (0 .. 1) of the way through dig, lift, swing, dump and swing back.
-ArmAngles dig_cycle(double phase);
 
 /// What carries the sensor: where it is, how it shakes, and what of itself the sensor sees.
 class Ego {
@@ -35,7 +37,6 @@ class Ego {
 
  private:
   [[nodiscard]] Eigen::Isometry3d base(double time) const;
-  [[nodiscard]] ArmAngles arm(double time) const;
   EgoSpec spec_;
   Track track_;
   Mesh hull_;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "datasets/simulation/shapes/mesh.h"
-#include "datasets/simulation/shapes/path.h"
+#include "datasets/simulation/world/path.h"
 
 namespace raymoval::simulated {
 

@@ -57,7 +57,7 @@ Mover::Mover(std::string kind, Body body, Track track, double left, std::uint16_
       track_(std::move(track)),
       left_(left),
       instance_(instance) {
-  judge(0.0);
+  set_label(0.0);
 }
 
 bool Mover::present(double time) const {
@@ -90,7 +90,7 @@ void Mover::place(double time, std::vector<PlacedPart>& parts) const {
   }
 }
 
-void Mover::judge(double duration) {
+void Mover::set_label(double duration) {
   constexpr double kStill = 0.05;  // metres
   constexpr int kLooks = 400;
   const double start = track_.along(0.0);

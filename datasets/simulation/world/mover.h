@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "datasets/simulation/shapes/bodies.h"
-#include "datasets/simulation/shapes/path.h"
 #include "datasets/simulation/world/ground.h"
-#include "datasets/simulation/world/world_file.h"
+#include "datasets/simulation/world/path.h"
 
 namespace raymoval::simulated {
 
@@ -18,6 +17,16 @@ struct PlacedPart {
   const Mesh* mesh = nullptr;
   Eigen::Isometry3d T_world_part = Eigen::Isometry3d::Identity();
   std::uint32_t label = 0;  ///< Word of all its triangles; 0 = each its own.
+};
+
+/// Where something goes and how fast: along a road, or along points of its own.
+struct Route {
+  std::string road;                     ///< Empty = `points`.
+  double lane_m = 0.0;                  ///< To the left of the road's middle, seen along the road.
+  bool reverse = false;                 ///< Against the direction of the road.
+  std::vector<Eigen::Vector2d> points;  ///< In the plane of the world, metres.
+  double start_m = 0.0;                 ///< Distance along the route at time 0.
+  SpeedProfile speed;
 };
 
 /// A route made ready: knows where one is at a time and how one stands on the ground there.
@@ -56,8 +65,9 @@ class Mover {
   [[nodiscard]] Eigen::Isometry3d pose(double time) const;
   /// Its parts at `time`, present or not.
   void place(double time, std::vector<PlacedPart>& parts) const;
-  /// Decides the label: an object that moves at any time from 0 to `duration` moves throughout.
-  void judge(double duration);
+  /// Gives the label: an object that moves at any time from 0 to `duration` (seconds) is labelled
+  /// moving throughout.
+  void set_label(double duration);
 
   [[nodiscard]] bool moves() const { return moves_; }
   [[nodiscard]] std::uint32_t label() const { return label_; }

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "datasets/simulation/shapes/random.h"
 #include "datasets/simulation/shapes/shapes.h"
+#include "datasets/simulation/world/world_file.h"
 
 namespace raymoval::simulated {
 namespace {
@@ -45,7 +46,7 @@ World::World(const WorldFile& file, std::uint64_t seed, double duration)
   for (const PlaceSpec& place : file.places) add_place(place, file.seed, ++number);
   for (const MoverSpec& mover : file.movers) add_movers(mover, seed, ++number);
   for (const FlowSpec& flow : file.flows) add_flow(flow, seed, ++number, duration);
-  for (const auto& mover : movers_) mover->judge(duration);
+  for (const auto& mover : movers_) mover->set_label(duration);
   ego_.emplace(file.ego, *ground_);
   finish();
 }

@@ -11,9 +11,14 @@
 #include "datasets/simulation/world/ego.h"
 #include "datasets/simulation/world/ground.h"
 #include "datasets/simulation/world/mover.h"
-#include "datasets/simulation/world/world_file.h"
 
 namespace raymoval::simulated {
+
+struct FlowSpec;
+struct MoverSpec;
+struct PlaceSpec;
+struct RowSpec;
+struct WorldFile;
 
 /// A square of the standing world. Its mesh is relative to `origin`, so that single precision
 /// stays finer than 0.01 mm kilometres from the origin of the world.

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "core/angle.h"
 #include "core/error.h"
@@ -12,6 +11,9 @@
 
 namespace raymoval::simulated {
 namespace {
+
+/// Metres from the origin along x or y, either way, within which all of a world lies.
+constexpr double kWorldReach = 1e5;
 
 /// Errors of paths and speed profiles, with the place in the file put before them.
 template <class Make>
@@ -24,8 +26,7 @@ auto at_place(const std::string& where, Make make) {
 }
 
 Terrain read_terrain(const nlohmann::json& json, const std::string& where) {
-  const Fields f(json, where,
-                 {"hills_m", "wavelength_m", "margin_m", "roughness_m", "grid_m", "cover"});
+  const Fields f(json, where, "hills_m wavelength_m margin_m roughness_m grid_m cover");
   Terrain t;
   t.hills_m = f.number("hills_m", t.hills_m, 0.0, 30.0);
   t.wavelength_m = f.number("wavelength_m", t.wavelength_m, 20.0, 5000.0);
@@ -40,12 +41,11 @@ Terrain read_terrain(const nlohmann::json& json, const std::string& where) {
 
 Road read_road(const nlohmann::json& json, const std::string& where) {
   const Fields f(json, where,
-                 {"name", "points", "closed", "width_m", "crown_m", "kerb_m", "sidewalk_m",
-                  "verge_m", "surface"});
+                 "name points closed width_m crown_m kerb_m sidewalk_m verge_m surface");
   Road road;
   road.name = f.text("name", "road");
-  f.require("points");
-  const auto points = f.points("points");
+  static_cast<void>(f.member("points"));
+  const auto points = f.points("points", kWorldReach);
   const bool closed = f.flag("closed", false);
   road.path = at_place(f.place("points"), [&] { return Path(points, closed); });
   road.width_m = f.number("width_m", road.width_m, 1.0, 60.0);
@@ -59,7 +59,7 @@ Road read_road(const nlohmann::json& json, const std::string& where) {
 
 SpeedProfile read_speed(const Fields& f, const std::string& key) {
   if (!f.has(key)) return {};
-  if (f.member(key).is_number()) return SpeedProfile({{0.0, f.number(key, 0.0, 0.0, 100.0)}});
+  if (f.is_number(key)) return SpeedProfile({{0.0, f.number(key, 0.0, 0.0, 100.0)}});
   for (const auto& [time, speed] : f.pairs(key)) {
     if (std::abs(time) > 1e6 || std::abs(speed) > 100.0) {
       f.fail(key, "pairs of seconds and metres a second, [0, 8], at most 1e6 and 100");
@@ -68,19 +68,14 @@ SpeedProfile read_speed(const Fields& f, const std::string& key) {
   return at_place(f.place(key), [&] { return SpeedProfile(f.pairs(key)); });
 }
 
-const std::vector<std::string> kRouteKeys = {"road", "lane_m", "reverse", "points", "start_m"};
-
-std::vector<std::string> with_route_keys(std::vector<std::string> keys) {
-  keys.insert(keys.end(), kRouteKeys.begin(), kRouteKeys.end());
-  return keys;
-}
+const std::string kRouteKeys = "road lane_m reverse points start_m ";
 
 Route read_route(const Fields& f, const std::string& speed_key) {
   Route route;
   route.road = f.text("road", "");
   route.lane_m = f.number("lane_m", 0.0, -200.0, 200.0);
   route.reverse = f.flag("reverse", false);
-  route.points = f.points("points");
+  route.points = f.points("points", kWorldReach);
   route.start_m = f.number("start_m", 0.0, -1e5, 1e5);
   if (!speed_key.empty()) route.speed = read_speed(f, speed_key);
   if (route.road.empty() == route.points.empty()) {
@@ -92,7 +87,7 @@ Route read_route(const Fields& f, const std::string& speed_key) {
 
 PartSpec read_part(const Fields& f) {
   PartSpec part;
-  f.require("part");
+  static_cast<void>(f.member("part"));
   part.part = f.choice("part", "", part_names());
   part.length_m = f.number("length_m", 0.0, 0.0, 500.0);
   part.width_m = f.number("width_m", 0.0, 0.0, 500.0);
@@ -102,8 +97,8 @@ PartSpec read_part(const Fields& f) {
 
 RowSpec read_row(const nlohmann::json& json, const std::string& where) {
   const Fields f(json, where,
-                 {"road", "side", "from_m", "to_m", "offset_m", "spacing_m", "share", "turn_deg",
-                  "part", "length_m", "width_m", "height_m"});
+                 "road side from_m to_m offset_m spacing_m share turn_deg part length_m "
+                 "width_m height_m");
   RowSpec row;
   row.road = f.text("road", "");
   const std::string side = f.choice("side", "both", {"left", "right", "both"});
@@ -120,7 +115,7 @@ RowSpec read_row(const nlohmann::json& json, const std::string& where) {
 }
 
 PlaceSpec read_place(const nlohmann::json& json, const std::string& where) {
-  const Fields f(json, where, {"part", "at", "yaw_deg", "length_m", "width_m", "height_m"});
+  const Fields f(json, where, "part at yaw_deg length_m width_m height_m");
   PlaceSpec place;
   const std::vector<double> at = f.numbers("at");
   if (at.size() != 2 || std::abs(at[0]) > kWorldReach || std::abs(at[1]) > kWorldReach) {
@@ -133,7 +128,7 @@ PlaceSpec read_place(const nlohmann::json& json, const std::string& where) {
 }
 
 MoverSpec read_mover(const nlohmann::json& json, const std::string& where) {
-  const Fields f(json, where, with_route_keys({"kind", "speed", "group"}));
+  const Fields f(json, where, kRouteKeys + "kind speed group");
   MoverSpec mover;
   mover.kind = f.choice("kind", "car", body_kinds());
   mover.group = f.integer("group", 1, 1, 20);
@@ -142,8 +137,7 @@ MoverSpec read_mover(const nlohmann::json& json, const std::string& where) {
 }
 
 FlowSpec read_flow(const nlohmann::json& json, const std::string& where) {
-  const Fields f(json, where,
-                 with_route_keys({"kinds", "speed_mps", "gap_m", "group", "from_m", "to_m"}));
+  const Fields f(json, where, kRouteKeys + "kinds speed_mps gap_m group from_m to_m");
   FlowSpec flow;
   flow.route = read_route(f, "");
   flow.speed_mps = f.interval("speed_mps", {8.0, 8.0}, 0.0, 100.0);
@@ -151,9 +145,8 @@ FlowSpec read_flow(const nlohmann::json& json, const std::string& where) {
   flow.group = f.integer("group", 1, 1, 20);
   if (f.has("from_m")) flow.from_m = f.number("from_m", 0.0, -1e5, 1e5);
   flow.to_m = f.number("to_m", -1.0, -1.0, 1e5);
-  const nlohmann::json& kinds = f.member("kinds");
-  const Fields weights(kinds, f.place("kinds"), body_kinds());
-  for (const auto& [kind, weight] : kinds.items()) {
+  const Fields weights(f.member("kinds"), f.place("kinds"), join(body_kinds(), " "));
+  for (const std::string& kind : weights.names()) {
     flow.kinds.emplace_back(kind, weights.number(kind, 1.0, 0.0, 1e6));
   }
   if (flow.kinds.empty()) f.fail("kinds", "at least one kind with its weight");
@@ -161,10 +154,10 @@ FlowSpec read_flow(const nlohmann::json& json, const std::string& where) {
 }
 
 EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
-  const Fields f(
-      json, where,
-      with_route_keys({"speed", "body", "sensor_height_m", "sensor_forward_m", "sensor_left_m",
-                       "sensor_pitch_deg", "vibration_m", "vibration_deg", "dig_period_s"}));
+  const Fields f(json, where,
+                 kRouteKeys +
+                     "speed body sensor_height_m sensor_forward_m sensor_left_m sensor_pitch_deg "
+                     "vibration_m vibration_deg dig_period_s");
   EgoSpec ego;
   ego.route = read_route(f, "speed");
   ego.body = f.choice("body", "car", {"car", "excavator", "none"});
@@ -182,8 +175,8 @@ EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
 
 WorldFile world_from_json(const nlohmann::json& json, const std::string& file) {
   const Fields f(json, file,
-                 {"description", "sensor", "scans", "range_m", "seed", "terrain", "roads", "rows",
-                  "places", "movers", "flows", "ego"});
+                 "description sensor scans range_m seed terrain roads rows places "
+                 "movers flows ego");
   WorldFile world;
   world.name = std::filesystem::path(file).stem().string();
   world.description = f.text("description", "");

@@ -37,8 +37,8 @@ struct AngularGrid {
   [[nodiscard]] int azimuth_of(int bin) const { return bin % azimuth_bins; }
   [[nodiscard]] int elevation_of(int bin) const { return bin / azimuth_bins; }
 
-  /// Eq. 3. Nothing outside the vertical field of view: such a point is never clamped into the
-  /// border row.
+  /// Eq. 3. There is no bin outside the vertical field of view: such a point is never clamped into
+  /// the border row.
   [[nodiscard]] std::optional<int> bin_of(double azimuth, double elevation) const;
   [[nodiscard]] double azimuth_centre(int i) const;    ///< Eq. 4.
   [[nodiscard]] double elevation_centre(int j) const;  ///< Eq. 4.
@@ -62,9 +62,10 @@ class DirectionTable {
 
 /// A scan sorted into the bins of a grid.
 struct ProjectedScan {
-  std::vector<float> range;          ///< Of each point, metres.
-  std::vector<std::int32_t> bin;     ///< Of each point; -1 = in no bin.
-  std::vector<float> minimum_range;  ///< Of each bin (d_scan, eq. 10); infinite if empty.
+  std::vector<float> range;       ///< The range of each point, metres.
+  std::vector<std::int32_t> bin;  ///< The bin of each point; -1 if it is in none.
+  std::vector<float>
+      minimum_range;  ///< d_scan of each bin (eq. 10), metres; infinite if it is empty.
 };
 
 /// Eqs 1-3 and 10. Points nearer than `minimum_range` (the ego vehicle) go to no bin.
@@ -72,11 +73,11 @@ struct ProjectedScan {
 void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
              ProjectedScan& projected);
 
-/// Voxel of each point in the world lattice. @throws DataError as `voxel_index`
+/// Finds the voxel of each point in the world lattice. @throws DataError as `voxel_index`
 void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
                  std::vector<VoxelIndex>& voxels);
 
-/// Columns `i + offset` of a full circle.
+/// The column of a full circle that `i` means, which may lie up to one turn outside.
 inline int wrap_azimuth(int i, int azimuth_bins) {
   return i < 0 ? i + azimuth_bins : (i >= azimuth_bins ? i - azimuth_bins : i);
 }

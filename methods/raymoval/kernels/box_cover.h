@@ -57,16 +57,16 @@ void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes);
 
 /// What happened to a brick since its cover was made.
 enum class Change : std::uint8_t {
-  kGrown,   ///< Voxels came.
-  kShrunk,  ///< Voxels went; others may have come.
+  kGrown,   ///< Voxels were added.
+  kShrunk,  ///< Voxels were removed; others may have been added.
 };
 
-/// Mends a cover after voxels came and went: boxes that hold an empty voxel are dropped, and what
-/// is then in no box is covered as above. From fewer boxes to
-/// choose from: several times faster than a new cover, and a little larger.
+/// Mends a cover after voxels were added and removed: boxes that hold an empty voxel are dropped,
+/// and what is then in no box is covered as above. It has fewer boxes to choose from than a new
+/// cover, is several times faster, and gives a few boxes more.
 void mend_cover(const Brick& brick, Change change, std::vector<BrickBox>& boxes);
 
-/// Smallest box that holds all occupied voxels of a brick that has one.
+/// The smallest box that holds all occupied voxels of a brick that has one.
 BrickBox tight_box(const Brick& brick);
 
 }  // namespace raymoval::raymoval_method

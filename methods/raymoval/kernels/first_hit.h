@@ -16,7 +16,7 @@ struct Ray {
   Eigen::Vector3d direction;
 };
 
-/// Rays count what they enter at a distance within these limits, metres.
+/// Rays hit only what they enter at a distance within these limits, metres.
 struct RayLimits {
   double minimum_range = 0.0;
   double maximum_range = 60.0;
@@ -28,8 +28,8 @@ struct FirstHit {
   VoxelIndex voxel;
 };
 
-/// Eq. 7: the first occupied voxel along `ray` that is entered at a distance within `limits`;
-/// nothing if there is none. Exact, and slow: in double, planes are never accumulated. Voxels are
+/// Eq. 7: the first occupied voxel along `ray` that is entered at a distance within `limits`, if
+/// there is one. Exact, and slow: in double, planes are never accumulated. Voxels are
 /// half open, [k, k + 1) cells an axis.
 /// @param from voxels that the ray leaves before this distance are skipped, metres
 std::optional<FirstHit> cast_ray(const OccupancyMap& map, const Ray& ray, const RayLimits& limits,
@@ -40,13 +40,13 @@ struct FirstHitImage {
   AngularGrid grid;
   Pose T_world_sensor = Pose::Identity();
   RayLimits limits;
-  std::shared_ptr<const DirectionTable> directions;  ///< Of the grid.
-  std::vector<float> range;  ///< r_cast of each bin, metres; infinite where nothing is hit.
+  std::shared_ptr<const DirectionTable> directions;  ///< The directions of the grid's bins.
+  std::vector<float> range;  ///< r_cast of each bin, metres; it is infinite where nothing is hit.
 
   /// Eqs 5-6: the ray of a bin.
   [[nodiscard]] Ray ray(int bin) const;
   /// The voxel that a bin's ray hits, found exactly on the map that the image was cast on.
-  /// Nothing if the range is infinite, or if the map has changed there.
+  /// There is none if the range is infinite, or if the map has changed there.
   [[nodiscard]] std::optional<VoxelIndex> voxel(const OccupancyMap& map, int bin) const;
 };
 
@@ -101,7 +101,7 @@ class FirstHitCaster {
   std::unique_ptr<State> state_;
 };
 
-/// One image with a caster of its own.
+/// Casts one image with a caster of its own.
 FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
                               const AngularGrid& grid, const RayLimits& limits, int threads);
 

@@ -59,7 +59,7 @@ F dot(const std::array<double, 3>& axis, const std::array<F, 3>& values) {
 struct Footprint {
   F across_x, across_y;         ///< Centre, along the sensor's x and y.
   F rho_low, rho_high;          ///< Distance from the axis.
-  F tangent_low, tangent_high;  ///< Of the angle from the centre's azimuth.
+  F tangent_low, tangent_high;  ///< Tangents of the angles from the centre's azimuth.
   hn::Mask<Floats> around_axis;
 };
 

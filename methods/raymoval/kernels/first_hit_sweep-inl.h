@@ -76,8 +76,8 @@ Column start_column(const Frame& frame, int i, Scratch& scratch, float* depth) {
   return column;
 }
 
-/// For each box: whether the column's half plane crosses it, and the distances from the axis that
-/// belong to its lowest and its highest elevation.
+/// Finds for each box whether the column's half plane crosses it, and the distances from the axis
+/// that belong to its lowest and its highest elevation.
 void bound_boxes(const Column& column, const float* group, float* rho, std::uint32_t* crossing) {
   const Floats d;
   std::uint32_t bits = 0;

@@ -13,12 +13,12 @@ namespace raymoval::raymoval_method::sweep {
 /// Boxes are expanded in groups of this many, whatever the vector width.
 inline constexpr std::size_t kGroup = 16;
 
-/// What depends on the grid of directions only. Rows are padded to a multiple of kGroup.
+/// The tables that depend on the grid of directions only. Rows are padded to a multiple of kGroup.
 struct GridTables {
   int columns = 0, rows = 0, padded_rows = 0;
   float elevation_min = 0.0F, inverse_elevation_step = 0.0F, inverse_azimuth_step = 0.0F;
-  std::vector<double> azimuth_cosine, azimuth_sine;      ///< Of the columns' centres.
-  std::vector<double> elevation_cosine, elevation_sine;  ///< Of the rows' centres.
+  std::vector<double> azimuth_cosine, azimuth_sine;      ///< At the columns' centres.
+  std::vector<double> elevation_cosine, elevation_sine;  ///< At the rows' centres.
   /// Tangents a little below and above each row's centre; infinite beyond the vertical.
   std::vector<float> tangent_below, tangent_above;
 };
@@ -30,8 +30,9 @@ struct BrickList {
   std::array<AlignedArray<std::int32_t>, 3> plane;  ///< Where the brick's walls are in the tables.
   AlignedArray<OccupancyMap::Slot> slot;
   // Found by measure_bricks; a brick in no column has first_column > last_column.
-  AlignedArray<float> nearest;                           ///< No ray enters it nearer than this.
-  AlignedArray<std::int32_t> first_column, last_column;  ///< From below 0 or to beyond the last.
+  AlignedArray<float> nearest;  ///< No ray enters it nearer than this.
+  AlignedArray<std::int32_t> first_column,
+      last_column;  ///< They may lie below 0 or beyond the last.
   AlignedArray<std::int32_t> first_row, last_row;
 
   void require(std::size_t bricks);
@@ -42,15 +43,15 @@ struct Frame {
   const OccupancyMap* map = nullptr;
   const GridTables* grid = nullptr;
   BrickList* bricks = nullptr;
-  std::vector<std::uint32_t>* order = nullptr;  ///< Of the bricks that are seen, nearest first.
+  std::vector<std::uint32_t>* order = nullptr;  ///< The bricks that are seen, the nearest first.
   /// World coordinates of the sensor's axes.
   std::array<double, 3> x_axis{}, y_axis{}, up{};
   std::array<int, 2> level_axes{};       ///< The two world axes that are the least upright.
   std::array<const float*, 3> planes{};  ///< Voxel walls along each axis from the sensor, metres.
   float minimum_range = 0.0F, maximum_range = 0.0F;
   float slack = 0.0F;           ///< Bounds are widened by this, metres.
-  std::uint64_t number = 0;     ///< Another one for each image of a caster, from 1.
-  std::size_t most_groups = 0;  ///< Of boxes, if all bricks were expanded.
+  std::uint64_t number = 0;     ///< The number of the image among those of its caster, from 1.
+  std::size_t most_groups = 0;  ///< Groups of boxes, if all bricks were expanded.
 };
 
 /// A brick in the list of a column.
@@ -63,14 +64,15 @@ struct ColumnEntry {
 /// Bricks seen in the columns begin .. end - 1, nearest first.
 struct ColumnLists {
   int begin = 0, end = 0;
-  std::vector<std::uint32_t> starts;  ///< Of each column's entries, and the end of the last.
+  std::vector<std::uint32_t>
+      starts;  ///< Where each column's entries begin, and the end of the last.
   std::vector<ColumnEntry> entries;
 };
 
 /// Memory of one thread's sweep, kept between images.
 struct Scratch {
   std::uint64_t frame = 0;  ///< The image it is prepared for.
-  /// Of each brick: where its boxes were expanded to, and how many.
+  /// Where the boxes of a brick were expanded to, and how many there are.
   struct Expanded {
     std::uint32_t begin = 0;
     std::uint32_t boxes = 0;
@@ -80,7 +82,7 @@ struct Scratch {
   AlignedArray<float> boxes;
   std::size_t boxes_used = 0;
   AlignedArray<float> pieces;  ///< Boxes of one brick, cut at the sensor's planes.
-  AlignedArray<float> bounds;  ///< Of one brick's boxes in one column.
+  AlignedArray<float> bounds;  ///< The bounds of one brick's boxes in one column.
   std::vector<std::uint32_t> crossing;
   AlignedArray<float> directions;  ///< Inverse directions of one column.
   AlignedArray<float> depth;       ///< Ranges of kGroup columns.
@@ -99,7 +101,7 @@ struct Kernels {
                         Scratch& scratch, float* range);
 };
 
-/// Those of the best instruction set that this processor has.
+/// The kernels of the best instruction set that this processor has.
 Kernels best_kernels();
 
 }  // namespace raymoval::raymoval_method::sweep

@@ -15,7 +15,7 @@ namespace raymoval::raymoval_method {
 /// Voxels of a brick that lie within a box of the lattice.
 struct BrickPart {
   int first_word, last_word;
-  std::uint64_t mask;  ///< Of each of the words.
+  std::uint64_t mask;  ///< The voxels of the box in each of these words.
 
   /// @param brick brick coordinates; the box `low` .. `high` (inclusive) reaches into it
   static BrickPart within(const Eigen::Vector3i& brick, const VoxelIndex& low,
@@ -64,7 +64,7 @@ class OccupancyMap {
     return voxel_index(world, inverse_voxel_size_);
   }
 
-  /// True if the voxel was empty.
+  /// Adds a voxel. @return whether it was empty
   bool insert(const VoxelIndex& voxel) { return insert(make_brick(brick_of(voxel)), voxel); }
   /// The same for a voxel of the brick `slot`.
   bool insert(Slot slot, const VoxelIndex& voxel) {
@@ -76,7 +76,7 @@ class OccupancyMap {
     mark_changed(slot, Change::kGrown);
     return true;
   }
-  /// True if the voxel was occupied.
+  /// Removes a voxel. @return whether it was occupied
   bool erase(const VoxelIndex& voxel);
   [[nodiscard]] bool contains(const VoxelIndex& voxel) const {
     const Brick* brick = find_brick(brick_of(voxel));
@@ -97,7 +97,7 @@ class OccupancyMap {
     const auto found = index_.find(voxel_key(brick));
     return found == index_.end() ? kNoBrick : found->second;
   }
-  /// The brick's number; it is made if it is not there.
+  /// The number of a brick, which is made if it is not there.
   Slot make_brick(const Eigen::Vector3i& brick);
   [[nodiscard]] const Brick& brick(Slot slot) const { return bricks_[slot]; }
 
@@ -120,7 +120,7 @@ class OccupancyMap {
   }
   [[nodiscard]] std::span<const BrickHead> tile(std::size_t number) const { return tiles_[number]; }
 
-  /// Everything the map holds, spare capacity included.
+  /// The memory of everything that the map holds, spare capacity included.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:

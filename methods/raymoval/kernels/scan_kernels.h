@@ -36,9 +36,9 @@ struct Voxelisation {
 
 /// Eq. 11 for points.
 struct ConsistencyCheck {
-  const float* range = nullptr;       ///< Of each point.
-  const std::int32_t* bin = nullptr;  ///< Of each point; below 0 = in no bin.
-  const float* reference = nullptr;   ///< Of each bin; infinite = none.
+  const float* range = nullptr;       ///< The range of each point, metres.
+  const std::int32_t* bin = nullptr;  ///< The bin of each point; below 0 it is in none.
+  const float* reference = nullptr;   ///< The map reference of each bin; infinite if it has none.
   double tau0 = 0.0, tau1 = 0.0;
   std::uint8_t* dynamic = nullptr;
 };
@@ -63,8 +63,8 @@ struct WindowMinimum {
   float* scratch = nullptr;  ///< row_lanes x (rows + 2 elevation_radius) numbers, aligned.
 };
 
-/// Which bins may be seen through: nearest return of the neighbourhood, first hit and map reference
-/// of each.
+/// The search for bins that may be seen through, from the nearest return of the neighbourhood, the
+/// first hit and the map reference of each bin.
 struct SuspectSearch {
   const float* own = nullptr;  ///< The bin's own return; infinite if it has none.
   const float* nearest = nullptr;
@@ -86,11 +86,12 @@ struct Kernels {
   /// The columns `first` .. `first` + row_lanes - 1, which lie within the row; the first `skip` of
   /// them are not written.
   void (*minimum)(const WindowMinimum& job, int first, int skip);
-  /// One bit for each of 16 bins from `bin` on: some more rather than less.
+  /// One bit for each of 16 bins from `bin` on. It may be set for a bin too many, never for one too
+  /// few.
   std::uint32_t (*suspects)(const SuspectSearch& job, std::size_t bin);
 };
 
-/// Those of the best instruction set that this processor has.
+/// The kernels of the best instruction set that this processor has.
 Kernels best_kernels();
 
 }  // namespace raymoval::raymoval_method::kernels

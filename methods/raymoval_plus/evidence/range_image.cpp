@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "core/simd/simd.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-// Numbers of this step; EXPERIMENTS.md has the first two at half and at double their values.
+// Numbers of this step. The parameters azimuth_bin and elevation_bin replace the first two, and
+// EXPERIMENTS.md has other heights of bins.
 /// A bin is a little wider than a beam, so that few bins stay empty where a surface goes on.
 constexpr double kBeamsPerColumn = 1.45;
 /// A bin is half as high as beams are apart, so that two beams that are not quite evenly spaced do
@@ -62,9 +64,8 @@ kernels::SightPlaces in_sensor_frame(const float* places, std::size_t count, con
 
 }  // namespace
 
-RangeImage::RangeImage(const SensorModel& sensor, const Parameters& parameters, InstructionSet set)
+RangeImage::RangeImage(const SensorModel& sensor, const Parameters& parameters)
     : parameters_(parameters),
-      kernels_(kernels::sight_kernels_for(set)),
       half_voxel_(static_cast<float>(0.5 * parameters.voxel_size)),
       agree_{static_cast<float>(parameters.agree_constant),
              static_cast<float>(parameters.agree_slope)},

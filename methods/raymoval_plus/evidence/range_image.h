@@ -27,9 +27,7 @@ struct ObservedPlace {
 /// bin, and the three-way test of a place against the bins around it.
 class RangeImage {
  public:
-  /// @param set which kernels to use; the answer is the same for all
-  RangeImage(const SensorModel& sensor, const Parameters& parameters,
-             InstructionSet set = InstructionSet::kBest);
+  RangeImage(const SensorModel& sensor, const Parameters& parameters);
 
   /// The number of bins. It is at most about four million, whatever the sensor's steps are.
   [[nodiscard]] std::size_t size() const {
@@ -71,7 +69,7 @@ class RangeImage {
   [[nodiscard]] Observation observe_window(float range, int column, int row) const;
 
   Parameters parameters_;
-  kernels::SightKernels kernels_;
+  kernels::SightKernels kernels_ = kernels::best_sight_kernels();
   kernels::SightGrid grid_;
   float azimuth_step_ = 0.0F, elevation_step_ = 0.0F;  ///< Size of a bin, radians.
   int rows_ = 0;

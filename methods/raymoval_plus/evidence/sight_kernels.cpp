@@ -157,8 +157,8 @@ namespace raymoval::raymoval_plus_method::kernels {
 
 HWY_EXPORT(sight_kernels);
 
-SightKernels sight_kernels_for(InstructionSet set) {
-  return RAYMOVAL_KERNEL_FOR(sight_kernels, set)();
+SightKernels best_sight_kernels() {
+  return RAYMOVAL_BEST_KERNEL(sight_kernels)();
 }
 
 }  // namespace raymoval::raymoval_plus_method::kernels

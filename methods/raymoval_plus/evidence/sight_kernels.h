@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/simd/simd.h"
-
 /// The loops of `RangeImage`. They are compiled for each instruction set, and all give the same
 /// numbers.
 namespace raymoval::raymoval_plus_method::kernels {
@@ -58,6 +56,7 @@ struct SightKernels {
                         const SightWindows& windows, const Sights& sights, std::uint32_t* chosen);
 };
 
-SightKernels sight_kernels_for(InstructionSet set);
+/// The kernels for the best instruction set that this processor has.
+SightKernels best_sight_kernels();
 
 }  // namespace raymoval::raymoval_plus_method::kernels

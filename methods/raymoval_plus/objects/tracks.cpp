@@ -9,7 +9,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of this step; EXPERIMENTS.md has each at half and at double its value.
+// Numbers of this step. EXPERIMENTS.md has them at half and at double their values.
 /// Scans that a track may miss, while something passes before the object.
 constexpr int kLongestGap = 2;
 /// Dynamic objects that a track needs: one or two may be chance.
@@ -22,8 +22,6 @@ constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;
 constexpr double kGate = 0.6, kGateShare = 0.35;
 /// Along each axis its box may change by so many metres, and by this share of the larger one.
 constexpr double kResize = 0.6, kResizeShare = 0.3;
-/// The weight of the last step in a track's velocity: the mean of it and all before.
-constexpr double kLastStep = 0.5;
 /// So many scans more may agree with an object than its length and speed explain: one when it comes
 /// and one when it leaves are in part.
 constexpr double kScansMore = 2.0;
@@ -61,8 +59,9 @@ void extend(Track& track, const Track::Node& node) {
   const Track::Node& last = track.nodes.back();
   const Eigen::Vector3d moved =
       (node.object.center - last.object.center) / scans_between(last.scan, node.scan);
+  // The mean with what was known: each step before counts half as much as the next one.
   track.velocity =
-      track.nodes.size() == 1 ? moved : Eigen::Vector3d(kLastStep * (track.velocity + moved));
+      track.nodes.size() == 1 ? moved : Eigen::Vector3d(0.5 * (track.velocity + moved));
   track.nodes.push_back(node);
 }
 

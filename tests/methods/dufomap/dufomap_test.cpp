@@ -2,7 +2,6 @@
 #include "methods/dufomap/dufomap.h"
 
 #include <algorithm>
-#include <atomic>
 #include <catch2/catch.hpp>
 
 #include "tests/methods/dufomap/oracle.h"
@@ -13,7 +12,7 @@ using namespace raymoval::dufomap_test;
 
 namespace {
 
-MaskStore run(const ScanSource& scans, DufomapParameters parameters = {}, bool offline = true,
+MaskStore run(const ScanSource& scans, Parameters parameters = {}, bool offline = true,
               int threads = 1) {
   parameters.offline = offline;
   return toy::masks_of(*make_dufomap(parameters), scans, threads);
@@ -82,7 +81,7 @@ TEST_CASE("the hit extension stands range noise") {
   world.scan({{{5.03, -5, -2}, {5.6, 5, 2}}}, Pose::Identity());
   world.scan({{{5.17, -5, -2}, {5.7, 5, 2}}}, Pose::Identity());
   CHECK(run(world).removed_count() == 0);
-  DufomapParameters bare;
+  Parameters bare;
   bare.hit_extension = 0.0;
   bare.unknown_inflation = 0;
   CHECK(toy::removed_share(world, run(world, bare), 0, 0, 0) > 0.9);
@@ -95,7 +94,7 @@ TEST_CASE("a lone beam makes no void") {
   scans.add_world(centre(0, 0, 0), {centre(40, 0, 0)});
   scans.add_world(centre(0, 0, 0), {centre(20, 0, 0)});
   CHECK(run(scans).removed_count() == 0);
-  DufomapParameters bare;
+  Parameters bare;
   bare.unknown_inflation = 0;
   const MaskStore masks = run(scans, bare);
   CHECK(masks.get(0) == Mask{0});
@@ -124,7 +123,7 @@ TEST_CASE("neighbours must be free in one and the same scan") {
 TEST_CASE("a larger d_p removes no point that a smaller one keeps") {
   // Without the compensation, which grows with d_p too, and without hits in the way.
   const toy::World world = toy::street(6);
-  DufomapParameters one, two;
+  Parameters one, two;
   one.compensate_inflation = two.compensate_inflation = false;
   two.unknown_inflation = 2;
   const MaskStore of_one = run(world, one), of_two = run(world, two);
@@ -138,17 +137,6 @@ TEST_CASE("a larger d_p removes no point that a smaller one keeps") {
   }
   CHECK(more == 0);
   CHECK(fewer > 0);
-}
-
-TEST_CASE("any number of threads gives the same answer") {
-  const toy::World world = toy::street(11);
-  for (const bool offline : {true, false}) {
-    const MaskStore one = run(world, {}, offline, 1);
-    CHECK(one.removed_count() > 0);
-    for (const int threads : {2, 8}) {
-      CHECK(toy::different_verdicts(one, run(world, {}, offline, threads), world.size()) == 0);
-    }
-  }
 }
 
 TEST_CASE("the order of the points does not matter") {
@@ -169,32 +157,8 @@ TEST_CASE("the order of the points does not matter") {
   }
 }
 
-TEST_CASE("empty scans, lone points and no scans at all") {
-  for (const bool offline : {true, false}) {
-    toy::HeldScans scans;
-    CHECK(run(scans, {}, offline, 2).size() == 0);
-    scans.add_world({0, 0, 0}, {});
-    scans.add_world({0, 0, 0}, {{3, 2, 1}});
-    scans.add_world({0, 0, 0}, {{0, 0, 0}});  // In the sensor itself.
-    const MaskStore masks = run(scans, {}, offline, 2);
-    for (std::size_t i = 0; i < 3; ++i) CHECK(masks.has(i));
-    CHECK(masks.get(0).empty());
-    CHECK(masks.get(1) == Mask{0});
-    CHECK(masks.get(2) == Mask{0});
-  }
-}
-
-TEST_CASE("a cancelled run of DUFOMap stops") {
-  const toy::World world = passer_by();
-  const std::atomic<bool> stop{true};
-  RunContext context;
-  context.cancel = &stop;
-  toy::Masks masks(world.size());
-  CHECK_THROWS_AS(make_dufomap({})->run(world, masks, context), Cancelled);
-}
-
 TEST_CASE("a beam of no length is a hit and nothing else") {
-  DufomapParameters parameters;
+  Parameters parameters;
   parameters.minimum_range = 0.0;
   toy::HeldScans scans;
   scans.add_world(centre(0, 0, 0), {centre(0, 0, 0)});
@@ -206,7 +170,7 @@ TEST_CASE("a point far out is refused, or cut by the maximum range") {
   scans.add_world({0, 0, 0}, {{5, 0, 0}, {20000, 100, 0}});  // 20 km = 200,000 voxels.
   CHECK_THROWS_AS(run(scans), DataError);
   CHECK_THROWS_WITH(run(scans), Catch::Contains("scan 0") && Catch::Contains("maximum_range"));
-  DufomapParameters near;
+  Parameters near;
   near.maximum_range = 50.0;
   CHECK(run(scans, near).get(0) == Mask{0, 0});
 }

@@ -12,6 +12,8 @@
 
 namespace raymoval::dufomap_test {
 
+using namespace dufomap_method;
+
 using Cell = std::array<int, 3>;
 using Cells = std::set<Cell>;
 
@@ -21,7 +23,7 @@ struct ScanSets {
 
 class Oracle {
  public:
-  explicit Oracle(const DufomapParameters& parameters) : parameters_(parameters) {}
+  explicit Oracle(const Parameters& parameters) : parameters_(parameters) {}
 
   [[nodiscard]] Cell cell_of(const Eigen::Vector3d& world) const {
     const Eigen::Vector3d v = world / parameters_.voxel_size;
@@ -158,7 +160,7 @@ class Oracle {
     cell[static_cast<std::size_t>(axis)] += u[axis] > 0.0 ? 1 : -1;
   }
 
-  DufomapParameters parameters_;
+  Parameters parameters_;
 };
 
 /// Centre of a voxel of 0.1 m.

@@ -37,8 +37,8 @@ toy::HeldScans random_scans(unsigned seed) {
   return scans;
 }
 
-std::vector<DufomapParameters> settings() {
-  std::vector<DufomapParameters> all(8);
+std::vector<Parameters> settings() {
+  std::vector<Parameters> all(8);
   all[1].unknown_inflation = 2;
   all[2].unknown_inflation = 0;
   all[2].hit_extension = 0.0;
@@ -72,7 +72,7 @@ Cells cells_of(const ScanGrid& grid, Word word) {
 }  // namespace
 
 TEST_CASE("hits and free voxels are those of the plain sets") {
-  for (const DufomapParameters& parameters : settings()) {
+  for (const Parameters& parameters : settings()) {
     const Oracle oracle(parameters);
     ScanGrid grid;
     for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -102,7 +102,7 @@ TEST_CASE("hits and free voxels are those of the plain sets") {
 
 TEST_CASE("verdicts are those of the plain sets") {
   int removed = 0, kept = 0;
-  for (DufomapParameters parameters : settings()) {
+  for (Parameters parameters : settings()) {
     for (const bool offline : {true, false}) {
       parameters.offline = offline;
       const toy::HeldScans scans = random_scans(11);

@@ -21,7 +21,7 @@ struct Cast {
   ScanGrid grid;
   std::vector<VoxelIndex> ends;
 
-  Cast(const std::vector<VoxelIndex>& points, const DufomapParameters& parameters = {}) {
+  Cast(const std::vector<VoxelIndex>& points, const Parameters& parameters = {}) {
     toy::HeldScans scans;
     std::vector<Eigen::Vector3d> world;
     for (const VoxelIndex& p : points) world.push_back(centre(p.x(), p.y(), p.z()));
@@ -48,8 +48,8 @@ struct Cast {
   }
 };
 
-DufomapParameters with(double d_s, int d_p) {
-  DufomapParameters parameters;
+Parameters with(double d_s, int d_p) {
+  Parameters parameters;
   parameters.hit_extension = d_s;
   parameters.unknown_inflation = d_p;
   return parameters;
@@ -68,7 +68,7 @@ TEST_CASE("step 1: one beam per voxel, none for near points") {
   const Scan scan = scans.load(0);
   ScanGrid grid;
   const auto voxels = voxels_of(scan, 0.1);
-  auto ends = beam_ends(scan, voxels, DufomapParameters{}, grid);
+  auto ends = beam_ends(scan, voxels, Parameters{}, grid);
   REQUIRE(ends.size() == 3);
   const auto has = [&](const VoxelIndex& voxel) {
     return std::find(ends.begin(), ends.end(), voxel) != ends.end();
@@ -97,20 +97,20 @@ TEST_CASE("step 3: free up to the first hit entered, and d_p voxels on") {
   CHECK(Cast({{10, 0, 0}}, with(0.2, 1)).free_along_x() == 10);  // One more,
   CHECK(Cast({{10, 0, 0}}, with(0.2, 2)).free_along_x() == 11);  // two more,
   CHECK(Cast({{10, 0, 0}}, with(0.0, 2)).free_along_x() == 13);  // also behind the surface.
-  DufomapParameters plain = with(0.2, 2);
+  Parameters plain = with(0.2, 2);
   plain.compensate_inflation = false;
   CHECK(Cast({{10, 0, 0}}, plain).free_along_x() == 9);
 }
 
 TEST_CASE("step 3: a beam ends at the hits of another beam") {
   CHECK(Cast({{10, 0, 0}, {30, 0, 0}}).free_along_x() == 10);
-  DufomapParameters through;
+  Parameters through;
   through.pass_through_hits = true;
   CHECK(Cast({{10, 0, 0}, {30, 0, 0}}, through).free_along_x() == 32);  // 0 .. 30 and one more.
 }
 
 TEST_CASE("step 3: nothing is free beyond the maximum range") {
-  DufomapParameters near = with(0.2, 1);
+  Parameters near = with(0.2, 1);
   near.maximum_range = 0.7;  // 7 voxels from the middle of voxel 0: the last wall is at 6.5.
   CHECK(Cast({{30, 0, 0}}, near).free_along_x() == 9);  // 0 .. 7, and one for the compensation.
 }

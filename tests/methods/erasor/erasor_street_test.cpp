@@ -17,8 +17,8 @@ namespace {
 
 using Cell = std::tuple<long, long, long>;
 
-ErasorParameters street_parameters() {
-  ErasorParameters parameters;
+Parameters street_parameters() {
+  Parameters parameters;
   parameters.removal_interval = 2;
   return parameters;
 }
@@ -39,7 +39,7 @@ struct Mean {
 /// The method with ordered maps and passes over everything; shares only the fit of the ground.
 class SlowErasor {
  public:
-  SlowErasor(const ScanSource& scans, const ErasorParameters& parameters)
+  SlowErasor(const ScanSource& scans, const Parameters& parameters)
       : scans_(scans), p_(parameters) {
     for (std::size_t i = 0; i < scans.size(); ++i) {
       std::map<Cell, Mean> of_scan;
@@ -139,7 +139,7 @@ class SlowErasor {
   }
 
   const ScanSource& scans_;
-  ErasorParameters p_;
+  Parameters p_;
   std::map<Cell, Mean> map_;
   std::set<Cell> out_;
 };
@@ -148,7 +148,7 @@ class SlowErasor {
 
 TEST_CASE("a street comes out as the slow method has it", "[erasor]") {
   const toy::World world = toy::street(6);
-  ErasorParameters parameters = street_parameters();
+  Parameters parameters = street_parameters();
   for (const int version : {3, 2}) {
     parameters.version = version;
     const SlowErasor slow(world, parameters);
@@ -165,16 +165,6 @@ TEST_CASE("the car of a street goes and its road stays", "[erasor]") {
   const MaskStore masks = toy::masks_of(*make_erasor(street_parameters()), world);
   CHECK(toy::removed_share(world, masks, 3, 0, 29) > 0.5);
   CHECK(toy::removed_share(world, masks, 0, 0, 29) < 0.002);
-}
-
-TEST_CASE("any number of threads gives the same bytes", "[erasor]") {
-  const toy::World world = toy::street(6);
-  const auto remover = make_erasor(street_parameters());
-  const MaskStore one = toy::masks_of(*remover, world, 1);
-  for (const int threads : {2, 8}) {
-    const MaskStore many = toy::masks_of(*remover, world, threads);
-    CHECK(toy::different_verdicts(one, many, world.size()) == 0);
-  }
 }
 
 TEST_CASE("off the lattice few verdicts change", "[erasor]") {

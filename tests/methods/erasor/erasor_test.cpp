@@ -31,7 +31,7 @@ TEST_CASE("a car that is gone is removed", "[erasor]") {
   toy::HeldScans scans;
   scans.add(empty_road());
   scans.add(road_and(kCar));
-  ErasorParameters first_asks = toy::small_grid();
+  Parameters first_asks = toy::small_grid();
   first_asks.phase = 0;
   CHECK(toy::removed_points(scans, first_asks)[1] == Numbers{4, 5, 6});
 }
@@ -57,7 +57,7 @@ TEST_CASE("a low object stays in version 3 and goes in version 2", "[erasor]") {
   // 0.45 m against 0.02 m. In version 2 the top, 0.45, is above th_bin_max_h = 0.2.
   toy::Points query = toy::road();
   query[0].z() = 0.02F;
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   CHECK(toy::removed_by(query, road_and({0.45F}), parameters).empty());
   parameters.version = 2;
   CHECK(toy::removed_by(query, road_and({0.45F}), parameters) == Numbers{4});
@@ -67,7 +67,7 @@ TEST_CASE("a car under a canopy stays unless the window ends below the leaves", 
   const std::vector<float> car_and_leaves = {0.6F, 1.0F, 1.5F, 2.6F, 2.9F};
   const toy::Points first = road_and(car_and_leaves);
   toy::Points leaves_seen = road_and({2.6F, 2.9F});
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   CHECK(toy::removed_by(leaves_seen, first, parameters).empty());
   parameters.maximum_height = 2.0;
   CHECK(toy::removed_by(leaves_seen, first, parameters) == Numbers{4, 5, 6});
@@ -86,14 +86,14 @@ TEST_CASE("what the query sees in a bin that it clears comes back", "[erasor]") 
   // Map to 2.9 m, query to 0.5 m: ratio 0.17. All above the road goes out, 0.5 comes back in.
   const toy::Points query = road_and({0.5F});
   const toy::Points first = road_and({0.5F, 1.5F, 2.9F});
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   CHECK(toy::removed_by(query, first, parameters) == Numbers{5, 6});
   parameters.reinsert = false;
   CHECK(toy::removed_by(query, first, parameters) == Numbers{4, 5, 6});
 }
 
 TEST_CASE("nothing beyond the range or the height window is touched", "[erasor]") {
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   parameters.maximum_range = 3.0;  // The car stands at 3.09 m.
   CHECK(toy::removed_by(empty_road(), road_and(kCar), parameters).empty());
   parameters = toy::small_grid();
@@ -107,7 +107,7 @@ TEST_CASE("heights are above the road below the sensor", "[erasor]") {
     for (Eigen::Vector3f& point : points) point.z() -= 1.73F;
     return points;
   };
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   parameters.maximum_height = 1.2;
   parameters.sensor_height = 1.73;
   CHECK(toy::removed_by(lowered(empty_road()), lowered(road_and(kCar)), parameters) ==
@@ -136,7 +136,7 @@ TEST_CASE("queries follow each other and the last word counts", "[erasor]") {
   toy::Points with_b = toy::road();
   for (const float z : {0.7F, 1.3F}) with_b.emplace_back(2.7F, 0.7F, z);
   scans.add(with_b);
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   parameters.removal_interval = 1;
   parameters.phase = 1;
   const auto removed = toy::removed_points(scans, parameters);
@@ -156,7 +156,7 @@ TEST_CASE("version 2 takes the query in where the extents agree", "[erasor]") {
   scans.add(with_car);
   scans.add(uneven);
   scans.add(with_low);
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   parameters.removal_interval = 1;
   parameters.phase = 1;
   CHECK(toy::removed_points(scans, parameters)[2] == Numbers{4});
@@ -169,7 +169,7 @@ TEST_CASE("only every n-th scan is a query", "[erasor]") {
   toy::HeldScans scans;
   scans.add(empty_road());
   for (int i = 0; i < 4; ++i) scans.add(road_and(kCar));
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   parameters.removal_interval = 3;  // Scan 2, which sees the car.
   CHECK(toy::removed_points(scans, parameters)[1].empty());
   parameters.phase = 0;  // Scans 0 and 3.
@@ -191,7 +191,7 @@ TEST_CASE("the own car's points answer through voxels that others filled", "[era
   scans.add(first);
   scans.add(query);
   scans.add({{2.0F, 0.75F, 1.5F}, {2.0F, 0.75F, 2.2F}}, ahead);
-  ErasorParameters parameters = toy::small_grid();
+  Parameters parameters = toy::small_grid();
   parameters.minimum_range = 2.7;
   const auto removed = toy::removed_points(scans, parameters);
   CHECK(removed[0] == Numbers{4, 5, 6});
@@ -207,7 +207,7 @@ TEST_CASE("no scans, empty scans and single points", "[erasor]") {
   few.add({});
   few.add({{0, 0, 0}});
   for (const int interval : {1, 2, 3}) {
-    ErasorParameters parameters = toy::small_grid();
+    Parameters parameters = toy::small_grid();
     parameters.removal_interval = interval;
     parameters.minimum_points = 1;
     for (const auto& removed : toy::removed_points(few, parameters)) CHECK(removed.empty());
@@ -215,7 +215,7 @@ TEST_CASE("no scans, empty scans and single points", "[erasor]") {
 }
 
 TEST_CASE("an empty window is refused", "[erasor]") {
-  ErasorParameters parameters;
+  Parameters parameters;
   parameters.minimum_height = parameters.maximum_height;
   CHECK_THROWS_WITH(make_erasor(parameters), Catch::Contains("erasor.min_h = 3"));
   parameters = {};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <atomic>
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -58,13 +57,4 @@ TEST_CASE("the authors' sets are theirs, and the general one is their median", "
     CHECK(value_of("general", name) == sorted[2]);
   }
   CHECK(MethodRegistry::built_in().configure("erasor").variant.name == "general");
-}
-
-TEST_CASE("a cancelled run of erasor stops", "[erasor]") {
-  const toy::World world = toy::street(2);
-  const std::atomic<bool> stop{true};
-  RunContext context;
-  context.cancel = &stop;
-  toy::Masks masks(world.size());
-  CHECK_THROWS_AS(make_erasor({})->run(world, masks, context), Cancelled);
 }

@@ -66,7 +66,7 @@ TEST_CASE("a bin's pseudo occupancy is the height between its lowest and highest
 }
 
 TEST_CASE("the bins' size limits the slope on which an object is found", "[erasor]") {
-  ErasorParameters parameters;
+  Parameters parameters;
   parameters.minimum_points = 3;
   // Rings of 2 m: road 0.29 m, with the car 1.79 m, ratio 0.16.
   CHECK(compare_extents(grade_extent(6, 1.5), grade_extent(6, 0), parameters) ==

@@ -9,12 +9,14 @@
 
 namespace raymoval::toy {
 
+using namespace erasor_method;
+
 using Points = std::vector<Eigen::Vector3f>;
 
 /// A coarse grid of 5 rings of 2 m by 8 sectors of 45 degrees, the sensor on the road; of two scans
 /// the second is the query.
-inline ErasorParameters small_grid() {
-  ErasorParameters parameters;
+inline Parameters small_grid() {
+  Parameters parameters;
   parameters.sensor_height = 0.0;
   parameters.minimum_range = 0.0;
   parameters.removal_interval = 2;
@@ -43,7 +45,7 @@ inline Points road_and(const std::vector<float>& heights) {
 
 /// Masks of the scans by the numbers of the points that are removed.
 inline std::vector<std::vector<int>> removed_points(const ScanSource& scans,
-                                                    const ErasorParameters& parameters) {
+                                                    const Parameters& parameters) {
   const MaskStore masks = masks_of(*make_erasor(parameters), scans);
   std::vector<std::vector<int>> removed(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -57,7 +59,7 @@ inline std::vector<std::vector<int>> removed_points(const ScanSource& scans,
 
 /// Points of `first` that are removed once `query` has been compared with the map of both.
 inline std::vector<int> removed_by(const Points& query, const Points& first,
-                                   const ErasorParameters& parameters) {
+                                   const Parameters& parameters) {
   HeldScans scans;
   scans.add(first);
   scans.add(query);

@@ -39,7 +39,7 @@ inline std::vector<octomap::point3d> rounded(const Points& points) {
 /// The map alone, a scan at a time.
 class HandMap {
  public:
-  explicit HandMap(const OctomapParameters& parameters, int threads = 1)
+  explicit HandMap(const Parameters& parameters, int threads = 1)
       : parameters_(parameters), cells_(parameters_, threads), map_(parameters_) {}
   HandMap(const HandMap&) = delete;
   HandMap& operator=(const HandMap&) = delete;
@@ -63,7 +63,7 @@ class HandMap {
   }
 
  private:
-  OctomapParameters parameters_;
+  Parameters parameters_;
   ScanCells cells_;
   OccupancyTree map_;
 };

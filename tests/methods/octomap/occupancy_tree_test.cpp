@@ -32,7 +32,7 @@ toy::Points random_scan(std::mt19937& random, const Eigen::Vector3d& origin, dou
 }
 
 void insert_by_library(octomap::OcTree& tree, const toy::Points& points,
-                       const Eigen::Vector3d& origin, const OctomapParameters& parameters) {
+                       const Eigen::Vector3d& origin, const Parameters& parameters) {
   octomap::Pointcloud cloud;
   for (const octomap::point3d& p : toy::rounded(points)) cloud.push_back(p);
   tree.insertPointCloud(cloud, toy::rounded(origin), parameters.maximum_range, false,
@@ -40,7 +40,7 @@ void insert_by_library(octomap::OcTree& tree, const toy::Points& points,
 }
 
 /// Inserts scans both ways and compares the trees after each.
-void compare_with_library(const OctomapParameters& parameters, int threads, int scans = 14) {
+void compare_with_library(const Parameters& parameters, int threads, int scans = 14) {
   octomap::OcTree plain(parameters.resolution);
   toy::HandMap map(parameters, threads);
   std::mt19937 random(11);
@@ -60,7 +60,7 @@ void compare_with_library(const OctomapParameters& parameters, int threads, int 
 }  // namespace
 
 TEST_CASE("the tree is node for node that of insertPointCloud") {
-  OctomapParameters parameters;
+  Parameters parameters;
   SECTION("0.2 m") {}
   SECTION("0.05 m") {
     parameters.resolution = 0.05;
@@ -80,7 +80,7 @@ TEST_CASE("the tree is node for node that of insertPointCloud") {
 }
 
 TEST_CASE("a map kept to some cells has the same values there, and nothing else") {
-  const OctomapParameters parameters;
+  const Parameters parameters;
   toy::HandMap whole(parameters);
   ScanCells cells(parameters, 1);
   OccupancyTree kept(parameters);
@@ -117,7 +117,7 @@ TEST_CASE("a map kept to some cells has the same values there, and nothing else"
 
 TEST_CASE("equal leaves are merged, and parted when they differ") {
   // Beams to a wall free a wedge of space; once all its cells are clamped, many merge.
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.resolution = 0.4;
   toy::HandMap map(parameters);
   toy::Points wall;
@@ -139,7 +139,7 @@ TEST_CASE("equal leaves are merged, and parted when they differ") {
 }
 
 TEST_CASE("lazy evaluation changes no leaf") {
-  OctomapParameters eager, lazy;
+  Parameters eager, lazy;
   lazy.lazy_eval = true;
   toy::HandMap a(eager), b(lazy);
   std::mt19937 random(5);
@@ -158,7 +158,7 @@ TEST_CASE("lazy evaluation changes no leaf") {
 }
 
 TEST_CASE("the reader gives the node that a search gives") {
-  OctomapParameters parameters;
+  Parameters parameters;
   toy::HandMap map(parameters);
   const CellLattice lattice(parameters.resolution);
   TreeReader of_nothing(map.tree());

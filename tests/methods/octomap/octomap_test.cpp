@@ -4,7 +4,6 @@
 // y = z = 0.1: A is the cell of x = 1.1, W that of x = 2.1, A on the way to W.
 #include "methods/octomap/octomap.h"
 
-#include <atomic>
 #include <catch2/catch.hpp>
 
 #include "tests/methods/octomap/hand_scans.h"
@@ -22,8 +21,7 @@ Eigen::Vector3d at(double x) {
   return {x, 0.1, 0.1};
 }
 
-MaskStore masks(const ScanSource& scans, const OctomapParameters& parameters = {},
-                int threads = 1) {
+MaskStore masks(const ScanSource& scans, const Parameters& parameters = {}, int threads = 1) {
   return toy::masks_of(*make_octomap(parameters), scans, threads);
 }
 
@@ -60,7 +58,7 @@ TEST_CASE("within a scan a cell is hit once, and a hit beats any miss") {
   CHECK(map.log_odds(at(0.1)) == Approx(-0.405465));  // The sensor's own cell; one miss for three.
   CHECK(map.log_odds(at(1.9)) == Approx(-0.405465));
   CHECK_FALSE(map.knows(at(2.3)));
-  OctomapParameters kth;
+  Parameters kth;
   kth.kth_nonexclusive = true;
   CHECK(HandMap(kth).insert({kA, kW}).log_odds(kA) == Approx(0.847298 - 0.405465));
 }
@@ -101,7 +99,7 @@ TEST_CASE("what parks late is occupied from its third scan, and the order of sca
 }
 
 TEST_CASE("a beam beyond the maximum range is cut, and its end counts for nothing") {
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.maximum_range = 1.0;
   HandMap map(parameters);
   map.insert({kW});
@@ -116,7 +114,7 @@ TEST_CASE("a beam beyond the maximum range is cut, and its end counts for nothin
 }
 
 TEST_CASE("a point in an unknown cell stays, or goes if wished") {
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.maximum_range = 1.0;
   const HandScans scans = seen(0, 5);
   CHECK(masks(scans, parameters).removed_count() == 0);
@@ -125,7 +123,7 @@ TEST_CASE("a point in an unknown cell stays, or goes if wished") {
 }
 
 TEST_CASE("a point beyond the maximum range takes the state of its cell") {
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.maximum_range = 1.5;
   HandScans scans;
   scans.add({kW});                                            // 2.0 m: cut.
@@ -134,7 +132,7 @@ TEST_CASE("a point beyond the maximum range takes the state of its cell") {
 }
 
 TEST_CASE("points nearer than the minimum range are not inserted") {
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.minimum_range = 1.5;
   HandMap map(parameters);
   map.insert({kA});
@@ -148,7 +146,7 @@ TEST_CASE("one beam per occupied cell goes to the cell's centre") {
   // Origin (0.1, 0.1, 0.1), end (1.1, 0.21, 0.1) in the cell y 0.2 .. 0.4. The beam itself enters
   // that row at 0.909 of its way (x = 1.01), in the cell x 1.0 .. 1.2: nothing of the row is free.
   // The beam to the centre (1.1, 0.3, 0.1) enters the row half-way, at x = 0.6.
-  OctomapParameters parameters;
+  Parameters parameters;
   const Eigen::Vector3d end(1.1, 0.21, 0.1), between(0.9, 0.3, 0.1);
   CHECK_FALSE(HandMap(parameters).insert({end}).knows(between));
   parameters.discretise = true;
@@ -189,7 +187,7 @@ TEST_CASE("ground frees its beams, is not hit, and always stays") {
     }
     return removed;
   };
-  OctomapParameters parameters;
+  Parameters parameters;
   CHECK(road_removed(masks(scans, parameters)) > 400);  // Of 1600.
   parameters.ground = true;
   const MaskStore answer = masks(scans, parameters);
@@ -197,25 +195,10 @@ TEST_CASE("ground frees its beams, is not hit, and always stays") {
   CHECK(answer.get(0).back() == 1);
 }
 
-TEST_CASE("a scan that is no point, one point, or no scan at all") {
-  for (const char* name : {"r20", "discretised", "kth", "ground", "ground-noise"}) {
-    INFO(name);
-    HandScans none;
-    CHECK(toy::masks_of(*variant(name).make(), none).removed_count() == 0);
-    HandScans scans;
-    scans.add({}).add({kA}).add({});
-    const MaskStore answer = toy::masks_of(*variant(name).make(), scans, 2);
-    CHECK(answer.has(0));
-    CHECK(answer.get(0).empty());
-    CHECK(answer.get(1) == Mask{0});
-    CHECK(answer.has(2));
-  }
-}
-
 TEST_CASE("points outside the tree stay, however many beams there are") {
   HandScans scans;
   for (int i = 0; i < 4; ++i) scans.add({{9000.0, 0.1, 0.1}, kW, {0.1, -1e30, 0.1}});
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.remove_unknown = true;
   CHECK(masks(scans, parameters).removed_count() == 0);
 }
@@ -232,7 +215,7 @@ TEST_CASE("the tree's centre is where the drive starts") {
 }
 
 TEST_CASE("a maximum range of zero is refused") {
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.maximum_range = 0.0;
   CHECK_THROWS_WITH(make_octomap(parameters), Catch::Contains("octomap.maximum_range"));
 }
@@ -240,7 +223,7 @@ TEST_CASE("a maximum range of zero is refused") {
 TEST_CASE("every point is answered as after plain calls of insertPointCloud") {
   const toy::World world = toy::street(8);
   for (const bool discretise : {false, true}) {
-    OctomapParameters parameters;
+    Parameters parameters;
     parameters.discretise = discretise;
     octomap::OcTree plain(0.2);
     const auto world_points = [&](std::size_t i) {
@@ -271,19 +254,6 @@ TEST_CASE("every point is answered as after plain calls of insertPointCloud") {
   }
 }
 
-TEST_CASE("the octomap method answers alike with any number of threads") {
-  const toy::World world = toy::street(5);
-  for (const char* name : {"r20", "discretised", "ground-noise"}) {
-    INFO(name);
-    const MaskStore one = toy::masks_of(*variant(name).make(), world, 1);
-    CHECK(one.removed_count() > 0);
-    for (const int threads : {2, 8}) {
-      const MaskStore more = toy::masks_of(*variant(name).make(), world, threads);
-      CHECK(toy::different_verdicts(one, more, world.size()) == 0);
-    }
-  }
-}
-
 TEST_CASE("the lattice's place changes a bounded share of the verdicts") {
   // The tree's centre is rounded to whole cells, so a move by part of a cell moves the lattice
   // under the world. Measured: sideways 0.4 and 0.6 % of the points change; upwards by half a cell
@@ -301,14 +271,4 @@ TEST_CASE("the lattice's place changes a bounded share of the verdicts") {
   CHECK(half_a_cell < 0.02);
   CHECK(share(0.07, -0.03, 0.0) < 0.02);
   CHECK(share(0.0, 0.0, 0.1) < 0.35);
-}
-
-TEST_CASE("a cancelled octomap run stops") {
-  const std::atomic<bool> stop{true};
-  RunContext context;
-  context.cancel = &stop;
-  const HandScans scans = seen(1, 1);
-  toy::Masks answer(scans.size());
-  CHECK_THROWS_AS(make_octomap({})->run(scans, answer, context), Cancelled);
-  CHECK_FALSE(answer.store.has(0));
 }

@@ -33,7 +33,7 @@ toy::Points slope(double tangent) {
 }  // namespace
 
 TEST_CASE("the ground is the points near the one plane that is nearly level") {
-  const OctomapParameters parameters;
+  const Parameters parameters;
   const Mask ground = find_ground(toy::rounded(slope(0.1)), parameters);  // 0.0997 rad.
   CHECK(count(ground) == 400);
   CHECK(std::all_of(ground.begin(), ground.begin() + 400, [](auto value) { return value == 1; }));
@@ -58,7 +58,7 @@ TEST_CASE("noise is far from its neighbours, by the scan's own measure") {
   toy::Points points;
   for (int i = 0; i < 11; ++i) points.emplace_back(i, 0.0, 0.0);
   points.emplace_back(19.0, 0.0, 0.0);
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.noise_neighbours = 2;
   Mask expected(12, 0);
   for (const double sigma : {0.1, 1.0, 3.0, 3.2}) {
@@ -74,7 +74,7 @@ TEST_CASE("nearest neighbours are those of a comparison of all pairs") {
   std::normal_distribution<double> normal;
   toy::Points points;
   for (int i = 0; i < 300; ++i) points.emplace_back(normal(random), normal(random), normal(random));
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.noise_neighbours = 10;
   std::vector<double> mean;
   for (const Eigen::Vector3d& p : points) {
@@ -96,7 +96,7 @@ TEST_CASE("nearest neighbours are those of a comparison of all pairs") {
 }
 
 TEST_CASE("a scan of no more points than neighbours has no noise") {
-  OctomapParameters parameters;
+  Parameters parameters;
   parameters.noise_neighbours = 3;
   const toy::Points three{{0, 0, 0}, {1, 0, 0}, {90, 0, 0}};
   CHECK(count(find_noise(toy::rounded(three), parameters, 1)) == 0);
@@ -112,7 +112,7 @@ TEST_CASE("outliers hit without a beam, or leave the scan and the map") {
     const Eigen::Vector3d loner(5.1, 0.1, 0.1);
     wall.push_back(loner);
     scans.add(wall);
-    OctomapParameters parameters;
+    Parameters parameters;
     parameters.noise = true;
     parameters.noise_points = what;
     const auto method = MethodRegistry::built_in().configure("octomap:r20");

@@ -15,7 +15,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 std::vector<double> lengths(const Points& points, double voxel_size, double fuzz = 0.0) {
-  PeopleremoverParameters parameters;
+  Parameters parameters;
   parameters.voxel_size = voxel_size;
   parameters.fuzz = fuzz;
   return BeamEnds(parameters).find(points);

@@ -22,7 +22,7 @@ using Scans = std::set<int>;
 class SlowPeopleremover {
  public:
   SlowPeopleremover(const ConfiguredMethod& method, const ScanSource& scans)
-      : p_(peopleremover_parameter_table().read(method.configuration)), scans_(scans) {
+      : p_(parameter_table().read(method.configuration)), scans_(scans) {
     for (std::size_t i = 0; i < scans.size(); ++i) insert(static_cast<int>(i));
     for (std::size_t i = 0; i < scans.size(); ++i) trace(static_cast<int>(i));
     discard_clusters();
@@ -138,7 +138,7 @@ class SlowPeopleremover {
     }
   }
 
-  PeopleremoverParameters p_;
+  Parameters p_;
   const ScanSource& scans_;
   std::map<VoxelKey, Scans> occupied_, half_;
   std::set<VoxelKey> freed_;
@@ -187,21 +187,6 @@ TEST_CASE("peopleremover answers as one with a set of scans in each voxel", "[pe
   }
 }
 
-TEST_CASE("peopleremover answers the same for any number of threads", "[peopleremover]") {
-  const toy::World world = toy::street(10);
-  for (const char* variant : {"normals", "none", "reduced"}) {
-    for (const int diff : {0, 1}) {
-      const ConfiguredMethod method =
-          toy::peopleremover(variant, {{"diff", static_cast<std::int64_t>(diff)}});
-      const MaskStore one = toy::masks_of(*method.make(), world, 1);
-      for (const int threads : {2, 8}) {
-        const MaskStore many = toy::masks_of(*method.make(), world, threads);
-        for (std::size_t i = 0; i < world.size(); ++i) REQUIRE(many.get(i) == one.get(i));
-      }
-    }
-  }
-}
-
 TEST_CASE("peopleremover removes what moves on the street and keeps the rest", "[peopleremover]") {
   const toy::World world = toy::street(12);
   const MaskStore masks = toy::masks_of(*toy::peopleremover("normals", {}).make(), world);
@@ -233,13 +218,4 @@ TEST_CASE("peopleremover hardly depends on where the lattice lies", "[peopleremo
       CHECK(static_cast<double>(changed) < share * static_cast<double>(points));
     }
   }
-}
-
-TEST_CASE("peopleremover stops when it is asked to", "[peopleremover]") {
-  const toy::World world = toy::street(2);
-  toy::Masks masks(world.size());
-  std::atomic<bool> cancel = true;
-  RunContext context;
-  context.cancel = &cancel;
-  CHECK_THROWS_AS(toy::peopleremover("normals", {}).make()->run(world, masks, context), Cancelled);
 }

@@ -184,16 +184,6 @@ TEST_CASE("peopleremover: the voxel in which a shortened beam ends can be freed"
   CHECK(verdicts(scans, normals)[0] == Mask{0});
 }
 
-TEST_CASE("peopleremover: no scan, empty scans, one point", "[peopleremover]") {
-  CHECK(verdicts(ListedScans()).empty());
-  for (const std::string method : {"none", "normals"}) {
-    const Configuration changes = set("maxrange_method", method);
-    CHECK(verdicts(ListedScans().row({}), changes) == Verdicts{{}});
-    CHECK(verdicts(ListedScans().row({}).row({5.5}).row({}), changes) == Verdicts{{}, {0}, {}});
-    CHECK(verdicts(ListedScans().row({0.5}), changes) == Verdicts{{0}});  // At the sensor.
-  }
-}
-
 TEST_CASE("peopleremover: a point beyond the lattice is refused", "[peopleremover]") {
   // 1.1 million voxels of 1 m away.
   CHECK_THROWS_AS(verdicts(ListedScans().row({1.1e6})), DataError);

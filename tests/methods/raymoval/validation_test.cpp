@@ -26,8 +26,8 @@ std::vector<int> all_of(const ScanPoints& points) {
 }
 
 /// Settings under which only the rule that a test is about can reject.
-RaymovalParameters lenient() {
-  RaymovalParameters parameters;
+Parameters lenient() {
+  Parameters parameters;
   parameters.cluster_points = 0;
   parameters.cluster_width = 0;
   parameters.coverage_static = 1.01;
@@ -49,7 +49,7 @@ TEST_CASE("eq. 12: the width is the diagonal of the box from above") {
 }
 
 TEST_CASE("eq. 13: clusters need points and width, fewer points farther away") {
-  RaymovalParameters parameters = lenient();
+  Parameters parameters = lenient();
   parameters.cluster_points = 12;
   parameters.cluster_width = 0.2;
   // m(10) = 12, m(20) = 12 / 4 = 3; never below 3.
@@ -76,7 +76,7 @@ TEST_CASE("eq. 14: coverage is the share of points in the dilated map") {
 }
 
 TEST_CASE("eq. 15: covered groups are static, thin ones with less coverage") {
-  RaymovalParameters parameters;
+  Parameters parameters;
   parameters.coverage_static = 0.9;
   parameters.coverage_edge = 0.5;
   parameters.thin_side = 0.4;
@@ -99,7 +99,7 @@ TEST_CASE("neighbouring clusters are judged as one group") {
                                        {0.5, 0.1, 1.05},
                                        {0.5, 0.1, 1.3}},
                                       1.0);
-  RaymovalParameters parameters = lenient();
+  Parameters parameters = lenient();
   parameters.cluster_gap = 0.3;
   parameters.cluster_gap_growth = 0.0;
   parameters.coverage_static = 0.9;
@@ -131,7 +131,7 @@ TEST_CASE("supported points of a dynamic cluster are kept, and small remainders 
   CHECK(support({0, 0, 0}, map, own, 1) == Approx(17.0 / 19.0));
   CHECK(support({0, 0, 1}, map, own, 1) == Approx(8.0 / 11.0));
   CHECK(support({0, 0, 2}, map, own, 1) == 0.0);
-  RaymovalParameters parameters = lenient();
+  Parameters parameters = lenient();
   parameters.support_dilation = 1;
   parameters.support_share = 0.8;
   CHECK(validate_candidates(points, map, parameters) == Mask{0, 1, 1, 1, 1, 1});
@@ -148,7 +148,7 @@ TEST_CASE("a support share of 1 keeps no point, also in a voxel of the static ma
   OccupancyMap map(0.2);
   for (int z = 0; z < 3; ++z) map.insert({0, 0, z});
   const ScanPoints points = points_at({{0.1, 0.1, 0.1}, {0.1, 0.1, 0.3}, {0.1, 0.1, 0.5}}, 1.0);
-  RaymovalParameters parameters = lenient();  // The share is 1.
+  Parameters parameters = lenient();  // The share is 1.
   CHECK(validate_candidates(points, map, parameters) == Mask(3, 1));
   parameters.support_share = 0.95;  // Every voxel around is static.
   CHECK(validate_candidates(points, map, parameters) == Mask(3, 0));

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/angle.h"
+#include "core/simd/instruction_set_scope.h"
 #include "tests/methods/toy_world.h"
 
 using namespace raymoval;
@@ -15,11 +16,10 @@ namespace {
 
 /// The image of a scan of some points, by a sensor with steps of half a degree.
 RangeImage image_of(std::vector<Eigen::Vector3f> points,
-                    const SensorModel& sensor = toy::Scanner{}.model(),
-                    InstructionSet set = InstructionSet::kBest) {
+                    const SensorModel& sensor = toy::Scanner{}.model()) {
   Scan scan;
   scan.points = std::move(points);
-  RangeImage image(sensor, Parameters{}, set);
+  RangeImage image(sensor, Parameters{});
   image.fill(scan, RunContext{});
   return image;
 }
@@ -101,7 +101,8 @@ TEST_CASE("places are observed alike one by one, all at once, and by every instr
   const Parameters parameters;
   std::array<int, 4> found{};
   for (const InstructionSet set : supported_instruction_sets()) {
-    const RangeImage image = image_of(points, toy::Scanner{}.model(), set);
+    const InstructionSetScope scope(set);
+    const RangeImage image = image_of(points);
     std::vector<ObservedPlace> observed;
     image.observe(places, Pose::Identity(), observed);
     auto next = observed.begin();
@@ -137,7 +138,8 @@ TEST_CASE("the bins of places are those of atan2 and asin, but for places on the
   for (const InstructionSet set : supported_instruction_sets()) {
     std::vector<float> range(places.size() + kernels::kMostLanes);
     std::vector<std::int32_t> column(range.size()), row(range.size());
-    kernels::sight_kernels_for(set).locate(grid, job, {range.data(), column.data(), row.data()});
+    const InstructionSetScope scope(set);
+    kernels::best_sight_kernels().locate(grid, job, {range.data(), column.data(), row.data()});
     int on_borders = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {
       const Eigen::Vector3d at = turned * places[k].cast<double>();

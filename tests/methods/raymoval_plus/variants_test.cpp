@@ -24,18 +24,6 @@ TEST_CASE("raymoval_plus takes the movers off a street and leaves the rest") {
   CHECK(toy::removed_share(world, masks, 2, 0, 15) < 0.1);
 }
 
-TEST_CASE("raymoval_plus answers the same on any number of threads") {
-  const toy::World world = toy::street(10);
-  for (const char* const name : {"offline", "online", "online-map"}) {
-    const ConfiguredMethod method = variant(name);
-    const MaskStore one = toy::masks_of(*method.make(), world, 1);
-    CHECK(one.removed_count() > 0);
-    for (const int threads : {2, 8}) {
-      CHECK(toy::different_verdicts(one, toy::masks_of(*method.make(), world, threads), 10) == 0);
-    }
-  }
-}
-
 TEST_CASE("raymoval_plus online knows nothing of later scans") {
   const ConfiguredMethod method = variant("online");
   const MaskStore all = toy::masks_of(*method.make(), toy::street(12));
@@ -48,15 +36,6 @@ TEST_CASE("one pass removes nearly what four do") {
   const MaskStore masks = toy::masks_of(*variant("online-map").make(), world);
   CHECK(toy::removed_share(world, masks, 4, 0, 15) > 0.9);
   for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, masks, fixed, 0, 15) < 0.005);
-}
-
-TEST_CASE("raymoval_plus takes no scans, empty scans and single points") {
-  toy::World none{toy::Scanner{}};
-  CHECK(toy::masks_of(*variant("offline").make(), none).removed_count() == 0);
-  toy::World empty{toy::Scanner{}};
-  empty.scan({}, Pose::Identity());
-  empty.scan({{{5.0, -0.01, -0.01}, {5.1, 0.05, 0.05}}}, Pose::Identity());
-  CHECK(toy::masks_of(*variant("offline").make(), empty).removed_count() == 0);
 }
 
 TEST_CASE("raymoval_plus depends on the lattice of its voxels within bounds") {

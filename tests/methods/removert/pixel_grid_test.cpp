@@ -12,7 +12,7 @@ using namespace raymoval::removert_method;
 namespace {
 
 PixelGrid grid_with(bool clamp, bool wrap, double resolution = 2.5) {
-  RemovertParameters parameters;
+  Parameters parameters;
   parameters.clamp_fov = clamp;
   parameters.wrap_azimuth = wrap;
   return {parameters, resolution};
@@ -31,7 +31,7 @@ TEST_CASE("removert: images have round(V alpha) rows and round(H alpha) columns"
   } cases[] = {{2.5, 125, 900}, {2.2, 110, 792}, {2.0, 100, 720},
                {1.5, 75, 540},  {1.0, 50, 360},  {1.8182, 91, 655}};
   for (const auto& expected : cases) {
-    const PixelGrid grid(RemovertParameters{}, expected.resolution);
+    const PixelGrid grid(Parameters{}, expected.resolution);
     CHECK(grid.rows() == expected.rows);
     CHECK(grid.columns() == expected.columns);
   }
@@ -60,7 +60,7 @@ TEST_CASE("removert: the two half columns behind the sensor are one only if wrap
 }
 
 TEST_CASE("removert: a narrow image leaves out or clamps what is beside it") {
-  RemovertParameters parameters;
+  Parameters parameters;
   parameters.horizontal_fov = 90.0;  // 225 columns at 2.5 pixels per degree
   CHECK(pixel({parameters, 2.5}, toy::polar(5, 0.1, 46)) == kOutside);
   CHECK(pixel({parameters, 2.5}, toy::polar(5, 0.1, -46)) == kOutside);
@@ -74,7 +74,7 @@ TEST_CASE("removert: single precision finds the pixel of double precision or say
   std::normal_distribution<float> normal(0.0F, 1.0F);
   for (const double field : {50.0, 180.0}) {
     for (const bool clamp : {false, true}) {
-      RemovertParameters parameters;
+      Parameters parameters;
       parameters.vertical_fov = field;
       parameters.clamp_fov = clamp;
       const PixelGrid grid(parameters, 2.5);

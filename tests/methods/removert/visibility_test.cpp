@@ -24,7 +24,7 @@ MapPoints map_of(const Points& points) {
 }
 
 /// Votes in the order of `map`.
-Votes votes(const Points& map, const Points& scan, const RemovertParameters& parameters,
+Votes votes(const Points& map, const Points& scan, const Parameters& parameters,
             Candidates candidates, const Pose& T_world_sensor = Pose::Identity(),
             double resolution = 2.5) {
   const MapPoints points = map_of(map);
@@ -42,7 +42,7 @@ Votes votes(const Points& map, const Points& scan, const RemovertParameters& par
 
 using Counts = std::vector<std::uint32_t>;
 
-Counts dynamic(const Points& map, const Points& scan, const RemovertParameters& parameters = {}) {
+Counts dynamic(const Points& map, const Points& scan, const Parameters& parameters = {}) {
   const bool absolute = parameters.difference == DifferenceRule::kAbsolute;
   return votes(map, scan, parameters, absolute ? Candidates::kAll : Candidates::kInFront).dynamic;
 }
@@ -59,7 +59,7 @@ TEST_CASE("removert: a pixel flags its nearest map point only") {
 }
 
 TEST_CASE("removert: what stands behind a return is dynamic only in absolute difference") {
-  RemovertParameters parameters;
+  Parameters parameters;
   CHECK(dynamic({ahead(20)}, {ahead(10)}, parameters) == Counts{0});
   parameters.difference = DifferenceRule::kAbsolute;
   CHECK(dynamic({ahead(20)}, {ahead(10)}, parameters) == Counts{1});
@@ -69,7 +69,7 @@ TEST_CASE("removert: the margin is a share of the scan's range, or tau_abs if th
   // 20 - 19.01 = 0.99 is no more than 1, 20 - 18.9 = 1.1 is.
   CHECK(dynamic({ahead(19.01)}, {ahead(20)}) == Counts{0});
   CHECK(dynamic({ahead(18.9)}, {ahead(20)}) == Counts{1});
-  RemovertParameters parameters;
+  Parameters parameters;
   parameters.tau_abs = 1.2;
   CHECK(dynamic({ahead(18.9)}, {ahead(20)}, parameters) == Counts{0});
   CHECK(dynamic({ahead(18.7)}, {ahead(20)}, parameters) == Counts{1});
@@ -78,7 +78,7 @@ TEST_CASE("removert: the margin is a share of the scan's range, or tau_abs if th
 TEST_CASE("removert: ground below the field of view is not judged by the lowest ring") {
   // From 1.73 m up: G is at -40.9 degrees, 2.644 m; P at -24.77 degrees, 4.130 m, in the last row.
   const Eigen::Vector3f ground(2.0F, 0, -1.73F), ring(3.75F, 0, -1.73F);
-  RemovertParameters parameters;
+  Parameters parameters;
   CHECK(dynamic({ground}, {ring}, parameters) == Counts{0});
   parameters.clamp_fov = true;  // 4.130 - 2.644 = 1.486 is more than 0.05 * 4.130 = 0.2065.
   CHECK(dynamic({ground}, {ring}, parameters) == Counts{1});
@@ -86,7 +86,7 @@ TEST_CASE("removert: ground below the field of view is not judged by the lowest 
 
 TEST_CASE("removert: behind the sensor the image has no seam") {
   const Points map{{-10, -0.0175F, 0}}, scan{{-20, 0.035F, 0}};
-  RemovertParameters parameters;
+  Parameters parameters;
   CHECK(dynamic(map, scan, parameters) == Counts{1});
   parameters.wrap_azimuth = false;
   CHECK(dynamic(map, scan, parameters) == Counts{0});
@@ -101,7 +101,7 @@ TEST_CASE("removert: where the scan has no return nothing is decided") {
 }
 
 TEST_CASE("removert: a difference of diff_upper or more is not believed, yet hides what follows") {
-  RemovertParameters parameters;
+  Parameters parameters;
   parameters.diff_upper = 8.0;
   CHECK(dynamic({ahead(10)}, {ahead(20)}, parameters) == Counts{0});
   CHECK(dynamic({ahead(10), ahead(15)}, {ahead(20)}, parameters) == Counts{0, 0});
@@ -124,7 +124,7 @@ TEST_CASE("removert: with all candidates a scan that sees a point speaks for it"
 namespace {
 
 /// Projects every point of the map, in double precision and without any shortcut.
-Votes slow_votes(const Points& map, const Points& scan, const RemovertParameters& parameters,
+Votes slow_votes(const Points& map, const Points& scan, const Parameters& parameters,
                  Candidates candidates, const Pose& T_world_sensor, double resolution) {
   const PixelGrid grid(parameters, resolution);
   const auto pixels = static_cast<std::size_t>(grid.size());
@@ -189,7 +189,7 @@ TEST_CASE("removert: shortcuts change no vote") {
   std::mt19937 random(11);
   std::uint32_t dynamic_votes = 0, still_votes = 0;
   for (int round = 0; round < 64; ++round) {
-    RemovertParameters parameters;
+    Parameters parameters;
     parameters.clamp_fov = (round & 1) != 0;
     parameters.wrap_azimuth = (round & 2) != 0;
     parameters.difference = (round & 4) != 0 ? DifferenceRule::kAbsolute : DifferenceRule::kSigned;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/cli/commands.h"
+#include "benchmark/suite/amounts.h"
+#include "core/parallel.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+EgoRegion parse_drop_ego(const std::string& text) {
+  try {
+    return parse_ego_region(text);
+  } catch (const UsageError& error) {
+    throw UsageError("--drop-ego " + std::string(error.what()));
+  }
+}
+
+}  // namespace
+
+int parse_threads(const std::string& text) {
+  if (text.empty()) return 0;
+  const auto value = parse_number<int>(text);
+  if (value && *value >= 1 && *value <= 4096) return *value;
+  throw UsageError("--threads " + text + ": expected a whole number from 1 to 4096.");
+}
+
+double parse_positive(const std::string& option, const std::string& text) {
+  const auto value = parse_number<double>(text);
+  if (value && *value > 0.0 && *value < 1e6) return *value;
+  throw UsageError(option + " " + text +
+                   ": expected a number greater than 0 and less than 1,000,000, without a unit.");
+}
+
+ProgressStyle progress_style(bool quiet) {
+  return quiet ? ProgressStyle::kQuiet : progress_style_of_stderr();
+}
+
+void WorkFlags::add_to(CommandOptions& options) {
+  options.add("--threads", "N", threads, "Use at most N threads (default: all cores)");
+  options.add_flag("--quiet", quiet, "Show no progress");
+}
+
+int WorkFlags::thread_count() const {
+  const int given = parse_threads(threads);
+  return given > 0 ? given : hardware_threads();
+}
+
+void SequenceFlags::add_place_to(CommandOptions& options, std::string& place) {
+  options.add("path,--sequence", "PATH", place, "Sequence folder, ROOT:05, `street`, or a scene");
+}
+
+void SequenceFlags::add_to(CommandOptions& options) {
+  options.add("--frames", "FIRST:LAST:STRIDE", frames,
+              "First and last frame and the step between frames; each may be left out");
+  options.add("--poses", "FILE", poses, "Pose file: a name in the sequence folder, or a path");
+  options.add("--label-rule", "FILE", label_rule, "JSON file that says which labels move");
+  options.add(
+      "--range", "MIN:MAX", range,
+      "Distance from the sensor in metres. Points outside it are not evaluated, but methods see "
+      "them (see --drop-ego)");
+  options.add("--sensor", "NAME", sensor,
+              "A known sensor (see `raymoval list sensors`), or the word estimated");
+  options.add(
+      "--up", "AXIS", up,
+      "The direction that is up in the world of the poses: z, -y, or a vector x,y,z (default: "
+      "estimated)");
+  options.add("--drop-ego", "WHERE", drop_ego,
+              "Leave out the points on the vehicle that carries the sensor, so that no method sees "
+              "them: auto (estimated), a radius (2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX in "
+              "the sensor frame");
+  options.add("--name", "NAME", name, "The name of the sequence in the results");
+}
+
+std::string SequenceFlags::first_given() const {
+  const std::pair<const char*, const std::string*> all[] = {
+      {"--frames", &frames},     {"--poses", &poses},   {"--label-rule", &label_rule},
+      {"--range", &range},       {"--sensor", &sensor}, {"--up", &up},
+      {"--drop-ego", &drop_ego}, {"--name", &name}};
+  for (const auto& [option, text] : all) {
+    if (!text->empty()) return option;
+  }
+  return "";
+}
+
+SequenceOptions SequenceFlags::options() const {
+  SequenceOptions options;
+  if (!frames.empty()) options.frames = parse_frame_range(frames);
+  if (!poses.empty()) options.poses = poses;
+  if (!label_rule.empty()) options.label_rule = label_rule;
+  if (!sensor.empty()) options.sensor = sensor;
+  if (!up.empty()) options.up = up;
+  if (!drop_ego.empty()) options.drop_ego = parse_drop_ego(drop_ego);
+  if (!name.empty()) options.name = name;
+  if (range.empty()) return options;
+  options.range_m = parse_range("--range", range);
+  return options;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/result/removals/removal_files.h"
+
+#include <bit>
+#include <cstring>
+#include <vector>
+
+#include "benchmark/result/removals/reasons.h"
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "core/files/part_name.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "label words are little-endian");
+
+std::filesystem::path label_file(const std::filesystem::path& folder, const Scan& scan) {
+  return folder / (scan.name + ".label");
+}
+
+Mask read_mask(const std::filesystem::path& path, const Scan& scan) {
+  if (!has_file(path)) {
+    throw DataError(path.string() +
+                    ": missing; expected a label file for each of the sequence's "
+                    "scans. Choose the frames that were predicted with --frames.");
+  }
+  const std::vector<std::byte> bytes = read_bytes(path);
+  if (bytes.size() != scan.stored_point_count * sizeof(std::uint32_t)) {
+    throw DataError(path.string() + ": " + grouped_text(bytes.size()) + " bytes, expected " +
+                    grouped_text(scan.stored_point_count * sizeof(std::uint32_t)) +
+                    " (one 32-bit word for each of the " + grouped_text(scan.stored_point_count) +
+                    " points of scan " + scan.name + "). It is cut off or of another scan.");
+  }
+  Mask mask(scan.size(), 0);
+  for (std::size_t point = 0; point < scan.size(); ++point) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes.data() + scan.stored_position(point) * sizeof word, sizeof word);
+    const std::uint16_t id = semantic_id(word);
+    mask[point] = id >= kRemovedLabel && id <= kLastRemovedLabel ? 1 : 0;
+  }
+  return mask;
+}
+
+}  // namespace
+
+void write_removal(const std::filesystem::path& folder, const Scan& scan, const Mask& mask) {
+  std::vector<std::uint32_t> words(scan.stored_point_count, kLeftOutLabel);
+  for (std::size_t point = 0; point < mask.size(); ++point) {
+    if (mask[point] == kLeftOutMask) continue;
+    words[scan.stored_position(point)] = mask[point] != 0 ? kRemovedLabel : kKeptLabel;
+  }
+  write_atomically(label_file(folder, scan), {reinterpret_cast<const char*>(words.data()),
+                                              words.size() * sizeof(std::uint32_t)});
+}
+
+void write_removals(const std::filesystem::path& folder, const ScanSource& scans,
+                    const MaskStore& masks, const std::function<void()>& after_scan) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw DataError(folder.string() + ": cannot be made (" + error.message() +
+                    "). Choose another folder.");
+  }
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    write_removal(folder, scans.load(i), masks.get(i));
+    after_scan();
+  }
+}
+
+bool remove_removals(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(folder, error) && has_folder(folder)) {
+    for (const std::filesystem::path& entry : entries_of(folder)) {
+      const std::filesystem::path name =
+          is_part_name(entry) ? name_of_part(entry) : entry.filename();
+      const bool ours = name.extension() == ".label" || is_reason_file(name);
+      if (ours) std::filesystem::remove(entry, error);
+    }
+  }
+  std::filesystem::remove(folder, error);
+  return !error;
+}
+
+namespace {
+
+/// Who gives the folder above that of the label files is told.
+void check_level(const std::filesystem::path& folder, const Scan& scan) {
+  if (has_file(label_file(folder, scan))) return;
+  for (const char* below : {"labels", "predictions", "removals"}) {
+    if (!has_file(label_file(folder / below, scan))) continue;
+    throw DataError(folder.string() + ": holds no " + scan.name + ".label, but its folder " +
+                    below + "/ does. Name that one.");
+  }
+}
+
+}  // namespace
+
+MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
+                        const std::function<void()>& after_scan) {
+  if (!is_folder(folder)) {
+    throw DataError(folder.string() + (is_there(folder) ? ": is no folder" : ": no such folder") +
+                    "; expected one with a NNNNNN.label file for each scan.");
+  }
+  MaskStore masks(scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Scan scan = scans.load(i);
+    if (i == 0) check_level(folder, scan);
+    masks.set(i, read_mask(label_file(folder, scan), scan));
+    after_scan();
+  }
+  return masks;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/run/folder/cell_store.h"
+
+#include <system_error>
+
+#include "benchmark/process/checked_sink.h"
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/checks/differences.h"
+#include "benchmark/result/removals/removal_files.h"
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "core/files/part_name.h"
+
+namespace raymoval {
+namespace {
+
+using std::filesystem::path;
+
+constexpr const char* kRemovals = "removals";
+
+path repeat_file(const path& folder, int number) {
+  return folder / ("timing-" + std::to_string(number) + ".json");
+}
+
+/// Whether the kept removals are those that the cell was scored by.
+bool has_removals(const path& folder, const Cell& cell, const ScanSource& scans) {
+  if (!cell.masks) return false;
+  try {
+    return mask_digest(read_removals(folder / kRemovals, scans, [] {})) == cell.masks->digest;
+  } catch (const DataError&) {
+    return false;
+  }
+}
+
+/// Why a result file is not used.
+std::string damage(const path& file) {
+  return file.filename().string() + " is damaged or was changed by hand";
+}
+
+/// Whether a run writes files of this name into a cell's folder.
+bool is_cell_file(const path& name) {
+  return name == "cell.json" ||
+         (name.string().starts_with("timing-") && name.extension() == ".json");
+}
+
+/// Removes what a killed run left in a cell's folder: files with names that only runs give.
+void sweep_cell(const path& folder) {
+  for (const path& entry : entries_of(folder)) {
+    const path name = name_of_part(entry);
+    // The second is what earlier versions left.
+    if (name == kRemovals || entry.filename() == "removals.part") remove_removals(entry);
+    std::error_code ignored;
+    if (is_cell_file(name)) std::filesystem::remove(entry, ignored);
+  }
+}
+
+}  // namespace
+
+void make_folder(const path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw DataError(folder.string() + ": cannot be made (" + error.message() +
+                    "). Choose another --out.");
+  }
+}
+
+path CellStore::folder(const CellName& cell) const {
+  return out_ / "cells" / folder_name(cell.sequence) / folder_name(cell.name);
+}
+
+path CellStore::new_removals(const CellName& cell) const {
+  return new_part_name(folder(cell) / kRemovals);
+}
+
+StoredCell CellStore::find(const CellName& name, const CellIdentity& wanted,
+                           const ScanSource* scans) const {
+  using State = StoredCell::State;
+  const path file = folder(name) / "cell.json";
+  if (!has_file(file)) return {State::kMissing, "is not there yet", {}};
+  try {
+    Cell cell = read_cell(file);
+    const bool same = cell.key == cell_key(wanted);
+    if (!cell.ok()) {
+      const std::string why = "failed last time: " + cell.reason;
+      if (!same) return {State::kStale, why, {}};
+      return {State::kFailed, why, std::move(cell)};
+    }
+    if (!same) return {State::kStale, identity_difference(cell, wanted), {}};
+    if (scans != nullptr && !has_removals(folder(name), cell, *scans)) {
+      return {State::kStale, "its removals are asked for and not there, or not whole", {}};
+    }
+    return {State::kFresh, "", std::move(cell)};
+  } catch (const DataError&) {
+    return {State::kStale, damage(file), {}};
+  }
+}
+
+std::optional<RepeatRecord> CellStore::find_repeat(const CellName& cell, int number,
+                                                   const std::string& key) const {
+  try {
+    RepeatRecord repeat = read_repeat(repeat_file(folder(cell), number));
+    if (repeat.key == key) return repeat;
+  } catch (const DataError&) {
+    // It is not there, or damaged: the method is run once more.
+  }
+  return std::nullopt;
+}
+
+void CellStore::prepare(const CellName& cell) const {
+  make_folder(folder(cell));
+  sweep_cell(folder(cell));
+}
+
+void CellStore::keep(const Cell& cell, const path& removals) const {
+  const path cell_folder = folder({cell.sequence, cell.name});
+  const path place = cell_folder / kRemovals;
+  make_folder(cell_folder);
+  std::error_code error;
+  const bool has = !removals.empty() && has_folder(removals);
+  if (has || is_there(place)) {
+    // A cell never stands beside removals of another one.
+    std::filesystem::remove(cell_folder / "cell.json", error);
+    if (!remove_removals(place)) {
+      throw DataError(place.string() +
+                      ": holds files that no run writes, so it is not replaced. Move them away.");
+    }
+  }
+  if (has) {
+    std::filesystem::rename(removals, place, error);
+    if (error) throw DataError(place.string() + ": cannot be made (" + error.message() + ").");
+  }
+  write_cell(cell_folder / "cell.json", cell);
+}
+
+void CellStore::keep_repeat(const CellName& cell, const RepeatRecord& repeat) const {
+  write_repeat(repeat_file(folder(cell), repeat.number), repeat);
+}
+
+void CellStore::sweep() const {
+  if (!has_folder(out_ / "cells")) return;
+  for (const path& sequence : folders_in(out_ / "cells")) {
+    for (const path& cell : folders_in(sequence)) sweep_cell(cell);
+  }
+}
+
+}  // namespace raymoval

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmark/run/folder/cell_store.h"
+
+namespace raymoval {
+
+/// The content of run.json in `out`; no value if there is none.
+/// @throws DataError if it is damaged or of another version, pointing to --overwrite
+std::optional<RunRecord> present_record(const std::filesystem::path& out);
+
+/// Why cells of the run `asked` cannot stand in one table with those of the folder's `present`
+/// run.json: empty if they can. Results belong together if
+/// - at most one of the two is a suite with a name, or both have the same name,
+/// - sequences of one name were read in the same way (frames, poses, sensor, range, label rule),
+/// - protocols and their options are the same,
+/// - no two names would share a folder.
+std::string why_not_together(const RunRecord& present, const RunRecord& asked);
+
+/// The same for a sequence's `fingerprint`, which takes reading all of its data.
+std::string why_other_data(const RunRecord& present, const std::string& sequence,
+                           const std::string& fingerprint);
+
+/// @throws UsageError with `why` and what to do, unless it is empty
+void refuse_other_results(const std::filesystem::path& out, const std::string& why);
+
+/// The fingerprint that a run.json has of a sequence; empty if it has none.
+std::string known_fingerprint(const RunRecord& record, const std::string& sequence);
+/// Puts a fingerprint into the record. @return whether that changed it
+bool set_fingerprint(RunRecord& record, const std::string& sequence,
+                     const std::string& fingerprint);
+
+/// run.json of a folder to which the run `asked` is added: the sequences, methods and cells of
+/// both. Where both have one, it is that of `asked`; so are build and machine.
+RunRecord merged_run_record(const RunRecord& present, const RunRecord& asked);
+
+/// Cells of earlier runs that a run did not ask for and that stay in the folder's tables.
+struct EarlierCells {
+  std::vector<Cell> kept;
+  /// "sequence / method: reason" of those that are there and do not fit the others any more: the
+  /// method has other parameters or another version now, or a protocol has.
+  std::vector<std::string> left_out;
+
+  /// Null if it is not there.
+  [[nodiscard]] const Cell* find(const CellName& cell) const;
+  /// A line for each sequence with what is kept, and one for each cell that is left out.
+  [[nodiscard]] std::vector<std::string> lines() const;
+};
+
+/// Reads those of the cells of `record` that `asked` does not have, with their repeats.
+EarlierCells read_earlier_cells(const CellStore& store, const RunRecord& record,
+                                const RunRecord& asked);
+
+/// Lets the run of median time among `cell` and its further runs stand for all of them; the others'
+/// times stand beside it.
+void merge_repeats(Cell& cell, const std::vector<Measurement>& further);
+
+}  // namespace raymoval

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/run/folder/run_folder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "benchmark/process/machine.h"
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/results.h"
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/run/folder/cell_store.h"
+#include "benchmark/suite/suite_json.h"
+#include "benchmark/tables/tables.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "core/files/part_name.h"
+#include "core/text.h"
+#include "eval/protocol_registry.h"
+
+namespace raymoval {
+namespace {
+
+using std::filesystem::path;
+
+constexpr const char* kMarkerText =
+    "This folder is one of `raymoval run --out`, which replaces its own files here and leaves\n"
+    "all others alone.\n";
+
+/// Whether a run writes a file of this name into its folder.
+bool is_run_file(const path& name) {
+  const std::string text = name.string();
+  constexpr std::array kNames = {"run.json", "results.json", "results.csv",
+                                 "table.md", "table.tex",    kRunMarker};
+  return std::find(kNames.begin(), kNames.end(), text) != kNames.end();
+}
+
+/// "run.json.123.part", as earlier versions called what they had not finished.
+bool is_part_of_earlier_version(const path& name) {
+  const path number = name.stem().extension();
+  return name.extension() == ".part" && number.string().size() > 1 &&
+         parse_number<long>(number.string().substr(1)) && is_run_file(name.stem().stem());
+}
+
+bool is_lock(const path& entry) {
+  if (entry.filename() != kLockFile || !is_file(entry)) return false;
+  try {
+    const std::string start = read_piece(entry, 0, 8);
+    return start.empty() || start == "process ";
+  } catch (const DataError&) {
+    return false;  // Its holder took it away.
+  }
+}
+
+/// A folder that holds folders only.
+bool holds_cells(const path& entry) {
+  if (entry.filename() != "cells" || !is_folder(entry)) return false;
+  const std::vector<path> inside = entries_of(entry);
+  return std::all_of(inside.begin(), inside.end(), is_folder);
+}
+
+/// What a run may leave before it marks its folder, or somebody who copies cells together.
+bool may_be_ours(const path& entry) {
+  return is_run_file(name_of_part(entry)) || is_part_of_earlier_version(entry.filename()) ||
+         is_lock(entry) || holds_cells(entry);
+}
+
+/// Whether a run.json was written by a run and not changed since.
+bool is_run_record(const path& file) {
+  try {
+    (void)read_run_record(file);
+  } catch (const SchemaVersionError&) {
+    return true;
+  } catch (const DataError&) {
+    return false;
+  }
+  return true;
+}
+
+/// @throws UsageError for a folder that may belong to somebody else
+void check_is_run_folder(const path& out) {
+  if (has_file(out / kRunMarker)) return;
+  const std::string where = "--out " + out.string() + ": ";
+  const std::string remedy =
+      " Nothing was changed. Name a new or empty folder, or that of an earlier run to go on with "
+      "it.";
+  if (has_file(out / "run.json")) {
+    if (is_run_record(out / "run.json")) return;  // Of an earlier version, which set no marker.
+    throw UsageError(where + "its run.json is not as raymoval wrote it, so the folder may belong " +
+                     "to another program." + remedy);
+  }
+  for (const path& entry : entries_of(out)) {
+    if (may_be_ours(entry)) continue;
+    if (has_file(out / kRunMarker)) return;  // Another process has begun here meanwhile.
+    throw UsageError(where + "the folder holds other files (" + entry.filename().string() +
+                     ") and no run." + remedy);
+  }
+}
+
+}  // namespace
+
+void prepare_run_folder(const path& out) {
+  if (has_folder(out)) check_is_run_folder(out);
+  make_folder(out);
+  if (!has_file(out / kRunMarker)) write_atomically(out / kRunMarker, kMarkerText);
+}
+
+void sweep_run_folder(const path& out) {
+  for (const path& entry : entries_of(out)) {
+    std::error_code ignored;
+    if (is_run_file(name_of_part(entry))) std::filesystem::remove(entry, ignored);
+  }
+}
+
+RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads) {
+  RunRecord run{suite.name};
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    run.sequences.push_back({sequences[i].record(), absolute_place(suite.sequences[i])});
+  }
+  for (const MethodRequest& request : suite.methods) {
+    run.methods.push_back({request.name, request.method.full_name(), request.method.entry->version,
+                           request.method.configuration});
+    if (request.sweep.empty()) continue;
+    run.methods.back().sweep = SweepRecord{request.sweep_of, request.sweep};
+  }
+  for (const ProtocolRequest& request : suite.protocols) {
+    run.protocols.push_back({request.name, request.protocol,
+                             protocol_entry(request.protocol).version, request.options});
+  }
+  run.controls = suite.controls;
+  run.cells = run.all_cells();
+  run.build = build_record();
+  run.machine = machine_record(threads);
+  return run;
+}
+
+void write_result_files(const path& out, const ResultsRecord& results) {
+  const RunResults shown = shown_results(results);
+  const std::vector<TextTable> tables = make_tables(shown);
+  write_atomically(out / "results.csv", results_csv(shown));
+  write_atomically(out / "table.md", tables_markdown(shown, tables));
+  write_atomically(out / "table.tex", tables_latex(tables));
+  write_results(out / "results.json", results);
+}
+
+}  // namespace raymoval

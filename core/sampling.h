@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace raymoval {
+
+/// Positions of at most `most` of `count` things, evenly spread: the first and the last are among
+/// them where two or more are chosen.
+inline std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> chosen(std::min(count, most));
+  for (std::size_t k = 1; k < chosen.size(); ++k) chosen[k] = k * (count - 1) / (chosen.size() - 1);
+  return chosen;
+}
+
+/// The median; of an even count the upper of the two middle values.
+/// @param values at least one
+template <class Value>
+Value median(std::vector<Value> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "datasets/inspection/evidence/samples.h"
+
+namespace raymoval::inspection {
+
+/// Says why the scans do not agree under the given poses, if they do not.
+///
+/// For some pairs of near scans, three agreements are compared: that under the given poses, that
+/// under each hypothesis, and the best that registration of the two scans reaches from any start.
+/// The given poses are good if they come near to the best. Else the hypothesis that does names the
+/// defect; if none does, poses and scans do not belong together. Where registration itself finds
+/// little in common (empty fields, a blocked sensor), nothing is said.
+const PoseVerdict& pose_verdict(Samples& samples);
+
+}  // namespace raymoval::inspection

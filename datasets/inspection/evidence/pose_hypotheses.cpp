@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/inspection/evidence/pose_hypotheses.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "core/angle.h"
+#include "core/error.h"
+#include "datasets/clouds/frames.h"
+#include "datasets/clouds/poses.h"
+
+namespace raymoval::inspection {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Metres from scan to scan that no vehicle goes, and that a moving one always exceeds: beyond them
+/// other units are worth a thought.
+constexpr double kTooFast = 10.0, kTooSlow = 0.02;
+
+double longest_step(const std::vector<Pose>& poses) {
+  double longest = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    longest = std::max(longest, (poses[i].translation() - poses[i - 1].translation()).norm());
+  }
+  return longest;
+}
+
+Pose scaled(const Pose& pose, double scale) {
+  Pose result = pose;
+  result.translation() *= scale;
+  return result;
+}
+
+Pose with_rotation(const Pose& pose, const Matrix3d& rotation) {
+  Pose result = pose;
+  result.linear() = rotation;
+  return result;
+}
+
+/// Roll, pitch, yaw of Rz(yaw) Ry(pitch) Rx(roll), pitch between -pi/2 and pi/2.
+Vector3d roll_pitch_yaw(const Matrix3d& R) {
+  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
+          std::atan2(R(1, 0), R(0, 0))};
+}
+
+Matrix3d rotation_of(const Vector3d& rpy) {
+  return (Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+Vector3d nearest_turn(Vector3d angles, const Vector3d& to) {
+  for (int k = 0; k < 3; ++k) angles[k] += kTurn * std::round((to[k] - angles[k]) / kTurn);
+  return angles;
+}
+
+/// Angles without jumps. Of the two ways to write a rotation the one nearer to the pose before is
+/// meant, to zero for the first: a car's roll and pitch are small.
+std::vector<Vector3d> unrolled_angles(const std::vector<Pose>& poses) {
+  std::vector<Vector3d> all;
+  Vector3d last = Vector3d::Zero();
+  for (const Pose& pose : poses) {
+    const Vector3d angles = roll_pitch_yaw(pose.linear());
+    const Vector3d other(angles.x() + std::numbers::pi, std::numbers::pi - angles.y(),
+                         angles.z() + std::numbers::pi);
+    const Vector3d a = nearest_turn(angles, last), b = nearest_turn(other, last);
+    last = (a - last).squaredNorm() <= (b - last).squaredNorm() ? a : b;
+    all.push_back(last);
+  }
+  return all;
+}
+
+/// The quaternion's columns were written in the other order than they were read in.
+Matrix3d reordered_quaternion(const Matrix3d& rotation, bool written_w_first) {
+  const Eigen::Quaterniond q(rotation);
+  return (written_w_first ? Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w())
+                          : Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()))
+      .normalized()
+      .toRotationMatrix();
+}
+
+/// Takes points of a LiDAR (x ahead, y left, z up) to a camera (x right, y down, z ahead).
+Pose camera_axes() {
+  Pose C = Pose::Identity();
+  C.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return C;
+}
+
+/// The data set's own camera if its calibration tells one, else the axes alone.
+Pose camera_of(const Samples& samples) {
+  const std::string& file = samples.layout().calibration_file;
+  if (file.empty() || samples.files().empty()) return camera_axes();
+  const auto calibration = samples.files().front().path.parent_path().parent_path() / file;
+  if (!has_file(calibration)) return camera_axes();
+  try {
+    const Pose Tr = read_calibration(calibration, "Tr");
+    return Eigen::AngleAxisd(Tr.linear()).angle() > 0.5 ? Tr : camera_axes();
+  } catch (const Error&) {
+    return camera_axes();  // The row is not used where the poses are said to be the LiDAR's.
+  }
+}
+
+/// Whether the poses are written with quaternions; in memory anything may have been.
+bool have_quaternions(const Samples& samples) {
+  if (samples.files().empty() || samples.layout().points_in_world) return true;
+  const auto folder = samples.files().front().path.parent_path();
+  for (const auto& place : {folder, folder.parent_path()}) {
+    const auto path = place / samples.sequence().poses_file;
+    if (is_file(path)) return read_pose_file(path).rows.front().time_s.has_value();
+  }
+  return true;
+}
+
+/// Points in camera axes under poses of the LiDAR move like LiDAR points under poses taken to a
+/// camera, and the other way round, so each motion stands here once.
+void add_frame_hypotheses(const std::vector<Pose>& poses, const Pose& C,
+                          std::vector<PoseHypothesis>& all) {
+  all.push_back({"poses-inverted", "under the inverse of each pose",
+                 [&poses](std::size_t i) { return poses[i].inverse(); }});
+  all.push_back({"camera-frame", "if the poses are those of a camera (x right, y down, z ahead)",
+                 [&poses, C](std::size_t i) { return C.inverse() * poses[i] * C; }});
+  all.push_back({"lidar-poses-as-camera",
+                 "if the poses are already those of the LiDAR, so that 'Tr' must not be applied",
+                 [&poses, C](std::size_t i) { return C * poses[i] * C.inverse(); }});
+}
+
+void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& all) {
+  const auto& poses = samples.poses();
+  if (samples.layout().points_in_world) {
+    all.push_back({"viewpoint-twice", "if VIEWPOINT is taken off the stored points once more",
+                   [](std::size_t) { return Pose(Pose::Identity()); }});
+    all.push_back({"viewpoint-missing", "once VIEWPOINT is applied to the stored points",
+                   [&poses](std::size_t i) { return poses[i] * poses[i]; }});
+  } else {
+    all.push_back({"points-in-world", "if the points are taken as they stand, without the poses",
+                   [](std::size_t) { return Pose(Pose::Identity()); }});
+  }
+}
+
+}  // namespace
+
+std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
+  const auto& poses = samples.poses();
+  const std::size_t last = poses.size() - 1;
+  std::vector<PoseHypothesis> all;
+  add_frame_hypotheses(poses, camera_of(samples), all);
+  add_world_hypotheses(samples, all);
+  const bool quaternions = have_quaternions(samples);
+  const double step = longest_step(poses);
+  if (step > kTooFast) {
+    all.push_back({"poses-in-millimetres", "if positions are divided by 1,000",
+                   [&poses](std::size_t i) { return scaled(poses[i], 0.001); }});
+  }
+  if (step < kTooSlow) {
+    all.push_back({"poses-in-kilometres", "if positions are multiplied by 1,000",
+                   [&poses](std::size_t i) { return scaled(poses[i], 1000.0); }});
+  }
+  for (const bool w_first : {true, false}) {
+    if (w_first == samples.layout().points_in_world || !quaternions) continue;
+    all.push_back(
+        {"quaternion-order",
+         w_first ? "if quaternions are read as w x y z" : "if quaternions are read as x y z w",
+         [&poses, w_first](std::size_t i) {
+           return with_rotation(poses[i], reordered_quaternion(poses[i].linear(), w_first));
+         }});
+  }
+  all.push_back({"poses-shifted", "if each scan takes the pose of the scan after it",
+                 [&poses, last](std::size_t i) { return poses[std::min(i + 1, last)]; }});
+  all.push_back({"poses-shifted", "if each scan takes the pose of the scan before it",
+                 [&poses](std::size_t i) { return poses[i == 0 ? 0 : i - 1]; }});
+  return all;
+}
+
+std::vector<PoseHypothesis> degree_hypotheses(const Samples& samples) {
+  const auto& poses = samples.poses();
+  std::vector<PoseHypothesis> all;
+  // Angles of the LiDAR itself, and of a camera as KITTI's pose files have it.
+  for (const Pose& axes : {Pose(Pose::Identity()), camera_axes()}) {
+    std::vector<Pose> turned;
+    for (const Pose& pose : poses) turned.push_back(axes * pose * axes.inverse());
+    const auto angles = std::make_shared<std::vector<Vector3d>>(unrolled_angles(turned));
+    const bool camera = !axes.isApprox(Pose::Identity());
+    for (int k = 0; k < 58; ++k) {
+      const int turns = (k + 1) / 2 * (k % 2 == 0 ? 1 : -1);
+      const Vector3d offset(0, camera ? kTurn * turns : 0, camera ? 0 : kTurn * turns);
+      all.push_back({"degrees-for-radians", "if the angles of the rotations are degrees",
+                     [&poses, angles, offset, axes](std::size_t i) {
+                       const Matrix3d rotation = rotation_of(kDegree * ((*angles)[i] + offset));
+                       return with_rotation(poses[i],
+                                            axes.linear().transpose() * rotation * axes.linear());
+                     }});
+    }
+    all.push_back({"radians-for-degrees", "if the angles of the rotations are 57.3 times larger",
+                   [&poses, angles, axes](std::size_t i) {
+                     const Matrix3d rotation = rotation_of((*angles)[i] / kDegree);
+                     return with_rotation(poses[i],
+                                          axes.linear().transpose() * rotation * axes.linear());
+                   }});
+  }
+  return all;
+}
+
+}  // namespace raymoval::inspection

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/inspection/evidence/samples.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+#include "core/sampling.h"
+#include "core/text.h"
+
+namespace raymoval::inspection {
+namespace {
+
+constexpr std::size_t kReferences = 6;
+/// Distances in scans: near enough to overlap, far enough for a slow sensor to have moved.
+constexpr std::size_t kSteps[] = {1, 3, 8};
+/// No sensor on the ground has half of its returns beyond this many metres.
+constexpr double kFarthestMedian = 400.0;
+constexpr double kMillimetre = 0.001;
+
+}  // namespace
+
+Samples::Samples(const Sequence& sequence, const std::atomic<bool>* cancel)
+    : sequence_(sequence), layout_(layout_of(sequence)) {
+  if (const FileScanSource* files = file_source(sequence)) {
+    files_ = files->frames();
+  }
+  for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
+    poses_.push_back(sequence.scans->pose(i));
+  }
+  choose_pairs();
+  read_scans(cancel);
+  settle_point_scale();
+}
+
+void Samples::choose_pairs() {
+  const std::size_t count = poses_.size();
+  std::set<std::pair<std::size_t, std::size_t>> chosen;
+  for (const std::size_t step : kSteps) {
+    if (step >= count) continue;
+    for (const std::size_t from : evenly_spread(count - step, kReferences)) {
+      chosen.emplace(from, from + step);
+    }
+  }
+  for (const auto& [from, to] : chosen) pairs_.push_back({from, to});
+}
+
+void Samples::read_scans(const std::atomic<bool>* cancel) {
+  std::set<std::size_t> wanted;
+  if (!poses_.empty()) wanted = {0, poses_.size() / 2, poses_.size() - 1};
+  for (const ScanPair& pair : pairs_) {
+    wanted.insert(pair.from);
+    wanted.insert(pair.to);
+  }
+  for (const std::size_t scan : wanted) {
+    if (cancel != nullptr && cancel->load()) throw Cancelled();
+    const auto& read = scans_.emplace(scan, sequence_.scans->load(scan)).first->second;
+    if (read.points.empty()) throw DataError(scan_name(scan) + ": holds no point to look at.");
+  }
+}
+
+void Samples::settle_point_scale() {
+  std::vector<double> ranges;
+  for (const auto& [index, scan] : scans_) {
+    const std::size_t step = std::max<std::size_t>(1, scan.size() / 1000);
+    for (std::size_t i = 0; i < scan.size(); i += step) {
+      // In the world frame of a stored pose far from the origin a wrong pose shifts all points;
+      // the spread around their own middle does not depend on it.
+      ranges.push_back(static_cast<double>((scan.points[i] - scan.points[scan.size() / 2]).norm()));
+    }
+  }
+  if (ranges.empty()) return;
+  median_range_ = median(std::move(ranges));
+  if (median_range_ < kFarthestMedian) return;
+  point_scale_ = kMillimetre;
+  for (auto& [index, scan] : scans_) {
+    for (Eigen::Vector3f& point : scan.points) point *= static_cast<float>(kMillimetre);
+  }
+}
+
+const std::vector<Surfel>& Samples::surfels(std::size_t scan) const {
+  const auto found = surfels_.find(scan);
+  if (found != surfels_.end()) return found->second;
+  return surfels_.emplace(scan, find_surfels(without_near(scans_.at(scan).points))).first->second;
+}
+
+std::string Samples::scan_name(std::size_t scan) const {
+  if (!files_.empty()) return files_[scan].path.filename().string();
+  return "scan " + std::to_string(scan);
+}
+
+std::string Samples::frame_name(std::size_t scan) const {
+  return files_.empty() ? std::to_string(scan) : files_[scan].name;
+}
+
+std::string Samples::all_frames() const {
+  return "frames " + frame_name(0) + " to " + frame_name(size() - 1);
+}
+
+std::string Samples::pose_source() const {
+  return sequence_.poses_file.empty() ? "poses" : sequence_.poses_file;
+}
+
+const SensorModel& Samples::seen_sensor() const {
+  if (seen_sensor_) return *seen_sensor_;
+  constexpr std::size_t kMost = 5;
+  std::vector<std::size_t> all;
+  for (const auto& [index, scan] : scans_) all.push_back(index);
+  std::vector<Scan> chosen;
+  for (const std::size_t k : evenly_spread(all.size(), kMost)) chosen.push_back(scans_.at(all[k]));
+  seen_sensor_ = estimate_sensor_model(chosen);
+  return *seen_sensor_;
+}
+
+}  // namespace raymoval::inspection

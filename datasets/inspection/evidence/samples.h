@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "datasets/clouds/file_source.h"
+#include "datasets/geometry/surfels.h"
+#include "datasets/inspection/evidence/finding.h"
+#include "datasets/layouts.h"
+
+namespace raymoval::inspection {
+
+/// Two scans that see much of the same.
+struct ScanPair {
+  std::size_t from = 0, to = 0;  ///< `from` < `to`, positions in the sequence.
+};
+
+/// How the poses, or the frame of the points, would have to change for the scans to agree.
+struct PoseVerdict {
+  std::string check;  ///< Name of the check that reports it; empty if nothing is wrong.
+  std::string what;   ///< What the numbers say.
+};
+
+/// What the checks look at: the poses and files of the whole sequence, and about thirty scans,
+/// evenly spread, with their points. The data is only read.
+class Samples {
+ public:
+  /// @throws DataError if a scan cannot be read; Cancelled
+  Samples(const Sequence& sequence, const std::atomic<bool>* cancel);
+
+  [[nodiscard]] const Sequence& sequence() const { return sequence_; }
+  [[nodiscard]] std::size_t size() const { return poses_.size(); }
+  [[nodiscard]] const std::vector<Pose>& poses() const { return poses_; }
+  /// Files of all scans; empty for a sequence that is not read from scan files.
+  [[nodiscard]] const std::vector<FrameEntry>& files() const { return files_; }
+  /// Scans that were read, by position. Points are metres (see `point_scale`).
+  [[nodiscard]] const std::map<std::size_t, Scan>& scans() const { return scans_; }
+  [[nodiscard]] const std::vector<ScanPair>& pairs() const { return pairs_; }
+  /// What the points were multiplied with to be metres: 1, or 0.001 for data in millimetres.
+  [[nodiscard]] double point_scale() const { return point_scale_; }
+  [[nodiscard]] double median_range() const { return median_range_; }
+  [[nodiscard]] const std::vector<Surfel>& surfels(std::size_t scan) const;
+  /// The sensor as five of the scans show it, whatever it is called; estimated when first asked
+  /// for.
+  [[nodiscard]] const SensorModel& seen_sensor() const;
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+
+  /// "000012.bin" or "scan 12".
+  [[nodiscard]] std::string scan_name(std::size_t scan) const;
+  /// "000012", or the position.
+  [[nodiscard]] std::string frame_name(std::size_t scan) const;
+  [[nodiscard]] std::string all_frames() const;
+  [[nodiscard]] std::string pose_source() const;
+
+  /// The first check that needs it finds it.
+  std::optional<PoseVerdict> pose_verdict;
+  std::vector<std::pair<std::string, double>> measures;
+
+ private:
+  void choose_pairs();
+  void read_scans(const std::atomic<bool>* cancel);
+  void settle_point_scale();
+
+  const Sequence& sequence_;
+  const Layout& layout_;
+  std::vector<FrameEntry> files_;
+  std::vector<Pose> poses_;
+  std::vector<ScanPair> pairs_;
+  std::map<std::size_t, Scan> scans_;
+  double point_scale_ = 1.0;
+  double median_range_ = 0.0;
+  mutable std::map<std::size_t, std::vector<Surfel>> surfels_;
+  mutable std::optional<SensorModel> seen_sensor_;
+};
+
+}  // namespace raymoval::inspection

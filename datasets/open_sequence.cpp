@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/open_sequence.h"
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/ego/ego_free_source.h"
+#include "datasets/layouts.h"
+
+namespace raymoval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// " Known are: a SemanticKITTI sequence (...), ...".
+std::string known_text() {
+  std::vector<std::string> known;
+  for (const Layout& layout : layouts()) known.push_back(layout.expected);
+  return " Known are: " + join(known) + ".";
+}
+
+bool is_scan_folder(const fs::path& name) {
+  for (const Layout& layout : layouts()) {
+    if (!layout.scan_folder.empty() && name == layout.scan_folder) return true;
+  }
+  return false;
+}
+
+/// The folder above `path`, if that is a sequence and `path` its folder of scans or one of these;
+/// else empty.
+std::string sequence_above(const fs::path& path) {
+  fs::path folder = fs::absolute(path).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  for (int level = 0; level < 2; ++level) {
+    const fs::path name = folder.filename();
+    folder = folder.parent_path();
+    if (is_scan_folder(name) && is_folder(folder / name)) return folder.string();
+  }
+  return "";
+}
+
+/// What looks like a folder of scans may be the scan folder of a sequence in another layout. With
+/// poses of its own it is a sequence whatever its name.
+void check_not_part(const std::string& path, const SequenceOptions& options) {
+  if (!is_folder(path) || options.poses || !list_files(path, {".txt"}).empty()) return;
+  const std::string above = sequence_above(path);
+  if (above.empty()) return;
+  throw DataError(path + ": holds scans only; the sequence they belong to is " + above + ".");
+}
+
+[[noreturn]] void throw_unrecognised(const std::string& path) {
+  if (is_folder(path)) {
+    throw DataError(path + ": no known layout; found " + content_text(path) + "." + known_text());
+  }
+  if (is_there(path)) {
+    const std::string above = sequence_above(path);
+    if (above.empty()) throw DataError(path + ": is a file, expected a folder." + known_text());
+    throw DataError(path + ": is a scan, expected the folder of its sequence: " + above + ".");
+  }
+  const std::string folder = path.substr(0, path.rfind(':'));
+  const auto near = closest_name(folder, scene_names());
+  throw DataError(folder + ": no such folder." +
+                  (near ? " Did you mean the scene '" + *near + "'?" : "") + known_text());
+}
+
+/// Null if `path` is no scene.
+const SceneNames* scenes_of(const std::string& path) {
+  for (const Layout& layout : layouts()) {
+    if (layout.scenes && layout.recognise(path)) return &*layout.scenes;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Sequence open_sequence(const std::string& path, const SequenceOptions& options,
+                       const OpenContext& context) {
+  const Layout* layout = recognised_layout(path);
+  if (layout == nullptr) throw_unrecognised(path);
+  if (!layout->scenes && layout->scan_folder.empty()) check_not_part(path, options);
+  Sequence sequence = layout->open(path, options, context);
+  if (sequence.drop_ego.kind != EgoRegion::Kind::kNone) {
+    sequence.scans = std::make_shared<EgoFreeSource>(sequence.scans, sequence.drop_ego);
+  }
+  sequence.opened = sequence.scans;
+  return sequence;
+}
+
+std::string sequence_name(const std::string& path, const SequenceOptions& options) {
+  if (options.name) return *options.name;
+  const SceneNames* scenes = scenes_of(path);
+  return scenes != nullptr ? scenes->sequence_name(path) : open_sequence(path, options).name;
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const Layout& layout : layouts()) {
+    if (!layout.scenes) continue;
+    for (const std::string& name : layout.scenes->names()) names.push_back(name);
+  }
+  return names;
+}
+
+bool is_scene(const std::string& path) {
+  return scenes_of(path) != nullptr;
+}
+
+std::string scene_or_folder(const std::string& path, const fs::path& base) {
+  const SceneNames* scenes = scenes_of(path);
+  if (scenes == nullptr || !is_folder(base / path)) return "";
+  return path + ": is a scene and also a folder here; write ./" + path + " for the folder, or " +
+         scenes->unmistakable(path) + " for the scene.";
+}
+
+void check_not_both(const std::string& path) {
+  const std::string both = scene_or_folder(path);
+  if (!both.empty()) throw UsageError(both);
+}
+
+}  // namespace raymoval

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "datasets/simulation/shapes/mesh.h"
+#include "datasets/simulation/shapes/random.h"
+
+namespace raymoval::simulated {
+
+/// A standing thing of a world. Sizes in metres; 0 = the part's own choice.
+struct PartSpec {
+  std::string part;
+  double length_m = 0.0;  ///< Along the row.
+  double width_m = 0.0;   ///< Away from the road.
+  double height_m = 0.0;
+};
+
+/// Names that `make_part` knows.
+const std::vector<std::string>& part_names();
+
+/// One individual. Frame: x along the road, y away from it (the side towards the road is y = 0 for
+/// buildings, fences and the like; poles, trees and vehicles stand around the origin), z = 0 on the
+/// ground.
+/// @param instance number of the thing among those that can be counted (vehicles)
+/// @throws ConfigurationError for an unknown name, suggesting the nearest one.
+Mesh make_part(const PartSpec& spec, std::uint16_t instance, Random& random);
+
+/// A town house in a closed row: storeys with panes set back in the wall, a gateway, a balcony, a
+/// roof. Front at y = 0, x from -length / 2 to length / 2.
+Mesh make_block(const PartSpec& spec, Random& random);
+/// A detached house with a gable roof and a porch.
+Mesh make_house(const PartSpec& spec, Random& random);
+Mesh make_garage(const PartSpec& spec, Random& random);
+
+/// Trunk, branches and a porous crown, one branch hanging out over the road (towards -y).
+Mesh make_tree(const PartSpec& spec, Random& random);
+Mesh make_conifer(const PartSpec& spec, Random& random);
+/// A clipped hedge: leaves around a denser core.
+Mesh make_hedge(const PartSpec& spec, Random& random);
+Mesh make_bush(const PartSpec& spec, Random& random);
+/// A strip of grass and weeds, knee-high.
+Mesh make_tall_grass(const PartSpec& spec, Random& random);
+
+/// Does a part fill the whole length of its place in a row (fence, hedge), or stand in it?
+bool is_continuous(const std::string& part);
+/// Room it needs around its place, to keep it off other roads.
+double footprint_radius(const PartSpec& spec);
+
+}  // namespace raymoval::simulated

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/run/folder/run_folder.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/result/sealed_json.h"
+#include "benchmark/run/runner.h"
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "core/files/part_name.h"
+#include "methods/controls/controls.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const MethodRegistry& controls_only() {
+  static const MethodRegistry registry = [] {
+    MethodRegistry methods;
+    methods.add(noop_entry());
+    methods.add(remove_all_entry());
+    methods.add(oracle_entry());
+    return methods;
+  }();
+  return registry;
+}
+
+Suite one_scan() {
+  Suite suite;
+  SequenceOptions options;
+  options.frames = parse_frame_range("0:0");
+  suite.sequences.push_back({"street", options});
+  add_protocol(suite, "erasor", "");
+  add_controls(suite, controls_only());
+  suite.threads = 1;
+  return suite;
+}
+
+void write(const fs::path& file, const std::string& content) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << content;
+}
+
+/// Every file and folder below `folder` with its content.
+std::map<std::string, std::string> all_of(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    all[entry.path().lexically_relative(folder).string()] =
+        entry.is_regular_file() ? read_text(entry.path()) : "";
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("A folder that may be somebody else's is refused, and nothing in it is touched") {
+  const std::vector<std::pair<std::string, std::string>> foreign = {
+      {"film.mkv.part", "film"},
+      {"thesis.part/thesis.tex", "text"},
+      {"run.json", R"({"scripts": {"start": "node run.js"}})"},
+      {"run.json", R"({"suite": {}, "build": {}, "checksum": "00"})"},
+      {"run.lock", "held by the printer"},
+      {"cells/notes.txt", "of a microscope"},
+      {"table.md", "a table"},
+      {"table.md.part", "half a table"},
+      {"results.raymoval-0123456789abcdef.part", "not a name that a run gives"},
+  };
+  for (const auto& [name, content] : foreign) {
+    const test::TemporaryFolder folder;
+    write(folder.path() / name, content);
+    const auto before = all_of(folder.path());
+    CHECK_THROWS_WITH(run_suite(one_scan(), {.out = folder.path()}),
+                      Contains("Nothing was changed") && Contains(folder.path().string()));
+    CHECK(all_of(folder.path()) == before);
+  }
+}
+
+TEST_CASE("What is not a run's own stays in its folder, whatever its name") {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+  REQUIRE(run_suite(one_scan(), {.out = out, .keep_removals = true}).good());
+  const fs::path cell = out / "cells/street/noop-default";
+  const std::vector<fs::path> foreign = {out / "film.mkv.part",
+                                         out / "thesis.part/thesis.tex",
+                                         out / "table.md.77.part",
+                                         out / "cells/mine.part",
+                                         cell / "mine.part",
+                                         cell / "cell.json.part",
+                                         new_part_name(out / "thesis.tex"),
+                                         new_part_name(cell / "notes.txt")};
+  for (const fs::path& file : foreign) write(file, "mine");
+  // What killed runs leave, in a form that only they give, goes.
+  const std::vector<fs::path> left = {
+      new_part_name(out / "results.json"), new_part_name(cell / "cell.json"),
+      new_part_name(cell / "timing-2.json"), new_part_name(cell / "removals") / "000000.label"};
+  for (const fs::path& file : left) write(file, "half");
+  REQUIRE(run_suite(one_scan(), {.out = out, .keep_removals = true}).good());
+  for (const fs::path& file : foreign) CHECK(read_text(file) == "mine");
+  for (const fs::path& file : left) CHECK_FALSE(fs::exists(file));
+  CHECK_FALSE(fs::exists(left.back().parent_path()));
+}
+
+TEST_CASE("Removals are not replaced where that would lose a file that no run made") {
+  const test::TemporaryFolder folder;
+  const fs::path cell = folder.path() / "cells/street/noop-default";
+  REQUIRE(run_suite(one_scan(), {.out = folder.path(), .keep_removals = true}).good());
+  write(cell / "removals/notes.txt", "mine");
+  fs::remove(cell / "cell.json");
+  CHECK_THROWS_WITH(run_suite(one_scan(), {.out = folder.path(), .keep_removals = true}),
+                    Contains("removals: holds files that no run writes"));
+  CHECK(read_text(cell / "removals/notes.txt") == "mine");
+  fs::remove(cell / "removals/notes.txt");
+  CHECK(run_suite(one_scan(), {.out = folder.path(), .keep_removals = true}).good());
+}
+
+TEST_CASE("Runs of earlier versions and cells that were copied together are recognised") {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+  REQUIRE(run_suite(one_scan(), {.out = out}).good());
+  CHECK(has_file(out / kRunMarker));
+  fs::remove(out / kRunMarker);
+  CHECK(run_suite(one_scan(), {.out = out}).reused == 3);
+  CHECK(has_file(out / kRunMarker));
+
+  const fs::path copied = folder.path() / "copied";
+  fs::create_directories(copied);
+  fs::copy(out / "cells", copied / "cells", fs::copy_options::recursive);
+  write(copied / "run.lock", "process 12 on elsewhere\n");
+  write(copied / "run.json.12.part", "{");
+  CHECK(run_suite(one_scan(), {.out = copied}).reused == 3);
+  CHECK(fs::exists(copied / "run.json.12.part"));
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// What the contract demands of every method, whatever it does.
+#include <atomic>
+#include <catch2/catch.hpp>
+
+#include "tests/methods/moved_world.h"
+
+using namespace raymoval;
+
+namespace {
+
+/// Every variant of every method but the controls, and peopleremover with a window of scans.
+std::vector<ConfiguredMethod> all_methods() {
+  std::vector<ConfiguredMethod> methods;
+  for (const auto& entry : MethodRegistry::built_in().entries()) {
+    if (entry->parameters.empty()) continue;
+    for (const MethodVariant& variant : entry->variants) {
+      methods.push_back(MethodRegistry::built_in().configure(entry->name + ":" + variant.name));
+      if (entry->name != "peopleremover") continue;
+      methods.push_back(methods.back());
+      set_parameter(methods.back().configuration, "diff", std::int64_t{1});
+    }
+  }
+  return methods;
+}
+
+}  // namespace
+
+// Where the world's origin lies and which way its axes point is nobody's business: what a method
+// answers may depend on it only through the lattice of its voxels.
+TEST_CASE("whole voxels and quarter turns change no verdict") {
+  const toy::World world = toy::street(8);
+  for (const ConfiguredMethod& method : all_methods()) {
+    INFO(method.full_name());
+    const MaskStore here = masks_of(*method.make(), world);
+    // 12.8 m, 6.4 m and 3.2 m are whole numbers of 0.05, 0.1, 0.2 and 0.4 m and of powers of two.
+    for (const Pose& motion :
+         {toy::whole_motion(12.8, -6.4, 3.2, 0), toy::whole_motion(0, 0, 0, 1)}) {
+      const MaskStore there = masks_of(*method.make(), toy::MovedWorld(world, motion));
+      CHECK(toy::different_verdicts(here, there, world.size()) == 0);
+    }
+  }
+}
+
+TEST_CASE("any number of threads gives the same answer") {
+  const toy::World world = toy::street(10);
+  for (const ConfiguredMethod& method : all_methods()) {
+    INFO(method.full_name());
+    const MaskStore one = masks_of(*method.make(), world, 1);
+    CHECK(one.removed_count() > 0);
+    for (const int threads : {2, 8}) {
+      const MaskStore many = masks_of(*method.make(), world, threads);
+      CHECK(toy::different_verdicts(one, many, world.size()) == 0);
+    }
+  }
+}
+
+TEST_CASE("no scans, empty scans and lone points") {
+  toy::HeldScans scans;
+  scans.add({});
+  scans.add({{3.0F, 2.0F, 1.0F}});
+  scans.add({});
+  scans.add({{0.0F, 0.0F, 0.0F}});  // In the sensor itself.
+  for (const ConfiguredMethod& method : all_methods()) {
+    INFO(method.full_name());
+    CHECK(masks_of(*method.make(), toy::HeldScans(), 2).size() == 0);
+    const MaskStore masks = masks_of(*method.make(), scans, 2);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      REQUIRE(masks.has(i));
+      CHECK(masks.get(i) == Mask(scans.load(i).size(), 0));
+    }
+  }
+}
+
+TEST_CASE("a cancelled run stops") {
+  const toy::World world = toy::street(2);
+  const std::atomic<bool> stop{true};
+  RunContext context;
+  context.cancel = &stop;
+  std::vector<ConfiguredMethod> methods = all_methods();
+  methods.push_back(MethodRegistry::built_in().configure("noop"));
+  for (const ConfiguredMethod& method : methods) {
+    INFO(method.full_name());
+    toy::Masks masks(world.size());
+    CHECK_THROWS_AS(method.make()->run(world, masks, context), Cancelled);
+    CHECK_FALSE(masks.store.has(0));
+  }
+}
