@@ -29,6 +29,7 @@ benchmark              kernels
 benchmark/picture      canvas charts|maps
 benchmark/result       . removals|checks
 benchmark/run          folder .
+benchmark/tables       text comparison .
 "
 
 set -euo pipefail

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 #include "core/parameter_condition.h"
 #include "core/text.h"
 

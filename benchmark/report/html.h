@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 
 namespace raymoval {
 

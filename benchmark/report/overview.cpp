@@ -4,7 +4,7 @@
 
 #include "benchmark/picture/charts/charts.h"
 #include "benchmark/report/sections.h"
-#include "benchmark/tables/column_tables.h"
+#include "benchmark/tables/tables.h"
 #include "core/text.h"
 #include "eval/protocol_registry.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "benchmark/tables/rate_grid.h"
-#include "benchmark/tables/rate_tables.h"
+#include "benchmark/tables/tables.h"
 #include "core/text.h"
 #include "eval/protocol_registry.h"
 

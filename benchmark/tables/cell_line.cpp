@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "benchmark/result/results.h"
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 #include "core/text.h"
 #include "core/utf8.h"
 #include "eval/protocol_registry.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/tables/column_tables.h"
+#include "benchmark/tables/tables.h"
 
 #include <algorithm>
 #include <optional>

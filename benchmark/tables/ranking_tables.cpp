@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "benchmark/tables/rate_tables.h"
+#include "benchmark/tables/tables.h"
 #include "core/text.h"
 #include "eval/averages.h"
 #include "eval/protocol_registry.h"

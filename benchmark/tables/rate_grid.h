@@ -7,7 +7,7 @@
 
 #include "benchmark/result/results.h"
 #include "benchmark/tables/table_options.h"
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 #include "eval/averages.h"
 
 namespace raymoval {

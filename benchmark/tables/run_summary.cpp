@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "benchmark/tables/rate_tables.h"
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/tables.h"
+#include "benchmark/tables/text/text_table.h"
 #include "core/text.h"
 #include "core/utf8.h"
 #include "eval/protocol_registry.h"

@@ -10,7 +10,7 @@
 
 #include "benchmark/result/results.h"
 #include "benchmark/tables/published_columns.h"
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 #include "eval/averages.h"
 
 namespace raymoval {

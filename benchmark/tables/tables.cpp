@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "benchmark/tables/column_tables.h"
-#include "benchmark/tables/rate_tables.h"
 #include "core/text.h"
 #include "core/utf8.h"
 

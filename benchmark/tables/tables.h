@@ -6,7 +6,7 @@
 
 #include "benchmark/result/results.h"
 #include "benchmark/tables/table_options.h"
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 
 namespace raymoval {
 
@@ -18,5 +18,49 @@ std::vector<TextTable> make_tables(const RunResults& results, const TableOptions
 
 std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables);
 std::string tables_latex(const std::vector<TextTable>& tables);
+
+/// The rates of the run's methods by a protocol. By rows: a block for each sequence, with papers'
+/// rows in the blocks of sequences that they have; then, for several sequences, a table of the
+/// means. In the paper's layout one table with both. None without methods or rates.
+std::vector<TextTable> accuracy_tables(const RunResults& results, const std::string& protocol,
+                                       const TableOptions& options);
+
+/// The same for the controls, without marks and means, and whether they are as they must be.
+std::vector<TextTable> control_tables(const RunResults& results, const std::string& protocol,
+                                      const TableOptions& options);
+
+/// All numbers of the papers that have a sequence of the run, by the protocols of the run.
+std::vector<TextTable> published_tables(const RunResults& results, const TableOptions& options);
+
+/// Sequences of the run for which no outside column has rates by a protocol of the run.
+std::vector<std::string> unpublished_sequences(const RunResults& results,
+                                               const std::vector<OutsideColumn>& outside);
+
+/// Whether the controls are as they must be, in words.
+std::string controls_text(const RunResults& results);
+
+/// The curve of each sweep by each protocol, of what is kept against what is removed: a row for
+/// each point, named by its parameters, a block for each sequence and one of the means. The best
+/// values of the headline rate are marked.
+std::vector<TextTable> sweep_tables(const RunResults& results, const TableOptions& options = {});
+
+/// Where the order of the methods depends on the protocol: the rank of each method by the headline
+/// rate of each protocol, and how far it moves from the first protocol to the one where it moves
+/// most. Methods whose values are displayed alike have the same rank. Ranks are by the mean over
+/// the sequences; with `options.disagreements` also by each sequence, and each pair that changes
+/// places is named. None for fewer than two protocols or methods.
+std::vector<TextTable> ranking_tables(const RunResults& results, const TableOptions& options = {});
+
+/// One table of what the removed points were, a row for each method: precision, recall, residue,
+/// preservation, the mover that stays most and the static class that is lost most (of those with
+/// `kNamedClassPoints` points or more). Counts are added up over sequences. None without columns.
+std::vector<TextTable> compact_column_tables(const RunResults& results);
+
+inline constexpr std::int64_t kNamedClassPoints = 100;
+
+/// What methods are worth by points: precision, recall, residue, rejection and preservation; then
+/// rejection and preservation by range and by height, a row for each method, a block for all points
+/// and for each class; then the intervals of every rate.
+std::vector<TextTable> full_column_tables(const RunResults& results);
 
 }  // namespace raymoval

@@ -3,7 +3,7 @@
 
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
-#include "benchmark/tables/comparison_files.h"
+#include "benchmark/tables/comparison/comparison_files.h"
 #include "core/files/files.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"

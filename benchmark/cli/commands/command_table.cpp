@@ -6,9 +6,7 @@
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/run_record_json.h"
-#include "benchmark/tables/column_tables.h"
 #include "benchmark/tables/published_columns.h"
-#include "benchmark/tables/rate_tables.h"
 #include "benchmark/tables/tables.h"
 #include "core/text.h"
 

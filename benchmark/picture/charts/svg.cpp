@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 #include "core/text.h"
 #include "core/utf8.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
 
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;

@@ -4,7 +4,6 @@
 
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/cell_line.h"
-#include "benchmark/tables/rate_tables.h"
 #include "benchmark/tables/run_summary.h"
 #include "benchmark/tables/tables.h"
 #include "core/error.h"

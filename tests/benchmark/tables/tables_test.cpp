@@ -3,9 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "benchmark/tables/column_tables.h"
 #include "benchmark/tables/published_columns.h"
-#include "benchmark/tables/rate_tables.h"
 #include "core/error.h"
 #include "core/files/files.h"
 

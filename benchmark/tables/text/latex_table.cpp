@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 #include "core/text.h"
 
 namespace raymoval {

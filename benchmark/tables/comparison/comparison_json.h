@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "benchmark/tables/comparison_files.h"
+#include "benchmark/tables/comparison/comparison_files.h"
 
 namespace raymoval {
 

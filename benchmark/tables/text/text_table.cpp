@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/text/text_table.h"
 
 #include <algorithm>
 #include <functional>

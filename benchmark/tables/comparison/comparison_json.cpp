@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/tables/comparison_json.h"
+#include "benchmark/tables/comparison/comparison_json.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/tables/comparison_files.h"
+#include "benchmark/tables/comparison/comparison_files.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "benchmark/result/sealed_json.h"
-#include "benchmark/tables/comparison_json.h"
-#include "benchmark/tables/text_table.h"
+#include "benchmark/tables/comparison/comparison_json.h"
+#include "benchmark/tables/text/text_table.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "core/utf8.h"
