@@ -22,11 +22,25 @@ namespace {
 const MethodRegistry* known_methods = nullptr;
 std::vector<std::string> given_arguments;
 std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+std::atomic<int> interrupting_signal = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler sets them");
 
-void on_interrupt(int) {
-  interrupted.store(true);
-  std::signal(SIGINT, SIG_DFL);
+/// What shells make of the end by a signal.
+constexpr int exit_code_of_signal(int signal) {
+  return 128 + signal;
+}
+
+void on_interrupt(int signal) {
+  // Not by the signal's default, which the first process of a container does not have.
+  if (interrupted.exchange(true)) ::_exit(exit_code_of_signal(signal));
+  interrupting_signal.store(signal);
+}
+
+/// @param unless_ignored who started this program may want it to live on (nohup)
+void listen_to(int signal, bool unless_ignored) {
+  const auto before = std::signal(signal, on_interrupt);
+  if (unless_ignored && before == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 ExitCode run_program(int argc, const char* const* argv) {
@@ -46,7 +60,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       "  raymoval simulate town -o data/town\n"
       "`raymoval help COMMAND` says more. Exit codes: 0 done, 1 a cell or a check failed or got "
       "worse,\n"
-      "2 cannot be done as asked, 3 internal error.");
+      "2 cannot be done as asked, 3 internal error, 128 + N ended by signal N.");
   std::vector<Command> commands;
   for (const auto add :
        {add_run_command, add_plan_command, add_run_method_command, add_table_command,
@@ -131,6 +145,14 @@ int run_with_words(int argc, const char* const* argv, const MethodRegistry* meth
   }
 }
 
+/// The exit code after a signal. What was done all the same, just before it could be stopped, is
+/// done.
+int with_code_of_signal(int code) {
+  const int signal = interrupting_signal.load();
+  const bool done = code == static_cast<int>(ExitCode::kDone);
+  return signal != 0 && !done ? exit_code_of_signal(signal) : code;
+}
+
 }  // namespace
 
 const std::vector<std::string>& program_arguments() {
@@ -142,7 +164,13 @@ const MethodRegistry& program_methods() {
 }
 
 const std::atomic<bool>& interrupt_flag() {
-  std::signal(SIGINT, on_interrupt);
+  static const bool listens = [] {
+    listen_to(SIGINT, false);  // A shell lets its background jobs ignore it.
+    listen_to(SIGTERM, true);
+    listen_to(SIGHUP, true);
+    return true;
+  }();
+  (void)listens;
   return interrupted;
 }
 
@@ -154,11 +182,11 @@ void print(const std::string& text) {
 }
 
 int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods) {
-  return run_with_words(argc, argv, &methods);
+  return with_code_of_signal(run_with_words(argc, argv, &methods));
 }
 
 int run_command_line(int argc, const char* const* argv) {
-  return run_with_words(argc, argv, nullptr);
+  return with_code_of_signal(run_with_words(argc, argv, nullptr));
 }
 
 }  // namespace raymoval

@@ -14,6 +14,7 @@
 #include "benchmark/suite/amounts.h"
 #include "core/files/file_writer.h"
 #include "core/process/proc_files.h"
+#include "core/process/process_family.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
@@ -177,6 +178,8 @@ ExitCode clean(const CleanFlags& flags) {
   if (!flags.in_process) {
     return clean_apart(arguments_of_child(), paths, limit, interrupt_flag());
   }
+  // As the child of `clean_apart` it takes what it has started with it when that ends.
+  if (is_family_head()) end_family_with_parent();
   Progress progress(flags.work.style());
   try {
     return clean_here(flags, paths, progress);
