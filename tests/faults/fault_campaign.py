@@ -45,6 +45,7 @@ class Campaign:
         make_inputs(arguments.program, self.base, self.environment)
         self.before, self.expected = {}, {}
         self.tally = {}
+        self.tried = 0
         self.bad = []
         self.lock = threading.Lock()
 
@@ -168,6 +169,9 @@ class Campaign:
             row = self.tally.setdefault((command.name, call), dict.fromkeys(
                 ("done", "told", "bad", "missed"), 0))
             row[outcome] += 1
+            self.tried += 1
+            if self.tried % 500 == 0:
+                print(f"{self.tried} tried, {len(self.bad)} of them bad", flush=True)
             if problem:
                 self.bad.append((command.name, depth, call, k))
                 print(f"BAD {command.name}: {call} {k} at depth {depth}: {problem}\n"
