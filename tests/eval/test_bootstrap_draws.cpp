@@ -99,6 +99,7 @@ TEST_CASE("four scans are enough for an interval, three and none are not", "[boo
   const Intervals none = of({});
   CHECK(none.rates.empty());
   CHECK(none.scans == 0);
+  CHECK(none.block_scans == 1);
 }
 
 TEST_CASE("a rate that is undefined in more than half of the replicates has no interval",

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -79,6 +80,18 @@ TEST_CASE("the name of a column comes apart and together again", "[columns]") {
     CHECK(parts.band == expected.band);
     CHECK(parts.text() == expected.name);
   }
+}
+
+TEST_CASE("classes are called as the label rule calls them", "[columns]") {
+  LabelledScan scan;
+  scan.add(5.0f, 0.0f, 0.0f, 1, true);
+  const MemorySequence sequence({scan});
+  EvaluationInput input = sequence.input();
+  input.label_rule = LabelRule{"binary", {1}, {}, {}};
+  const auto values = column_values(tally_removals(input, sequence.masks()));
+  CHECK(std::any_of(values.begin(), values.end(), [](const ColumnValue& value) {
+    return value.name == "rejection [label-1]" && value.share.percent() == 100.0;
+  }));
 }
 
 TEST_CASE("every column of a sequence has one value and says why it has none", "[columns]") {

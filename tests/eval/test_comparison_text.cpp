@@ -173,3 +173,94 @@ TEST_CASE("A run is better only without anything worse") {
   CHECK(compare_results(mixed, reference, {}).verdict_words() == "worse");
   CHECK(compare_results(reference, reference, {}).verdict_words() == "no regression");
 }
+
+TEST_CASE("What moves in one protocol is not undone by another that is the same") {
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores.push_back(reference.scores[0]);
+  reference.scores[1].protocol = "other";
+  ComparedCell run = reference;
+  run.scores[0].counts[0].second = 989;
+  CHECK(compared_one(run, reference).same_cells == 0);
+  CHECK(compared_one(reference, reference).same_cells == 1);
+}
+
+TEST_CASE("Other parameters are all that differs only if nothing else does") {
+  ComparedCell other = cell_of("b", 99.0, 990);
+  other.identity["parameter x"] = "1";
+  const ResultSet reference{{cell_of("b", 99.0, 990), cell_of("c", 99.0, 990)}, {}};
+  const ResultSet parameters{{other, cell_of("c", 99.0, 990)}, {}}, also_missing{{other}, {}};
+  CHECK(compare_results(parameters, reference, {}).parameters_only);
+  CHECK_FALSE(compare_results(also_missing, reference, {}).parameters_only);
+  const ResultSet turned{{cell_of("c", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
+  CHECK_FALSE(compare_results(also_missing, turned, {}).parameters_only);
+  CHECK_FALSE(compare_results(turned, reference, {}).parameters_only);
+  const ResultSet only_c{{cell_of("c", 99.0, 990)}, {}};
+  CHECK_FALSE(compare_results(only_c, reference, {}).parameters_only);
+}
+
+TEST_CASE("A change of status is told for each score that one side has") {
+  const ComparedCell ok = cell_of("a", 99.0, 990);
+  ComparedCell failed = ok;
+  failed.status = "timeout";
+  failed.scores.clear();
+  const Comparison worse = compared_one(failed, ok), better = compared_one(ok, failed);
+  CHECK(worse.worse == std::vector<std::string>{"s / a: ok -> timeout"});
+  CHECK(better.better == std::vector<std::string>{"s / a: timeout -> ok"});
+  for (const Comparison& result : {worse, better}) {
+    REQUIRE(result.scores.size() == 1);
+    CHECK(result.scores[0].protocol == "erasor");
+  }
+  failed.reason = "too slow";
+  const Comparison both = compared_one(failed, failed);
+  CHECK(both.moved == std::vector<std::string>{"s / a: failed in both (too slow)"});
+  REQUIRE(both.scores.size() == 1);
+  CHECK(both.scores[0].protocol.empty());
+  CHECK(both.scores[0].change == Change::kMoved);
+  // What cannot be read has no fingerprint: neither side is of other data for that.
+  failed.identity.clear();
+  CHECK(compared_one(ok, failed).verdict() == ExitCode::kDone);
+  CHECK(compared_one(failed, ok).verdict() == ExitCode::kWorse);
+}
+
+TEST_CASE("A cell of other data is told for each score of the reference") {
+  ComparedCell run = cell_of("a", 99.0, 990);
+  run.identity["data fingerprint"] = "xyz";
+  run.scores.clear();
+  const Comparison result = compared_one(run, cell_of("a", 99.0, 990));
+  REQUIRE(result.scores.size() == 1);
+  CHECK(result.scores[0].protocol == "erasor");
+  CHECK(result.scores[0].change == Change::kIncomparable);
+}
+
+TEST_CASE("Cells of other names have lines of their own") {
+  ResultSet reference{{cell_of("a", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
+  reference.cells[1].sequence = "t";
+  const ResultSet run{{cell_of("z", 99.0, 990)}, {}};
+  CHECK_THAT(comparison_text(compare_results(run, reference, {})),
+             Contains("Not comparable:\n  s / a: missing in the run\n  t / b: missing in the run"));
+}
+
+TEST_CASE("A new count is worse, however much better the rate") {
+  ComparedCell run = cell_of("a", 99.5, 995);
+  run.scores[0].counts.emplace_back("fresh", 1);
+  const Comparison result = compared_one(run, cell_of("a", 99.0, 990));
+  CHECK(result.verdict() == ExitCode::kWorse);
+  CHECK(result.scores[0].rates.at(0).change == Change::kBetter);
+}
+
+TEST_CASE("Across parameters counts that move alone are told as that") {
+  ComparedCell run = cell_of("a", 99.0, 989);
+  run.identity["parameter x"] = "1";
+  ComparisonOptions options;
+  options.across_parameters = true;
+  const Comparison result = compared_one(run, cell_of("a", 99.0, 990), options);
+  CHECK(result.verdict() == ExitCode::kDone);
+  CHECK(result.moved.back() == "s / a, erasor: counts moved, and no rate with them");
+}
+
+TEST_CASE("A change of nothing has no sign") {
+  CHECK(change_text(CountChange{"points", 5, 5}) == "points 5 -> 5 (0)");
+  CHECK(change_text(RateChange{"PR", 5.0, 5.0, {}}) == "PR 5.0000 -> 5.0000 (0.0000)");
+  CHECK(change_text(TimeChange{"s", "a", {}, 1.0, Change::kIncomparable}) ==
+        "no time on both sides; leave --time-band out");
+}
