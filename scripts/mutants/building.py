@@ -49,9 +49,11 @@ class ReleaseBuild:
         return result
 
     def objects_of(self, program):
-        """Objects of the tests of a program, and all objects of the product."""
+        """Objects of the tests of a program, and those of the libraries that it is linked with."""
         tests = set(re.findall(r"\S+\.cpp\.o", self.links[program]))
-        product = {o for o in self.units if not o.startswith(("tests/", "benchmark/kernels/"))}
+        product = set()
+        for library in set(re.findall(r"\S+\.a\b", self.links[program])):
+            product |= set(re.findall(r"\S+\.cpp\.o", self.links.get(library, "")))
         return tests, product
 
 
@@ -67,7 +69,9 @@ class MutatedBuild:
     def plant(self, names):
         """Plants mutants in the files of these names."""
         self.sources.mkdir(parents=True, exist_ok=True)
-        (self.sources / "mutant_switch.h").write_text(planting.SWITCH)
+        switch = self.sources / "mutant_switch.h"
+        if not switch.exists() or switch.read_text() != planting.SWITCH:
+            switch.write_text(planting.SWITCH)
         number = 0
         for name in names:
             place = self.release.root / name
@@ -80,8 +84,7 @@ class MutatedBuild:
             places, constants, errors = syntax.places_of(source, *unit, self.cache)
             if errors:
                 print(f"mutate.sh: {name}: clang says: {errors[0]}", file=sys.stderr)
-            planted = planting.Planted(source, name, places, constants, number,
-                                       self.sources / name)
+            planted = planting.Planted(source, name, places, constants, number, self.sources)
             self.planted[name] = planted
             number += len(planted.mutants)
         print(f"{number} changes in {len(self.planted)} files", flush=True)
@@ -129,7 +132,7 @@ class MutatedBuild:
 
     def compile(self, names):
         """Compiles these objects, and takes out mutants that do not compile."""
-        pending, rounds = list(names), 0
+        pending, rounds = [n for n in names if not self._is_made(n)], 0
         while pending:
             rounds += 1
             if rounds > 25:
@@ -138,6 +141,15 @@ class MutatedBuild:
             with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
                 failures = [f for f in pool.map(self._compile_one, pending) if f]
             pending = self._repaired(failures)
+
+    def _is_made(self, name):
+        """Whether an object is there and newer than all that it is made of."""
+        if not self._object(name).exists():
+            return False
+        made = self._object(name).stat().st_mtime
+        files = {pathlib.Path(f) for f in self.release.dependencies[name]}
+        files |= {p.path for p in self.planted.values() if p.source.path in files}
+        return all(f.stat().st_mtime < made for f in files | {self.sources / "mutant_switch.h"})
 
     def _compile_one(self, name):
         done = subprocess.run(["env", "LC_ALL=C", "sh", "-c", self._mutated_command(name)],
@@ -150,7 +162,7 @@ class MutatedBuild:
         pending, changed = {name for name, _ in failures}, set()
         for name, errors in failures:
             repaired = [p for p in self.planted.values()
-                        if str(p.path) in errors and p.repair(errors)]
+                        if p.is_named_in(errors) and p.repair(errors)]
             if not repaired and not changed:
                 raise SystemExit(f"mutate.sh: {name} does not compile:\n{errors[:3000]}")
             changed |= {str(p.source.path) for p in repaired if p.source.path.suffix == ".h"}

@@ -5,6 +5,8 @@ One build serves all mutants: `a < b` becomes `(mutant_on(7) ? (a <= b) : (a < b
 compile is taken out again, by the place that the compiler names."""
 
 import dataclasses
+import hashlib
+import json
 import re
 
 import syntax
@@ -186,12 +188,26 @@ class Rendering:
 class Planted:
     """A file with its mutants, which is written anew as long as something does not compile."""
 
-    def __init__(self, source, name, places, constants, first_number, path):
-        self.source, self.path = source, path
+    def __init__(self, source, name, places, constants, first_number, folder):
+        self.source, self.name, self.path = source, name, folder / name
+        self.known = folder.parent / "dropped" / (name.replace("/", "-") + ".json")
         self.root, self.mutants = make_nodes(source, name, places, first_number)
         self.constants = [c for c in constants if self._holds_mutant(c)]
-        self.rendering = None
+        self.rendering = Rendering(self.source, self.root, self.constants)
+        self.begin = hashlib.sha256(self.rendering.text.encode("latin-1")).hexdigest()
+        self._take_out_known()
         self.write()
+
+    def _take_out_known(self):
+        """What did not compile the last time, if the file is the same."""
+        if not self.known.exists():
+            return
+        begin, dropped, constants = json.loads(self.known.read_text())
+        if begin != self.begin:
+            return
+        for mutant in self.mutants:
+            mutant.dropped = mutant.number in dropped
+        self.constants = [c for c in self.constants if c.name in constants]
 
     def _holds_mutant(self, constant, node=None):
         return any(constant.at < n.start < constant.end or self._holds_mutant(constant, n)
@@ -199,8 +215,17 @@ class Planted:
 
     def write(self):
         self.rendering = Rendering(self.source, self.root, self.constants)
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        self.path.write_bytes(self.rendering.text.encode("latin-1"))
+        text = self.rendering.text.encode("latin-1")
+        if not self.path.exists() or self.path.read_bytes() != text:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            self.path.write_bytes(text)
+        self.known.parent.mkdir(parents=True, exist_ok=True)
+        self.known.write_text(json.dumps([self.begin, [m.number for m in self.mutants if m.dropped],
+                                          [c.name for c in self.constants]]))
+
+    def is_named_in(self, errors):
+        """The compiler may name the file from another folder."""
+        return f"/source/{self.name}:" in errors
 
     def repair(self, errors):
         """Takes out what the compiler's `errors` are about. Returns whether there was something."""
@@ -216,7 +241,7 @@ class Planted:
         return bool(firm or blamed)
 
     def _blamed(self, errors):
-        pattern = re.escape(str(self.path)) + r":(\d+):(\d+): +(error|required)"
+        pattern = re.escape(f"/source/{self.name}") + r":(\d+):(\d+): +(error|required)"
         places = re.findall(pattern, errors)
         kinds = {kind for _, _, kind in places}
         wanted = "error" if "error" in kinds else "required"
