@@ -87,11 +87,9 @@ void RecordReader::read(const Json& json, const std::string& place, std::int64_t
   // What every reader of JSON holds exactly; sums and differences of such counts fit too.
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
   expect(json.is_number_integer(), "a whole number", json, place);
-  const bool fits = json.is_number_unsigned()
-                        ? json.get<std::uint64_t>() <= static_cast<std::uint64_t>(kMost)
-                        : json.get<std::int64_t>() >= -kMost;
+  value = json.get<std::int64_t>();  // Negative for what is beyond 63 bits.
+  const bool fits = value >= (json.is_number_unsigned() ? 0 : -kMost) && value <= kMost;
   expect(fits, "a whole number of 53 bits", json, place);
-  value = json.get<std::int64_t>();
 }
 
 void RecordReader::read(const Json& json, const std::string& place, int& value) const {

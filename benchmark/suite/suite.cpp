@@ -57,7 +57,8 @@ SequenceRequest absolute_place(const SequenceRequest& place) {
   const auto make_absolute = [&](const std::filesystem::path& path) {
     std::error_code error;
     const auto made = std::filesystem::absolute(path, error);
-    return error ? path : made.lexically_normal();
+    if (!error) return made.lexically_normal();
+    throw DataError(path.string() + ": where it is cannot be told (" + error.message() + ").");
   };
   if (!is_built_in(place.path)) absolute.path = make_absolute(place.path).string();
   SequenceOptions& options = absolute.options;

@@ -104,13 +104,13 @@ std::uintmax_t plain_file_size(const fs::path& path) {
 
 std::vector<fs::path> entries_of(const fs::path& folder) {
   std::vector<fs::path> entries;
-  std::error_code error;
-  fs::directory_iterator at(folder, error);
-  for (; !error && at != fs::directory_iterator(); at.increment(error)) {
-    entries.push_back(at->path());
-  }
-  if (error) {
-    throw UnreadableError(folder.string() + ": cannot be listed (" + error.message() + ").");
+  // The forms that take an error_code end the program if they have no memory.
+  try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      entries.push_back(entry.path());
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw UnreadableError(folder.string() + ": cannot be listed (" + error.code().message() + ").");
   }
   std::sort(entries.begin(), entries.end());
   return entries;

@@ -30,7 +30,8 @@ class Draw {
   int below(int end) { return std::uniform_int_distribution(0, end - 1)(random_); }
   bool flip() { return below(2) == 0; }
   std::int64_t count() {
-    return std::uniform_int_distribution<std::int64_t>()(random_) >> below(63);
+    // At most 53 bits, which every reader of JSON holds.
+    return std::uniform_int_distribution<std::int64_t>()(random_) >> (10 + below(53));
   }
   /// Any finite number, also a negative zero or one with an exponent.
   double number() {
