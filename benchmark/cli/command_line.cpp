@@ -86,6 +86,14 @@ int write_plain(std::string_view line) {
   return static_cast<int>(ExitCode::kCannotDo);
 }
 
+std::atomic<bool> memory_ran_out = false;
+
+/// Remembers what `end_with_words` may not be told: std::terminate often has no exception at hand.
+[[noreturn]] void on_no_memory() {
+  memory_ran_out = true;
+  throw std::bad_alloc();
+}
+
 int show_error(const std::string& message, ExitCode code) {
   const char* internal = code == ExitCode::kInternal ? "internal error, please report it: " : "";
   std::fprintf(stderr, "%s %s%s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
@@ -98,6 +106,7 @@ int show_error(const std::string& message, ExitCode code) {
 [[noreturn]] void end_with_words() {
   try {
     if (std::current_exception()) std::rethrow_exception(std::current_exception());
+    if (memory_ran_out) ::_exit(write_plain(kNoMemory));
     show_error("std::terminate was called", ExitCode::kInternal);
   } catch (const std::bad_alloc&) {
     ::_exit(write_plain(kNoMemory));
@@ -121,6 +130,7 @@ void raise_limit_of_open_files() {
 
 /// @param methods null for the built-in ones
 int run_with_words(int argc, const char* const* argv, const MethodRegistry* methods) {
+  std::set_new_handler(on_no_memory);
   std::set_terminate(end_with_words);
   // A file that outgrows its limit is then an error of writing, like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);

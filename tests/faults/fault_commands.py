@@ -115,6 +115,8 @@ COMMANDS = [
             {"world.json": "world.json", "sensor.json": "sensor.json"}, once=True),
     Command("report", ["report", "../base/run", "-o", "page.html", "--threads", "1", "--quiet"],
             {}),
+    Command("picture", ["picture", "../base/run", "--kind", "map", "-o", "map.png", "--threads",
+                        "1", "--quiet"], {}),
     Command("compare", ["compare", "../base/run", "../base/half.json", "--format", "json", "-o",
                         "moved.json"], {}),
 ]
