@@ -133,8 +133,9 @@ bool starts(const char* text, const char* begin) {
 /// Whether a path is none of the system's.
 bool is_ours(const char* path) {
   if (starts(path, "/dev/shm/")) return true;
-  for (const char* foreign : {"/proc/", "/sys/", "/dev/", "/usr/", "/lib", "/etc/", "/run/"}) {
-    if (starts(path, foreign)) return false;
+  for (const char* foreign : {"/proc", "/sys", "/dev", "/usr", "/lib", "/lib64", "/etc", "/run"}) {
+    const char end = starts(path, foreign) ? path[strlen(foreign)] : 'x';
+    if (end == '/' || end == '\0') return false;
   }
   return path[0] != '\0';
 }
