@@ -6,10 +6,12 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <exception>
 #include <optional>
 #include <set>
 #include <system_error>
 
+#include "core/files/file_kind.h"
 #include "core/files/part_name.h"
 #include "core/process/child_process.h"
 #include "core/progress.h"
@@ -27,9 +29,9 @@ std::set<fs::path> unfinished(const CleanPaths& paths) {
     if (output.empty()) continue;
     const fs::path whole = fs::absolute(output).lexically_normal();
     const fs::path named = whole.has_filename() ? whole : whole.parent_path();
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(named.parent_path(), error)) {
-      if (name_of_part(entry.path()) == named.filename()) found.insert(entry.path());
+    if (!is_folder(named.parent_path())) continue;
+    for (const fs::path& entry : entries_of(named.parent_path())) {
+      if (name_of_part(entry) == named.filename()) found.insert(entry);
     }
   }
   return found;
@@ -41,6 +43,17 @@ class LeftOvers {
   explicit LeftOvers(const CleanPaths& paths)
       : paths_(paths), before_(unfinished(paths)), had_labels_(has_labels()) {}
   ~LeftOvers() {
+    try {
+      remove();
+    } catch (const std::exception&) {
+      // What cannot be found now stays under a name that tells what it is.
+    }
+  }
+  LeftOvers(const LeftOvers&) = delete;
+  LeftOvers& operator=(const LeftOvers&) = delete;
+
+ private:
+  void remove() const {
     // The child was ended between two renames: what was there has another name and is the user's.
     if (has_labels() != had_labels_) return;
     std::error_code ignored;
@@ -49,13 +62,8 @@ class LeftOvers {
     }
     remove_abandoned_working_folders();
   }
-  LeftOvers(const LeftOvers&) = delete;
-  LeftOvers& operator=(const LeftOvers&) = delete;
-
- private:
   [[nodiscard]] bool has_labels() const {
-    std::error_code ignored;
-    return !paths_.labels.empty() && fs::exists(paths_.labels, ignored);
+    return !paths_.labels.empty() && is_there(paths_.labels);
   }
   const CleanPaths& paths_;
   std::set<fs::path> before_;
