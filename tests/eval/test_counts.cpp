@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What counts where: small scenes for counts, frames and warnings of all protocols.
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <set>
 
 #include "core/error.h"
@@ -303,6 +304,27 @@ TEST_CASE("a point of a scan is in a cloud up to 5 cm away", "[counts][cloud]") 
   // Asked for with another distance, the masks are others.
   CHECK(estimate.masks(sequence.input(), 0.05).get(0) == Mask{0, 1, 1});
   CHECK(estimate.masks(sequence.input(), 0.07).get(0) == Mask{0, 0, 1});
+}
+
+TEST_CASE("each pass over the scans is told with its number of scans", "[counts]") {
+  const LabelledScan scan = row_with({{40, false}, {252, true}});
+  const MemorySequence sequence({scan, scan, scan});
+  std::FILE* told = std::tmpfile();
+  REQUIRE(told != nullptr);
+  Progress progress(ProgressStyle::kTerminal, told);
+  EvaluationInput input = sequence.input();
+  input.progress = &progress;
+  (void)score_by("erasor", input, sequence.masks());
+  (void)score_by("dynamicmap", input, sequence.masks());
+  std::rewind(told);
+  std::string text(4096, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), told));
+  std::fclose(told);
+  for (const char* task : {"ground truth map: 0 of 3", "estimated map: 0 of 3",
+                           "ground truth points: 0 of 3", "points that are gone: 0 of 3"}) {
+    CHECK_THAT(text, Catch::Contains(task));
+  }
+  CHECK_THAT(text, Catch::EndsWith("\r\x1b[K"));  // The last line is cleared.
 }
 
 TEST_CASE("the frame of ERASOR's map tool has the axes forward, left and up", "[counts][frame]") {
