@@ -82,8 +82,8 @@ double parse_positive(const std::string& option, const std::string& text);
 /// Set to true by the first Ctrl-C; a second one ends the program at once.
 const std::atomic<bool>& interrupt_flag();
 
-/// Prints to standard output. @throws DataError if it cannot be written (a full disk, a closed
-/// pipe)
+/// Prints to standard output, as `terminal_text`: names and reasons in it may be other people's.
+/// @throws DataError if it cannot be written (a full disk, a closed pipe)
 void print(const std::string& text);
 
 }  // namespace raymoval

@@ -57,8 +57,7 @@ ExitCode run_program(int argc, const char* const* argv) {
 }
 
 ExitCode show_error(const std::string& message, ExitCode code) {
-  std::fprintf(stderr, "%s %s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
-               message.c_str());
+  print_error(coloured("raymoval:", TerminalColour::kBad, stderr) + " " + message);
   return code;
 }
 
@@ -77,7 +76,8 @@ const std::atomic<bool>& interrupt_flag() {
   return interrupted;
 }
 
-void print(const std::string& text) {
+void print(const std::string& whole) {
+  const std::string text = terminal_text(whole, stdout);
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0) {
     throw DataError("standard output cannot be written (a full disk or a closed pipe?).");
