@@ -70,18 +70,23 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
 }
 
 ExitCode answer_of(const ChildEnd& end, double limit_mib) {
+  if (asking_signal(end) != 0) {
+    throw DataError(fmt::format("cleaning was ended from outside by {}. Nothing was written.",
+                                signal_text(asking_signal(end))));
+  }
   switch (end.kind) {
     case ChildEnd::Kind::kNotStarted:
       throw DataError(not_started_text(end.code));
     case ChildEnd::Kind::kCancelled:
-    case ChildEnd::Kind::kTimeout:  // There is no limit on time.
+    case ChildEnd::Kind::kTimeout:    // There is no limit on time,
+    case ChildEnd::Kind::kOutOfDisk:  // and none on its folder.
       throw Cancelled();
     case ChildEnd::Kind::kOutOfMemory:
       throw DataError(fmt::format(
           "cleaning took more than {:.0f} MiB of memory (see --memory-limit) and was ended. "
           "Nothing "
-          "was written. Choose fewer --frames, a larger --voxel, or a method that needs less.",
-          limit_mib));
+          "was written. Choose fewer --frames, a larger --voxel, or a method that needs less.{}",
+          limit_mib, end.memory_note));
     case ChildEnd::Kind::kSignalled:
       if (end.code == SIGKILL) {
         throw DataError(fmt::format(

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "core/files/part_name.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <fstream>
 #include <random>
 #include <string>
+
+#include "core/files/files.h"
 
 namespace raymoval {
 namespace {
@@ -11,8 +19,44 @@ namespace {
 constexpr std::string_view kMark = ".raymoval-";
 constexpr std::string_view kEnd = ".part";
 constexpr std::string_view kDigits = "0123456789abcdef";
+constexpr std::size_t kKernelDigits = 8;
 constexpr std::size_t kRandomDigits = 16;
-constexpr std::size_t kTail = kMark.size() + kRandomDigits + kEnd.size();
+constexpr std::size_t kAllDigits = kKernelDigits + kRandomDigits;
+constexpr std::size_t kTail = kMark.size() + kAllDigits + kEnd.size();
+
+/// Digits that the running kernel has since its start; containers of one machine share it. Empty if
+/// the system does not tell.
+const std::string& running_kernel() {
+  static const std::string digits = [] {
+    std::ifstream boot("/proc/sys/kernel/random/boot_id");
+    std::string text;
+    return std::getline(boot, text) ? content_hash(text).substr(0, kKernelDigits) : "";
+  }();
+  return digits;
+}
+
+/// The digits of a part name; empty if it has another form.
+std::string digits_of(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  if (name.size() <= kTail) return "";
+  const std::string_view tail = std::string_view(name).substr(name.size() - kTail);
+  if (!tail.starts_with(kMark) || !tail.ends_with(kEnd)) return "";
+  const std::string_view digits = tail.substr(kMark.size(), kAllDigits);
+  if (digits.find_first_not_of(kDigits) != std::string_view::npos) return "";
+  return std::string(digits);
+}
+
+bool locks(int file) {
+  return ::flock(file, LOCK_EX | LOCK_NB) == 0;
+}
+
+/// Whether what was made is locked and still there: somebody may have taken it for abandoned before
+/// it was locked. A file system without locks lets nobody take it.
+bool is_kept(int file) {
+  if (!locks(file) && errno == EWOULDBLOCK) return false;
+  struct stat status {};
+  return ::fstat(file, &status) == 0 && status.st_nlink > 0;
+}
 
 }  // namespace
 
@@ -20,23 +64,54 @@ std::filesystem::path new_part_name(const std::filesystem::path& path) {
   std::random_device random;  // From the system: not from time or process number.
   std::string name = (path.has_filename() ? path : path.parent_path()).string();
   name += kMark;
+  name += running_kernel().empty() ? std::string(kKernelDigits, '0') : running_kernel();
   for (std::size_t i = 0; i < kRandomDigits; ++i) name += kDigits[random() & 15U];
   name += kEnd;
   return name;
 }
 
 std::filesystem::path name_of_part(const std::filesystem::path& path) {
+  if (digits_of(path).empty()) return {};
   const std::string name = path.filename().string();
-  if (name.size() <= kTail) return {};
-  const std::string_view tail = std::string_view(name).substr(name.size() - kTail);
-  if (!tail.starts_with(kMark) || !tail.ends_with(kEnd)) return {};
-  const std::string_view digits = tail.substr(kMark.size(), kRandomDigits);
-  if (digits.find_first_not_of(kDigits) != std::string_view::npos) return {};
   return name.substr(0, name.size() - kTail);
 }
 
 bool is_part_name(const std::filesystem::path& path) {
-  return !name_of_part(path).empty();
+  return !digits_of(path).empty();
+}
+
+Part new_part_file(const std::filesystem::path& target, mode_t mode) {
+  constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  while (true) {
+    Part part{new_part_name(target)};
+    part.held = Descriptor(::open(part.place.c_str(), kFlags, mode));
+    if (!part.held.valid() || is_kept(part.held.get())) return part;
+  }
+}
+
+Part new_part_folder(const std::filesystem::path& target) {
+  while (true) {
+    Part part{new_part_name(target)};
+    if (::mkdir(part.place.c_str(), 0777) != 0) return part;
+    part.held =
+        Descriptor(::open(part.place.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (!part.held.valid()) {
+      const int reason = errno;
+      ::rmdir(part.place.c_str());
+      errno = reason;
+      return part;
+    }
+    if (is_kept(part.held.get())) return part;
+  }
+}
+
+Descriptor take_abandoned_part(const std::filesystem::path& part) {
+  const std::string& kernel = running_kernel();
+  if (kernel.empty() || !digits_of(part).starts_with(kernel)) return Descriptor();
+  constexpr int kFlags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  Descriptor opened(::open(part.c_str(), kFlags));
+  if (opened.valid() && locks(opened.get())) return opened;
+  return Descriptor();
 }
 
 }  // namespace raymoval

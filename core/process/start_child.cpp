@@ -12,7 +12,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <utility>
 
 #include "core/process/process_family.h"
@@ -65,15 +64,16 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 /// All that the child needs between fork and exec, where it may not allocate memory.
 struct Prepared {
-  std::string program, folder;
+  std::string program, folder, oom_score;
   std::vector<std::string> arguments, environment;
   std::vector<char*> argument_pointers, environment_pointers;
   std::vector<std::pair<int, int>> descriptors;
   std::vector<int> spare;
 
-  Prepared(const ChildSetup& setup, const std::string& mark)
+  Prepared(const ChildSetup& setup, const std::string& mark, int oom_score_adj)
       : program(setup.program),
         folder(setup.folder.string()),
+        oom_score(std::to_string(oom_score_adj)),
         arguments(setup.arguments),
         environment(environment_of(setup, mark)),
         argument_pointers(pointers_to(arguments)),
@@ -106,6 +106,13 @@ void place_descriptors(Prepared& prepared, int output) {
   }
 }
 
+/// All that the child starts inherits it, from the first process on.
+void set_oom_score(const std::string& score) {
+  const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  (void)!::write(file, score.data(), score.size());
+  ::close(file);
+}
+
 /// Only calls that are safe between fork and exec. Writes the reason to `report` if exec fails.
 [[noreturn]] void become_child(Prepared& prepared, int output, int report, pid_t parent) {
   ::setsid();
@@ -114,6 +121,7 @@ void place_descriptors(Prepared& prepared, int output) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
+  set_oom_score(prepared.oom_score);
   reset_signals();
   const int kept_report = ::fcntl(report, F_DUPFD_CLOEXEC, kFirstSpare);
   place_descriptors(prepared, output);
@@ -126,11 +134,6 @@ void place_descriptors(Prepared& prepared, int output) {
   ::_exit(127);
 }
 
-/// Lets the system end the child and not this process when memory runs out.
-void offer_to_oom_killer(pid_t child) {
-  std::ofstream(fmt::format("/proc/{}/oom_score_adj", child)) << "800";
-}
-
 /// Waits until exec has worked. @return 0, or the system's error number
 int reason_of_failure(int report) {
   int reason = 0;
@@ -141,10 +144,10 @@ int reason_of_failure(int report) {
 
 }  // namespace
 
-StartedChild start_child(const ChildSetup& setup) {
+StartedChild start_child(const ChildSetup& setup, int oom_score_adj) {
   StartedChild child;
   child.mark = new_mark();
-  Prepared prepared(setup, child.mark);
+  Prepared prepared(setup, child.mark, oom_score_adj);
   Pipe output, report;
   const pid_t parent = ::getpid();
   const bool ready = output.input.valid() && report.input.valid();
@@ -157,7 +160,6 @@ StartedChild start_child(const ChildSetup& setup) {
     become_child(prepared, output.input.get(), report.input.get(), parent);
   }
   report.input.close();
-  offer_to_oom_killer(child.process);
   child.output = std::move(output.output);
   child.reason = reason_of_failure(report.output.get());
   if (child.reason == 0) return child;

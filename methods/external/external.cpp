@@ -70,7 +70,7 @@ class External : public Remover {
     const StageScope timed(context.times, "program");
     context.begin_pass("program", 1);
     run_program({command_line(manifest_), folder, environment_for(context.threads),
-                 time_limit_s(scans), context.cancel});
+                 time_limit_s(scans), manifest_.disk_limit_gib, context.cancel});
     context.advance();
   }
 

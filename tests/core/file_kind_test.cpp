@@ -119,8 +119,8 @@ TEST_CASE("Temporary names are new each time and have a form of their own") {
   CHECK(name_of_part(new_part_name("out/run/")) == "run");
   for (const char* other :
        {"film.mkv.part", "thesis.part", "table.md.123.part", "removals.part", ".part",
-        ".raymoval-0123456789abcdef.part", "a.raymoval-0123456789abcdeX.part",
-        "a.raymoval-0123456789abcde.part", "a.raymoval-0123456789abcdef.part.gz"}) {
+        ".raymoval-0123456789abcdef01234567.part", "a.raymoval-0123456789abcdef0123456X.part",
+        "a.raymoval-0123456789abcdef0123456.part", "a.raymoval-0123456789abcdef01234567.part.gz"}) {
     CHECK_FALSE(is_part_name(other));
   }
 }

@@ -190,6 +190,8 @@ Sequence KeptRun::open(const std::string& sequence, const OpenContext& context) 
       return open_at(at, sequence, place, context);
     } catch (const Cancelled&) {
       throw;
+    } catch (const UnreadableError&) {
+      throw;
     } catch (const OtherData& error) {
       problem = error.what();
     } catch (const Error& error) {
