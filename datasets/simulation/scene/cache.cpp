@@ -43,6 +43,23 @@ std::string identity(const SimulationOptions& options, const simulated::NamedTex
   return hasher.digest();
 }
 
+/// Where a scene stands in the cache, and what makes it the one that is asked for.
+struct CachePlace {
+  std::string identity;
+  fs::path folder;
+};
+
+CachePlace place_of(const SimulationOptions& options, const fs::path& cache_root) {
+  const simulated::NamedText world = simulated::find_world(options.scene);
+  const simulated::WorldFile file = simulated::parse_world(world);
+  const simulated::NamedText sensor =
+      simulated::find_sensor(options.sensor.empty() ? file.sensor : options.sensor);
+  const std::size_t scans =
+      options.scans > 0 ? options.scans : static_cast<std::size_t>(file.scans);
+  const std::string whole = identity(options, world, sensor, scans);
+  return {whole, cache_root / "simulated" / (world.name + "-" + whole.substr(0, 16))};
+}
+
 const char* set_variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value != '\0' ? value : nullptr;
@@ -130,17 +147,9 @@ fs::path default_cache_root() {
 fs::path cached_simulation(const SimulationOptions& options, const fs::path& cache_root,
                            int threads, Progress* progress, const std::atomic<bool>* cancel,
                            bool check_content) {
-  const simulated::NamedText world = simulated::find_world(options.scene);
-  const simulated::WorldFile file = simulated::parse_world(world);
-  const simulated::NamedText sensor =
-      simulated::find_sensor(options.sensor.empty() ? file.sensor : options.sensor);
-  const std::size_t scans =
-      options.scans > 0 ? options.scans : static_cast<std::size_t>(file.scans);
-  const std::string whole_identity = identity(options, world, sensor, scans);
-  const simulated::SceneWriting writing{options, whole_identity, threads, progress, cancel};
-  const CachedScene scene{
-      writing, cache_root / "simulated" / (world.name + "-" + whole_identity.substr(0, 16)),
-      check_content};
+  const CachePlace place = place_of(options, cache_root);
+  const simulated::SceneWriting writing{options, place.identity, threads, progress, cancel};
+  const CachedScene scene{writing, place.folder, check_content};
   if (has_folder(scene.folder)) {
     const std::string problem = scene.problem();
     if (problem.empty()) return scene.folder;
@@ -149,6 +158,12 @@ fs::path cached_simulation(const SimulationOptions& options, const fs::path& cac
   }
   make_scene(scene);
   return scene.folder;
+}
+
+bool is_cached(const SimulationOptions& options, const fs::path& cache_root) {
+  const CachePlace place = place_of(options, cache_root);
+  return has_folder(place.folder) &&
+         simulated::scene_folder_problem(place.folder, place.identity, false, 1).empty();
 }
 
 }  // namespace raymoval

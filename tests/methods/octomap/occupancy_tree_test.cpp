@@ -82,7 +82,8 @@ TEST_CASE("the tree is node for node that of insertPointCloud") {
 TEST_CASE("a map kept to some cells has the same values there, and nothing else") {
   const Parameters parameters;
   toy::HandMap whole(parameters);
-  ScanCells cells(parameters, 1);
+  const RunContext context;
+  ScanCells cells(parameters, context);
   OccupancyTree kept(parameters);
   const CellLattice lattice(parameters.resolution);
   CellBlocks wanted;
@@ -212,4 +213,14 @@ TEST_CASE("the reader gives the node that a search gives") {
   }
   CHECK(known > 2000);
   CHECK(known < 18000);
+}
+
+TEST_CASE("a wish to stop is heard within a scan") {
+  const std::atomic<bool> cancel = true;
+  RunContext context;
+  context.cancel = &cancel;
+  const Parameters parameters;
+  ScanCells cells(parameters, context);
+  const std::vector<octomap::point3d> points = {{3.0F, 0.0F, 0.0F}};
+  CHECK_THROWS_AS(cells.compute(points, {PointRole::kSurface}, {0.0F, 0.0F, 0.0F}), Cancelled);
 }
