@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files/fields.h"
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
@@ -104,7 +105,10 @@ void check_settings(const SequenceSettings& settings) {
 std::string folder_name(const std::filesystem::path& folder) {
   std::error_code error;
   const auto whole = std::filesystem::weakly_canonical(folder, error);
-  const auto name = error ? folder.filename() : whole.filename();
+  if (error) {
+    throw UnreadableError(folder.string() + ": cannot be looked at (" + error.message() + ").");
+  }
+  const auto name = whole.filename();
   return name.empty() ? "sequence" : name.string();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/harness.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,9 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
+#include <string_view>
+#include <system_error>
 
 #include "benchmark/cli/command.h"
 #include "core/terminal_colour.h"
@@ -66,16 +70,87 @@ ExitCode run_program(int argc, const char* const* argv) {
     commands.push_back(add(program));
   }
   const std::string chosen = program.parse(argc, argv);
+  if (chosen.empty()) print(program.answer());
   for (const Command& command : commands) {
     if (command.name == chosen) return command.run();
   }
   return ExitCode::kDone;
 }
 
-ExitCode show_error(const std::string& message, ExitCode code) {
-  std::fprintf(stderr, "%s %s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
-               message.c_str());
-  return code;
+constexpr std::string_view kNoMemory =
+    "raymoval: there was not enough memory. Choose fewer --frames, or end other programs.\n";
+
+/// Writes to standard error without memory. @return the exit code for it
+int write_plain(std::string_view line) {
+  [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, line.data(), line.size());
+  return static_cast<int>(ExitCode::kCannotDo);
+}
+
+int show_error(const std::string& message, ExitCode code) {
+  const char* internal = code == ExitCode::kInternal ? "internal error, please report it: " : "";
+  std::fprintf(stderr, "%s %s%s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
+               internal, message.c_str());
+  return static_cast<int>(code);
+}
+
+/// What leads here was thrown where nothing may be thrown, such as in a library that has no memory
+/// left. Destructors are not run: what is half written has no final name.
+[[noreturn]] void end_with_words() {
+  try {
+    if (std::current_exception()) std::rethrow_exception(std::current_exception());
+    show_error("std::terminate was called", ExitCode::kInternal);
+  } catch (const std::bad_alloc&) {
+    ::_exit(write_plain(kNoMemory));
+  } catch (const std::exception& error) {
+    show_error(error.what(), ExitCode::kInternal);
+  } catch (...) {
+    show_error("something was thrown that is no error", ExitCode::kInternal);
+  }
+  ::_exit(static_cast<int>(ExitCode::kInternal));
+}
+
+/// A low limit of open files is often only a default, which may be raised. A program that is
+/// started from here gets the raised limit too.
+void raise_limit_of_open_files() {
+  constexpr rlim_t kEnough = 1024;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= kEnough) return;
+  limit.rlim_cur = std::min(limit.rlim_max, kEnough);
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+/// @param methods null for the built-in ones
+int run_with_words(int argc, const char* const* argv, const MethodRegistry* methods) {
+  std::set_terminate(end_with_words);
+  // A file that outgrows its limit is then an error of writing, like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  raise_limit_of_open_files();
+  try {
+    std::optional<MethodRegistry> built_in;
+    if (methods == nullptr) methods = &built_in.emplace(MethodRegistry::built_in());
+    known_methods = methods;
+    given_arguments.assign(argv + std::min(argc, 1), argv + argc);
+    return static_cast<int>(run_program(argc, argv));
+  } catch (const std::bad_alloc&) {
+    return write_plain(kNoMemory);
+  } catch (const Error& error) {
+    return show_error(error.what(), error.exit_code());
+  } catch (const std::system_error& error) {
+    return show_error(std::string("the system refuses something: ") + error.what(),
+                      ExitCode::kCannotDo);
+  } catch (const std::exception& error) {
+    return show_error(error.what(), ExitCode::kInternal);
+  } catch (...) {
+    return show_error("something was thrown that is no error", ExitCode::kInternal);
+  }
+}
+
+/// The exit code after a command that a signal may have stopped.
+int answer_to_caller(int code) {
+  const int signal = interrupting_signal.load();
+  // What was done all the same, just before it could be stopped, is done.
+  return signal == 0 || code == static_cast<int>(ExitCode::kDone) ? code
+                                                                  : exit_code_of_signal(signal);
 }
 
 }  // namespace
@@ -107,26 +182,11 @@ void print(const std::string& text) {
 }
 
 int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods) {
-  known_methods = &methods;
-  given_arguments.assign(argv + std::min(argc, 1), argv + argc);
-  // A file that outgrows its limit is then an error of writing, like a full disk.
-  std::signal(SIGXFSZ, SIG_IGN);
-  ExitCode code = ExitCode::kInternal;
-  try {
-    code = run_program(argc, argv);
-  } catch (const std::bad_alloc&) {
-    code = show_error("there was not enough memory. Choose fewer --frames.", ExitCode::kCannotDo);
-  } catch (const std::exception& error) {
-    const auto* known = dynamic_cast<const Error*>(&error);
-    code = known == nullptr ? ExitCode::kInternal : known->exit_code();
-    const bool internal = code == ExitCode::kInternal;
-    show_error((internal ? "internal error, please report it: " : "") + std::string(error.what()),
-               code);
-  }
-  const int signal = interrupting_signal.load();
-  // What was done all the same, just before it could be stopped, is done.
-  if (signal != 0 && code != ExitCode::kDone) return exit_code_of_signal(signal);
-  return static_cast<int>(code);
+  return answer_to_caller(run_with_words(argc, argv, &methods));
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  return answer_to_caller(run_with_words(argc, argv, nullptr));
 }
 
 }  // namespace raymoval

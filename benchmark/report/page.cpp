@@ -10,6 +10,7 @@
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/suite/suite.h"
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -30,6 +31,8 @@ std::vector<SceneCell> scene_cells(const KeptRun& run, const Sequence& sequence,
     try {
       cells.push_back({kept->name, kept->control, run.masks(*kept, sequence), kept->removals,
                        read_reason_sentences(kept->removals)});
+    } catch (const UnreadableError&) {
+      throw;
     } catch (const DataError& error) {
       warnings.push_back(error.what());
     }
@@ -80,6 +83,8 @@ Points collect_points(const PageRequest& request) {
     try {
       add_scene(request, name, point_limit(request, sequences, name), points);
     } catch (const Cancelled&) {
+      throw;
+    } catch (const UnreadableError&) {
       throw;
     } catch (const Error& error) {  // The rest of the report is no worse for it.
       if (request.points_needed) throw;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <new>
 
 #include "benchmark/suite/suite_json.h"
 
@@ -83,9 +84,13 @@ void RecordReader::read(const Json& json, const std::string& place, std::uint64_
 }
 
 void RecordReader::read(const Json& json, const std::string& place, std::int64_t& value) const {
-  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  const bool fits = !json.is_number_unsigned() || json.get<std::uint64_t>() <= kMost;
-  expect(json.is_number_integer() && fits, "a whole number", json, place);
+  // What every reader of JSON holds exactly; sums and differences of such counts fit too.
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  expect(json.is_number_integer(), "a whole number", json, place);
+  const bool fits = json.is_number_unsigned()
+                        ? json.get<std::uint64_t>() <= static_cast<std::uint64_t>(kMost)
+                        : json.get<std::int64_t>() >= -kMost;
+  expect(fits, "a whole number of 53 bits", json, place);
   value = json.get<std::int64_t>();
 }
 
@@ -136,6 +141,8 @@ void RecordReader::read(const Json& json, const std::string& place, ParameterVal
 void RecordReader::read(const Json& json, const std::string& place, SequenceRequest& value) const {
   try {
     value = place_from(json);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     fail(place, error.what());
   }

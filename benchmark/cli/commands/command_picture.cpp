@@ -12,6 +12,7 @@
 #include "benchmark/picture/maps/overview_picture.h"
 #include "benchmark/picture/maps/range_picture.h"
 #include "benchmark/run/folder/kept_run.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/text.h"
 
@@ -169,9 +170,9 @@ ExitCode draw(const PictureFlags& flags) {
   Progress progress(flags.work.style());
   try {
     if (is_chart(flags.kind)) {
-      write_chart(flags.output, charted(flags));
+      write_chart(output_target(flags.output), charted(flags));
     } else {
-      write_png(flags.output, drawn(flags, progress));
+      write_png(output_target(flags.output), drawn(flags, progress));
     }
   } catch (...) {
     progress.end();

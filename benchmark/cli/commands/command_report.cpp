@@ -7,6 +7,8 @@
 #include "benchmark/result/checks/result_sets.h"
 #include "benchmark/run/folder/kept_run.h"
 #include "benchmark/tables/published_columns.h"
+#include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/text.h"
 
@@ -50,6 +52,8 @@ bool with_points(const ReportFlags& flags) {
 std::vector<OutsideColumn> papers() {
   try {
     return published_columns();
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const DataError&) {
     return {};
   }
@@ -96,8 +100,8 @@ ExitCode report(const ReportFlags& flags) {
   for (const std::string& warning : page.warnings) {
     std::fprintf(stderr, "raymoval: left out of the 3-D view: %s\n", warning.c_str());
   }
-  const std::filesystem::path output = flags.output.empty() ? results.parent_path() / "report.html"
-                                                            : std::filesystem::path(flags.output);
+  const std::filesystem::path output =
+      flags.output.empty() ? results.parent_path() / "report.html" : output_target(flags.output);
   write_atomically(output, page.html);
   print("wrote " + output.string() + " (" + size_text(page.html.size()) + ")\n");
   return ExitCode::kDone;

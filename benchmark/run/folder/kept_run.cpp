@@ -161,6 +161,8 @@ Sequence KeptRun::open(const std::string& sequence, const OpenContext& context) 
                 "run again.";
     } catch (const Cancelled&) {
       throw;
+    } catch (const UnreadableError&) {
+      throw;
     } catch (const Error& error) {
       if (problem.empty()) problem = error.what();
     }
