@@ -27,7 +27,12 @@ wait_for_name() {
   until compgen -G "$1" >/dev/null || ! kill -0 $process 2>/dev/null; do sleep 0.02; done
   holds "$1 came" compgen -G "$1"
 }
-child_of() { ps -o pid= --ppid "$1" | head -1 | tr -d ' '; }
+child_of() { pgrep -P "$1" | head -1; }
+wait_for_child() {
+  until child=$(child_of $process) && [[ -n $child ]] || ! kill -0 $process 2>/dev/null; do
+    sleep 0.02
+  done
+}
 # parts: files and folders that are not finished.
 parts() { find . -name '*.part' -o -name '*.lock' -o -name 'raymoval-external*'; }
 nothing_left() {
@@ -47,8 +52,8 @@ no_sleepers() {
 }
 
 slow=(--method comb --set comb.milliseconds=1000 --quiet)
-clean=(clean street "${slow[@]}" -o map.pcd --dynamic removed.pcd --labels labels)
-run=(run --sequence street --frames 0:5 "${slow[@]}" --out run)
+clean=(clean street --frames 0:2 "${slow[@]}" -o map.pcd --dynamic removed.pcd --labels labels)
+run=(run --sequence street --frames 0:2 "${slow[@]}" --only '*/comb*' --out run)
 for signal in INT TERM HUP; do
   code=$((128 + $(kill -l $signal)))
   begin "${clean[@]}"
@@ -59,7 +64,7 @@ for signal in INT TERM HUP; do
   nothing_left "clean after SIG$signal"
   holds "and no output" test ! -e map.pcd -a ! -e removed.pcd -a ! -e labels
   begin "${run[@]}"
-  wait_for_name run/cells/street/oracle-default/cell.json
+  wait_for_child
   kill -$signal $process
   ends $code "run after SIG$signal"
   holds "it says how to go on" grep -q "the same command goes on" said.txt
@@ -73,19 +78,20 @@ for signal in INT TERM HUP; do
 done
 
 # A second signal does not wait for anybody: here a method that never looks whether it shall end.
-begin run --sequence street --frames 0:9 "${slow[@]}" --in-process --out alone
-wait_for_name alone/cells/street/oracle-default/cell.json
+begin run --sequence street --frames 0:9 "${slow[@]}" --only '*/comb*' --in-process --out alone
+wait_for_name alone/cells/street/comb-default
 kill -TERM $process
 sleep 0.2
 holds "the first signal is noted" kill -0 $process
 kill -INT $process
 ends 130 "a run after a second signal"
+holds "its lock is left" test -s alone/run.lock
+expect 0 "" run --sequence street --frames 0:2 --method noop --quiet --overwrite --out alone
+holds "and taken over" test ! -e alone/run.lock
 
 # The same for all processes, as a system does it that shuts down: no cell has failed.
-rm -r run
 begin "${run[@]}"
-wait_for_name run/cells/street/oracle-default/cell.json
-until child=$(child_of $process) && [[ -n $child ]]; do sleep 0.02; done
+wait_for_child
 kill -TERM "$child" $process
 ends 143 "a run whose child was ended, too"
 holds "no cell has failed" test ! -e run/cells/street/comb-default/cell.json
@@ -104,7 +110,7 @@ nothing_left "it"
 
 # Who starts a program with a signal ignored wants it to live on.
 (trap '' HUP TERM; exec "$raymoval" run --sequence street --frames 0:2 --method comb --quiet \
-  --set comb.milliseconds=100 --out nohup >out.txt 2>err.txt) &
+  --only '*/comb*' --set comb.milliseconds=100 --out nohup >out.txt 2>err.txt) &
 process=$!
 wait_for_name nohup/cells
 kill -HUP $process

@@ -44,7 +44,7 @@ KEEP = """
 (env -i setsid sh -c 'sleep NAP & wait' >/dev/null 2>&1 &)
 sleep NAP &
 for scan in velodyne/*.bin; do
-  perl -e 'print pack("V", 9) x (-s $ARGV[0] >> 4)' "$scan" \
+  perl -e 'print pack("V", 9) x ((-s $ARGV[0]) / 16)' "$scan" \
     >predictions/$(basename "$scan" .bin).label
 done
 exit 0
@@ -178,6 +178,8 @@ class Job:
             shutil.rmtree(self.place.cache, ignore_errors=True)
 
     def finish(self, folder):
+        if self.name == "simulate" and same(folder / "drive", self.reference / "drive"):
+            return  # It refuses to write where a sequence stands.
         process = self.place.start(self.arguments, folder)
         _, said = process.communicate(timeout=10 * PATIENCE_S)
         if process.returncode != 0:
@@ -296,22 +298,32 @@ def kill_once(place, job, order, tally):
     return [where + problem for problem in problems]
 
 
+def stop(*_):
+    raise KeyboardInterrupt
+
+
 def main():
+    signal.signal(signal.SIGTERM, stop)
     program, count, seed = os.path.abspath(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
     place = Place(program)
     tally = collections.Counter()
     problems = []
     jobs = jobs_in(place)
-    for number in range(count):
-        order = random.Random(f"{seed} {number}")
-        job = jobs[number % len(jobs)]
-        tally[job.name] += 1
-        for problem in kill_once(place, job, order, tally):
-            problems.append(problem)
-            print(f"FAILED: kill {number}: {problem}", flush=True)
+    done = 0
+    try:
+        for number in range(count):
+            order = random.Random(f"{seed} {number}")
+            job = jobs[number % len(jobs)]
+            for problem in kill_once(place, job, order, tally):
+                problems.append(problem)
+                print(f"FAILED: kill {number}: {problem}", flush=True)
+            tally[job.name] += 1
+            done += 1
+    except KeyboardInterrupt:
+        print("interrupted")
     shutil.rmtree(place.root, ignore_errors=True)
     print(", ".join(f"{name}: {number}" for name, number in sorted(tally.items())))
-    print(f"{count} kills with seed {seed}: {len(problems)} problems")
+    print(f"{done} kills with seed {seed}: {len(problems)} problems")
     return 1 if problems else 0
 
 
