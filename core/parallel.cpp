@@ -2,7 +2,7 @@
 #include "core/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -12,6 +12,13 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+#define RAYMOVAL_NOT_WATCHED __attribute__((no_sanitize_thread))
+#else
+#define RAYMOVAL_NOT_WATCHED
+#endif
 
 namespace raymoval {
 
@@ -41,6 +48,50 @@ class FirstError {
   std::size_t chunk_ = 0;
 };
 
+/// Tells ThreadSanitizer, which cannot look into TBB, what TBB puts in order: what is done before a
+/// loop comes before its chunks, and the chunks before what is done after it. Chunks are not put in
+/// order with each other, so that a race between two of them is still found.
+class LoopOrder {
+ public:
+#if defined(__SANITIZE_THREAD__)
+  void loop_begins() {
+    __tsan_release(&begin_);
+  }
+  void chunk_begins() {
+    __tsan_acquire(&begin_);
+  }
+  void chunk_ends() {
+    __tsan_release(&end_);
+  }
+  void loop_ends() {
+    __tsan_acquire(&end_);
+  }
+
+ private:
+  char begin_ = 0, end_ = 0;
+#else
+  static void loop_begins() {}
+  static void chunk_begins() {}
+  static void chunk_ends() {}
+  static void loop_ends() {}
+#endif
+};
+
+/// What TBB copies and calls. Its own reads come before `chunk_begins`, so they are not watched.
+template <class RunChunk>
+struct LoopBody {
+  const RunChunk* run_chunk;
+  LoopOrder* order;
+
+  RAYMOVAL_NOT_WATCHED void operator()(const tbb::blocked_range<std::size_t>& range) const {
+    for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
+      order->chunk_begins();
+      (*run_chunk)(chunk);
+      order->chunk_ends();
+    }
+  }
+};
+
 /// Runs `work` with at most `threads` threads. An arena that is kept finds its threads still awake
 /// when one short loop follows another; a loop within a loop, or beside one, gets one of its own.
 template <class Work>
@@ -51,8 +102,11 @@ void run_in_arena(int threads, Work&& work) {
     std::unique_ptr<tbb::task_arena> arena;
   };
   static Kept& kept = *new Kept;  // Never destroyed: TBB may be gone before it.
-  // TBB never runs more than this, and warns on standard error where it is asked to.
-  const int most = std::min(threads, tbb::info::default_concurrency());
+  // TBB never runs more than this, and warns on standard error where it is asked to. It is the
+  // number of processors, unless a `tbb::global_control` says otherwise.
+  const std::size_t allowed =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const int most = static_cast<int>(std::min(static_cast<std::size_t>(threads), allowed));
   if (kept.is_busy.test_and_set(std::memory_order_acquire)) {
     tbb::task_arena(most).execute(work);
     return;
@@ -79,20 +133,21 @@ void parallel_chunks(int threads, std::size_t count, std::size_t grain,
     return;
   }
   FirstError first_error;
+  const auto run_and_keep_error = [&](std::size_t chunk) {
+    try {
+      run_chunk(chunk);
+    } catch (...) {
+      first_error.keep(chunk);
+    }
+  };
+  LoopOrder order;
+  order.loop_begins();
   run_in_arena(threads, [&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, chunks, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
-            try {
-              run_chunk(chunk);
-            } catch (...) {
-              first_error.keep(chunk);
-            }
-          }
-        },
-        tbb::simple_partitioner());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks, 1),
+                      LoopBody<decltype(run_and_keep_error)>{&run_and_keep_error, &order},
+                      tbb::simple_partitioner());
   });
+  order.loop_ends();
   first_error.rethrow();
 }
 

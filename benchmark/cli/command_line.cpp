@@ -145,12 +145,12 @@ int run_with_words(int argc, const char* const* argv, const MethodRegistry* meth
   }
 }
 
-/// The exit code after a command that a signal may have stopped.
-int answer_to_caller(int code) {
+/// The exit code after a signal. What was done all the same, just before it could be stopped, is
+/// done.
+int with_code_of_signal(int code) {
   const int signal = interrupting_signal.load();
-  // What was done all the same, just before it could be stopped, is done.
-  return signal == 0 || code == static_cast<int>(ExitCode::kDone) ? code
-                                                                  : exit_code_of_signal(signal);
+  const bool done = code == static_cast<int>(ExitCode::kDone);
+  return signal != 0 && !done ? exit_code_of_signal(signal) : code;
 }
 
 }  // namespace
@@ -182,11 +182,11 @@ void print(const std::string& text) {
 }
 
 int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods) {
-  return answer_to_caller(run_with_words(argc, argv, &methods));
+  return with_code_of_signal(run_with_words(argc, argv, &methods));
 }
 
 int run_command_line(int argc, const char* const* argv) {
-  return answer_to_caller(run_with_words(argc, argv, nullptr));
+  return with_code_of_signal(run_with_words(argc, argv, nullptr));
 }
 
 }  // namespace raymoval

@@ -61,26 +61,27 @@ void read_into(const OpenFile& opened, std::uintmax_t offset, Container& content
                   "ended.");
 }
 
-/// A file larger than all memory cannot be read whole. One that was cut off while it was copied may
-/// claim any size: it then has holes.
-void check_fits_memory(const OpenFile& opened, const std::filesystem::path& path) {
-  const auto memory = static_cast<std::uintmax_t>(std::max(0L, ::sysconf(_SC_PHYS_PAGES))) *
-                      static_cast<std::uintmax_t>(std::max(0L, ::sysconf(_SC_PAGESIZE)));
-  if (opened.size <= memory) return;
+/// Refuses what cannot be read whole. A copy that broke off may have any size: it then has holes.
+void check_can_be_read_whole(const OpenFile& opened, const std::filesystem::path& path) {
+  constexpr std::uintmax_t kLarge = std::uintmax_t{1} << 30;
+  if (opened.size < kLarge) return;
   struct stat status {};
   const bool known = ::fstat(opened.file.get(), &status) == 0;
-  const bool holes = known && static_cast<std::uintmax_t>(status.st_blocks) < opened.size / 1024;
-  throw DataError(path.string() + ": has " + grouped_text(opened.size) +
-                  " bytes, more than the memory of this machine. " +
-                  (holes ? "Most of it was never written, so it looks like a copy that broke off; "
-                           "copy it again."
-                         : "Check that it is the file you mean."));
+  const bool holes = known && static_cast<std::uintmax_t>(status.st_blocks) * 512 < opened.size / 8;
+  const auto memory = static_cast<std::uintmax_t>(std::max(0L, ::sysconf(_SC_PHYS_PAGES))) *
+                      static_cast<std::uintmax_t>(std::max(0L, ::sysconf(_SC_PAGESIZE)));
+  if (!holes && opened.size <= memory) return;
+  throw DataError(path.string() + ": has " + grouped_text(opened.size) + " bytes, " +
+                  (holes ? "of which most were never written: it looks like a copy that broke off. "
+                           "Copy it again."
+                         : "more than the memory of this machine. Check that it is the file you "
+                           "mean."));
 }
 
 template <class Container>
 Container read_all(const std::filesystem::path& path) {
   const OpenFile opened = open_plain(path);
-  check_fits_memory(opened, path);
+  check_can_be_read_whole(opened, path);
   Container content(static_cast<std::size_t>(opened.size), typename Container::value_type{});
   read_into(opened, 0, content, path);
   return content;

@@ -12,7 +12,8 @@ namespace raymoval {
 
 /// Whole file as bytes. A pipe or a device is refused without being opened.
 /// @throws UnreadableError (see file_kind.h) naming the path and the system's reason; DataError if
-/// there is none, if it gets shorter meanwhile, or if it is larger than the machine's memory
+/// there is none, if it gets shorter meanwhile, or if it is larger than the machine's memory or
+/// has hardly more than holes
 std::vector<std::byte> read_bytes(const std::filesystem::path& path);
 
 /// Whole file as text, a leading UTF-8 byte order mark removed.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -57,12 +58,27 @@ bool locks(int file) {
   return ::flock(file, LOCK_EX | LOCK_NB) == 0;
 }
 
-/// Whether what was made is locked and still there: somebody may have taken it for abandoned before
-/// it was locked. A file system without locks lets nobody take it.
-bool is_kept(int file) {
-  if (!locks(file) && errno == EWOULDBLOCK) return false;
+/// What became of a part before it was locked.
+enum class Kept {
+  kYes,
+  kLost,     ///< Somebody took it for abandoned meanwhile.
+  kUnknown,  ///< The system does not tell, with the reason in errno.
+};
+
+/// Locks a part that was made. A file system without locks lets nobody take it.
+Kept keep(int file) {
+  if (!locks(file) && errno == EWOULDBLOCK) return Kept::kLost;
   struct stat status {};
-  return ::fstat(file, &status) == 0 && status.st_nlink > 0;
+  if (::fstat(file, &status) != 0) return Kept::kUnknown;
+  return status.st_nlink > 0 ? Kept::kYes : Kept::kLost;
+}
+
+/// Removes a part that cannot be used; the reason stays in errno.
+void discard(Part& part) {
+  const int reason = errno;
+  ::remove(part.place.c_str());
+  part.held.close();
+  errno = reason;
 }
 
 /// The part names that stood in a folder when this process first asked.
@@ -116,7 +132,10 @@ Part new_part_file(const std::filesystem::path& target, mode_t mode) {
   while (true) {
     Part part{new_part_name(target)};
     part.held = Descriptor(::open(part.place.c_str(), kFlags, mode));
-    if (!part.held.valid() || is_kept(part.held.get())) return part;
+    if (!part.held.valid()) return part;
+    const Kept kept = keep(part.held.get());
+    if (kept == Kept::kUnknown) discard(part);
+    if (kept != Kept::kLost) return part;
   }
 }
 
@@ -127,13 +146,9 @@ Part new_part_folder(const std::filesystem::path& target, mode_t mode) {
     if (::mkdir(part.place.c_str(), mode) != 0) return part;
     part.held =
         Descriptor(::open(part.place.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-    if (!part.held.valid()) {
-      const int reason = errno;
-      ::rmdir(part.place.c_str());
-      errno = reason;
-      return part;
-    }
-    if (is_kept(part.held.get())) return part;
+    const Kept kept = part.held.valid() ? keep(part.held.get()) : Kept::kUnknown;
+    if (kept == Kept::kUnknown) discard(part);
+    if (kept != Kept::kLost) return part;
   }
 }
 

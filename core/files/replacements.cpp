@@ -2,6 +2,7 @@
 #include "core/files/replacements.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,6 +24,18 @@ bool renames(const fs::path& from, const fs::path& to, unsigned how = 0) {
   return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), how) == 0;
 }
 
+/// Whether one can take the other's place: what is another kind of thing than expected is not ours.
+/// Else errno has the reason.
+bool may_replace(const fs::path& part, const fs::path& target) {
+  struct stat ours {};
+  struct stat there {};
+  if (::lstat(part.c_str(), &ours) != 0) return false;
+  if (::lstat(target.c_str(), &there) != 0) return errno == ENOENT;
+  if (S_ISDIR(ours.st_mode) == S_ISDIR(there.st_mode)) return true;
+  errno = S_ISDIR(there.st_mode) ? EISDIR : ENOTDIR;
+  return false;
+}
+
 }  // namespace
 
 Replacements::~Replacements() {
@@ -38,6 +51,7 @@ void Replacements::add(Part part, fs::path target) {
 
 /// @return false, with the reason in errno, if the target is as it was
 bool Replacements::give_name(One& one) {
+  if (!may_replace(one.part.place, one.target)) return false;
   // In one step where the file system can do that, so that each name always leads to one of both.
   if (renames(one.part.place, one.target, RENAME_EXCHANGE)) {
     one.way = Way::kExchanged;

@@ -166,6 +166,10 @@ ChildEnd run_child(const ChildSetup& setup) {
 }
 
 std::string not_started_text(int reason) {
+  if (reason == EMFILE || reason == ENFILE) {
+    return fmt::format("no process can be started ({}). Raise the limit of open files (ulimit -n).",
+                       std::generic_category().message(reason));
+  }
   return fmt::format(
       "no process can be started ({}). End other programs, or raise the limit of "
       "processes (ulimit -u).",

@@ -19,7 +19,7 @@
 namespace raymoval {
 namespace {
 
-constexpr int kFirstSpare = 64;  ///< Above all descriptors that a child is given.
+constexpr int kFirstSpare = 8;  ///< Above all descriptors that a child is given.
 
 /// Both ends of a pipe; neither outlives an exec. They are not valid if the system refuses.
 struct Pipe {
@@ -90,11 +90,20 @@ void reset_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-/// Gives the child the descriptors it is meant to have and no other.
-void place_descriptors(Prepared& prepared, int output) {
+/// The same descriptor above those that a child is given. @return -1 if there are too many
+int spare_copy(int descriptor) {
+  const int copy = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstSpare);
+  if (copy < 0 && errno == EINVAL) errno = EMFILE;  // The limit is below the first of them.
+  return copy;
+}
+
+/// Gives the child the descriptors it is meant to have and no other. @return false, with the reason
+/// in errno, if that is not possible
+bool place_descriptors(Prepared& prepared, int output) {
   // First out of the way, then into place: a source may have the number of another's place.
   for (std::size_t i = 0; i < prepared.spare.size(); ++i) {
-    prepared.spare[i] = ::fcntl(prepared.descriptors[i].first, F_DUPFD_CLOEXEC, kFirstSpare);
+    prepared.spare[i] = spare_copy(prepared.descriptors[i].first);
+    if (prepared.spare[i] < 0) return false;
   }
   const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   ::dup2(nothing, STDIN_FILENO);
@@ -104,6 +113,14 @@ void place_descriptors(Prepared& prepared, int output) {
   for (std::size_t i = 0; i < prepared.spare.size(); ++i) {
     ::dup2(prepared.spare[i], prepared.descriptors[i].second);
   }
+  return true;
+}
+
+/// Tells the parent why the child cannot be what it was meant to be.
+[[noreturn]] void give_up(int report) {
+  const int reason = errno;
+  (void)!::write(report, &reason, sizeof reason);
+  ::_exit(127);
 }
 
 /// All that the child starts inherits it, from the first process on.
@@ -123,15 +140,14 @@ void set_oom_score(const std::string& score) {
   ::setrlimit(RLIMIT_CORE, &no_core);
   set_oom_score(prepared.oom_score);
   reset_signals();
-  const int kept_report = ::fcntl(report, F_DUPFD_CLOEXEC, kFirstSpare);
-  place_descriptors(prepared, output);
+  const int kept_report = spare_copy(report);
+  if (kept_report < 0) give_up(report);
+  if (!place_descriptors(prepared, output)) give_up(kept_report);
   if (prepared.folder.empty() || ::chdir(prepared.folder.c_str()) == 0) {
     ::execve(prepared.program.c_str(), prepared.argument_pointers.data(),
              prepared.environment_pointers.data());
   }
-  const int reason = errno;
-  (void)!::write(kept_report, &reason, sizeof reason);
-  ::_exit(127);
+  give_up(kept_report);
 }
 
 /// Waits until exec has worked. @return 0, or the system's error number

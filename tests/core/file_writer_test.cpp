@@ -213,14 +213,14 @@ TEST_CASE("If one of several files cannot have its name, none has changed") {
     all.add(written_part(kept, "after"), kept);
     all.add(written_part(fresh, "after"), fresh);
     all.add(new_part_folder(labels), labels);
-    Part lost = written_part(folder.path() / "lost.txt", "after");
-    std::filesystem::remove(lost.place);
-    all.add(std::move(lost), folder.path() / "lost.txt");
-    CHECK_THROWS_WITH(all.commit(),
-                      Contains("lost.txt: cannot be written") && Contains("Nothing was changed"));
+    (void)folder.write("taken.txt/somebody's", "work");
+    all.add(written_part(folder.path() / "taken.txt", "after"), folder.path() / "taken.txt");
+    CHECK_THROWS_WITH(all.commit(), Contains("taken.txt: cannot be written (Is a directory)") &&
+                                        Contains("Nothing was changed"));
   }
   CHECK(read_text(kept) == "before");
   CHECK(read_text(labels / "1.label") == "before");
+  CHECK(read_text(folder.path() / "taken.txt/somebody's") == "work");
   CHECK_FALSE(is_there(fresh));
-  CHECK(files_in(folder.path()) == 2);
+  CHECK(files_in(folder.path()) == 3);
 }

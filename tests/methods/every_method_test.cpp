@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the contract demands of every method, whatever it does.
+#include <oneapi/tbb/global_control.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 
@@ -42,13 +44,16 @@ TEST_CASE("whole voxels and quarter turns change no verdict") {
   }
 }
 
-TEST_CASE("any number of threads gives the same answer") {
+TEST_CASE("any number of threads gives the same answer", "[threads]") {
+  // As many threads as are asked for, on any number of processors.
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   const toy::World world = toy::street(10);
   for (const ConfiguredMethod& method : all_methods()) {
     INFO(method.full_name());
     const MaskStore one = masks_of(*method.make(), world, 1);
     CHECK(one.removed_count() > 0);
-    for (const int threads : {2, 8}) {
+    for (const int threads : {2, 3, 8}) {
+      INFO(threads << " threads");
       const MaskStore many = masks_of(*method.make(), world, threads);
       CHECK(toy::different_verdicts(one, many, world.size()) == 0);
     }

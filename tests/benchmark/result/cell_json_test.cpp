@@ -298,6 +298,12 @@ TEST_CASE("Values that no cell has are refused", "[result]") {
   CHECK_THAT(error_with("/data/label_rule/moving/0", 65536), Contains("data.label_rule.moving"));
   CHECK_THAT(error_with("/masks/removed", 1.5), Contains("masks.removed: expected a whole number"));
   CHECK_THAT(error_with("/masks/removed", 18446744073709551615U), Contains("masks.removed"));
+  // Sums and differences of counts have to fit as well.
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  CHECK(error_with("/masks/removed", kMost).empty());
+  CHECK_THAT(error_with("/masks/removed", kMost + 1), Contains("a whole number of 53 bits"));
+  CHECK_THAT(error_with("/masks/removed", -kMost - 1), Contains("a whole number of 53 bits"));
+  CHECK_THAT(error_with("/masks/removed", 1e308), Contains("expected a whole number"));
   CHECK_THAT(error_with("/measured/threads", 1LL << 40), Contains("measured.threads"));
   CHECK_THAT(error_with("/protocols/0/intervals/rates/PR", {1.0}),
              Contains("expected two numbers"));

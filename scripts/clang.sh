@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds everything with clang, whose warnings are errors, and lets its static analyser look through
+# the rooms that read, decide and count. CI does not run it: it takes twenty minutes on two cores.
+#
+#   scripts/clang.sh                 both (Debian: clang clang-tidy)
+#   scripts/clang.sh build           the build only (build/clang)
+#   scripts/clang.sh analyse [FILE...]
+#                                    the analyser only; default: core, datasets, eval, and what runs
+#                                    methods in processes
+#
+# scripts/tidy.sh has the other checks of clang-tidy.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+
+# needs PROGRAM...
+needs() {
+  local program
+  for program in "$@"; do
+    command -v "$program" >/dev/null && continue
+    echo "clang.sh: $program is missing. Install it: apt-get install clang clang-tidy" >&2
+    exit 2
+  done
+}
+
+build() {
+  needs clang++
+  cmake --preset clang >/dev/null && cmake --build --preset clang -- -k 0
+}
+
+analyse() {
+  needs clang++ clang-tidy
+  cmake --preset clang >/dev/null || return 2
+  local files=("$@")
+  if [[ $# -eq 0 ]]; then
+    mapfile -t files < <(git ls-files 'core/*.cpp' 'datasets/*.cpp' 'eval/*.cpp' \
+      'benchmark/process/*.cpp')
+  fi
+  printf '%s\0' "${files[@]}" | xargs -0 -P "$(nproc)" -n 4 \
+    clang-tidy -p build/clang --quiet --checks='-*,clang-analyzer-*' --warnings-as-errors='*' &&
+    echo "clang.sh: ${#files[@]} files, nothing found."
+}
+
+case ${1:-} in
+  "") build; built=$?; analyse && exit "$built" ;;
+  build) build ;;
+  analyse) analyse "${@:2}" ;;
+  -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/clang.sh ;;
+  *) echo "clang.sh: '$1' is unknown; expected build, analyse or nothing." >&2; exit 2 ;;
+esac

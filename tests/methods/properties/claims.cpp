@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "tests/methods/properties/claims.h"
+
+namespace raymoval::toy {
+namespace {
+
+// The columns: an empty scan at the end, one between, a scan in two halves, points in another
+// order, points doubled, the world moved, the last scans left out, scans in another order, a scan
+// given twice. Whoever adds a variant adds a line: = the same answer, ~ the same but for rounding,
+// + more may go, - more may stay, ? anything.
+struct Line {
+  const char* variant;
+  const char* about;
+};
+
+constexpr Line kLines[] = {
+    {"noop:default", "= = = = = = = = ="},
+    {"remove-all:default", "= = = = = = = = ="},
+
+    // Bins hold least ranges and maps hold sets of voxels, so the order of points is nothing. What
+    // a scan sees through depends on its own returns beside the ray, and a cluster on how many
+    // points it has: halves and doubled points count. Scans are taken in turn, and what one erases
+    // is gone for the next.
+    {"raymoval:offline", "= = ? = ? = ? ? ?"},
+    {"raymoval:online", "= = ? = ? = = ? ?"},
+    {"raymoval:offline-growing", "= = ? = ? = ? ? ?"},
+    {"raymoval:offline-naive", "= = ? = ? = ? ? ?"},
+    {"raymoval:offline-eq11", "= = ? = ? = ? ? ?"},
+    {"raymoval:table1", "= = ? = ? = ? ? ?"},
+    {"raymoval:table1-online", "= = ? = ? = = ? ?"},
+    {"raymoval:table1-growing", "= = ? = ? = ? ? ?"},
+    {"raymoval:table1-naive", "= = ? = ? = ? ? ?"},
+    {"raymoval:table1-eq11", "= = ? = ? = ? ? ?"},
+
+    // Runs of scans, gaps of tracks, kept scans and the ground's period count scans, empty ones
+    // too. Means of voxels and of objects are sums, which round.
+    {"raymoval_plus:offline", "= ? ? ~ ? = ? ? ?"},
+    {"raymoval_plus:online", "= ? ? ~ ? = = ? ?"},
+    {"raymoval_plus:online-map", "? ? ? ~ ? = ? ? ?"},
+
+    // A scan is a set of cells, hit or crossed once. Clamping makes the order of scans count. The
+    // ground plane and the outliers come from the list of points.
+    {"octomap:r20", "= = ? = = = ? ? ?"},
+    {"octomap:r10", "= = ? = = = ? ? ?"},
+    {"octomap:r05", "= = ? = = = ? ? ?"},
+    {"octomap:discretised", "= = ? = = = ? ? ?"},
+    {"octomap:kth", "= = ? = = = ? ? ?"},
+    {"octomap:ground", "= = ? ? ? = ? ? ?"},
+    {"octomap:ground-noise", "= = ? ? ? = ? ? ?"},
+
+    // A voxel is freed by a single beam of a scan that has no point in it, for good. Without
+    // normals a beam does not depend on other points. Whole scans, not voxels, lose the points near
+    // a freed voxel, unless subvoxel_accuracy is off. reduce draws by the number of the scan and of
+    // the point.
+    {"peopleremover:normals", "= = ? ~ ? = - = ="},
+    {"peopleremover:fine", "= = ? ~ ? = - = ="},
+    {"peopleremover:none", "= = ? = = = - = ="},
+    {"peopleremover:plain", "= = + = = = - = ="},
+    {"peopleremover:reduced", "= ? ? ? ? = ? ? ?"},
+
+    // A single scan removes a map point that it sees behind, and half a scan sees at least as far.
+    // The map's points are means of all points in a cell, which other points shift.
+    {"removert:rm3", "= = + ~ ? = ? ~ ?"},
+    {"removert:rm3-rv1", "= = ? ~ ? = ? ~ ?"},
+    {"removert:code", "= = + ~ ? = ? ~ ?"},
+    {"removert:port", "= = + ~ ? = ? ~ ?"},
+
+    // Every n-th scan is a query, so that empty ones count, but for n = 1.
+    {"erasor:general", "= ? ? ~ ? = ? ? ?"},
+    {"erasor:kitti00", "= ? ? ~ ? = ? ? ?"},
+    {"erasor:kitti01", "= = ? ~ ? = ? ? ?"},
+    {"erasor:kitti02", "= ? ? ~ ? = ? ? ?"},
+    {"erasor:kitti05", "= ? ? ~ ? = ? ? ?"},
+    {"erasor:kitti07", "= ? ? ~ ? = ? ? ?"},
+    {"erasor:fine", "= ? ? ~ ? = ? ? ?"},
+    {"erasor:version2", "= ? ? ~ ? = ? ? ?"},
+
+    // Voids are united over scans, and a scan is a set of voxels. In halves, the points of one do
+    // not protect their voxels from the beams of the other, and neither knows as much around it.
+    {"dufomap:offline", "= = ? = = = - = ="},
+    {"dufomap:online", "= = ? = = = = ? ?"},
+    {"dufomap:offline-dp2", "= = ? = = = - = ="},
+    {"dufomap:online-dp2", "= = ? = = = = ? ?"},
+};
+
+}  // namespace
+
+const std::vector<Claims>& claims() {
+  static const std::vector<Claims> all = [] {
+    std::vector<Claims> made;
+    for (const Line& line : kLines) {
+      Claims claims{line.variant, {}};
+      for (const char* about = line.about; *about != '\0'; ++about) {
+        if (*about != ' ') claims.about.push_back(static_cast<Claim>(*about));
+      }
+      made.push_back(std::move(claims));
+    }
+    return made;
+  }();
+  return all;
+}
+
+}  // namespace raymoval::toy

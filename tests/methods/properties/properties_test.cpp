@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// What a change of the input may do to a method's answer, and what it may not: `claims` says it for
+// each variant, and small random worlds try it.
+//
+// The worlds are the same in every run. For a larger campaign, with a summary of what changed:
+//   RAYMOVAL_WORLDS=100 RAYMOVAL_SEED=7 build/release/test_methods '[properties]'
+#include <fmt/format.h>
+#include <rapidcheck.h>
+#include <rapidcheck/detail/TestListenerAdapter.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+#include "core/simd/instruction_set_scope.h"
+#include "core/simd/instruction_sets.h"
+#include "tests/methods/moved_world.h"
+#include "tests/methods/properties/changes.h"
+#include "tests/methods/properties/claims.h"
+
+using namespace raymoval;
+using toy::Claim;
+
+namespace {
+
+constexpr int kWorlds = 2;
+/// In so many worlds, what may change does so at least once, or a stricter claim would hold.
+constexpr int kEnoughWorlds = 60;
+
+std::size_t from_environment(const char* name, std::size_t otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::stoul(text);
+}
+
+/// A method of claims, with directions as coarse as the sensor of the worlds.
+ConfiguredMethod configured(const std::string& variant) {
+  ConfiguredMethod method = MethodRegistry::built_in().configure(variant);
+  if (method.entry->name == "raymoval") {
+    set_parameter(method.configuration, "azimuth_bins", std::int64_t{0});
+    set_parameter(method.configuration, "elevation_bins", std::int64_t{0});
+  }
+  return method;
+}
+
+/// Verdicts that a change has changed.
+struct Difference {
+  std::size_t points = 0, lost = 0, gained = 0;  ///< Compared, no longer removed, now removed.
+};
+
+Difference difference(const MaskStore& before, const MaskStore& after,
+                      const toy::ChangedWorld& changed) {
+  std::vector<Mask> now;
+  for (std::size_t i = 0; i < changed.scans.size(); ++i) now.push_back(after.get(i));
+  Difference found;
+  for (std::size_t i = 0; i < changed.now.size(); ++i) {
+    const Mask was = before.get(i);
+    for (std::size_t k = 0; k < was.size(); ++k) {
+      const auto [scan, point] = changed.now[i][k];
+      ++found.points;
+      found.lost += was[k] > now[scan][point] ? 1 : 0;
+      found.gained += was[k] < now[scan][point] ? 1 : 0;
+    }
+  }
+  return found;
+}
+
+bool holds(Claim claim, const Difference& found) {
+  switch (claim) {
+    case Claim::kSame:
+      return found.lost + found.gained == 0;
+    case Claim::kRounding:
+      return found.lost + found.gained <= found.points / 500;
+    case Claim::kMore:
+      return found.lost == 0;
+    case Claim::kFewer:
+      return found.gained == 0;
+    case Claim::kOpen:
+      return true;
+  }
+  return false;
+}
+
+std::size_t parted_twins(const MaskStore& masks, const toy::ChangedWorld& changed) {
+  std::size_t parted = 0;
+  for (const auto& [a, b] : changed.twins) {
+    parted += masks.get(a.scan)[a.point] != masks.get(b.scan)[b.point] ? 1 : 0;
+  }
+  return parted;
+}
+
+/// What the worlds so far have shown of a variant.
+struct Findings {
+  std::size_t removed = 0;
+  std::map<std::string, int> changed_worlds;  ///< By change.
+};
+
+void fail(const std::string& what, const Difference& found = {}) {
+  RC_FAIL(fmt::format("{}: of {} points {} are no longer removed, {} now are", what, found.points,
+                      found.lost, found.gained));
+}
+
+/// Tries all changes on one world.
+void try_changes(const toy::Claims& claims, const toy::ScanList& world, std::mt19937& random,
+                 Findings& findings) {
+  const std::unique_ptr<Remover> remover = configured(claims.variant).make();
+  const MaskStore before = toy::masks_of(*remover, world);
+  findings.removed += before.removed_count();
+  for (std::size_t c = 0; c < toy::changes().size(); ++c) {
+    const toy::Change& change = toy::changes()[c];
+    const toy::ChangedWorld changed = change.make(world, random);
+    const MaskStore after = toy::masks_of(*remover, changed.scans);
+    const Difference found = difference(before, after, changed);
+    if (found.lost + found.gained > 0) ++findings.changed_worlds[change.name];
+    if (!holds(claims.about[c], found)) fail(change.name, found);
+    if (parted_twins(after, changed) > 0) fail("points in one place have two verdicts");
+  }
+  // The remover has seen other worlds meanwhile, which must not matter either.
+  const MaskStore again = toy::masks_of(*remover, toy::with_other_labels(world));
+  if (toy::different_verdicts(before, again, world.size()) > 0) {
+    fail("other times, names, intensities and numbers in files");
+  }
+  const std::vector<InstructionSet> sets = supported_instruction_sets();
+  const InstructionSet set = sets[random() % sets.size()];
+  const InstructionSetScope scope(set);
+  const MaskStore computed = toy::masks_of(*configured(claims.variant).make(), world);
+  if (toy::different_verdicts(before, computed, world.size()) > 0) {
+    fail(instruction_set_name(set) + std::string(" instructions"));
+  }
+}
+
+void check_claims(const toy::Claims& claims, std::size_t worlds) {
+  Findings findings;
+  rc::detail::TestParams parameters;
+  parameters.seed = from_environment("RAYMOVAL_SEED", 22);
+  parameters.maxSuccess = static_cast<int>(worlds);
+  const auto property = [&] {
+    toy::WorldPlan plan;
+    plan.scans = *rc::gen::inRange(8, 11);
+    plan.walls = *rc::gen::inRange(1, 6);
+    plan.movers = *rc::gen::inRange(1, 4);
+    plan.seed = *rc::gen::noShrink(rc::gen::arbitrary<unsigned>());
+    std::mt19937 random(plan.seed + 1);
+    try_changes(claims, toy::random_world(plan), random, findings);
+  };
+  // The shorter call would read, and print, a configuration with a seed of its own.
+  rc::detail::TestListenerAdapter listener;
+  const auto result =
+      rc::detail::checkTestable(property, rc::detail::TestMetadata{claims.variant, ""}, parameters,
+                                listener, std::unordered_map<std::string, rc::detail::Reproduce>{});
+  std::ostringstream text;
+  rc::detail::printResultMessage(result, text);
+  INFO(text.str());
+  CHECK(result.is<rc::detail::SuccessResult>());
+  CHECK((findings.removed > 0) == (claims.variant != "noop:default"));
+  for (std::size_t c = 0; c < claims.about.size(); ++c) {
+    const char* name = toy::changes()[c].name;
+    const int changed = findings.changed_worlds[name];
+    if (worlds > kWorlds) {
+      std::cout << claims.variant << ": " << name << " [" << static_cast<char>(claims.about[c])
+                << "] changed " << changed << " of " << worlds << " worlds" << std::endl;
+    }
+    const bool may_change = claims.about[c] != Claim::kSame && claims.about[c] != Claim::kRounding;
+    if (worlds < kEnoughWorlds || !may_change) continue;
+    INFO(name << " has changed nothing");
+    CHECK(changed > 0);
+  }
+}
+
+void check_method(const std::string& name) {
+  const std::size_t worlds = from_environment("RAYMOVAL_WORLDS", kWorlds);
+  for (const toy::Claims& claims : toy::claims()) {
+    if (!claims.variant.starts_with(name + ":")) continue;
+    INFO(claims.variant);
+    check_claims(claims, worlds);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("every variant says what may change its answer", "[properties]") {
+  std::map<std::string, int> lines;
+  for (const toy::Claims& claims : toy::claims()) {
+    ++lines[claims.variant];
+    INFO(claims.variant);
+    CHECK(claims.about.size() == toy::changes().size());
+    CHECK_NOTHROW(MethodRegistry::built_in().configure(claims.variant));
+  }
+  for (const auto& entry : MethodRegistry::built_in().entries()) {
+    if (entry->needs_truth) continue;  // It answers from labels, which these worlds have not.
+    for (const MethodVariant& variant : entry->variants) {
+      INFO("tests/methods/properties/claims.cpp: " << entry->name << ":" << variant.name);
+      CHECK(lines[entry->name + ":" + variant.name] == 1);
+    }
+  }
+}
+
+// Only what came before a scan may decide on it.
+TEST_CASE("online variants claim that later scans change nothing", "[properties]") {
+  for (const toy::Claims& claims : toy::claims()) {
+    INFO(claims.variant);
+    for (std::size_t c = 0; c < claims.about.size(); ++c) {
+      if (toy::changes()[c].name != std::string("the last scans left out")) continue;
+      const bool online = MethodRegistry::built_in().configure(claims.variant).variant.online;
+      CHECK((!online || claims.about[c] == Claim::kSame));
+    }
+  }
+}
+
+TEST_CASE("what may change an answer of the controls", "[properties][every-method]") {
+  check_method("noop");
+  check_method("remove-all");
+}
+TEST_CASE("what may change an answer of raymoval", "[properties][every-method]") {
+  check_method("raymoval");
+}
+TEST_CASE("what may change an answer of raymoval_plus", "[properties][every-method]") {
+  check_method("raymoval_plus");
+}
+TEST_CASE("what may change an answer of octomap", "[properties][every-method]") {
+  check_method("octomap");
+}
+TEST_CASE("what may change an answer of peopleremover", "[properties][every-method]") {
+  check_method("peopleremover");
+}
+TEST_CASE("what may change an answer of removert", "[properties][every-method]") {
+  check_method("removert");
+}
+TEST_CASE("what may change an answer of erasor", "[properties][every-method]") {
+  check_method("erasor");
+}
+TEST_CASE("what may change an answer of dufomap", "[properties][every-method]") {
+  check_method("dufomap");
+}
