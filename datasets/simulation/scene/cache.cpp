@@ -108,6 +108,20 @@ void take_place(const CachedScene& scene, simulated::MakingPlace& made) {
                   ": cannot take its place; something else writes there again and again.");
 }
 
+/// Removes what killed processes left in the cache. A lock that can be taken is nobody's, and goes
+/// with its object.
+void sweep_cache(const fs::path& folder) {
+  simulated::sweep_making_places(folder);
+  for (const fs::path& entry : entries_of(folder)) {
+    if (entry.extension() != ".lock" || !is_file(entry)) continue;
+    try {
+      FileLock(entry).take(FileLock::Mode::kExclusive);
+    } catch (const DataError&) {
+      // Another user's, in a cache that is shared for reading.
+    }
+  }
+}
+
 void make_scene(const CachedScene& scene) {
   const fs::path parent = scene.folder.parent_path();
   std::error_code error;
@@ -124,7 +138,7 @@ void make_scene(const CachedScene& scene) {
                     " Set RAYMOVAL_CACHE to a folder you may write to.");
   }
   if (scene.is_whole()) return;
-  simulated::sweep_making_places(parent);
+  sweep_cache(parent);
   simulated::MakingPlace place(scene.folder);
   simulated::write_scene(scene.writing, place.folder());
   take_place(scene, place);
@@ -152,7 +166,10 @@ fs::path cached_simulation(const SimulationOptions& options, const fs::path& cac
   const CachedScene scene{writing, place.folder, check_content};
   if (has_folder(scene.folder)) {
     const std::string problem = scene.problem();
-    if (problem.empty()) return scene.folder;
+    if (problem.empty()) {
+      sweep_cache(scene.folder.parent_path());
+      return scene.folder;
+    }
     scene.say(scene.folder.string() + ": is not what was written there (" + problem +
               "); it is made again.");
   }
