@@ -13,11 +13,8 @@
 #include <mutex>
 #include <thread>
 
-#if defined(__SANITIZE_THREAD__)
+#ifdef RAYMOVAL_WATCHED_THREADS
 #include <sanitizer/tsan_interface.h>
-#define RAYMOVAL_NOT_WATCHED __attribute__((no_sanitize_thread))
-#else
-#define RAYMOVAL_NOT_WATCHED
 #endif
 
 namespace raymoval {
@@ -50,10 +47,11 @@ class FirstError {
 
 /// Tells ThreadSanitizer, which cannot look into TBB, what TBB puts in order: what is done before a
 /// loop comes before its chunks, and the chunks before what is done after it. Chunks are not put in
-/// order with each other, so that a race between two of them is still found.
+/// order with each other, so that a race between two of them is still found. Nothing in other
+/// builds.
 class LoopOrder {
  public:
-#if defined(__SANITIZE_THREAD__)
+#ifdef RAYMOVAL_WATCHED_THREADS
   void loop_begins() {
     __tsan_release(&begin_);
   }
@@ -75,21 +73,6 @@ class LoopOrder {
   static void chunk_ends() {}
   static void loop_ends() {}
 #endif
-};
-
-/// What TBB copies and calls. Its own reads come before `chunk_begins`, so they are not watched.
-template <class RunChunk>
-struct LoopBody {
-  const RunChunk* run_chunk;
-  LoopOrder* order;
-
-  RAYMOVAL_NOT_WATCHED void operator()(const tbb::blocked_range<std::size_t>& range) const {
-    for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
-      order->chunk_begins();
-      (*run_chunk)(chunk);
-      order->chunk_ends();
-    }
-  }
 };
 
 /// Runs `work` with at most `threads` threads. An arena that is kept finds its threads still awake
@@ -133,19 +116,23 @@ void parallel_chunks(int threads, std::size_t count, std::size_t grain,
     return;
   }
   FirstError first_error;
-  const auto run_and_keep_error = [&](std::size_t chunk) {
-    try {
-      run_chunk(chunk);
-    } catch (...) {
-      first_error.keep(chunk);
-    }
-  };
   LoopOrder order;
   order.loop_begins();
   run_in_arena(threads, [&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks, 1),
-                      LoopBody<decltype(run_and_keep_error)>{&run_and_keep_error, &order},
-                      tbb::simple_partitioner());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, chunks, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
+            order.chunk_begins();
+            try {
+              run_chunk(chunk);
+            } catch (...) {
+              first_error.keep(chunk);
+            }
+            order.chunk_ends();
+          }
+        },
+        tbb::simple_partitioner());
   });
   order.loop_ends();
   first_error.rethrow();

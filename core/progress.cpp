@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
+#include "core/terminal_colour.h"
 #include "core/text.h"
 #include "core/utf8.h"
 
@@ -16,7 +18,7 @@ namespace {
 using std::chrono::duration;
 
 std::string duration_text(double seconds) {
-  const long whole = std::max(0L, static_cast<long>(seconds + 0.5));
+  const long whole = std::max(0L, std::lround(seconds));
   if (whole < 60) return std::to_string(whole) + " s";
   if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
   return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
@@ -74,7 +76,7 @@ void Progress::say(const std::string& line) {
   if (style_ == ProgressStyle::kQuiet) return;
   const std::lock_guard lock(mutex_);
   if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stream_);
-  std::fprintf(stream_, "%s\n", line.c_str());
+  std::fprintf(stream_, "%s\n", terminal_text(line, stream_).c_str());
 }
 
 std::string Progress::status(Clock::time_point now) const {
@@ -98,13 +100,13 @@ void Progress::print_terminal(Clock::time_point now) {
   if (const std::size_t width = line_width(stream_); width > 0 && line.size() > width) {
     line = cut_text(status(now), width);
   }
-  std::fprintf(stream_, "\r\x1b[K%s", line.c_str());
+  std::fprintf(stream_, "\r\x1b[K%s", printable_text(line).c_str());
   std::fflush(stream_);
 }
 
 void Progress::print_log(Clock::time_point now) {
   printed_ = now;
-  std::fprintf(stream_, "%s\n", with_context(status(now)).c_str());
+  std::fprintf(stream_, "%s\n", printable_text(with_context(status(now))).c_str());
 }
 
 }  // namespace raymoval

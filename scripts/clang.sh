@@ -28,6 +28,10 @@ build() {
   cmake --preset clang >/dev/null && cmake --build --preset clang -- -k 0
 }
 
+# What is left out: numbers in floating point that grow from one round of a loop to the next are
+# meant where they stand.
+checks='-*,clang-analyzer-*,-clang-analyzer-security.FloatLoopCounter'
+
 analyse() {
   needs clang++ clang-tidy
   cmake --preset clang >/dev/null || return 2
@@ -37,7 +41,7 @@ analyse() {
       'benchmark/process/*.cpp')
   fi
   printf '%s\0' "${files[@]}" | xargs -0 -P "$(nproc)" -n 4 \
-    clang-tidy -p build/clang --quiet --checks='-*,clang-analyzer-*' --warnings-as-errors='*' &&
+    clang-tidy -p build/clang --quiet --checks="$checks" --warnings-as-errors='*' &&
     echo "clang.sh: ${#files[@]} files, nothing found."
 }
 

@@ -4,11 +4,12 @@
 # which of them no test finds. Needs clang's syntax tree (Debian: python3-clang-14).
 #
 #   scripts/mutate.sh [--room ROOM] [--file FILE ...] [--sample N] [--seed S] [--jobs N]
-#                     [--survivors] [--list]
+#                     [--tests SPEC] [--survivors] [--list]
 #
 #   --room       eval (default), readers, stores or raymoval
 #   --file       only this file of the room
 #   --sample     only so many mutants, chosen by --seed (default 1); all of them otherwise
+#   --tests      only test cases that Catch2 chooses by this, such as "[averages]"
 #   --survivors  only those that survived in earlier runs, for instance after writing a test
 #   --list       only tells the mutants
 #

@@ -23,7 +23,7 @@ failed() {
 
 # sanitized COMMAND...: without the random places of memory that ThreadSanitizer cannot work with.
 # Reports go to files, for what a child process prints is not always shown.
-suppressions=$PWD/tests/threads/tbb.supp
+suppressions=$PWD/tests/threads/libraries.supp
 reports=$PWD/build/tsan/races
 sanitized() {
   TSAN_OPTIONS="suppressions=$suppressions:log_path=$reports/in" setarch -R "$@"
@@ -54,9 +54,19 @@ commands() {
   return "$result"
 }
 
+# watches: whether a race is found where there is one, and none where there is none.
+watches() {
+  TSAN_OPTIONS="" setarch -R build/tsan/raymoval_planted_race none >/dev/null 2>&1 &&
+    ! TSAN_OPTIONS="" setarch -R build/tsan/raymoval_planted_race between-chunks >/dev/null 2>&1
+}
+
 races() {
-  cmake --preset tsan >/dev/null && cmake --build --preset tsan &&
-    cmake --build --preset tsan --target raymoval_threads || exit 2
+  # The tests themselves are compiled once.
+  cmake --preset release >/dev/null && cmake --build --preset release || exit 2
+  cmake --preset tsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release" >/dev/null &&
+    cmake --build --preset tsan &&
+    cmake --build --preset tsan --target raymoval_threads raymoval_planted_race || exit 2
+  watches || failed "ThreadSanitizer does not tell a race from none here."
   rm -rf "$reports"
   mkdir -p "$reports"
   sanitized ctest --preset tsan ${1:+-R "$1"} || failed "unit tests: a failure or a race, see above."

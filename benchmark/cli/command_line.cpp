@@ -96,8 +96,7 @@ std::atomic<bool> memory_ran_out = false;
 
 int show_error(const std::string& message, ExitCode code) {
   const char* internal = code == ExitCode::kInternal ? "internal error, please report it: " : "";
-  std::fprintf(stderr, "%s %s%s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
-               internal, message.c_str());
+  print_error(coloured("raymoval:", TerminalColour::kBad, stderr) + " " + internal + message);
   return static_cast<int>(code);
 }
 
@@ -184,7 +183,8 @@ const std::atomic<bool>& interrupt_flag() {
   return interrupted;
 }
 
-void print(const std::string& text) {
+void print(const std::string& whole) {
+  const std::string text = terminal_text(whole, stdout);
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0) {
     throw DataError("standard output cannot be written (a full disk or a closed pipe?).");

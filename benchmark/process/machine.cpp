@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/process/machine.h"
 
+#include <cmath>
 #include <fstream>
 
 #include "benchmark/process/build_commit.h"
@@ -15,7 +16,7 @@ BuildRecord build_record() {
 MachineRecord machine_record(int threads) {
   MachineRecord machine{proc_field("/proc/cpuinfo", "model name"), hardware_threads()};
   const auto memory = proc_mib("/proc/meminfo", "MemTotal");
-  if (memory) machine.memory_gib = static_cast<std::int64_t>(*memory / 1024.0 + 0.5);
+  if (memory) machine.memory_gib = std::llround(*memory / 1024.0);
   machine.threads = threads;
   return machine;
 }

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "benchmark/suite/suite_json.h"
+#include "core/name.h"
 
 namespace raymoval {
 
@@ -64,6 +65,14 @@ void RecordReader::check_schema_version() const {
   throw SchemaVersionError(
       fmt::format("{}: schema version {}, expected {}. Run `raymoval run` again with this version.",
                   file_, version, kSchemaVersion));
+}
+
+void RecordReader::name(const char* key, std::string& value) const {
+  field(key, value);
+  const std::string problem = value.empty() ? "" : name_problem(value);
+  if (!problem.empty()) {
+    fail(place_of(key), fmt::format("the name {}; expected {}", problem, kNameForm));
+  }
 }
 
 void RecordReader::limit(const char* key, double& value, double none) const {

@@ -4,18 +4,25 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <random>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include "core/files/files.h"
 
 namespace raymoval {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::string_view kMark = ".raymoval-";
 constexpr std::string_view kEnd = ".part";
@@ -74,6 +81,29 @@ void discard(Part& part) {
   errno = reason;
 }
 
+/// The part names that stood in a folder when this process first asked.
+const std::vector<fs::path>& earlier_parts(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::map<fs::path, std::vector<fs::path>> known;
+  const std::lock_guard lock(mutex);
+  const auto [place, is_new] = known.try_emplace(folder);
+  if (!is_new) return place->second;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    if (is_part_name(entry->path())) place->second.push_back(entry->path());
+  }
+  return place->second;
+}
+
+void remove_abandoned_parts_of(const fs::path& target) {
+  const fs::path named = target.has_filename() ? target : target.parent_path();
+  const fs::path folder = named.has_parent_path() ? named.parent_path() : fs::path(".");
+  for (const fs::path& part : earlier_parts(folder)) {
+    if (name_of_part(part) == named.filename()) remove_abandoned_part(part);
+  }
+}
+
 }  // namespace
 
 std::filesystem::path new_part_name(const std::filesystem::path& path) {
@@ -98,6 +128,7 @@ bool is_part_name(const std::filesystem::path& path) {
 
 Part new_part_file(const std::filesystem::path& target, mode_t mode) {
   constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  remove_abandoned_parts_of(target);
   while (true) {
     Part part{new_part_name(target)};
     part.held = Descriptor(::open(part.place.c_str(), kFlags, mode));
@@ -108,10 +139,11 @@ Part new_part_file(const std::filesystem::path& target, mode_t mode) {
   }
 }
 
-Part new_part_folder(const std::filesystem::path& target) {
+Part new_part_folder(const std::filesystem::path& target, mode_t mode) {
+  remove_abandoned_parts_of(target);
   while (true) {
     Part part{new_part_name(target)};
-    if (::mkdir(part.place.c_str(), 0777) != 0) return part;
+    if (::mkdir(part.place.c_str(), mode) != 0) return part;
     part.held =
         Descriptor(::open(part.place.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     const Kept kept = part.held.valid() ? keep(part.held.get()) : Kept::kUnknown;
@@ -127,6 +159,14 @@ Descriptor take_abandoned_part(const std::filesystem::path& part) {
   Descriptor opened(::open(part.c_str(), kFlags));
   if (opened.valid() && locks(opened.get())) return opened;
   return Descriptor();
+}
+
+void remove_abandoned_part(const std::filesystem::path& part) {
+  struct stat status {};
+  if (::lstat(part.c_str(), &status) != 0 || status.st_uid != ::geteuid()) return;
+  const Descriptor held = take_abandoned_part(part);
+  std::error_code ignored;
+  if (held.valid()) fs::remove_all(part, ignored);
 }
 
 }  // namespace raymoval

@@ -30,13 +30,15 @@ struct Part {
       Descriptor();  ///< Not valid if it could not be made; then errno has the reason.
 };
 
-/// Makes an empty file for reading and writing. Nothing that stands there already is opened, and no
-/// link is followed.
+/// Makes an empty file for reading and writing. What dead processes of this user left of the same
+/// target, when this process made its first part in that folder, is removed before. Nothing that
+/// stands there already is opened, and no link is followed.
 /// @param mode the rights of the file, of which the process's umask takes away
 Part new_part_file(const std::filesystem::path& target, mode_t mode);
 
-/// Makes an empty folder.
-Part new_part_folder(const std::filesystem::path& target);
+/// Makes an empty folder in the same way.
+/// @param mode as above
+Part new_part_folder(const std::filesystem::path& target, mode_t mode = 0777);
 
 /// Takes the lock of a file or folder under a part name if the process that made it has certainly
 /// ended: it ran under this very system kernel, whose locks can be trusted, and its lock is free.
@@ -44,5 +46,9 @@ Part new_part_folder(const std::filesystem::path& target);
 /// @return the lock, so that nobody else takes it meanwhile; not valid if it is in use, is no part,
 ///   or nobody can tell
 Descriptor take_abandoned_part(const std::filesystem::path& part);
+
+/// Removes a file or folder under a part name if `take_abandoned_part` can take it and it is this
+/// user's. It never throws.
+void remove_abandoned_part(const std::filesystem::path& part);
 
 }  // namespace raymoval

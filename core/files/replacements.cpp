@@ -64,7 +64,8 @@ bool Replacements::give_name(One& one) {
   }
   if (errno != EINVAL && errno != ENOSYS) return false;
   // A second name keeps the file before; a folder can have only one.
-  one.aside = new_part_name(one.target);
+  // Under no part's name: if this process ends here, nobody takes it for something unfinished.
+  one.aside = new_part_name(one.target).replace_extension(".before");
   const bool linked = ::link(one.target.c_str(), one.aside.c_str()) == 0;
   if (!linked && !renames(one.target, one.aside)) return false;
   if (renames(one.part.place, one.target)) {

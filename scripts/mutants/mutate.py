@@ -25,6 +25,7 @@ def arguments():
     parser.add_argument("--sample", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--tests", default="")
     parser.add_argument("--survivors", action="store_true")
     parser.add_argument("--list", action="store_true")
     return parser.parse_args()
@@ -82,7 +83,7 @@ def built(room, names, options):
     programs = []
     for program in room.programs:
         path = build.link(program, objects[program])
-        programs.append((path, running.measure(path, len(mutants))))
+        programs.append((path, running.measure(path, len(mutants), options.tests)))
     return mutants, programs
 
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "eval/bootstrap.h"
@@ -83,6 +84,28 @@ TEST_CASE("scans that fill whole blocks leave none to fill up with", "[bootstrap
                                      [&](const Sums& sums) { return rate(sums); });
   REQUIRE(result.block_scans == 3);
   CHECK(std::all_of(rate.drawn.begin(), rate.drawn.end(), [](double sum) { return sum == 9.0; }));
+}
+
+TEST_CASE("the draws are those of the seed, so that intervals can be made again", "[bootstrap]") {
+  for (const std::size_t scans : {4U, 7U, 9U, 10U}) {
+    CAPTURE(scans);
+    Sums counts;
+    for (std::size_t i = 0; i < scans; ++i) counts.push_back(static_cast<std::int64_t>(i * i + 1));
+    SumRate rate;
+    bootstrap(single_counts(counts), [&](const Sums& sums) { return rate(sums); }, {50, 0.9, 77});
+    // By single scans instead of sums of blocks.
+    const std::size_t length = bootstrap_block(scans);
+    std::mt19937_64 random(77);
+    for (const double drawn : rate.drawn) {
+      std::int64_t sum = 0;
+      for (std::size_t left = scans; left > 0;) {
+        const std::size_t taken = std::min(left, length), first = random() % scans;
+        for (std::size_t i = 0; i < taken; ++i) sum += counts[(first + i) % scans];
+        left -= taken;
+      }
+      CHECK(drawn == static_cast<double>(sum));
+    }
+  }
 }
 
 TEST_CASE("four scans are enough for an interval, three and none are not", "[bootstrap]") {

@@ -71,6 +71,8 @@ TEST_CASE("the name of a column comes apart and together again", "[columns]") {
         Expected{"rejection [moving-car, range 50 m and more]", "rejection", "moving-car", "range",
                  "50 m and more"},
         Expected{"preservation [a, b, height 1-2 m]", "preservation", "a, b", "height", "1-2 m"},
+        Expected{"preservation [a, height b, range 0-10 m]", "preservation", "a, height b", "range",
+                 "0-10 m"},
         Expected{"preservation [ranger]", "preservation", "ranger", "", ""}}) {
     CAPTURE(expected.name);
     const ColumnName parts = parse_column_name(expected.name);
@@ -114,6 +116,9 @@ TEST_CASE("every column of a sequence has one value and says why it has none", "
   CHECK(values.front().share.whole == 2);
   CHECK(names.contains("rejection [moving-car, range 10-20 m]"));
   CHECK(names.contains("preservation [road, height 1-2 m]"));
+  const auto classes = class_columns(tally_removals(sequence.input(), sequence.masks()));
+  CHECK(classes.front().description == "Points [moving-car] that are removed.");
+  CHECK(classes.back().description == "Points [road, height 1-2 m] that are kept.");
   for (const Column& column : general_columns()) {
     CHECK((column.better == Better::kLower) == (column.name == "residue"));
   }

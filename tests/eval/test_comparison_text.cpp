@@ -264,3 +264,97 @@ TEST_CASE("A change of nothing has no sign") {
   CHECK(change_text(TimeChange{"s", "a", {}, 1.0, Change::kIncomparable}) ==
         "no time on both sides; leave --time-band out");
 }
+
+TEST_CASE("The same words of other protocols and other words of one have lines of their own") {
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores.push_back(reference.scores[0]);
+  reference.scores[1].protocol = "other";
+  ComparedCell second = reference;
+  second.name = "b";
+  ComparedCell run = reference, run_second = second;
+  run.scores.clear();
+  run_second.scores.pop_back();
+  run_second.scores[0].identity["protocol version"] = "2";
+  const Comparison result = compare_results({{run, run_second}, {}}, {{reference, second}, {}}, {});
+  CHECK_THAT(comparison_text(result),
+             Contains("Not comparable:\n"
+                      "  s / a, erasor: not scored in the run\n"
+                      "  s / a, b, other: not scored in the run\n"
+                      "  s / b, erasor: protocol version is 2, the reference has 1\n"));
+}
+
+TEST_CASE("Several changes of one cell and protocol name the cell once") {
+  ComparedCell run = cell_of("a", 99.0, 990);
+  run.method_version = "2";
+  const ResultSet two{{run, cell_of("b", 99.0, 990)}, {}};
+  const ResultSet reference{{cell_of("a", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
+  const Comparison result = compare_results(two, reference, {});
+  CHECK(result.moved == std::vector<std::string>{"s / a: method version 1 -> 2"});
+  CHECK(result.verdict() == ExitCode::kDone);
+}
+
+TEST_CASE("A run that is whole again says nothing of an old reason") {
+  ComparedCell run = cell_of("a", 99.0, 990), failed = run;
+  run.reason = "left over";
+  failed.status = "failed";
+  failed.reason = "no idea";
+  CHECK(compared_one(run, failed).better == std::vector<std::string>{"s / a: failed -> ok"});
+}
+
+TEST_CASE("Times that are not there are not told") {
+  ComparedCell timed = cell_of("a", 99.0, 990), timeless = timed;
+  timed.seconds_per_scan = 0.1;
+  CHECK(compared_one(timeless, timed).times.empty());
+  CHECK(compared_one(timed, timeless).times.empty());
+  const ResultSet here{{timeless}, {}, "here"}, there{{timeless}, {}, "there"}, none;
+  CHECK(compare_results(here, there, {}).times.empty());
+  CHECK(compare_results(here, none, {{}, 3.0}).incomparable ==
+        std::vector<std::string>{"the reference has no cell"});
+}
+
+TEST_CASE("A tolerance of a rate that is not there says so") {
+  const ComparedCell cell = cell_of("a", 99.0, 990);
+  CHECK_THROWS_WITH(compared_one(cell, cell, {{{"SA", 1.0}}, {}}),
+                    Contains("--tolerance SA: the reference has no such metric"));
+}
+
+TEST_CASE("A rate has a tolerance if one is given, or none at all across parameters") {
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores[0].rates.push_back({"spread", 3.0, ""});
+  ComparedCell run = reference;
+  CHECK_FALSE(compared_one(run, reference).scores.at(0).rates.at(0).tolerance);
+  CHECK(compared_one(run, reference, {{{"PR", 0.5}}, {}}).scores.at(0).rates.at(0).tolerance ==
+        0.5);
+  run.identity["parameter x"] = "1";
+  ComparisonOptions options;
+  options.across_parameters = true;
+  const Comparison across = compared_one(run, reference, options);
+  CHECK(across.scores.at(0).rates.at(0).tolerance == 0.0);
+  CHECK_FALSE(across.scores.at(0).rates.at(1).tolerance);  // Nobody knows what is better.
+}
+
+TEST_CASE("A rate that rises does not outweigh one that falls within its tolerance") {
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores[0].rates.push_back({"RR", 90.0, ""});
+  ComparedCell run = reference;
+  run.scores[0].rates = {{"PR", 98.9, ""}, {"RR", 95.0, ""}};
+  const Comparison result = compared_one(run, reference, {{{"PR", 0.5}}, {}});
+  CHECK(result.verdict() == ExitCode::kDone);
+  CHECK(result.better.empty());
+  CHECK(result.moved.size() == 1);
+}
+
+TEST_CASE("Across parameters a count that is gone, or one of the truth, is told and worse") {
+  ComparisonOptions options;
+  options.across_parameters = true;
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores[0].counts.emplace_back("static_voxels", 1000);
+  ComparedCell run = reference;
+  run.identity["parameter x"] = "1";
+  run.scores[0].counts[1].second = 1001;
+  CHECK_THAT(compared_one(run, reference, options).worse.at(0),
+             Contains("static_voxels 1000 -> 1001 (+1)"));
+  run.scores[0].counts = {{"static_voxels", 1000}};
+  CHECK_THAT(compared_one(run, reference, options).worse.at(0),
+             Contains("preserved_static is missing"));
+}

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What counts where: small scenes for counts, frames and warnings of all protocols.
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <set>
 
+#include "core/error.h"
+#include "eval/columns/removal_tally.h"
+#include "eval/erasor/accumulate.h"
 #include "eval/erasor/frame.h"
 #include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"
@@ -79,6 +83,56 @@ TEST_CASE("points that are on neither side are counted by every protocol", "[cou
   CHECK(points.count("dynamic_points") == 2);
 }
 
+TEST_CASE("counts are summed over scans", "[counts]") {
+  LabelledScan scan = row_with({{40, false}, {258, true}, {99, false}});
+  scan.add(1.0f, 0.0f, 0.0f, 0);
+  scan.add(60.0f, 0.0f, 0.0f, 40);
+  const MemorySequence sequence({scan, scan, row_with({{40, false}})});
+  EvaluationInput input = sequence.input();
+  input.range_m = {0.0, 50.0};
+  input.label_rule.ignored = {99};
+  const ProtocolResult points = score_by("dynamicmap", input, sequence.masks());
+  CHECK(points.count("ego_points") == 2);
+  CHECK(points.count("out_of_range_points") == 2);
+  CHECK(points.count("ignored_points") == 2);
+  CHECK(points.count("static_points") == 3);
+  CHECK(points.count("dynamic_points") == 4);
+  CHECK(points.count("kept_static_points") == 3);
+  CHECK(points.count("flagged_dynamic_points") == 2);
+  const ProtocolResult voxels = score_by("erasor", input, sequence.masks());
+  CHECK(voxels.count("cropped_points") == 2);
+  CHECK(voxels.count("out_of_range_points") == 2);
+  CHECK(voxels.count("ignored_points") == 2);
+  CHECK(voxels.count("evaluated_points") == 5);
+  CHECK(voxels.count("removed_points") == 2);
+  CHECK(score_by("dynamicmap-strict", input, sequence.masks()).count("ego_points") == 2);
+  // A last scan of which nothing is left is no error.
+  const MemorySequence far_end({row_with({{40, false}}), LabelledScan{}});
+  CHECK(score_by("dynamicmap", far_end.input(), far_end.masks()).count("static_points") == 1);
+}
+
+TEST_CASE("a range below one metre is a limit, too", "[counts]") {
+  LabelledScan scan;
+  scan.add(0.25f, 0.0f, 0.0f, 40);
+  scan.add(0.75f, 0.0f, 0.0f, 40);
+  CHECK(score_scans("dynamicmap", {scan}, {{"maximum_range", 0.5}}).count("static_points") == 1);
+  CHECK(score_scans("dynamicmap", {scan}, {{"maximum_range", 0.0}}).count("static_points") == 2);
+}
+
+TEST_CASE("masks of more scans than there are are the method's error", "[counts]") {
+  const MemorySequence sequence({row_with({{40, false}, {252, true}})});
+  MaskStore masks(2);
+  masks.set(0, {0, 1});
+  masks.set(1, {0, 1});
+  for (const char* protocol : {"erasor", "dynamicmap", "dynamicmap-strict"}) {
+    CHECK_THROWS_AS(score_by(protocol, sequence.input(), masks), MethodError);
+  }
+  CHECK_THROWS_AS(tally_removals(sequence.input(), masks), MethodError);
+  EvaluationInput unlabelled = sequence.input();
+  unlabelled.labels = nullptr;
+  CHECK_THROWS_AS(tally_removals(unlabelled, sequence.masks()), DataError);
+}
+
 TEST_CASE("only the labels 0 and 1 near the sensor are the ego vehicle", "[counts]") {
   LabelledScan scan;
   for (const std::uint32_t label : {0U, 1U, 2U}) {
@@ -93,6 +147,8 @@ TEST_CASE("only the labels 0 and 1 near the sensor are the ego vehicle", "[count
   CHECK(binary.count("ego_points") == 0);
   CHECK(binary.count("static_points") == 2);
   CHECK(binary.count("dynamic_points") == 1);
+  input.label_rule = LabelRule{"binary", {0}, {}, {}};
+  CHECK(score_by("dynamicmap", input, sequence.masks()).count("ego_points") == 0);
 }
 
 TEST_CASE("an estimate is empty only if nothing at all is kept", "[counts]") {
@@ -101,6 +157,7 @@ TEST_CASE("an estimate is empty only if nothing at all is kept", "[counts]") {
     CHECK(score_scans(protocol, {row_with({{40, true}, {252, true}})}).warnings.size() == 1);
     CHECK(score_scans(protocol, {row_with({{40, true}, {252, false}})}).warnings.empty());
     CHECK(score_scans(protocol, {row_with({{40, false}, {252, true}})}).warnings.empty());
+    CHECK(score_scans(protocol, {row_with({{40, false}, {252, false}})}).warnings.empty());
   }
 }
 
@@ -113,6 +170,72 @@ TEST_CASE("a kept point a metre and a half away is near within two metres", "[co
     CHECK(result.count("present_static_points") == present);
     CHECK(result.count("kept_static_points") == 0);
   }
+}
+
+TEST_CASE("a kept point beyond any wall of the cells that are searched is found", "[counts]") {
+  // Within 2 m cells of 4 m are searched. The removed point lies 0.1 m within the cell around
+  // (22, 2, 2), the kept one as far beyond it: over each side, edge and corner.
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3f way(static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1),
+                              static_cast<float>(i / 9 - 1));
+    if (way.isZero()) continue;
+    const Eigen::Vector3f centre(22.0f, 2.0f, 2.0f);
+    const Eigen::Vector3f removed = centre + 1.9f * way, kept = centre + 2.1f * way;
+    CAPTURE(way.transpose());
+    for (const bool ignored_in_estimate : {true, false}) {
+      LabelledScan scan;
+      scan.add(removed.x(), removed.y(), removed.z(), 40, true);
+      scan.add(kept.x(), kept.y(), kept.z(), 252);
+      const ProtocolResult result = score_scans(
+          "dynamicmap", {scan}, {{"distance", 2.0}, {"ignored_in_estimate", ignored_in_estimate}});
+      CHECK(result.count("present_static_points") == 1);
+    }
+  }
+}
+
+TEST_CASE("of equally near partners a later one in cell order does not count", "[counts]") {
+  // Cells of 0.25 m. The flagged point in the middle of its cell has one kept point 0.15625 m above
+  // it in x, and one as far above it in y, which comes later.
+  for (const bool moving_above : {true, false}) {
+    LabelledScan scan;
+    scan.add(5.125f, 0.125f, 0.125f, 40, true);
+    scan.add(5.28125f, 0.125f, 0.125f, moving_above ? 252 : 40);
+    scan.add(5.125f, 0.28125f, 0.125f, moving_above ? 40 : 252);
+    const ProtocolResult result =
+        score_scans("erasor", {scan}, {{"voxel_size", 0.25}, {"lift", 0.0}});
+    CHECK(result.count("static_voxels") == 2);
+    CHECK(result.count("preserved_static") == (moving_above ? 1 : 2));
+  }
+}
+
+TEST_CASE("a voxel of the truth beyond the last one of the estimate has no partner", "[counts]") {
+  const Settings same_cell = {{"matching", std::string("same_cell")}};
+  const ProtocolResult result =
+      score_scans("erasor", {row_with({{40, false}, {252, false}, {40, true}})}, same_cell);
+  CHECK(result.count("preserved_static") == 1);
+  CHECK(result.count("remaining_dynamic") == 1);
+}
+
+TEST_CASE("a point of the dense map belongs to the scan that ends behind it", "[counts]") {
+  erasor::DenseMap dense;
+  dense.scan_ends = {2, 2, 5};  // Points 0 and 1 of scan 0, none of scan 1, 2 to 4 of scan 2.
+  const std::vector<std::uint32_t> expected = {0, 0, 2, 2, 2};
+  for (std::uint32_t point = 0; point < expected.size(); ++point) {
+    CHECK(dense.scan_of(point) == expected[point]);
+  }
+}
+
+TEST_CASE("unlabelled voxels are left out of PR only where they stand", "[counts]") {
+  const Settings leave_out = {{"ignore_0_1", true}};
+  const std::vector<LabelledScan> scans = {
+      row_with({{0, false}, {1, false}, {2, false}, {40, false}})};
+  CHECK(score_scans("erasor", scans, leave_out).count("static_voxels") == 2);
+  const MemorySequence sequence(scans);
+  EvaluationInput input = sequence.input();
+  input.label_rule = LabelRule{"binary", {1}, {}, {}};
+  const ProtocolResult binary = score_by("erasor", input, sequence.masks(), leave_out);
+  CHECK(binary.count("dynamic_voxels") == 1);
+  CHECK(binary.count("static_voxels") == 2);
 }
 
 TEST_CASE("a truck of an early scan is counted both ways, too", "[counts]") {
@@ -181,6 +304,27 @@ TEST_CASE("a point of a scan is in a cloud up to 5 cm away", "[counts][cloud]") 
   // Asked for with another distance, the masks are others.
   CHECK(estimate.masks(sequence.input(), 0.05).get(0) == Mask{0, 1, 1});
   CHECK(estimate.masks(sequence.input(), 0.07).get(0) == Mask{0, 0, 1});
+}
+
+TEST_CASE("each pass over the scans is told with its number of scans", "[counts]") {
+  const LabelledScan scan = row_with({{40, false}, {252, true}});
+  const MemorySequence sequence({scan, scan, scan});
+  std::FILE* told = std::tmpfile();
+  REQUIRE(told != nullptr);
+  Progress progress(ProgressStyle::kTerminal, told);
+  EvaluationInput input = sequence.input();
+  input.progress = &progress;
+  (void)score_by("erasor", input, sequence.masks());
+  (void)score_by("dynamicmap", input, sequence.masks());
+  std::rewind(told);
+  std::string text(4096, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), told));
+  std::fclose(told);
+  for (const char* task : {"ground truth map: 0 of 3", "estimated map: 0 of 3",
+                           "ground truth points: 0 of 3", "points that are gone: 0 of 3"}) {
+    CHECK_THAT(text, Catch::Contains(task));
+  }
+  CHECK_THAT(text, Catch::EndsWith("\r\x1b[K"));  // The last line is cleared.
 }
 
 TEST_CASE("the frame of ERASOR's map tool has the axes forward, left and up", "[counts][frame]") {

@@ -59,11 +59,12 @@ constexpr Line kLines[] = {
     {"peopleremover:reduced", "= ? ? ? ? = ? ? ?"},
 
     // A single scan removes a map point that it sees behind, and half a scan sees at least as far.
-    // The map's points are means of all points in a cell, which other points shift.
-    {"removert:rm3", "= = + ~ ? = ? ~ ?"},
-    {"removert:rm3-rv1", "= = ? ~ ? = ? ~ ?"},
-    {"removert:code", "= = + ~ ? = ? ~ ?"},
-    {"removert:port", "= = + ~ ? = ? ~ ?"},
+    // The map's points are means of all points in a cell, which other points shift, in single
+    // precision.
+    {"removert:rm3", "= = + ~ ? ~ ? ~ ?"},
+    {"removert:rm3-rv1", "= = ? ~ ? ~ ? ~ ?"},
+    {"removert:code", "= = + ~ ? ~ ? ~ ?"},
+    {"removert:port", "= = + ~ ? ~ ? ~ ?"},
 
     // Every n-th scan is a query, so that empty ones count, but for n = 1.
     {"erasor:general", "= ? ? ~ ? = ? ? ?"},

@@ -24,22 +24,34 @@ using toy::Claim;
 
 namespace {
 
-constexpr int kWorlds = 2;
-/// In so many worlds, what may change does so at least once, or a stricter claim would hold.
-constexpr int kEnoughWorlds = 60;
+constexpr std::size_t kWorlds = 2;
+/// In so many worlds, what may change does so at least once for some variant of the method, or
+/// stricter claims would hold.
+constexpr std::size_t kEnoughWorlds = 60;
 
 std::size_t from_environment(const char* name, std::size_t otherwise) {
   const char* text = std::getenv(name);
   return text == nullptr ? otherwise : std::stoul(text);
 }
 
-/// A method of claims, with directions as coarse as the sensor of the worlds.
+/// Images of removert with a fifth of the pixels along each side, and a map of 0.4 m.
+void coarsen_removert(Configuration& configuration) {
+  for (auto& [name, value] : configuration) {
+    if (name.find("_resolution_") != std::string::npos) value = 0.2 * std::get<double>(value);
+  }
+  set_parameter(configuration, "map_voxel", 0.4);
+}
+
+/// A method of claims, with directions and cells as coarse as the sensor of the worlds, so that
+/// points share them.
 ConfiguredMethod configured(const std::string& variant) {
   ConfiguredMethod method = MethodRegistry::built_in().configure(variant);
   if (method.entry->name == "raymoval") {
     set_parameter(method.configuration, "azimuth_bins", std::int64_t{0});
     set_parameter(method.configuration, "elevation_bins", std::int64_t{0});
   }
+  if (variant == "peopleremover:reduced") set_parameter(method.configuration, "reduce_angle", 0.05);
+  if (method.entry->name == "removert") coarsen_removert(method.configuration);
   return method;
 }
 
@@ -70,7 +82,7 @@ bool holds(Claim claim, const Difference& found) {
     case Claim::kSame:
       return found.lost + found.gained == 0;
     case Claim::kRounding:
-      return found.lost + found.gained <= found.points / 500;
+      return found.lost + found.gained <= found.points / 1000;
     case Claim::kMore:
       return found.lost == 0;
     case Claim::kFewer:
@@ -129,7 +141,7 @@ void try_changes(const toy::Claims& claims, const toy::ScanList& world, std::mt1
   }
 }
 
-void check_claims(const toy::Claims& claims, std::size_t worlds) {
+Findings check_claims(const toy::Claims& claims, std::size_t worlds) {
   Findings findings;
   rc::detail::TestParams parameters;
   parameters.seed = from_environment("RAYMOVAL_SEED", 22);
@@ -153,26 +165,34 @@ void check_claims(const toy::Claims& claims, std::size_t worlds) {
   INFO(text.str());
   CHECK(result.is<rc::detail::SuccessResult>());
   CHECK((findings.removed > 0) == (claims.variant != "noop:default"));
-  for (std::size_t c = 0; c < claims.about.size(); ++c) {
-    const char* name = toy::changes()[c].name;
-    const int changed = findings.changed_worlds[name];
-    if (worlds > kWorlds) {
-      std::cout << claims.variant << ": " << name << " [" << static_cast<char>(claims.about[c])
-                << "] changed " << changed << " of " << worlds << " worlds" << std::endl;
-    }
-    const bool may_change = claims.about[c] != Claim::kSame && claims.about[c] != Claim::kRounding;
-    if (worlds < kEnoughWorlds || !may_change) continue;
-    INFO(name << " has changed nothing");
-    CHECK(changed > 0);
-  }
+  return findings;
+}
+
+bool may_change(Claim claim) {
+  return claim != Claim::kSame && claim != Claim::kRounding;
 }
 
 void check_method(const std::string& name) {
   const std::size_t worlds = from_environment("RAYMOVAL_WORLDS", kWorlds);
+  std::map<std::string, int> open, changed;  // By change: variants that may, worlds that did.
   for (const toy::Claims& claims : toy::claims()) {
     if (!claims.variant.starts_with(name + ":")) continue;
     INFO(claims.variant);
-    check_claims(claims, worlds);
+    Findings findings = check_claims(claims, worlds);
+    for (std::size_t c = 0; c < claims.about.size(); ++c) {
+      const char* change = toy::changes()[c].name;
+      const int found = findings.changed_worlds[change];
+      open[change] += may_change(claims.about[c]) ? 1 : 0;
+      changed[change] += found;
+      if (worlds <= kWorlds) continue;
+      std::cout << fmt::format("{}: {} [{}] changed {} of {} worlds\n", claims.variant, change,
+                               static_cast<char>(claims.about[c]), found, worlds);
+    }
+  }
+  for (const auto& [change, variants] : open) {
+    if (worlds < kEnoughWorlds || variants == 0) continue;
+    INFO(change << " is said to change something, and does not");
+    CHECK(changed[change] > 0);
   }
 }
 

@@ -9,6 +9,7 @@ namespace {
 constexpr double kStep = 1.5, kHalfView = 75.0, kLowest = -20.0;  // Degrees.
 constexpr int kRows = 21;
 constexpr double kRange = 25.0, kNoise = 0.01, kTick = 0.1;
+constexpr double kJitter = 0.1;  // Degrees.
 
 SensorModel coarse_sensor() {
   SensorModel sensor;
@@ -47,7 +48,9 @@ std::vector<Eigen::Vector3f> returns(const std::vector<Box>& boxes, const Pose& 
   std::vector<Eigen::Vector3f> points;
   for (double azimuth = -kHalfView + kStep / 2.0; azimuth < kHalfView; azimuth += kStep) {
     for (int row = 0; row < kRows; ++row) {
-      const double a = azimuth * kDegree, e = (kLowest + row * kStep) * kDegree;
+      const double a = (azimuth + number_between(-kJitter, kJitter, random)) * kDegree;
+      const double e =
+          (kLowest + row * kStep + number_between(-kJitter, kJitter, random)) * kDegree;
       const Eigen::Vector3d ray(std::cos(a) * std::cos(e), std::sin(a) * std::cos(e), std::sin(e));
       double range = kRange;
       for (const Box& box : boxes) {

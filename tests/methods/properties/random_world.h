@@ -41,8 +41,9 @@ struct WorldPlan {
 double number_between(double low, double high, std::mt19937& random);
 
 /// A road with standing and moving boxes, before a sensor that drives along it and sees 150 degrees
-/// ahead in steps of 1.5 degrees, 21 rows, up to 25 m. Ranges are noisy by a centimetre, so that no
-/// point lies on a wall of any lattice. One tick of 0.1 s is between scans.
+/// ahead in steps of 1.5 degrees, 21 rows, up to 25 m. Ranges are noisy by a centimetre and
+/// directions by a tenth of a degree, so that no point lies on a wall of a lattice or on the border
+/// of a pixel. One tick of 0.1 s is between scans.
 ScanList random_world(const WorldPlan& plan);
 
 }  // namespace raymoval::toy

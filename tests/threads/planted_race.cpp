@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A race between chunks of a parallel loop, and a loop without any: scripts/threads.sh sees by them
+// that ThreadSanitizer finds what it is meant to find, and does not take TBB's work for a race.
+//
+//   raymoval_planted_race none | between-chunks
+#include <oneapi/tbb/global_control.h>
+
+#include <iostream>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+#include "core/parallel.h"
+
+namespace {
+
+/// Each chunk reads what was made before the loop and writes its own part, which is read after it.
+int sum_without_race(int threads) {
+  std::vector<int> made(1000, 1), parts(100, 0);
+  raymoval::parallel_chunks(threads, made.size(), 10, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) parts[begin / 10] += made[i];
+  });
+  return std::accumulate(parts.begin(), parts.end(), 0);
+}
+
+int sum_with_race(int threads) {
+  int sum = 0;
+  raymoval::parallel_for(threads, 1000, 10, [&](std::size_t) { ++sum; });
+  return sum;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view which = argc > 1 ? argv[1] : "";
+  if (which != "none" && which != "between-chunks") return 2;
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
+  int sum = 0;
+  for (int i = 0; i < 200; ++i) sum += which == "none" ? sum_without_race(8) : sum_with_race(8);
+  std::cout << sum << std::endl;
+}
