@@ -83,7 +83,7 @@ def built(room, names, options):
     programs = []
     for program in room.programs:
         path = build.link(program, objects[program])
-        programs.append((path, running.measure(path, len(mutants), options.tests)))
+        programs.append((path, running.measure(path, mutants[-1].number + 1, options.tests)))
     return mutants, programs
 
 

@@ -277,7 +277,7 @@ def places_of(source, unit_path, command, cache):
 
 def _walk(source, unit_path, command):
     unit = cindex.Index.create().parse(str(unit_path), args=clang_arguments(command))
-    errors = [d for d in unit.diagnostics if d.severity >= cindex.Diagnostic.Error]
+    errors = [str(d) for d in unit.diagnostics if d.severity >= cindex.Diagnostic.Error]
     walker = Walker(source)
     walker.walk_unit(unit)
     return walker.places, walker.constants, errors

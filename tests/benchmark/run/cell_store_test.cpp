@@ -130,13 +130,58 @@ TEST_CASE("A cell without removals does not stand beside those of an earlier one
   CHECK(fs::exists(store.folder(kName) / "cell.json"));
 }
 
+TEST_CASE("Removals that were not written in the end leave a cell without any") {
+  const test::TemporaryFolder folder;
+  const CellStore store(folder.path());
+  const MaskStore masks = masks_of_two_scans();
+  const Cell cell = cell_of(identity(), masks);
+  store.prepare(kName);
+  store.keep(cell, store.new_removals(kName));  // Nothing is there.
+  CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));
+  CHECK(store.find(kName, identity(), nullptr).state == StoredCell::State::kFresh);
+  store.keep(cell, written_removals(store, masks));
+  store.keep(cell, store.new_removals(kName));
+  CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));
+}
+
+TEST_CASE("What a killed run left of a cell goes before it is run again, and nothing else does") {
+  const test::TemporaryFolder folder;
+  const CellStore store(folder.path());
+  const fs::path place = store.folder(kName);
+  make_folder(place);
+  const std::vector<fs::path> left = {new_part_name(place / "cell.json"),
+                                      new_part_name(place / "timing-2.json")};
+  const std::vector<fs::path> foreign = {new_part_name(place / "timing-notes.txt"),
+                                         new_part_name(place / "notes.json"),
+                                         place / "timing-3.json", place / "cell.json"};
+  for (const fs::path& file : left) write_atomically(file, "half");
+  for (const fs::path& file : foreign) write_atomically(file, "whole");
+  write_atomically(place / "keep.txt", "mine");
+  fs::create_directories(place / "removals.part");  // As earlier versions named it.
+  write_atomically(place / "removals.part" / "000000.label", "half");
+  store.prepare(kName);
+  for (const fs::path& file : left) CHECK_FALSE(fs::exists(file));
+  for (const fs::path& file : foreign) CHECK(fs::exists(file));
+  CHECK(fs::exists(place / "keep.txt"));
+  CHECK_FALSE(fs::exists(place / "removals.part"));
+}
+
+TEST_CASE("A folder that cannot be made is told, and so is --out") {
+  const test::TemporaryFolder folder;
+  write_atomically(folder.path() / "file", "x");
+  CHECK_THROWS_WITH(make_folder(folder.path() / "file" / "cells"),
+                    Contains("file/cells: cannot be made") && Contains("--out"));
+}
+
 TEST_CASE("A stored cell is fresh, stale, failed or missing") {
   using State = StoredCell::State;
   const test::TemporaryFolder folder;
   const CellStore store(folder.path());
   const MaskStore masks = masks_of_two_scans();
   const test::TwoScans scans;
-  CHECK(store.find(kName, identity(), nullptr).state == State::kMissing);
+  const StoredCell missing = store.find(kName, identity(), nullptr);
+  CHECK(missing.state == State::kMissing);
+  CHECK(missing.why == "is not there yet");
 
   Cell cell = cell_of(identity(), masks);
   store.keep(cell, written_removals(store, masks));
