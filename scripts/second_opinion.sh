@@ -13,9 +13,14 @@ set -euo pipefail
 
 case ${1:-} in
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
+  -*) echo "second_opinion.sh: '$1' is unknown; see --help." >&2; exit 2 ;;
 esac
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 raymoval=${RAYMOVAL:-build/release/raymoval}
+if [[ ! -x $raymoval ]]; then
+  echo "second_opinion.sh: there is no program $raymoval; build it, or say where it is with RAYMOVAL." >&2
+  exit 2
+fi
 opinion=(python3 tests/opinion/second_opinion.py "$raymoval")
 failures=0
 
@@ -26,11 +31,18 @@ check() {
 if [[ $# -eq 2 && -d $1 ]]; then
   check folder "$1" "$2"
 else
+  known="town highway country suburb crossing excavator"
   scenes=("$@")
+  for scene in "${scenes[@]}"; do
+    [[ " $known " == *" $scene "* ]] || {
+      echo "second_opinion.sh: '$scene' is unknown; expected some of: $known." >&2
+      exit 2
+    }
+  done
   if [[ $# -eq 0 ]]; then
     check hostile
     check street 10:25:5
-    scenes=(town highway country suburb crossing excavator)
+    read -ra scenes <<<"$known"
   fi
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT
