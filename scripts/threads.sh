@@ -4,8 +4,9 @@
 # half an hour on two cores.
 #
 #   scripts/threads.sh                       both of the following, masks on the scene `town`
-#   scripts/threads.sh races [REGEX]         ThreadSanitizer (build/tsan): the unit tests of all rooms
-#                                            (or those that match), every method, and whole commands
+#   scripts/threads.sh races [REGEX]         ThreadSanitizer (build/tsan): the unit tests of loops, child
+#                                            processes and runs (or those whose names match), every
+#                                            method, and whole commands
 #   scripts/threads.sh masks [SEQUENCE [FIRST:LAST [METHOD...]]]
 #                                            masks and reasons of every variant of every method, and of
 #                                            every switch, with 1, 2, 3 and 8 threads (build/release)
@@ -60,6 +61,10 @@ watches() {
     ! TSAN_OPTIONS="" setarch -R build/tsan/raymoval_planted_race between-chunks >/dev/null 2>&1
 }
 
+# Names of the unit tests of what runs in parallel.
+in_parallel='[Tt]hread|Chunks|index is visited|lowest chunk|: a child|: all that a forking'
+in_parallel+='|whoever asks at once|: external|[Rr]uns? (give|is|are|has|that)|cancelled|progress'
+
 races() {
   # The tests themselves are compiled once.
   cmake --preset release >/dev/null && cmake --build --preset release || exit 2
@@ -69,7 +74,7 @@ races() {
   watches || failed "ThreadSanitizer does not tell a race from none here."
   rm -rf "$reports"
   mkdir -p "$reports"
-  sanitized ctest --preset tsan ${1:+-R "$1"} || failed "unit tests: a failure or a race, see above."
+  sanitized ctest --preset tsan --no-tests=error -R "${1:-$in_parallel}" || failed "unit tests: a failure or a race, see above."
   sanitized build/tsan/raymoval_threads street 0:5 | tee build/tsan/methods.log
   [[ ${PIPESTATUS[0]} -eq 0 ]] || failed "methods: a race or a difference, see above."
   commands || failed "commands: a failure or a race, see build/tsan/commands.log."

@@ -97,7 +97,7 @@ class ErasorScorer : public Scorer {
     LabelledCloud cloud;
     for (const Eigen::Vector3f& point : points) cloud.points.push_back(point.cast<double>());
     cloud.labels.resize(points.size());
-    LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes_, input_.threads);
+    const LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes_, input_.threads);
     if (all.size() == 0) return all;
     EvaluationInput whole = input_;
     whole.label_rule.ignored.clear();

@@ -22,7 +22,7 @@ std::vector<VoxelIndex> by_sector(const std::vector<VoxelIndex>& voxels,
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     const double angle =
         diamond_angle(voxels[i].x() + 0.5 - sensor.x(), voxels[i].y() + 0.5 - sensor.y());
-    const auto s = std::min(static_cast<std::size_t>(angle * (kSectors / 4)), kSectors - 1);
+    const auto s = std::min(static_cast<std::size_t>(angle * (kSectors / 4.0)), kSectors - 1);
     sector[i] = static_cast<std::uint16_t>(s);
     ++start[s + 1];
   }

@@ -55,7 +55,7 @@ Eigen::Vector3d turned_upward(const Eigen::Vector3d& normal) {
 }  // namespace
 
 Plane fit_plane(const std::vector<Eigen::Vector3d>& points, const Mask& chosen) {
-  const Eigen::Vector3d origin = points.front();  // Near all of them: small numbers to square.
+  const Eigen::Vector3d& origin = points.front();  // Near all of them: small numbers to square.
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   double count = 0.0;

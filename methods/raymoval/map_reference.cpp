@@ -2,6 +2,7 @@
 #include "methods/raymoval/map_reference.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/parallel.h"
 #include "core/simd/simd.h"
@@ -25,7 +26,7 @@ void for_window(const std::vector<float>& values, const AngularGrid& grid, int i
 }
 
 int percentile_rank(int count, double quantile) {
-  return static_cast<int>(quantile * (count - 1) + 0.5);
+  return static_cast<int>(std::floor(quantile * (count - 1) + 0.5));
 }
 
 }  // namespace

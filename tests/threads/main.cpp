@@ -6,6 +6,7 @@
 // Runs every variant of every method (or those of the named methods), and each method with every
 // switch turned and every choice made, with 1, 2, 3 and 8 threads, whatever the number of
 // processors. Exit code 1 if a mask or a reason differs. scripts/threads.sh runs it.
+#include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>

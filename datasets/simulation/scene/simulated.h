@@ -46,7 +46,7 @@ struct MoverTruth {
 /// 0 (x forward, y left), as SemanticKITTI has it, but levelled: z is up. Thread-safe.
 class SimulatedSequence : public ScanSource, public LabelSource {
  public:
-  virtual ~SimulatedSequence() = default;
+  ~SimulatedSequence() override = default;
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// The sensor's true pose, without the error that `pose` has.
   [[nodiscard]] virtual Pose true_pose(std::size_t scan) const = 0;

@@ -163,7 +163,8 @@ SensorModel SensorFile::model() const {
     model.elevation_min = *low;
     model.elevation_max = *high;
     model.azimuth_step = azimuth_step;
-    model.elevation_step = (*high - *low) / std::max<double>(1.0, elevations.size() - 1.0);
+    model.elevation_step =
+        (*high - *low) / std::max(1.0, static_cast<double>(elevations.size()) - 1.0);
   } else if (kind == Kind::kRaster) {
     model.azimuth_min = azimuth.low;
     model.azimuth_max = azimuth.high;

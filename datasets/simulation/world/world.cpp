@@ -120,8 +120,9 @@ void World::add_movers(const MoverSpec& spec, std::uint64_t seed, std::uint64_t 
   for (int i = 0; i < spec.group; ++i) {
     Random random(seed, Purpose::kMover, number, static_cast<std::uint64_t>(i));
     Route route = spec.route;
-    if (i > 0) route.start_m += random.between(-0.4, 0.4) - 0.7 * (i / 3);
-    const double left = 0.75 * ((i + 1) / 2) * (i % 2 == 0 ? 1.0 : -1.0) * (i == 0 ? 0.0 : 1.0);
+    const int row = i / 3, column = (i + 1) / 2;
+    if (i > 0) route.start_m += random.between(-0.4, 0.4) - 0.7 * row;
+    const double left = 0.75 * column * (i % 2 == 0 ? 1.0 : -1.0) * (i == 0 ? 0.0 : 1.0);
     add_mover(Mover(spec.kind, make_body(spec.kind, random), Track(route, *ground_), left,
                     next_instance()));
   }
