@@ -112,7 +112,10 @@ def walls():
                  0.2 * generator.randint(-10, 10), generator.choice(LABELS)) for _ in range(300)]
         whole = [(generator.randint(-8, 8), generator.randint(3, 8), generator.randint(-2, 2),
                   generator.choice(LABELS)) for _ in range(100)]
-        scans.append(scan + whole)
+        # Beside each, what is in the upper voxel only, so that a point in the lower one shows.
+        upper = [(x + 0.0625, y + 0.0625, z + 0.0625, generator.choice(LABELS))
+                 for x, y, z, _ in whole]
+        scans.append(scan + whole + upper)
     poses = [moved(0.6, -1.4, 0.2), moved(-0.6, 2.2, 1.4), moved(0.3, 0.7, -1.2)]
     settings = [{}, {"erasor": {"lift": 0.0}}, {"erasor": {"lift": 0.6, "label_mode": "nearest"}}]
     return Case("walls", scans, poses, settings=settings)
