@@ -19,7 +19,9 @@ namespace raymoval {
 /// does not show. So `main` must not do or print anything before this call.
 /// @param methods the methods that the program knows; it has to live as long as the call
 /// @return the exit code, see `ExitCode`
-int run_command_line(int argc, const char* const* argv,
-                     const MethodRegistry& methods = MethodRegistry::built_in());
+int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods);
+
+/// The same with the built-in methods.
+int run_command_line(int argc, const char* const* argv);
 
 }  // namespace raymoval

@@ -29,7 +29,8 @@ if(NOT RAYMOVAL_SANITIZE)
   endforeach()
 endif()
 # Where pages and pictures stand in the repository, so that their links lead there.
-install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SECURITY.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      docs/*.md methods/README.md methods/*/*.md datasets/*/README.md
      results/pictures/*.png results/schema/*.json)

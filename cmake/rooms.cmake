@@ -70,6 +70,7 @@ function(raymoval_room name)
   target_include_directories(raymoval_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/raymoval>)
-  target_link_libraries(raymoval_${name} PRIVATE $<BUILD_INTERFACE:raymoval_options>)
+  target_link_libraries(raymoval_${name} PRIVATE $<BUILD_INTERFACE:raymoval_options>
+                                                 $<BUILD_INTERFACE:raymoval_coverage>)
   set_target_properties(raymoval_${name} PROPERTIES EXPORT_NAME ${name})
 endfunction()

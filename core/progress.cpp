@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/terminal_colour.h"
 #include "core/text.h"
 #include "core/utf8.h"
 
@@ -75,7 +76,7 @@ void Progress::say(const std::string& line) {
   if (style_ == ProgressStyle::kQuiet) return;
   const std::lock_guard lock(mutex_);
   if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stream_);
-  std::fprintf(stream_, "%s\n", line.c_str());
+  std::fprintf(stream_, "%s\n", terminal_text(line, stream_).c_str());
 }
 
 std::string Progress::status(Clock::time_point now) const {
@@ -99,13 +100,13 @@ void Progress::print_terminal(Clock::time_point now) {
   if (const std::size_t width = line_width(stream_); width > 0 && line.size() > width) {
     line = cut_text(status(now), width);
   }
-  std::fprintf(stream_, "\r\x1b[K%s", line.c_str());
+  std::fprintf(stream_, "\r\x1b[K%s", printable_text(line).c_str());
   std::fflush(stream_);
 }
 
 void Progress::print_log(Clock::time_point now) {
   printed_ = now;
-  std::fprintf(stream_, "%s\n", with_context(status(now)).c_str());
+  std::fprintf(stream_, "%s\n", printable_text(with_context(status(now))).c_str());
 }
 
 }  // namespace raymoval

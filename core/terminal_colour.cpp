@@ -3,10 +3,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
@@ -15,6 +17,8 @@ std::string_view variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
 }
+
+constexpr const char* kPlain = "\x1b[0m";
 
 const char* sequence_of(TerminalColour colour) {
   switch (colour) {
@@ -27,6 +31,17 @@ const char* sequence_of(TerminalColour colour) {
   }
 }
 
+/// Bytes of what `coloured` adds, if it stands at `at`; else 0.
+std::size_t colour_length(const std::string& text, std::size_t at) {
+  for (const std::string_view known :
+       {std::string_view(kPlain), std::string_view(sequence_of(TerminalColour::kGood)),
+        std::string_view(sequence_of(TerminalColour::kBad)),
+        std::string_view(sequence_of(TerminalColour::kNotice))}) {
+    if (text.compare(at, known.size(), known) == 0) return known.size();
+  }
+  return 0;
+}
+
 }  // namespace
 
 bool shows_colours(std::FILE* stream) {
@@ -36,7 +51,32 @@ bool shows_colours(std::FILE* stream) {
 }
 
 std::string coloured(const std::string& text, TerminalColour colour, std::FILE* stream) {
-  return shows_colours(stream) ? sequence_of(colour) + text + "\x1b[0m" : text;
+  return shows_colours(stream) ? sequence_of(colour) + text + kPlain : text;
+}
+
+std::string terminal_text(const std::string& text, std::FILE* stream) {
+  const bool with_colours = shows_colours(stream);
+  std::string safe, piece;
+  const auto end_piece = [&] {
+    safe += printable_text(piece);
+    piece.clear();
+  };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const std::size_t colour = with_colours ? colour_length(text, at) : 0;
+    if (colour == 0 && text[at] != '\n' && text[at] != '\t') {
+      piece += text[at];
+      continue;
+    }
+    end_piece();
+    safe.append(text, at, std::max<std::size_t>(colour, 1));
+    at += std::max<std::size_t>(colour, 1) - 1;
+  }
+  end_piece();
+  return safe;
+}
+
+void print_error(const std::string& line) {
+  std::fprintf(stderr, "%s\n", terminal_text(line, stderr).c_str());
 }
 
 std::string coloured_phrases(const std::string& text,

@@ -23,6 +23,14 @@ bool shows_colours(std::FILE* stream);
 /// `text` in a colour if `stream` shows colours, else `text`.
 std::string coloured(const std::string& text, TerminalColour colour, std::FILE* stream);
 
+/// `text` as it may go to `stream` whoever wrote it: line breaks and tabs stay, and the colours of
+/// `coloured` if the stream shows them; all else that a terminal would obey goes the way of
+/// `printable_text`.
+std::string terminal_text(const std::string& text, std::FILE* stream);
+
+/// Writes a line to standard error as `terminal_text`.
+void print_error(const std::string& line);
+
 /// `text` with each phrase coloured where a line begins with "phrase:" or ends with "phrase.".
 std::string coloured_phrases(const std::string& text,
                              const std::vector<std::pair<std::string, TerminalColour>>& phrases,

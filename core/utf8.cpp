@@ -7,7 +7,19 @@
 namespace raymoval {
 namespace {
 
-/// Bytes of the UTF-8 sequence that starts at `at`; 0 if XML may not hold it.
+/// Whether a character steers a terminal, changes the direction of writing, or has no width: text
+/// with it does not look like what it is.
+bool is_treacherous(std::uint32_t code) {
+  const auto within = [code](std::uint32_t first, std::uint32_t last) {
+    return code >= first && code <= last;
+  };
+  return within(0x80, 0x9F) || code == 0xAD || code == 0x61C || within(0x200B, 0x200F) ||
+         within(0x2028, 0x202E) || within(0x2060, 0x206F) || code == 0xFEFF ||
+         within(0xFFF9, 0xFFFB) || within(0xE0000, 0xE007F);
+}
+
+/// Bytes of the UTF-8 sequence that starts at `at`; 0 if it is not to be shown: no UTF-8, a control
+/// character, or what XML may not hold.
 std::size_t sequence_length(const std::string& text, std::size_t at) {
   const auto first = static_cast<unsigned char>(text[at]);
   if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
@@ -20,7 +32,8 @@ std::size_t sequence_length(const std::string& text, std::size_t at) {
   }
   const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
   const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  return overlong || surrogate || code > 0x10FFFF || (code & 0xFFFEU) == 0xFFFEU ? 0 : length;
+  const bool allowed = code <= 0x10FFFF && (code & 0xFFFEU) != 0xFFFEU && !is_treacherous(code);
+  return overlong || surrogate || !allowed ? 0 : length;
 }
 
 }  // namespace

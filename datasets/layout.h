@@ -27,6 +27,9 @@ struct SceneNames {
   std::function<std::string(const std::string& path)> sequence_name;
   /// What to write, or to do, to mean the scene where a folder has the same name.
   std::function<std::string(const std::string& path)> unmistakable;
+  /// Whether opening it leaves nothing new on the disk, because it is there. Null if none ever
+  /// does.
+  std::function<bool(const std::string& path)> is_made = nullptr;
 };
 
 /// A way in: how sequences of one kind are recognised and opened, and what holds for all of them.

@@ -104,6 +104,11 @@ bool is_scene(const std::string& path) {
   return scenes_of(path) != nullptr;
 }
 
+bool is_at_hand(const std::string& path) {
+  const SceneNames* scenes = scenes_of(path);
+  return scenes == nullptr || !scenes->is_made || scenes->is_made(path);
+}
+
 std::string scene_or_folder(const std::string& path, const fs::path& base) {
   const SceneNames* scenes = scenes_of(path);
   if (scenes == nullptr || !is_folder(base / path)) return "";

@@ -41,6 +41,10 @@ std::vector<std::string> scene_names();
 /// Whether `open_sequence` takes `path` for a scene: `street`, a simulated one, a scene file.
 bool is_scene(const std::string& path);
 
+/// Whether `open_sequence` would leave nothing new on the disk: false for a scene that it would
+/// simulate into the cache first. @throws as open_sequence for a scene
+bool is_at_hand(const std::string& path);
+
 /// What to tell a user who may mean either: `path` names a scene, and a folder of that name stands
 /// in `base`. Empty if only one is there.
 /// @param base folder that the user's paths start from; empty: the current one

@@ -7,7 +7,9 @@
 
 #include "core/error.h"
 #include "core/files/fields.h"
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
+#include "core/name.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
 
@@ -72,13 +74,10 @@ void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
 
 /// The name becomes part of file names and table rows.
 void check_name(const std::string& name) {
-  const bool plain =
-      !name.empty() && name.front() != '.' && name.find_first_of("/\\\n\r\t") == std::string::npos;
-  if (!plain) {
-    throw ConfigurationError("sequence name '" + name +
-                             "': expected a name without slashes that does not start with a dot; "
-                             "give one with --name or \"name\" in sequence.json.");
-  }
+  const std::string problem = name_problem(name);
+  if (problem.empty()) return;
+  throw ConfigurationError("sequence name '" + name + "': " + problem + "; expected " + kNameForm +
+                           ". Give one with --name or \"name\" in sequence.json.");
 }
 
 void check_settings(const SequenceSettings& settings) {
@@ -104,7 +103,10 @@ void check_settings(const SequenceSettings& settings) {
 std::string folder_name(const std::filesystem::path& folder) {
   std::error_code error;
   const auto whole = std::filesystem::weakly_canonical(folder, error);
-  const auto name = error ? folder.filename() : whole.filename();
+  if (error) {
+    throw UnreadableError(folder.string() + ": cannot be looked at (" + error.message() + ").");
+  }
+  const auto name = whole.filename();
   return name.empty() ? "sequence" : name.string();
 }
 

@@ -17,18 +17,44 @@ passed=0
 failed=0
 failures=()
 
-# step NAME COMMAND...: one check that counts as one.
-step() {
-  local name=$1
-  shift
-  echo "== $name"
-  if "$@"; then
+# count NAME STATUS: one check more.
+count() {
+  if [[ $2 -eq 0 ]]; then
     passed=$((passed + 1))
   else
     failed=$((failed + 1))
-    failures+=("$name")
+    failures+=("$1")
   fi
 }
+
+# step NAME COMMAND...: one check that counts as one.
+step() {
+  echo "== $1"
+  "${@:2}"
+  count "$1" $?
+}
+
+# begin COMMAND...: runs beside what follows, at a lower priority and in a process group of its own,
+# which ends with this script. finish NAME: waits for it, shows what it printed, and counts it.
+beside=
+begin() {
+  set -m
+  (renice -n 10 "$BASHPID" >/dev/null; "$@") >"$log_beside" 2>&1 </dev/null &
+  beside=$!
+  set +m
+}
+finish() {
+  echo "== $1"
+  wait "$beside"
+  local status=$?
+  beside=
+  cat "$log_beside"
+  count "$1" $status
+}
+log_beside=$(mktemp)
+trap '[[ -z $beside ]] || kill -- "-$beside" 2>/dev/null; rm -f "$log_beside"' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
 
 # run_tests PRESET: counts every test of ctest.
 run_tests() {
@@ -66,10 +92,14 @@ step "includes" scripts/check_includes.sh
 step "tree" scripts/check_tree.sh
 step "format" check_format
 step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_REPORT_3D=ON -DRAYMOVAL_UNITY=benchmark
+# The release tests leave much of the processors idle.
+begin build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release"
 run_tests release
 step "reference results" scripts/check_reference.sh
-step "sanitizer build" build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release"
+finish "sanitizer build"
+scripts/coverage.sh --reset
 run_tests asan-ubsan
+step "coverage" scripts/coverage.sh
 
 [[ ${#failures[@]} -eq 0 ]] || printf 'failed: %s\n' "${failures[@]}"
 echo "$passed passed, $failed failed"

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <vector>
 
 #include "core/error.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 #include "datasets/inspection/inspect.h"
 
@@ -14,7 +14,7 @@ namespace raymoval {
 namespace {
 
 void warn(const std::string& text) {
-  std::fprintf(stderr, "raymoval: warning: %s\n", text.c_str());
+  print_error("raymoval: warning: " + text);
 }
 
 }  // namespace

@@ -2,13 +2,15 @@
 #include "benchmark/clean/clean_outputs.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "benchmark/result/removals/removal_files.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
-#include "core/files/part_name.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/ego/ego_free_source.h"
@@ -21,9 +23,12 @@ namespace fs = std::filesystem;
 /// The one way to write a path, so that two can be compared.
 fs::path plain(const fs::path& path) {
   std::error_code error;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
-  const fs::path& known = error ? path : whole;
-  return known.has_filename() ? known : known.parent_path();
+  fs::path whole = fs::absolute(path, error);
+  if (!error) whole = fs::weakly_canonical(whole, error);
+  if (error) {
+    throw UnreadableError(path.string() + ": cannot be looked at (" + error.message() + ").");
+  }
+  return whole.has_filename() ? whole : whole.parent_path();
 }
 
 void check_cloud_path(const fs::path& path, bool overwrite) {
@@ -95,40 +100,27 @@ void check_apart_from(const Sequence& sequence, const CleanPaths& paths) {
 }
 
 LabelFolder::LabelFolder(const fs::path& path) : path_(plain(path)) {
-  temporary_ = new_part_name(path_);
-  old_ = new_part_name(path_);
-  std::error_code error;
-  fs::create_directories(temporary_, error);
-  if (error) fail(error.message());
-}
-
-LabelFolder::~LabelFolder() {
-  std::error_code error;
-  if (!temporary_.empty()) fs::remove_all(temporary_, error);
-}
-
-void LabelFolder::fail(const std::string& reason) const {
-  throw DataError(path_.string() + ": cannot be made (" + reason +
+  std::error_code above;  // Shows when the folder is made.
+  fs::create_directories(folder_of(path_), above);
+  part_ = new_part_folder(path_);
+  if (part_.held.valid()) return;
+  throw DataError(path_.string() + ": cannot be made (" + std::generic_category().message(errno) +
                   "). Nothing was changed; choose another folder.");
 }
 
-void LabelFolder::add(const Scan& scan, const Mask& mask) {
-  write_removal(temporary_, scan, mask);
+LabelFolder::~LabelFolder() {
+  std::error_code ignored;
+  if (!committed_) fs::remove_all(part_.place, ignored);
 }
 
-void LabelFolder::commit() {
-  std::error_code error;
-  const bool replaces = has_folder(path_);
-  if (replaces) fs::rename(path_, old_, error);
-  if (error) fail(error.message());
-  fs::rename(temporary_, path_, error);
-  if (error) {
-    const std::string reason = error.message();
-    if (replaces) fs::rename(old_, path_, error);
-    fail(reason);
-  }
-  temporary_.clear();
-  if (replaces) fs::remove_all(old_, error);
+void LabelFolder::add(const Scan& scan, const Mask& mask) {
+  write_removal(part_.place, scan, mask);
+}
+
+void LabelFolder::commit_with(Replacements& together) {
+  sync_folder(part_.place);
+  together.add(std::move(part_), path_);
+  committed_ = true;
 }
 
 CleanOutputs::CleanOutputs(const CleanPaths& paths, double voxel_size,
@@ -147,9 +139,11 @@ void CleanOutputs::add(const Scan& scan, const Mask& mask) {
 void CleanOutputs::commit() {
   map_points_ = map_.finish();
   if (removed_) removed_->finish();
-  if (labels_) labels_->commit();
-  if (removed_) removed_->commit();
-  map_.commit();
+  Replacements all;
+  if (labels_) labels_->commit_with(all);
+  if (removed_) removed_->commit_with(all);
+  map_.commit_with(all);
+  all.commit();
 }
 
 }  // namespace raymoval

@@ -3,9 +3,10 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 
 #include "benchmark/clean/map_cleaner.h"
+#include "core/files/part_name.h"
+#include "core/files/replacements.h"
 #include "datasets/sequence.h"
 
 namespace raymoval {
@@ -37,13 +38,13 @@ class LabelFolder {
   LabelFolder& operator=(const LabelFolder&) = delete;
 
   void add(const Scan& scan, const Mask& mask);
-  /// Gives the folder its name in place of a folder that had it. @throws DataError
-  void commit();
+  /// Lets `together` give the folder its name, in place of a folder that had it. @throws DataError
+  void commit_with(Replacements& together);
 
  private:
-  [[noreturn]] void fail(const std::string& reason) const;
-
-  std::filesystem::path path_, temporary_, old_;
+  std::filesystem::path path_;
+  Part part_;
+  bool committed_ = false;
 };
 
 /// The outputs of `raymoval clean`. All are opened at the beginning, so that a place where nothing

@@ -6,10 +6,12 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <exception>
 #include <optional>
 #include <set>
 #include <system_error>
 
+#include "core/files/file_kind.h"
 #include "core/files/part_name.h"
 #include "core/process/child_process.h"
 #include "core/progress.h"
@@ -27,9 +29,9 @@ std::set<fs::path> unfinished(const CleanPaths& paths) {
     if (output.empty()) continue;
     const fs::path whole = fs::absolute(output).lexically_normal();
     const fs::path named = whole.has_filename() ? whole : whole.parent_path();
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(named.parent_path(), error)) {
-      if (name_of_part(entry.path()) == named.filename()) found.insert(entry.path());
+    if (!is_folder(named.parent_path())) continue;
+    for (const fs::path& entry : entries_of(named.parent_path())) {
+      if (name_of_part(entry) == named.filename()) found.insert(entry);
     }
   }
   return found;
@@ -41,6 +43,17 @@ class LeftOvers {
   explicit LeftOvers(const CleanPaths& paths)
       : paths_(paths), before_(unfinished(paths)), had_labels_(has_labels()) {}
   ~LeftOvers() {
+    try {
+      remove();
+    } catch (const std::exception&) {
+      // What cannot be found now stays under a name that tells what it is.
+    }
+  }
+  LeftOvers(const LeftOvers&) = delete;
+  LeftOvers& operator=(const LeftOvers&) = delete;
+
+ private:
+  void remove() const {
     // The child was ended between two renames: what was there has another name and is the user's.
     if (has_labels() != had_labels_) return;
     std::error_code ignored;
@@ -49,13 +62,8 @@ class LeftOvers {
     }
     remove_abandoned_working_folders();
   }
-  LeftOvers(const LeftOvers&) = delete;
-  LeftOvers& operator=(const LeftOvers&) = delete;
-
- private:
   [[nodiscard]] bool has_labels() const {
-    std::error_code ignored;
-    return !paths_.labels.empty() && fs::exists(paths_.labels, ignored);
+    return !paths_.labels.empty() && is_there(paths_.labels);
   }
   const CleanPaths& paths_;
   std::set<fs::path> before_;
@@ -70,18 +78,23 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
 }
 
 ExitCode answer_of(const ChildEnd& end, double limit_mib) {
+  if (asking_signal(end) != 0) {
+    throw DataError(fmt::format("cleaning was ended from outside by {}. Nothing was written.",
+                                signal_text(asking_signal(end))));
+  }
   switch (end.kind) {
     case ChildEnd::Kind::kNotStarted:
       throw DataError(not_started_text(end.code));
     case ChildEnd::Kind::kCancelled:
-    case ChildEnd::Kind::kTimeout:  // There is no limit on time.
+    case ChildEnd::Kind::kTimeout:    // There is no limit on time,
+    case ChildEnd::Kind::kOutOfDisk:  // and none on its folder.
       throw Cancelled();
     case ChildEnd::Kind::kOutOfMemory:
       throw DataError(fmt::format(
           "cleaning took more than {:.0f} MiB of memory (see --memory-limit) and was ended. "
           "Nothing "
-          "was written. Choose fewer --frames, a larger --voxel, or a method that needs less.",
-          limit_mib));
+          "was written. Choose fewer --frames, a larger --voxel, or a method that needs less.{}",
+          limit_mib, end.memory_note));
     case ChildEnd::Kind::kSignalled:
       if (end.code == SIGKILL) {
         throw DataError(fmt::format(

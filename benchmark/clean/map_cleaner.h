@@ -43,6 +43,8 @@ class MapWriter {
   std::uint64_t finish();
   /// Gives the file its name, after `finish`.
   void commit() { file_.commit(); }
+  /// The same together with others.
+  void commit_with(Replacements& together) { file_.commit_with(together); }
 
  private:
   struct Cell {

@@ -79,11 +79,12 @@ struct WorkFlags {
 /// @throws UsageError unless `text` is a decimal number greater than 0
 double parse_positive(const std::string& option, const std::string& text);
 
-/// Set to true by the first Ctrl-C; a second one ends the program at once.
+/// Set to true by the first Ctrl-C, SIGTERM or SIGHUP; a second one ends the program at once. The
+/// exit code is then 128 + the number of the signal, unless all was done already.
 const std::atomic<bool>& interrupt_flag();
 
-/// Prints to standard output. @throws DataError if it cannot be written (a full disk, a closed
-/// pipe)
+/// Prints to standard output, as `terminal_text`: names and reasons in it may be other people's.
+/// @throws DataError if it cannot be written (a full disk, a closed pipe)
 void print(const std::string& text);
 
 }  // namespace raymoval

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/harness.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
+#include <string_view>
+#include <system_error>
 
 #include "benchmark/cli/command.h"
 #include "core/terminal_colour.h"
@@ -16,11 +22,25 @@ namespace {
 const MethodRegistry* known_methods = nullptr;
 std::vector<std::string> given_arguments;
 std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+std::atomic<int> interrupting_signal = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler sets them");
 
-void on_interrupt(int) {
-  interrupted.store(true);
-  std::signal(SIGINT, SIG_DFL);
+/// What shells make of the end by a signal.
+constexpr int exit_code_of_signal(int signal) {
+  return 128 + signal;
+}
+
+void on_interrupt(int signal) {
+  // Not by the signal's default, which the first process of a container does not have.
+  if (interrupted.exchange(true)) ::_exit(exit_code_of_signal(signal));
+  interrupting_signal.store(signal);
+}
+
+/// @param unless_ignored who started this program may want it to live on (nohup)
+void listen_to(int signal, bool unless_ignored) {
+  const auto before = std::signal(signal, on_interrupt);
+  if (unless_ignored && before == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 ExitCode run_program(int argc, const char* const* argv) {
@@ -40,7 +60,7 @@ ExitCode run_program(int argc, const char* const* argv) {
       "  raymoval simulate town -o data/town\n"
       "`raymoval help COMMAND` says more. Exit codes: 0 done, 1 a cell or a check failed or got "
       "worse,\n"
-      "2 cannot be done as asked, 3 internal error.");
+      "2 cannot be done as asked, 3 internal error, 128 + N ended by signal N.");
   std::vector<Command> commands;
   for (const auto add :
        {add_run_command, add_plan_command, add_run_method_command, add_table_command,
@@ -50,16 +70,96 @@ ExitCode run_program(int argc, const char* const* argv) {
     commands.push_back(add(program));
   }
   const std::string chosen = program.parse(argc, argv);
+  if (chosen.empty()) print(program.answer());
   for (const Command& command : commands) {
     if (command.name == chosen) return command.run();
   }
   return ExitCode::kDone;
 }
 
-ExitCode show_error(const std::string& message, ExitCode code) {
-  std::fprintf(stderr, "%s %s\n", coloured("raymoval:", TerminalColour::kBad, stderr).c_str(),
-               message.c_str());
-  return code;
+constexpr std::string_view kNoMemory =
+    "raymoval: there was not enough memory. Choose fewer --frames, or end other programs.\n";
+
+/// Writes to standard error without memory. @return the exit code for it
+int write_plain(std::string_view line) {
+  [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, line.data(), line.size());
+  return static_cast<int>(ExitCode::kCannotDo);
+}
+
+std::atomic<bool> memory_ran_out = false;
+
+/// Remembers what `end_with_words` may not be told: std::terminate often has no exception at hand.
+[[noreturn]] void on_no_memory() {
+  memory_ran_out = true;
+  throw std::bad_alloc();
+}
+
+int show_error(const std::string& message, ExitCode code) {
+  const char* internal = code == ExitCode::kInternal ? "internal error, please report it: " : "";
+  print_error(coloured("raymoval:", TerminalColour::kBad, stderr) + " " + internal + message);
+  return static_cast<int>(code);
+}
+
+/// What leads here was thrown where nothing may be thrown, such as in a library that has no memory
+/// left. Destructors are not run: what is half written has no final name.
+[[noreturn]] void end_with_words() {
+  try {
+    if (std::current_exception()) std::rethrow_exception(std::current_exception());
+    if (memory_ran_out) ::_exit(write_plain(kNoMemory));
+    show_error("std::terminate was called", ExitCode::kInternal);
+  } catch (const std::bad_alloc&) {
+    ::_exit(write_plain(kNoMemory));
+  } catch (const std::exception& error) {
+    show_error(error.what(), ExitCode::kInternal);
+  } catch (...) {
+    show_error("something was thrown that is no error", ExitCode::kInternal);
+  }
+  ::_exit(static_cast<int>(ExitCode::kInternal));
+}
+
+/// A low limit of open files is often only a default, which may be raised. A program that is
+/// started from here gets the raised limit too.
+void raise_limit_of_open_files() {
+  constexpr rlim_t kEnough = 1024;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= kEnough) return;
+  limit.rlim_cur = std::min(limit.rlim_max, kEnough);
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+/// @param methods null for the built-in ones
+int run_with_words(int argc, const char* const* argv, const MethodRegistry* methods) {
+  std::set_new_handler(on_no_memory);
+  std::set_terminate(end_with_words);
+  // A file that outgrows its limit is then an error of writing, like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  raise_limit_of_open_files();
+  try {
+    std::optional<MethodRegistry> built_in;
+    if (methods == nullptr) methods = &built_in.emplace(MethodRegistry::built_in());
+    known_methods = methods;
+    given_arguments.assign(argv + std::min(argc, 1), argv + argc);
+    return static_cast<int>(run_program(argc, argv));
+  } catch (const std::bad_alloc&) {
+    return write_plain(kNoMemory);
+  } catch (const Error& error) {
+    return show_error(error.what(), error.exit_code());
+  } catch (const std::system_error& error) {
+    return show_error(std::string("the system refuses something: ") + error.what(),
+                      ExitCode::kCannotDo);
+  } catch (const std::exception& error) {
+    return show_error(error.what(), ExitCode::kInternal);
+  } catch (...) {
+    return show_error("something was thrown that is no error", ExitCode::kInternal);
+  }
+}
+
+/// The exit code after a signal. What was done all the same, just before it could be stopped, is
+/// done.
+int with_code_of_signal(int code) {
+  const int signal = interrupting_signal.load();
+  const bool done = code == static_cast<int>(ExitCode::kDone);
+  return signal != 0 && !done ? exit_code_of_signal(signal) : code;
 }
 
 }  // namespace
@@ -73,11 +173,18 @@ const MethodRegistry& program_methods() {
 }
 
 const std::atomic<bool>& interrupt_flag() {
-  std::signal(SIGINT, on_interrupt);
+  static const bool listens = [] {
+    listen_to(SIGINT, false);  // A shell lets its background jobs ignore it.
+    listen_to(SIGTERM, true);
+    listen_to(SIGHUP, true);
+    return true;
+  }();
+  (void)listens;
   return interrupted;
 }
 
-void print(const std::string& text) {
+void print(const std::string& whole) {
+  const std::string text = terminal_text(whole, stdout);
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0) {
     throw DataError("standard output cannot be written (a full disk or a closed pipe?).");
@@ -85,23 +192,11 @@ void print(const std::string& text) {
 }
 
 int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods) {
-  known_methods = &methods;
-  given_arguments.assign(argv + std::min(argc, 1), argv + argc);
-  // A file that outgrows its limit is then an error of writing, like a full disk.
-  std::signal(SIGXFSZ, SIG_IGN);
-  ExitCode code = ExitCode::kInternal;
-  try {
-    code = run_program(argc, argv);
-  } catch (const std::bad_alloc&) {
-    code = show_error("there was not enough memory. Choose fewer --frames.", ExitCode::kCannotDo);
-  } catch (const std::exception& error) {
-    const auto* known = dynamic_cast<const Error*>(&error);
-    code = known == nullptr ? ExitCode::kInternal : known->exit_code();
-    const bool internal = code == ExitCode::kInternal;
-    show_error((internal ? "internal error, please report it: " : "") + std::string(error.what()),
-               code);
-  }
-  return static_cast<int>(code);
+  return with_code_of_signal(run_with_words(argc, argv, &methods));
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  return with_code_of_signal(run_with_words(argc, argv, nullptr));
 }
 
 }  // namespace raymoval

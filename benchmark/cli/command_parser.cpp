@@ -5,6 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <functional>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
@@ -166,6 +167,7 @@ void CommandOptions::hide() {
 
 struct CommandParser::Parser {
   CLI::App app;
+  std::string answer = {};
 };
 
 CommandParser::CommandParser(const std::string& sentence, const std::string& name)
@@ -196,12 +198,18 @@ std::string CommandParser::parse(int argc, const char* const* argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
-      program.exit(error);
+      std::ostringstream text;
+      program.exit(error, text, text);
+      parser_->answer = text.str();
       return "";
     }
     throw UsageError(parse_problem(error) + " See `" + parsed_command(program) + " --help`.");
   }
   return chosen_command(program);
+}
+
+const std::string& CommandParser::answer() const {
+  return parser_->answer;
 }
 
 std::string CommandParser::help_page(const std::string& command) const {

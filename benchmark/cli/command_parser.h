@@ -73,7 +73,7 @@ class CommandParser {
   CommandParser(const CommandParser&) = delete;
   CommandParser& operator=(const CommandParser&) = delete;
 
-  /// Adds --version, which prints `text`.
+  /// Adds --version, whose answer is `text`.
   void set_version(const std::string& text);
   /// Sets what --help of the program says at its end.
   void set_footer(const std::string& text);
@@ -81,9 +81,12 @@ class CommandParser {
   CommandOptions add_command(const std::string& name, const std::string& sentence);
 
   /// Reads the command line and puts values where the options of the chosen command say.
-  /// @return the chosen command's name, or "" if --help or --version was given and is answered
+  /// @return the chosen command's name, or "" if --help or --version was given: see `answer`
   /// @throws UsageError that names what is wrong and the nearest known command or option
   [[nodiscard]] std::string parse(int argc, const char* const* argv);
+
+  /// What --help or --version asks for, after `parse` returned "".
+  [[nodiscard]] const std::string& answer() const;
 
   /// The text of --help: of a command, or of the program if `command` is empty.
   /// @throws UsageError if no command that is shown has this name

@@ -9,6 +9,7 @@
 #include "benchmark/suite/amounts.h"
 #include "benchmark/suite/shipped_suites.h"
 #include "core/error.h"
+#include "core/terminal_colour.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
@@ -120,7 +121,7 @@ Suite SuiteFlags::resolved() const {
 
 void warn_of_settings_without_effect(const Suite& suite) {
   for (const std::string& line : settings_without_effect(suite)) {
-    std::fprintf(stderr, "raymoval: warning: %s\n", line.c_str());
+    print_error("raymoval: warning: " + line);
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/process/mask_spool.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,17 +18,15 @@ namespace raymoval {
 
 MaskSpool::MaskSpool(std::string method, const TimedSource& scans,
                      const std::filesystem::path& beside)
-    : method_(std::move(method)),
-      scans_(scans),
-      path_(new_part_name(beside)),
-      file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)),
-      entries_(scans.size()) {
-  if (!file_.valid()) fail("cannot be made");
-  ::unlink(path_.c_str());  // It lives as long as it is open, however the program ends.
+    : method_(std::move(method)), scans_(scans), path_(beside), entries_(scans.size()) {
+  Part part = new_part_file(beside, 0600);
+  if (!part.held.valid()) fail("cannot be made");
+  file_ = std::move(part.held);
+  ::unlink(part.place.c_str());  // It lives as long as it is open, however the program ends.
 }
 
 void MaskSpool::fail(const char* what) const {
-  throw DataError(path_.string() + ": the file for masks " + what + " (" +
+  throw DataError(path_.string() + ": the file for masks beside it " + what + " (" +
                   std::generic_category().message(errno) +
                   "). Nothing was changed; free space or choose another place for -o.");
 }

@@ -40,7 +40,7 @@ class MaskSpool : public RemovalSink {
 
   std::string method_;
   const TimedSource& scans_;
-  std::filesystem::path path_;  ///< For messages; the file itself has no name.
+  std::filesystem::path path_;  ///< Beside which the file is; it has no name itself.
   Descriptor file_;
   std::mutex mutex_;
   std::vector<Entry> entries_;

@@ -41,9 +41,13 @@ MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
       answer.reason =
           fmt::format("used more than {:.0f} MiB of memory (see --memory-limit) and was ended",
                       limits.memory_mib);
+      if (!end.memory_note.empty()) answer.reason += "." + end.memory_note;
       break;
+    case ChildEnd::Kind::kOutOfDisk:
+      throw InternalError("a method has no limit on its folder");
     case ChildEnd::Kind::kSignalled:
-      answer.reason = "crashed: " + signal_text(end.code);
+      answer.reason = (asking_signal(end) != 0 ? "was ended from outside by " : "crashed: ") +
+                      signal_text(end.code);
       if (end.code != SIGKILL) break;
       // Nobody here sent it. The system does when memory runs out, and then this was the largest.
       if (end.largest_mib > 0.5 * machine_memory_mib()) answer.status = CellStatus::kOutOfMemory;

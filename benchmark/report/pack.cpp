@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "benchmark/picture/canvas/colours.h"
@@ -132,6 +133,7 @@ std::string deflated(std::string_view bytes) {
   const int status =
       ::compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
                   reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+  if (status == Z_MEM_ERROR) throw std::bad_alloc();
   if (status != Z_OK) throw InternalError(fmt::format("zlib gave status {}", status));
   packed.resize(size);
   return packed;

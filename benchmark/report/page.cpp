@@ -10,6 +10,7 @@
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/suite/suite.h"
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -19,7 +20,11 @@ namespace {
 struct Points {
   std::vector<std::string> scenes;  ///< Their heads.
   std::vector<std::pair<std::string, std::string>> streams;
-  std::vector<std::string> warnings;
+  std::vector<std::string> lost;      ///< What was wrong with the run's own files.
+  std::vector<std::string> warnings;  ///< For the user's terminal; these include `lost`.
+  /// Names of sequences that could not be opened. Why is in `warnings` but not in the page, which
+  /// is handed around: the reason may quote whatever place a foreign run.json names.
+  std::vector<std::string> unopened;
 };
 
 std::vector<SceneCell> scene_cells(const KeptRun& run, const Sequence& sequence,
@@ -30,6 +35,8 @@ std::vector<SceneCell> scene_cells(const KeptRun& run, const Sequence& sequence,
     try {
       cells.push_back({kept->name, kept->control, run.masks(*kept, sequence), kept->removals,
                        read_reason_sentences(kept->removals)});
+    } catch (const UnreadableError&) {
+      throw;
     } catch (const DataError& error) {
       warnings.push_back(error.what());
     }
@@ -61,7 +68,7 @@ void add_scene(const PageRequest& request, const std::string& name, std::size_t 
                Points& points) {
   const Sequence sequence =
       request.run->open(name, {request.threads, request.progress, request.cancel});
-  std::vector<SceneCell> cells = scene_cells(*request.run, sequence, points.warnings);
+  std::vector<SceneCell> cells = scene_cells(*request.run, sequence, points.lost);
   if (cells.empty()) return;
   const Scene scene = build_scene(sequence, std::move(cells), limit, request.progress);
   PackedScene packed = pack_scene(scene, points.scenes.size());
@@ -81,18 +88,29 @@ Points collect_points(const PageRequest& request) {
       add_scene(request, name, point_limit(request, sequences, name), points);
     } catch (const Cancelled&) {
       throw;
+    } catch (const UnreadableError&) {
+      throw;
     } catch (const Error& error) {  // The rest of the report is no worse for it.
       if (request.points_needed) throw;
       points.warnings.push_back(error.what());
+      points.unopened.push_back(name);
     }
   }
+  points.warnings.insert(points.warnings.begin(), points.lost.begin(), points.lost.end());
   return points;
 }
 
 std::string points_html(const PageRequest& request, const Points& points) {
   std::string html;
-  for (const std::string& warning : points.warnings) {
+  for (const std::string& warning : points.lost) {
     html += "<p class=\"bad\">" + html_text(warning) + "</p>\n";
+  }
+  for (const std::string& name : points.unopened) {
+    html += "<p class=\"bad\">" +
+            html_text("The points of " + name +
+                      " are not here: its data could not be opened again. `raymoval report` says "
+                      "why; --data says where it is.") +
+            "</p>\n";
   }
   if (!request.with_points) {
     return "<p>This report was made without the 3-D view.</p>\n";

@@ -48,7 +48,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<RangeLimits> range
 
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<DataRecord> data) {
-  visitor.field("name", data.name);
+  visitor.name("name", data.name);
   visitor.field("layout", data.layout);
   visitor.field("source", data.source);
   visitor.field("frames", data.frames);
@@ -67,8 +67,8 @@ void describe(Visitor& visitor, typename Visitor::template Of<DataRecord> data) 
 
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<MethodRecord> method) {
-  visitor.field("name", method.name);
-  visitor.field("variant", method.variant);
+  visitor.name("name", method.name);
+  visitor.name("variant", method.variant);
   visitor.field("version", method.version);
   visitor.field("online", method.online);
   visitor.field("control", method.control);
@@ -77,8 +77,8 @@ void describe(Visitor& visitor, typename Visitor::template Of<MethodRecord> meth
 
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<ProtocolRecord> protocol) {
-  visitor.field("name", protocol.name);
-  visitor.field("protocol", protocol.protocol);
+  visitor.name("name", protocol.name);
+  visitor.name("protocol", protocol.protocol);
   visitor.optional("version", protocol.version);
   visitor.field("options", protocol.options);
 }
@@ -155,8 +155,8 @@ void describe(Visitor& visitor, typename Visitor::template Of<Measurement> measu
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<Cell> cell) {
   visitor.schema_version();
-  visitor.field("sequence", cell.sequence);
-  visitor.field("name", cell.name);
+  visitor.name("sequence", cell.sequence);
+  visitor.name("name", cell.name);
   visitor.nullable("key", cell.key);
   visitor.field("status", cell.status);
   visitor.field("reason", cell.reason);

@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <limits>
+#include <new>
 
 #include "benchmark/suite/suite_json.h"
+#include "core/name.h"
 
 namespace raymoval {
 
@@ -65,6 +67,14 @@ void RecordReader::check_schema_version() const {
                   file_, version, kSchemaVersion));
 }
 
+void RecordReader::name(const char* key, std::string& value) const {
+  field(key, value);
+  const std::string problem = value.empty() ? "" : name_problem(value);
+  if (!problem.empty()) {
+    fail(place_of(key), fmt::format("the name {}; expected {}", problem, kNameForm));
+  }
+}
+
 void RecordReader::limit(const char* key, double& value, double none) const {
   value = none;
   optional(key, value);
@@ -83,10 +93,12 @@ void RecordReader::read(const Json& json, const std::string& place, std::uint64_
 }
 
 void RecordReader::read(const Json& json, const std::string& place, std::int64_t& value) const {
-  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  const bool fits = !json.is_number_unsigned() || json.get<std::uint64_t>() <= kMost;
-  expect(json.is_number_integer() && fits, "a whole number", json, place);
-  value = json.get<std::int64_t>();
+  // What every reader of JSON holds exactly; sums and differences of such counts fit too.
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  expect(json.is_number_integer(), "a whole number", json, place);
+  value = json.get<std::int64_t>();  // Negative for what is beyond 63 bits.
+  const bool fits = value >= (json.is_number_unsigned() ? 0 : -kMost) && value <= kMost;
+  expect(fits, "a whole number of 53 bits", json, place);
 }
 
 void RecordReader::read(const Json& json, const std::string& place, int& value) const {
@@ -136,6 +148,8 @@ void RecordReader::read(const Json& json, const std::string& place, ParameterVal
 void RecordReader::read(const Json& json, const std::string& place, SequenceRequest& value) const {
   try {
     value = place_from(json);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     fail(place, error.what());
   }

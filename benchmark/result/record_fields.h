@@ -48,6 +48,8 @@ class RecordWriter {
   void field(const char* key, const Value& value) {
     json[key] = json_of(value);
   }
+  /// A name of a sequence, method, variant, protocol or suite, see core/name.h; or nothing.
+  void name(const char* key, const std::string& value) { field(key, value); }
   /// A field that is null if the value is empty.
   template <class Value>
   void nullable(const char* key, const Value& value) {
@@ -131,6 +133,7 @@ class RecordReader {
   void field(const char* key, Value& value) const {
     read(at(key), place_of(key), value);
   }
+  void name(const char* key, std::string& value) const;
   template <class Value>
   void nullable(const char* key, Value& value) const {
     optional(key, value);

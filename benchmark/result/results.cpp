@@ -6,6 +6,7 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/suite/cell_selection.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
@@ -98,9 +99,7 @@ void add_times(const Cell& cell, RunResults& results) {
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   text.erase(0, text.rfind('\n') + 1);
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
-  return text;
+  return printable_text(text);
 }
 
 std::string csv_text(const std::string& text) {

@@ -14,14 +14,14 @@ void describe(Visitor& visitor, typename Visitor::template Of<SequenceRecord> se
 
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<SweepRecord> sweep) {
-  visitor.field("of", sweep.of);
+  visitor.name("of", sweep.of);
   visitor.field("values", sweep.values);
 }
 
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<SuiteMethodRecord> method) {
-  visitor.field("name", method.name);
-  visitor.field("method", method.method);
+  visitor.name("name", method.name);
+  visitor.name("method", method.method);
   visitor.field("version", method.version);
   visitor.field("parameters", method.parameters);
   visitor.optional("sweep", method.sweep);
@@ -29,8 +29,8 @@ void describe(Visitor& visitor, typename Visitor::template Of<SuiteMethodRecord>
 
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<CellName> cell) {
-  visitor.field("sequence", cell.sequence);
-  visitor.field("name", cell.name);
+  visitor.name("sequence", cell.sequence);
+  visitor.name("name", cell.name);
 }
 
 template <class Visitor>
@@ -71,7 +71,7 @@ template <class Visitor>
 void describe_run(Visitor& visitor, typename Visitor::template Of<RunRecord> run, bool is_whole) {
   visitor.schema_version();
   visitor.nested("suite", [&](auto& suite) {
-    suite.field("name", run.suite);
+    suite.name("name", run.suite);
     suite.field("sequences", run.sequences);
     suite.field("methods", run.methods);
     suite.field("protocols", run.protocols);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/files/file_kind.h"
+#include "core/name.h"
 #include "core/parameter_condition.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
@@ -21,7 +22,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 /// Checks a name that appears in folders and tables.
 void check_cell_name(const std::string& name) {
-  const bool legal = !name.empty() && name.front() != '.' && name.size() <= 100 &&
+  const bool legal = name_problem(name).empty() && name.size() <= 100 &&
                      std::all_of(name.begin(), name.end(), [](unsigned char c) {
                        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
                               (c >= 'a' && c <= 'z') || c == '-' || c == '_' || c == '.' ||
@@ -29,7 +30,8 @@ void check_cell_name(const std::string& name) {
                      });
   if (!legal) {
     throw UsageError("'" + name +
-                     "' cannot name a result: use letters, digits and any of - _ . : = , +.");
+                     "' cannot name a result: use at most 100 letters, digits and any of - _ . : = "
+                     ", +, and begin with a letter, a digit or _.");
   }
 }
 
@@ -57,7 +59,8 @@ SequenceRequest absolute_place(const SequenceRequest& place) {
   const auto make_absolute = [&](const std::filesystem::path& path) {
     std::error_code error;
     const auto made = std::filesystem::absolute(path, error);
-    return error ? path : made.lexically_normal();
+    if (!error) return made.lexically_normal();
+    throw DataError(path.string() + ": where it is cannot be told (" + error.message() + ").");
   };
   if (!is_built_in(place.path)) absolute.path = make_absolute(place.path).string();
   SequenceOptions& options = absolute.options;

@@ -9,6 +9,7 @@
 #include "core/files/fields.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
+#include "core/name.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
 #include "datasets/settings.h"
@@ -239,6 +240,10 @@ Suite read_suite(const std::filesystem::path& path, const MethodRegistry& regist
   Suite suite;
   Places places{path.parent_path(), data};
   suite.name = file.text("name", path.stem().string());
+  if (const std::string problem = name_problem(suite.name); !problem.empty()) {
+    throw ConfigurationError(fmt::format("{}: the name '{}' of the suite {}; expected {}.",
+                                         file.where(), suite.name, problem, kNameForm));
+  }
   for (const auto& [item, where] : file.list("sequences")) {
     suite.sequences.push_back(sequence_of(*item, places, where));
   }

@@ -113,7 +113,7 @@ std::vector<TextTable> make_tables(const RunResults& results, const TableOptions
 }
 
 std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables) {
-  std::string text = "# " + results.name + "\n";
+  std::string text = "# " + markdown_text(results.name) + "\n";
   for (const TextTable& table : tables) text += "\n" + to_markdown(table);
   return text;
 }

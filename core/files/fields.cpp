@@ -164,7 +164,7 @@ std::vector<std::pair<const nlohmann::json*, std::string>> Fields::list(
   std::vector<std::pair<const nlohmann::json*, std::string>> values;
   if (!has(key)) return values;
   const nlohmann::json& json = json_.at(key);
-  if (!json.is_array()) fail(key, "a list [ ... ]");
+  if (!json.is_array()) fail(key, "a list of values [ ... ]");
   for (std::size_t i = 0; i < json.size(); ++i) {
     values.emplace_back(&json[i], place(key) + "[" + std::to_string(i) + "]");
   }

@@ -16,14 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void throw_unreadable(const fs::path& path, int reason) {
-  throw DataError(path.string() + ": cannot be looked at (" +
-                  std::generic_category().message(reason) +
-                  "). Check the rights of the folders above it, and that its disk or share "
-                  "answers.");
-}
-
-bool means_absent(int reason) {
-  return reason == ENOENT || reason == ENOTDIR;
+  throw UnreadableError(path.string() + ": cannot be looked at (" +
+                        std::generic_category().message(reason) +
+                        "). Check the rights of the folders above it, and that its disk or share "
+                        "answers.");
 }
 
 /// `path` without a slash at its end, which would follow a link.
@@ -56,6 +52,10 @@ const char* special_name(mode_t mode) {
 }
 
 }  // namespace
+
+bool means_absent(int reason) {
+  return reason == ENOENT || reason == ENOTDIR;
+}
 
 FileKind file_kind(const fs::path& path) {
   struct stat status {};
@@ -104,12 +104,14 @@ std::uintmax_t plain_file_size(const fs::path& path) {
 
 std::vector<fs::path> entries_of(const fs::path& folder) {
   std::vector<fs::path> entries;
-  std::error_code error;
-  fs::directory_iterator at(folder, error);
-  for (; !error && at != fs::directory_iterator(); at.increment(error)) {
-    entries.push_back(at->path());
+  // The forms that take an error_code end the program if they have no memory.
+  try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      entries.push_back(entry.path());
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw UnreadableError(folder.string() + ": cannot be listed (" + error.code().message() + ").");
   }
-  if (error) throw DataError(folder.string() + ": cannot be listed (" + error.message() + ").");
   std::sort(entries.begin(), entries.end());
   return entries;
 }
@@ -125,6 +127,21 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
     }
   }
   return folders;
+}
+
+void remove_if_there(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (!error) return;
+  throw DataError(path.string() + ": cannot be removed (" + error.message() +
+                  "). Remove it yourself, or choose another place.");
+}
+
+bool is_link(const fs::path& path) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) == 0) return S_ISLNK(status.st_mode);
+  if (!means_absent(errno)) throw_unreadable(path, errno);
+  return false;
 }
 
 }  // namespace raymoval

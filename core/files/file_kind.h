@@ -3,18 +3,32 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
+
+#include "core/error.h"
 
 namespace raymoval {
 
 /// What stands at a path, links followed.
 enum class FileKind { kAbsent, kFile, kFolder };
 
+/// The system cannot say or give what stands at a path: no rights, or a disk that does not answer.
+/// Such a path is neither absent nor damaged, so what may do without an absent or a damaged file
+/// must not do without this one.
+class UnreadableError : public DataError {
+ public:
+  using DataError::DataError;
+};
+
+/// Whether the system's error number means that nothing of a name exists.
+bool means_absent(int reason);
+
 /// Looks at `path` without opening it. It is absent only if the system says that nothing of this
 /// name exists.
-/// @throws DataError for everything else that is no file and no folder: a link that leads nowhere
-/// (also one in the middle of the path), a path that cannot be looked at (no rights, a disk that
-/// does not answer, links in a circle), a pipe, a socket, a device
+/// @throws UnreadableError for a path that cannot be looked at (no rights, a disk that does not
+/// answer, links in a circle); DataError for everything else that is no file and no folder: a link
+/// that leads nowhere (also one in the middle of the path), a pipe, a socket, a device
 FileKind file_kind(const std::filesystem::path& path);
 
 /// @throws DataError as file_kind
@@ -31,10 +45,17 @@ bool has_folder(const std::filesystem::path& path);
 std::uintmax_t plain_file_size(const std::filesystem::path& path);
 
 /// Paths of all that stands in `folder`, not below it, in order of name; what an entry is has not
-/// been looked at. @throws DataError if the folder cannot be listed to its end
+/// been looked at. @throws UnreadableError if the folder cannot be listed to its end
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
 
 /// The folders among them; links to nothing are left out. @throws DataError
 std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder);
+
+/// Removes a file or an empty folder, links not followed, if there is one. @throws DataError if it
+/// stays
+void remove_if_there(const std::filesystem::path& path);
+
+/// Whether `path` is a link. @throws UnreadableError
+bool is_link(const std::filesystem::path& path);
 
 }  // namespace raymoval

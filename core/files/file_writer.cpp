@@ -2,6 +2,7 @@
 #include "core/files/file_writer.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,30 +12,75 @@
 
 #include "core/error.h"
 #include "core/files/descriptor_io.h"
-#include "core/files/part_name.h"
+#include "core/files/file_kind.h"
+#include "core/files/replacements.h"
 
 namespace raymoval {
+namespace {
+
+std::string reason_text(int reason) {
+  return std::generic_category().message(reason);
+}
+
+/// Gives a file the owner and the rights of the one whose place it takes, as far as the system
+/// allows that. It was made for its owner alone, so that nobody else gets more.
+void keep_owner_and_rights(int file, const struct stat& before) {
+  // The owner first, because that may take rights away.
+  const bool owner = ::fchown(file, before.st_uid, before.st_gid) == 0;
+  const bool group = owner || ::fchown(file, static_cast<uid_t>(-1), before.st_gid) == 0;
+  mode_t rights = before.st_mode & 0777U;
+  // Rights of the group before are not those of another one.
+  if (!group) rights &= ~070U | (rights & 07U) << 3U;
+  [[maybe_unused]] const int kept = ::fchmod(file, rights);  // Some file systems have no rights.
+}
+
+/// A new part of `target` with its owner and rights, if it is a file.
+Part part_like(const std::filesystem::path& target) {
+  struct stat before {};
+  const bool is_there = ::lstat(target.c_str(), &before) == 0;
+  if (!is_there && errno != ENOENT && errno != ENOTDIR) return {};
+  const bool replaces = is_there && S_ISREG(before.st_mode);
+  Part part = new_part_file(target, replaces ? 0600 : 0666);
+  if (part.held.valid() && replaces) keep_owner_and_rights(part.held.get(), before);
+  return part;
+}
+
+/// Not valid where the folder may not be read; what is in it can be written all the same.
+Descriptor opened_folder(const std::filesystem::path& folder) {
+  Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.valid() || errno == EACCES) return opened;
+  throw DataError(folder.string() + ": cannot be opened (" + reason_text(errno) +
+                  "), so that nothing can be put on the disk there.");
+}
+
+void sync_names(const Descriptor& opened, const std::filesystem::path& folder) {
+  if (!opened.valid() || ::fsync(opened.get()) == 0) return;
+  // A file system that cannot do this has its own ways.
+  if (errno == EINVAL || errno == ENOTSUP || errno == ENOSYS) return;
+  throw DataError(folder.string() + ": the names in it cannot be put on the disk (" +
+                  reason_text(errno) +
+                  "). What was written there may be gone when the machine stops. Check the disk.");
+}
+
+}  // namespace
 
 FileWriter::FileWriter(std::filesystem::path path)
-    : path_(std::move(path)),
-      temporary_(new_part_name(path_)),
-      file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644)) {
-  if (!file_.valid()) fail();
+    : path_(std::move(path)), part_(part_like(path_)) {
+  if (!part_.held.valid()) fail();
 }
 
 FileWriter::~FileWriter() {
-  if (!committed_) ::unlink(temporary_.c_str());
+  if (!committed_) ::unlink(part_.place.c_str());
 }
 
 void FileWriter::fail() const {
-  throw DataError(path_.string() + ": cannot be written (" +
-                  std::generic_category().message(errno) +
-                  "). Nothing was changed; free space or choose another place.");
+  throw DataError(path_.string() + ": cannot be written (" + reason_text(errno) +
+                  "). The file is as it was; free space or choose another place.");
 }
 
 void FileWriter::put(std::string_view content, std::uint64_t offset) {
   synced_ = false;
-  if (!write_at(file_.get(), content, offset)) fail();
+  if (!write_at(part_.held.get(), content, offset)) fail();
 }
 
 void FileWriter::append(std::string_view content) {
@@ -50,21 +96,48 @@ void FileWriter::overwrite(std::uint64_t offset, std::string_view content) {
 }
 
 void FileWriter::sync() {
-  if (!synced_ && ::fsync(file_.get()) != 0) fail();
+  if (!synced_ && ::fsync(part_.held.get()) != 0) fail();
   synced_ = true;
 }
 
 void FileWriter::commit() {
   sync();
-  if (!file_.close()) fail();
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
+  const std::filesystem::path folder = folder_of(path_);
+  const Descriptor opened = opened_folder(folder);
+  if (::rename(part_.place.c_str(), path_.c_str()) != 0) fail();
   committed_ = true;
-  sync_folder(path_.has_parent_path() ? path_.parent_path() : std::filesystem::path("."));
+  part_.held.close();  // Its lock was needed as long as it had the name of a part.
+  sync_names(opened, folder);
+}
+
+void FileWriter::commit_with(Replacements& together) {
+  sync();
+  together.add(std::move(part_), path_);
+  committed_ = true;
+}
+
+std::filesystem::path output_target(const std::filesystem::path& named) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(named, error);
+  if (status.type() != std::filesystem::file_type::symlink) return named;
+  const std::string where = named.string() + ": is a link to ";
+  std::filesystem::path target = std::filesystem::canonical(named, error);
+  if (error) {
+    std::error_code ignored;
+    throw DataError(where + std::filesystem::read_symlink(named, ignored).string() +
+                    ", where nothing can be written (" + error.message() +
+                    "). Remove the link, or name another file.");
+  }
+  if (is_file(target)) return target;
+  throw DataError(where + target.string() + ", which is no file. Name another file.");
 }
 
 void sync_folder(const std::filesystem::path& folder) {
-  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened.valid()) ::fsync(opened.get());  // A file system that cannot do this has its own ways.
+  sync_names(opened_folder(folder), folder);
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
 }  // namespace raymoval

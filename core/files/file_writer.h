@@ -6,13 +6,17 @@
 #include <string_view>
 
 #include "core/files/descriptor.h"
+#include "core/files/part_name.h"
 
 namespace raymoval {
 
+class Replacements;
+
 /// Writes a file piece by piece so that its path either keeps what it held or, from `commit` on,
-/// holds all of it. Until then the pieces stand in a temporary file beside it (see `new_part_name`)
-/// that goes with the writer. Every member throws DataError naming the path and the system's reason
-/// (disk full, no rights).
+/// holds all of it. Until then the pieces stand in a temporary file beside it (see `new_part_file`)
+/// that goes with the writer. A file that is replaced keeps its rights, and its owner where the
+/// system allows that; a link is replaced, and what it leads to stays (see `output_target`).
+/// Every member throws DataError naming the path and the system's reason (disk full, no rights).
 class FileWriter {
  public:
   explicit FileWriter(std::filesystem::path path);
@@ -27,19 +31,29 @@ class FileWriter {
   void sync();
   /// Gives the file its name.
   void commit();
+  /// Puts all of it on the disk and lets `together` give it its name.
+  void commit_with(Replacements& together);
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
   [[noreturn]] void fail() const;
   void put(std::string_view content, std::uint64_t offset);
 
-  std::filesystem::path path_, temporary_;
-  Descriptor file_;
+  std::filesystem::path path_;
+  Part part_;  ///< Locked until it has its name.
   std::uint64_t size_ = 0;
   bool synced_ = false, committed_ = false;
 };
 
-/// Puts the names in `folder` on the disk, where its file system can do that.
+/// Where a file that the user names is written: if it is a link to a file, what that leads to, so
+/// that the link stays a link. @throws DataError for a link to nothing, or to no file
+std::filesystem::path output_target(const std::filesystem::path& named);
+
+/// Puts the names in `folder` on the disk, where its file system can do that. @throws DataError if
+/// the disk fails
 void sync_folder(const std::filesystem::path& folder);
+
+/// The folder in which `path` stands.
+std::filesystem::path folder_of(const std::filesystem::path& path);
 
 }  // namespace raymoval

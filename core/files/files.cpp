@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -39,7 +40,9 @@ OpenFile open_plain(const std::filesystem::path& path) {
   OpenFile opened{Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY))};
   struct stat status {};
   if (!opened.file.valid() || ::fstat(opened.file.get(), &status) != 0) {
-    throw DataError(path.string() + ": cannot be read (" + system_reason() + ").");
+    const std::string problem = path.string() + ": cannot be read (" + system_reason() + ").";
+    if (means_absent(errno)) throw DataError(problem);
+    throw UnreadableError(problem);
   }
   if (!S_ISREG(status.st_mode)) throw DataError(path.string() + ": is no plain file.");
   opened.size = static_cast<std::uintmax_t>(status.st_size);
@@ -51,16 +54,34 @@ template <class Container>
 void read_into(const OpenFile& opened, std::uintmax_t offset, Container& content,
                const std::filesystem::path& path) {
   const auto got = read_at(opened.file.get(), content.data(), content.size(), offset);
-  if (!got) throw DataError(path.string() + ": reading failed (" + system_reason() + ").");
+  if (!got) throw UnreadableError(path.string() + ": reading failed (" + system_reason() + ").");
   if (*got == content.size()) return;
   throw DataError(path.string() +
                   ": has become shorter while it was read. Wait until whatever writes it has "
                   "ended.");
 }
 
+/// Refuses what cannot be read whole. A copy that broke off may have any size: it then has holes.
+void check_can_be_read_whole(const OpenFile& opened, const std::filesystem::path& path) {
+  constexpr std::uintmax_t kLarge = std::uintmax_t{1} << 30;
+  if (opened.size < kLarge) return;
+  struct stat status {};
+  const bool known = ::fstat(opened.file.get(), &status) == 0;
+  const bool holes = known && static_cast<std::uintmax_t>(status.st_blocks) * 512 < opened.size / 8;
+  const auto memory = static_cast<std::uintmax_t>(std::max(0L, ::sysconf(_SC_PHYS_PAGES))) *
+                      static_cast<std::uintmax_t>(std::max(0L, ::sysconf(_SC_PAGESIZE)));
+  if (!holes && opened.size <= memory) return;
+  throw DataError(path.string() + ": has " + grouped_text(opened.size) + " bytes, " +
+                  (holes ? "of which most were never written: it looks like a copy that broke off. "
+                           "Copy it again."
+                         : "more than the memory of this machine. Check that it is the file you "
+                           "mean."));
+}
+
 template <class Container>
 Container read_all(const std::filesystem::path& path) {
   const OpenFile opened = open_plain(path);
+  check_can_be_read_whole(opened, path);
   Container content(static_cast<std::size_t>(opened.size), typename Container::value_type{});
   read_into(opened, 0, content, path);
   return content;
@@ -93,8 +114,8 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 }
 
 void check_folder_of(const std::filesystem::path& path) {
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (is_folder(folder)) return;
+  const std::filesystem::path folder = folder_of(path);
+  if (is_folder(folder)) return void(output_target(path));
   throw UsageError(path.string() + ": there is no folder " + folder.string() + ". Make it first.");
 }
 
@@ -116,6 +137,7 @@ void check_keys(const nlohmann::json& json, const std::vector<std::string>& allo
 }
 
 ContentHasher::ContentHasher() : state_(XXH3_createState()) {
+  if (state_ == nullptr) throw std::bad_alloc();
   XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_));
 }
 

@@ -11,7 +11,9 @@
 namespace raymoval {
 
 /// Whole file as bytes. A pipe or a device is refused without being opened.
-/// @throws DataError naming the path and the system's reason; also if it gets shorter meanwhile
+/// @throws UnreadableError (see file_kind.h) naming the path and the system's reason; DataError if
+/// there is none, if it gets shorter meanwhile, or if it is larger than the machine's memory or
+/// has hardly more than holes
 std::vector<std::byte> read_bytes(const std::filesystem::path& path);
 
 /// Whole file as text, a leading UTF-8 byte order mark removed.
@@ -25,7 +27,7 @@ std::string read_piece(const std::filesystem::path& path, std::uintmax_t offset,
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// For files that are written after long work. @throws UsageError if the folder of `path` is
-/// missing
+/// missing; DataError if it is a link that leads to no file
 void check_folder_of(const std::filesystem::path& path);
 
 /// JSON with // and /* */ comments. @throws ConfigurationError with line, column and reason.

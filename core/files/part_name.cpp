@@ -1,18 +1,108 @@
 // SPDX-License-Identifier: MIT
 #include "core/files/part_name.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <mutex>
 #include <random>
 #include <string>
+#include <system_error>
+#include <vector>
+
+#include "core/files/files.h"
 
 namespace raymoval {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::string_view kMark = ".raymoval-";
 constexpr std::string_view kEnd = ".part";
 constexpr std::string_view kDigits = "0123456789abcdef";
+constexpr std::size_t kKernelDigits = 8;
 constexpr std::size_t kRandomDigits = 16;
-constexpr std::size_t kTail = kMark.size() + kRandomDigits + kEnd.size();
+constexpr std::size_t kAllDigits = kKernelDigits + kRandomDigits;
+constexpr std::size_t kTail = kMark.size() + kAllDigits + kEnd.size();
+
+/// Digits that the running kernel has since its start; containers of one machine share it. Empty if
+/// the system does not tell.
+const std::string& running_kernel() {
+  static const std::string digits = [] {
+    std::ifstream boot("/proc/sys/kernel/random/boot_id");
+    std::string text;
+    return std::getline(boot, text) ? content_hash(text).substr(0, kKernelDigits) : "";
+  }();
+  return digits;
+}
+
+/// The digits of a part name; empty if it has another form.
+std::string digits_of(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  if (name.size() <= kTail) return "";
+  const std::string_view tail = std::string_view(name).substr(name.size() - kTail);
+  if (!tail.starts_with(kMark) || !tail.ends_with(kEnd)) return "";
+  const std::string_view digits = tail.substr(kMark.size(), kAllDigits);
+  if (digits.find_first_not_of(kDigits) != std::string_view::npos) return "";
+  return std::string(digits);
+}
+
+bool locks(int file) {
+  return ::flock(file, LOCK_EX | LOCK_NB) == 0;
+}
+
+/// What became of a part before it was locked.
+enum class Kept {
+  kYes,
+  kLost,     ///< Somebody took it for abandoned meanwhile.
+  kUnknown,  ///< The system does not tell, with the reason in errno.
+};
+
+/// Locks a part that was made. A file system without locks lets nobody take it.
+Kept keep(int file) {
+  if (!locks(file) && errno == EWOULDBLOCK) return Kept::kLost;
+  struct stat status {};
+  if (::fstat(file, &status) != 0) return Kept::kUnknown;
+  return status.st_nlink > 0 ? Kept::kYes : Kept::kLost;
+}
+
+/// Removes a part that cannot be used; the reason stays in errno.
+void discard(Part& part) {
+  const int reason = errno;
+  ::remove(part.place.c_str());
+  part.held.close();
+  errno = reason;
+}
+
+/// The part names that stood in a folder when this process first asked.
+const std::vector<fs::path>& earlier_parts(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::map<fs::path, std::vector<fs::path>> known;
+  const std::lock_guard lock(mutex);
+  const auto [place, is_new] = known.try_emplace(folder);
+  if (!is_new) return place->second;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    if (is_part_name(entry->path())) place->second.push_back(entry->path());
+  }
+  return place->second;
+}
+
+void remove_abandoned_parts_of(const fs::path& target) {
+  const fs::path named = target.has_filename() ? target : target.parent_path();
+  const fs::path folder = named.has_parent_path() ? named.parent_path() : fs::path(".");
+  for (const fs::path& part : earlier_parts(folder)) {
+    if (name_of_part(part) == named.filename()) remove_abandoned_part(part);
+  }
+}
 
 }  // namespace
 
@@ -20,23 +110,63 @@ std::filesystem::path new_part_name(const std::filesystem::path& path) {
   std::random_device random;  // From the system: not from time or process number.
   std::string name = (path.has_filename() ? path : path.parent_path()).string();
   name += kMark;
+  name += running_kernel().empty() ? std::string(kKernelDigits, '0') : running_kernel();
   for (std::size_t i = 0; i < kRandomDigits; ++i) name += kDigits[random() & 15U];
   name += kEnd;
   return name;
 }
 
 std::filesystem::path name_of_part(const std::filesystem::path& path) {
+  if (digits_of(path).empty()) return {};
   const std::string name = path.filename().string();
-  if (name.size() <= kTail) return {};
-  const std::string_view tail = std::string_view(name).substr(name.size() - kTail);
-  if (!tail.starts_with(kMark) || !tail.ends_with(kEnd)) return {};
-  const std::string_view digits = tail.substr(kMark.size(), kRandomDigits);
-  if (digits.find_first_not_of(kDigits) != std::string_view::npos) return {};
   return name.substr(0, name.size() - kTail);
 }
 
 bool is_part_name(const std::filesystem::path& path) {
-  return !name_of_part(path).empty();
+  return !digits_of(path).empty();
+}
+
+Part new_part_file(const std::filesystem::path& target, mode_t mode) {
+  constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  remove_abandoned_parts_of(target);
+  while (true) {
+    Part part{new_part_name(target)};
+    part.held = Descriptor(::open(part.place.c_str(), kFlags, mode));
+    if (!part.held.valid()) return part;
+    const Kept kept = keep(part.held.get());
+    if (kept == Kept::kUnknown) discard(part);
+    if (kept != Kept::kLost) return part;
+  }
+}
+
+Part new_part_folder(const std::filesystem::path& target, mode_t mode) {
+  remove_abandoned_parts_of(target);
+  while (true) {
+    Part part{new_part_name(target)};
+    if (::mkdir(part.place.c_str(), mode) != 0) return part;
+    part.held =
+        Descriptor(::open(part.place.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    const Kept kept = part.held.valid() ? keep(part.held.get()) : Kept::kUnknown;
+    if (kept == Kept::kUnknown) discard(part);
+    if (kept != Kept::kLost) return part;
+  }
+}
+
+Descriptor take_abandoned_part(const std::filesystem::path& part) {
+  const std::string& kernel = running_kernel();
+  if (kernel.empty() || !digits_of(part).starts_with(kernel)) return Descriptor();
+  constexpr int kFlags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  Descriptor opened(::open(part.c_str(), kFlags));
+  if (opened.valid() && locks(opened.get())) return opened;
+  return Descriptor();
+}
+
+void remove_abandoned_part(const std::filesystem::path& part) {
+  struct stat status {};
+  if (::lstat(part.c_str(), &status) != 0 || status.st_uid != ::geteuid()) return;
+  const Descriptor held = take_abandoned_part(part);
+  std::error_code ignored;
+  if (held.valid()) fs::remove_all(part, ignored);
 }
 
 }  // namespace raymoval

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,9 +11,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 
+#include "core/process/family_memory.h"
+#include "core/process/foster_parent.h"
 #include "core/process/output_tail.h"
 #include "core/process/process_family.h"
 #include "core/process/start_child.h"
@@ -24,13 +28,29 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTickMs = 20;
 
+/// What the files below a folder take on the disk. Files come and go meanwhile: what cannot be
+/// looked at does not count.
+double folder_size_mib(const std::filesystem::path& folder) {
+  double mib = 0.0;
+  std::error_code error;
+  for (std::filesystem::recursive_directory_iterator entry(
+           folder, std::filesystem::directory_options::skip_permission_denied, error);
+       !error && entry != std::filesystem::recursive_directory_iterator(); entry.increment(error)) {
+    struct stat status {};
+    if (::lstat(entry->path().c_str(), &status) != 0) continue;
+    mib += static_cast<double>(status.st_blocks) / 2048.0;
+  }
+  return mib;
+}
+
 /// Watches a running child until it ends or has to be ended.
 class ChildWatch {
  public:
-  ChildWatch(const ChildSetup& setup, StartedChild child)
+  ChildWatch(const ChildSetup& setup, StartedChild child, const FosterParent& foster)
       : setup_(setup),
         child_(child.process),
-        family_(child.process, child.mark),
+        family_(child.process, child.mark, &foster),
+        memory_(setup.limits.memory_mib),
         tail_(std::move(child.output)),
         handle_(static_cast<int>(::syscall(SYS_pidfd_open, child.process, 0))) {}
 
@@ -46,9 +66,15 @@ class ChildWatch {
     while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
     tail_.drain();
     end_.output_tail = tail_.text();
+    if (memory_.counts_shares_in_full()) {
+      end_.memory_note =
+          " Memory that its processes share was counted for each of them, because "
+          "/proc/PID/smaps_rollup could not be read.";
+    }
     if (stopped_) return end_;
     end_.kind = WIFSIGNALED(status) ? ChildEnd::Kind::kSignalled : ChildEnd::Kind::kExited;
     end_.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+    if (was_ended_from_outside() && is_cancelled_soon()) end_.kind = ChildEnd::Kind::kCancelled;
     return end_;
   }
 
@@ -58,6 +84,24 @@ class ChildWatch {
     siginfo_t info{};
     const int got = ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT);
     return (got == 0 && info.si_pid == child_) || (got < 0 && errno == ECHILD);
+  }
+
+  [[nodiscard]] bool is_cancelled() const {
+    return setup_.cancel != nullptr && setup_.cancel->load();
+  }
+
+  [[nodiscard]] bool was_ended_from_outside() const {
+    const bool killed = end_.kind == ChildEnd::Kind::kSignalled && end_.code == SIGKILL;
+    return killed || asking_signal(end_) != 0;
+  }
+
+  /// A system that shuts down signals all processes, and perhaps the child first.
+  [[nodiscard]] bool is_cancelled_soon() const {
+    constexpr int kTicks = 10;
+    for (int i = 0; setup_.cancel != nullptr && i < kTicks && !is_cancelled(); ++i) {
+      ::poll(nullptr, 0, kTickMs);
+    }
+    return is_cancelled();
   }
 
   void stop(ChildEnd::Kind kind) {
@@ -71,21 +115,33 @@ class ChildWatch {
     if (stopped_ || now < next_look_) return;
     next_look_ = now + std::chrono::milliseconds(kTickMs);
     const std::chrono::duration<double> elapsed = now - started_;
-    const double memory = family_.memory_mib();
+    const double memory = memory_.measure(family_.members());
     end_.largest_mib = std::max(end_.largest_mib, memory);
     const ChildLimits& limits = setup_.limits;
-    if (setup_.cancel != nullptr && setup_.cancel->load()) {
+    if (is_cancelled()) {
       stop(ChildEnd::Kind::kCancelled);
     } else if (limits.seconds > 0.0 && elapsed.count() > limits.seconds) {
       stop(ChildEnd::Kind::kTimeout);
     } else if (limits.memory_mib > 0.0 && memory > limits.memory_mib) {
       stop(ChildEnd::Kind::kOutOfMemory);
+    } else if (exceeds_folder()) {
+      stop(ChildEnd::Kind::kOutOfDisk);
     }
+  }
+
+  [[nodiscard]] bool exceeds_folder() {
+    if (setup_.limits.folder_mib <= 0.0 || !folder_pace_.is_due()) return false;
+    folder_pace_.begin();
+    const double size = folder_size_mib(setup_.folder);
+    folder_pace_.end();
+    return size > setup_.limits.folder_mib;
   }
 
   const ChildSetup& setup_;
   pid_t child_;
   ProcessFamily family_;
+  FamilyMemory memory_;
+  Pace folder_pace_{std::chrono::milliseconds(1000)};
   OutputTail tail_;
   Descriptor handle_;
   Clock::time_point started_ = Clock::now();
@@ -97,8 +153,12 @@ class ChildWatch {
 }  // namespace
 
 ChildEnd run_child(const ChildSetup& setup) {
-  StartedChild child = start_child(setup);
-  if (child.process >= 0) return ChildWatch(setup, std::move(child)).wait();
+  FosterParent foster;
+  StartedChild child = start_child(setup, foster.score());
+  if (child.process >= 0) {
+    foster.set_head(child.process);
+    return ChildWatch(setup, std::move(child), foster).wait();
+  }
   ChildEnd end;
   end.kind = ChildEnd::Kind::kNotStarted;
   end.code = child.reason;
@@ -106,10 +166,20 @@ ChildEnd run_child(const ChildSetup& setup) {
 }
 
 std::string not_started_text(int reason) {
+  if (reason == EMFILE || reason == ENFILE) {
+    return fmt::format("no process can be started ({}). Raise the limit of open files (ulimit -n).",
+                       std::generic_category().message(reason));
+  }
   return fmt::format(
       "no process can be started ({}). End other programs, or raise the limit of "
       "processes (ulimit -u).",
       std::generic_category().message(reason));
+}
+
+int asking_signal(const ChildEnd& end) {
+  if (end.kind != ChildEnd::Kind::kSignalled && end.kind != ChildEnd::Kind::kExited) return 0;
+  const int signal = end.kind == ChildEnd::Kind::kSignalled ? end.code : end.code - 128;
+  return signal == SIGINT || signal == SIGTERM || signal == SIGHUP ? signal : 0;
 }
 
 std::string signal_text(int signal) {

@@ -11,9 +11,9 @@ namespace raymoval {
 
 /// What a child process may use. 0 means that there is no limit.
 struct ChildLimits {
-  double seconds = 0.0;  ///< Wall time from its start.
-  /// Resident memory of the child and its descendants in MiB, without that of files.
-  double memory_mib = 0.0;
+  double seconds = 0.0;     ///< Wall time from its start.
+  double memory_mib = 0.0;  ///< Of the child and its descendants, see `FamilyMemory`.
+  double folder_mib = 0.0;  ///< Of the files below its working folder on the disk, roughly.
 };
 
 /// The program that calls this.
@@ -29,16 +29,28 @@ struct ChildSetup {
   /// {this process's, the child's}: 3 and above, or 1 and 2 for output that is not to be caught.
   std::vector<std::pair<int, int>> descriptors = {};
   ChildLimits limits = {};
-  const std::atomic<bool>* cancel = nullptr;  ///< The child is ended when this becomes true.
+  /// The child is ended when this becomes true. If somebody else ended the child, it is given a
+  /// fifth of a second for it: a system that shuts down may signal the child before this process.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// How a child process ended.
 struct ChildEnd {
-  enum class Kind { kNotStarted, kExited, kSignalled, kTimeout, kOutOfMemory, kCancelled };
+  enum class Kind {
+    kNotStarted,
+    kExited,
+    kSignalled,
+    kTimeout,
+    kOutOfMemory,
+    kOutOfDisk,
+    kCancelled
+  };
   Kind kind = Kind::kExited;
   int code = 0;              ///< Exit code, number of the signal, or system's error number.
   std::string output_tail;   ///< The end of what it printed on standard output and error.
   double largest_mib = 0.0;  ///< The largest memory that was seen.
+  /// What a message about memory has to add; empty, or a sentence that begins with a blank.
+  std::string memory_note;
 };
 
 /// Runs a program as a child process, waits for its end, and ends all that it has started and left
@@ -49,7 +61,11 @@ struct ChildEnd {
 /// standard input, no descriptor that `setup` does not name, the default for each signal, and no
 /// core file; it dies with the thread that called this. Memory is watched from here every 20 ms and
 /// not limited by RLIMIT_AS or RLIMIT_DATA, which count what is mapped and never touched (thread
-/// stacks, arenas, a sanitizer's shadow).
+/// stacks, arenas, a sanitizer's shadow). The working folder is looked at about once a second.
+///
+/// Until this returns, this process is the foster parent of its descendants (see `FosterParent`).
+/// It waits for its child and that child's descendants only, so that this may be called beside
+/// other children and in several threads.
 ChildEnd run_child(const ChildSetup& setup);
 
 /// Why a child could not be started, and what to do about it: "no process can be started (Resource
@@ -58,5 +74,9 @@ std::string not_started_text(int reason);
 
 /// "signal 11 (Segmentation fault)".
 std::string signal_text(int signal);
+
+/// The signal by which users and systems ask programs to end (SIGINT, SIGTERM, SIGHUP), if that is
+/// how a child ended: by the signal itself, or by the exit code that shells make of it; else 0.
+int asking_signal(const ChildEnd& end);
 
 }  // namespace raymoval

@@ -4,7 +4,10 @@
 #include <sys/types.h>
 
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "core/process/foster_parent.h"
 
 namespace raymoval {
 
@@ -14,18 +17,20 @@ inline constexpr const char* kFamilyVariable = "RAYMOVAL_PROCESS_FAMILY";
 
 /// A process with all that it has started, directly or through others.
 ///
-/// Members are found in three ways, since each of them can be left: as descendants of the head, by
-/// its session, and by a mark in the environment that they inherit. `start_child` makes the head
-/// the foster parent of descendants whose own parent has ended (PR_SET_CHILD_SUBREAPER), so that
-/// double forks stay descendants as long as the head lives.
+/// Members are found in four ways, since each of them can be left: as descendants of the head, by
+/// its session, by a mark in the environment that they inherit, and as foster children of this
+/// process. As long as the head lives, it is itself the foster parent of what its descendants leave
+/// behind (see `start_child`), so that double forks stay descendants; then this process is.
 class ProcessFamily {
  public:
   /// @param head which has not been waited for, so that its number is not used again
   /// @param mark part of the variable `kFamilyVariable` of all members
-  ProcessFamily(pid_t head, std::string mark) : head_(head), mark_(std::move(mark)) {}
+  /// @param foster this process's; null if the head is this process
+  ProcessFamily(pid_t head, std::string mark, const FosterParent* foster)
+      : head_(head), mark_(std::move(mark)), foster_(foster) {}
 
-  /// The resident memory of the head and its descendants in MiB, without that of files.
-  [[nodiscard]] double memory_mib() const;
+  /// The head and its descendants.
+  [[nodiscard]] std::vector<pid_t> members() const;
 
   /// Ends all members by SIGKILL. Each is stopped before its children are looked for, and they are
   /// looked for until there is none left, so that a member that goes on forking does not escape.
@@ -39,11 +44,15 @@ class ProcessFamily {
 
   pid_t head_;
   std::string mark_;
+  const FosterParent* foster_;
 };
 
+/// Whether `run_child` has started this process as a child of a process that still runs.
+bool is_family_head();
+
 /// From now on the end of the process that started this one ends this one, with all that it has
-/// started. Until now it ended this process alone (see `run_child`), which has to be one that
-/// `run_child` started.
+/// started. Until now it ended this process alone (see `run_child`), which has to be the head of a
+/// family.
 void end_family_with_parent();
 
 }  // namespace raymoval

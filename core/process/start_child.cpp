@@ -12,7 +12,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <utility>
 
 #include "core/process/process_family.h"
@@ -20,7 +19,7 @@
 namespace raymoval {
 namespace {
 
-constexpr int kFirstSpare = 64;  ///< Above all descriptors that a child is given.
+constexpr int kFirstSpare = 8;  ///< Above all descriptors that a child is given.
 
 /// Both ends of a pipe; neither outlives an exec. They are not valid if the system refuses.
 struct Pipe {
@@ -65,15 +64,16 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 /// All that the child needs between fork and exec, where it may not allocate memory.
 struct Prepared {
-  std::string program, folder;
+  std::string program, folder, oom_score;
   std::vector<std::string> arguments, environment;
   std::vector<char*> argument_pointers, environment_pointers;
   std::vector<std::pair<int, int>> descriptors;
   std::vector<int> spare;
 
-  Prepared(const ChildSetup& setup, const std::string& mark)
+  Prepared(const ChildSetup& setup, const std::string& mark, int oom_score_adj)
       : program(setup.program),
         folder(setup.folder.string()),
+        oom_score(std::to_string(oom_score_adj)),
         arguments(setup.arguments),
         environment(environment_of(setup, mark)),
         argument_pointers(pointers_to(arguments)),
@@ -90,11 +90,20 @@ void reset_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-/// Gives the child the descriptors it is meant to have and no other.
-void place_descriptors(Prepared& prepared, int output) {
+/// The same descriptor above those that a child is given. @return -1 if there are too many
+int spare_copy(int descriptor) {
+  const int copy = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstSpare);
+  if (copy < 0 && errno == EINVAL) errno = EMFILE;  // The limit is below the first of them.
+  return copy;
+}
+
+/// Gives the child the descriptors it is meant to have and no other. @return false, with the reason
+/// in errno, if that is not possible
+bool place_descriptors(Prepared& prepared, int output) {
   // First out of the way, then into place: a source may have the number of another's place.
   for (std::size_t i = 0; i < prepared.spare.size(); ++i) {
-    prepared.spare[i] = ::fcntl(prepared.descriptors[i].first, F_DUPFD_CLOEXEC, kFirstSpare);
+    prepared.spare[i] = spare_copy(prepared.descriptors[i].first);
+    if (prepared.spare[i] < 0) return false;
   }
   const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   ::dup2(nothing, STDIN_FILENO);
@@ -104,6 +113,21 @@ void place_descriptors(Prepared& prepared, int output) {
   for (std::size_t i = 0; i < prepared.spare.size(); ++i) {
     ::dup2(prepared.spare[i], prepared.descriptors[i].second);
   }
+  return true;
+}
+
+/// Tells the parent why the child cannot be what it was meant to be.
+[[noreturn]] void give_up(int report) {
+  const int reason = errno;
+  (void)!::write(report, &reason, sizeof reason);
+  ::_exit(127);
+}
+
+/// All that the child starts inherits it, from the first process on.
+void set_oom_score(const std::string& score) {
+  const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  (void)!::write(file, score.data(), score.size());
+  ::close(file);
 }
 
 /// Only calls that are safe between fork and exec. Writes the reason to `report` if exec fails.
@@ -114,21 +138,16 @@ void place_descriptors(Prepared& prepared, int output) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
+  set_oom_score(prepared.oom_score);
   reset_signals();
-  const int kept_report = ::fcntl(report, F_DUPFD_CLOEXEC, kFirstSpare);
-  place_descriptors(prepared, output);
+  const int kept_report = spare_copy(report);
+  if (kept_report < 0) give_up(report);
+  if (!place_descriptors(prepared, output)) give_up(kept_report);
   if (prepared.folder.empty() || ::chdir(prepared.folder.c_str()) == 0) {
     ::execve(prepared.program.c_str(), prepared.argument_pointers.data(),
              prepared.environment_pointers.data());
   }
-  const int reason = errno;
-  (void)!::write(kept_report, &reason, sizeof reason);
-  ::_exit(127);
-}
-
-/// Lets the system end the child and not this process when memory runs out.
-void offer_to_oom_killer(pid_t child) {
-  std::ofstream(fmt::format("/proc/{}/oom_score_adj", child)) << "800";
+  give_up(kept_report);
 }
 
 /// Waits until exec has worked. @return 0, or the system's error number
@@ -141,10 +160,10 @@ int reason_of_failure(int report) {
 
 }  // namespace
 
-StartedChild start_child(const ChildSetup& setup) {
+StartedChild start_child(const ChildSetup& setup, int oom_score_adj) {
   StartedChild child;
   child.mark = new_mark();
-  Prepared prepared(setup, child.mark);
+  Prepared prepared(setup, child.mark, oom_score_adj);
   Pipe output, report;
   const pid_t parent = ::getpid();
   const bool ready = output.input.valid() && report.input.valid();
@@ -157,7 +176,6 @@ StartedChild start_child(const ChildSetup& setup) {
     become_child(prepared, output.input.get(), report.input.get(), parent);
   }
   report.input.close();
-  offer_to_oom_killer(child.process);
   child.output = std::move(output.output);
   child.reason = reason_of_failure(report.output.get());
   if (child.reason == 0) return child;

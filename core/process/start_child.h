@@ -19,6 +19,7 @@ struct StartedChild {
 };
 
 /// Starts a child process as `run_child` says.
-StartedChild start_child(const ChildSetup& setup);
+/// @param oom_score_adj of the child and, since it is inherited, of all that it starts
+StartedChild start_child(const ChildSetup& setup, int oom_score_adj);
 
 }  // namespace raymoval

@@ -220,8 +220,8 @@ void decode_line(std::string_view line, const std::string& where,
 Cloud decode_ascii(const CloudHeader& header, std::string_view body,
                    const std::filesystem::path& path, const Eigen::Vector3d& origin) {
   const auto columns = ascii_columns(header);
-  // A line takes at least a character and its end, save the very last.
-  const std::uint64_t possible = (body.size() + 1) / 2;
+  // A value takes at least a character and what ends it, save the very last.
+  const std::uint64_t possible = (body.size() + 1) / (2 * std::max<std::size_t>(columns.back(), 1));
   Cloud cloud = sized_cloud(std::min(header.points, possible), columns.size() - 1);
   std::size_t line = header.body_line, done = 0;
   for (std::size_t at = 0; at < body.size(); ++line) {

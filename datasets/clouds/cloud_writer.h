@@ -43,6 +43,8 @@ class CloudWriter {
   void finish();
   /// Gives it its name, after `finish`.
   void commit() { file_.commit(); }
+  /// The same together with others.
+  void commit_with(Replacements& together) { file_.commit_with(together); }
 
  private:
   [[nodiscard]] std::string header() const;

@@ -2,6 +2,7 @@
 #include "datasets/clouds/poses.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -21,9 +22,12 @@ std::string line_text(const std::filesystem::path& path, std::size_t line) {
 
 /// Calls `visit(line, number)` for each line that is neither blank nor a comment.
 template <class Visit>
-void for_each_line(const std::string& text, Visit&& visit) {
+void for_each_line(std::string_view text, Visit&& visit) {
   std::size_t number = 0;
-  for (std::string_view line : split(text, '\n')) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line = text.substr(at, end - at);
+    at = end + 1;
     ++number;
     if (line.ends_with('\r')) line.remove_suffix(1);
     const std::size_t start = line.find_first_not_of(" \t\r");

@@ -29,8 +29,9 @@ const std::vector<InspectionCheck>& inspection_checks() {
   using namespace inspection;
   static const std::vector<Check> checks = [] {
     std::vector<Check> all;
-    for (const auto& part : {point_checks(), pose_checks(), time_checks(), label_checks(),
-                             ego_checks(), sensor_model_checks(), skew_checks(), world_checks()}) {
+    for (const auto& part :
+         {reach_checks(), point_checks(), pose_checks(), time_checks(), label_checks(),
+          ego_checks(), sensor_model_checks(), skew_checks(), world_checks()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

@@ -4,6 +4,7 @@
 #include "datasets/semantickitti/semantickitti.h"
 #include "datasets/simulation/scene/library.h"
 #include "datasets/simulation/scene/scene_text.h"
+#include "datasets/simulation/scene/simulated.h"
 
 namespace raymoval {
 namespace {
@@ -30,7 +31,8 @@ Layout scenes_layout() {
   layout.scenes = SceneNames{
       simulated_scene_names,
       [](Layout::Path path) { return simulated::find_world(parse_scene(path).scene).name; },
-      [](Layout::Path path) { return path.substr(0, path.find(':')) + ":seed=1"; }};
+      [](Layout::Path path) { return path.substr(0, path.find(':')) + ":seed=1"; },
+      [](Layout::Path path) { return is_cached(parse_scene(path), default_cache_root()); }};
   return layout;
 }
 

@@ -25,9 +25,7 @@ class LabelVote {
     if (distance < nearest_) nearest_ = distance;
     candidates_.push_back({distance, point});
   }
-  /// Distance of the nearest point offered so far; infinite before the first.
-  [[nodiscard]] double nearest() const { return nearest_; }
-  /// Farthest distance at which an offer can still matter.
+  /// Farthest distance at which an offer can still matter; infinite before the first offer.
   [[nodiscard]] double reach() const { return nearest_ + kLabelTieMargin; }
 
   struct Result {

@@ -95,7 +95,8 @@ std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex
 }
 
 void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Parameters& parameters,
-                ScanGrid& grid) {
+                ScanGrid& grid, const RunContext& context) {
+  constexpr std::size_t kBeamsInTurn = 512;  // Between two questions whether to stop.
   const Eigen::Vector3d sensor = scan.T_world_sensor.translation() / parameters.voxel_size;
   const double extension = parameters.hit_extension / parameters.voxel_size;
   for (const VoxelIndex& end : ends) mark_hits(Beam(sensor, end), end, extension, grid);
@@ -105,7 +106,9 @@ void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Par
                               ? parameters.maximum_range / parameters.voxel_size
                               : std::numeric_limits<double>::infinity();
   FreeWalk walk(sensor, parameters.pass_through_hits, grid);
+  std::size_t count = 0;
   for (const VoxelIndex& end : ends) {
+    if (++count % kBeamsInTurn == 0) context.check_cancelled();
     const Beam beam(sensor, end);
     if (beam.length == 0.0) continue;
     const double length = std::min(beam.length, farthest);

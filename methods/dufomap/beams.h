@@ -6,6 +6,7 @@
 #include "core/scan/scan.h"
 #include "methods/dufomap/parameters.h"
 #include "methods/dufomap/scan_grid.h"
+#include "methods/remover.h"
 
 namespace raymoval::dufomap_method {
 
@@ -19,8 +20,9 @@ std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex
                                   const Parameters& parameters, ScanGrid& grid);
 
 /// Steps 1-3 for one scan: fills `grid` (empty before) with the hits and free voxels of the scan.
-/// @throws DataError for a beam of more than 131,072 voxels
+/// @param context is asked now and then whether to stop
+/// @throws DataError for a beam of more than 131,072 voxels; Cancelled
 void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Parameters& parameters,
-                ScanGrid& grid);
+                ScanGrid& grid, const RunContext& context = {});
 
 }  // namespace raymoval::dufomap_method

@@ -20,7 +20,8 @@ struct ScanWork {
 };
 
 /// Steps 1 to 4. The result for a scan does not depend on any other scan.
-void find_voids_of(const Scan& scan, const Parameters& parameters, ScanWork& work) {
+void find_voids_of(const Scan& scan, const Parameters& parameters, const RunContext& context,
+                   ScanWork& work) {
   work.grid.clear();
   std::vector<VoxelIndex> ends;
   {
@@ -30,7 +31,7 @@ void find_voids_of(const Scan& scan, const Parameters& parameters, ScanWork& wor
   }
   {
     const StageScope timed(&work.times, "raycasting");
-    cast_beams(scan, ends, parameters, work.grid);
+    cast_beams(scan, ends, parameters, work.grid, context);
   }
   const StageScope timed(&work.times, "voids");
   find_voids(work.grid, parameters.unknown_inflation, work.voids);
@@ -69,7 +70,7 @@ void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sin
   VoidMap voids;
   for_each_batch("dufomap", scans, context, [&](std::span<Scan> batch, auto& work) {
     parallel_for(context.threads, batch.size(), 1,
-                 [&](std::size_t i) { find_voids_of(batch[i], parameters, work[i]); });
+                 [&](std::size_t i) { find_voids_of(batch[i], parameters, context, work[i]); });
     for (std::size_t i = 0; i < batch.size(); ++i) {  // In order of time.
       integrate(work[i], voids);
       if (!parameters.offline) answer(batch[i], work[i], voids, sink);

@@ -26,7 +26,9 @@ struct Axis {
 
   Axis(double place, double direction) : step(direction < 0.0 ? -1 : 1) {
     const double low = std::floor(place);
-    const double period = direction == 0.0 ? FreeWalk::kLongest : 1.0 / std::abs(direction);
+    // Bounded, so that 0 times it is 0: a line this flat that starts on a wall crosses it at once.
+    const double period =
+        direction == 0.0 ? FreeWalk::kLongest : std::min(1.0 / std::abs(direction), 1e300);
     next = fixed(direction == 0.0 ? period : (step > 0 ? low + 1.0 - place : place - low) * period);
     delta = fixed(period);
   }

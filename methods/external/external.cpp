@@ -27,14 +27,10 @@ std::vector<std::pair<std::string, std::string>> environment_for(int threads) {
   return variables;
 }
 
-/// Keeps the folder for somebody who writes a program and wants to see what it got and gave.
-void keep_if_asked(WorkingFolder& folder, const RunContext& context) {
+/// Whether somebody who writes a program wants to see what it got and gave.
+bool is_folder_kept() {
   const char* asked = std::getenv("RAYMOVAL_KEEP_WORKING_FOLDER");
-  if (asked == nullptr || *asked == '\0') return;
-  folder.keep();
-  if (context.progress != nullptr) {
-    context.progress->say("the working folder is kept: " + folder.path().string());
-  }
+  return asked != nullptr && *asked != '\0';
 }
 
 class External : public Remover {
@@ -43,8 +39,10 @@ class External : public Remover {
       : manifest_(std::move(manifest)), parameters_(std::move(parameters)) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    WorkingFolder folder;
-    keep_if_asked(folder, context);
+    const WorkingFolder folder(is_folder_kept());
+    if (is_folder_kept() && context.progress != nullptr) {
+      context.progress->say("the working folder is kept: " + folder.path().string());
+    }
     const auto points = write_files(folder.path(), scans, context);
     run_command(folder.path(), points.size(), context);
     const StageScope timed(context.times, "reading answers");
@@ -70,7 +68,7 @@ class External : public Remover {
     const StageScope timed(context.times, "program");
     context.begin_pass("program", 1);
     run_program({command_line(manifest_), folder, environment_for(context.threads),
-                 time_limit_s(scans), context.cancel});
+                 time_limit_s(scans), manifest_.disk_limit_gib, context.cancel});
     context.advance();
   }
 

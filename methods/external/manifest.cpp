@@ -7,6 +7,7 @@
 #include "core/files/fields.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
+#include "core/name.h"
 #include "core/text.h"
 
 namespace raymoval::external_method {
@@ -16,13 +17,15 @@ using nlohmann::json;
 
 /// Names stand in folders, tables and `--set NAME.key=value`.
 void check_name(const std::string& name, const std::string& where) {
-  const bool legal = name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
+  const bool legal = name_problem(name).empty() && name.size() <= 60 &&
+                     std::all_of(name.begin(), name.end(), [](char c) {
                        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
                               (c >= 'a' && c <= 'z') || c == '-' || c == '_';
                      });
   if (!legal) {
     throw ConfigurationError(where + ": the name '" + name +
-                             "' must be at most 60 letters, digits, '-' and '_'.");
+                             "' must be at most 60 letters, digits, '-' and '_', and not begin "
+                             "with '-'.");
   }
 }
 

@@ -46,6 +46,12 @@ std::string fault_of(const ChildEnd& end, const ProgramCall& call) {
     case ChildEnd::Kind::kTimeout:
       return fmt::format("did not end within {} s and was ended", number_text(call.time_limit_s)) +
              printed_text(end.output_tail);
+    case ChildEnd::Kind::kOutOfDisk:
+      return fmt::format(
+                 "filled its working folder with more than {} GiB and was ended; raise "
+                 "'disk_limit_gib' in the manifest or run on fewer frames",
+                 number_text(call.disk_limit_gib)) +
+             printed_text(end.output_tail);
     case ChildEnd::Kind::kOutOfMemory:
       break;  // There is no limit on memory here: whoever runs the method sets it.
     case ChildEnd::Kind::kSignalled:
@@ -66,6 +72,7 @@ void run_program(const ProgramCall& call) {
   setup.folder = call.folder;
   setup.environment = call.environment;
   setup.limits.seconds = call.time_limit_s;
+  setup.limits.folder_mib = 1024.0 * call.disk_limit_gib;
   setup.cancel = call.cancel;
   const std::string fault = fault_of(run_child(setup), call);
   if (call.cancel != nullptr && call.cancel->load()) throw Cancelled();

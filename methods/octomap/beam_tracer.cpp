@@ -24,6 +24,26 @@ AxisWalk axis_walk(unsigned axis, float direction, const std::array<double, 2>& 
           resolution / std::fabs(static_cast<double>(direction))};
 }
 
+/// Makes `direction` a unit vector. @return the length that it had, metres
+float normalise(octomap::point3d& direction) {
+  // The square of a shorter length is no normal number: the length would come out as zero or with
+  // few digits, and the walk would not end.
+  constexpr float kShort = 0x1p-50F, kLonger = 0x1p+90F;
+  const bool is_short = std::max({std::fabs(direction.x()), std::fabs(direction.y()),
+                                  std::fabs(direction.z())}) < kShort;
+  if (is_short) direction *= kLonger;
+  const auto length = static_cast<float>(direction.norm());
+  direction /= length;
+  return is_short ? length / kLonger : length;
+}
+
+/// A line crosses at most sqrt(3) times as many walls as cells fit into its length, and one more
+/// along each axis at either end; so it passes through fewer cells than this. It bounds a walk
+/// whatever rounding makes of it.
+int most_cells(float length, double resolution) {
+  return static_cast<int>(2.0 * std::min(length / resolution, 1e6)) + 8;
+}
+
 /// Steps along an axis by adding in its bits: all others are ones and pass the carry on.
 template <unsigned kAxis>
 void step_along(AxisWalk& axis, CellCode& cell) {
@@ -81,14 +101,14 @@ BeamTracer::BeamTracer(const CellLattice& lattice, const octomap::point3d& origi
 void BeamTracer::mark_free(const octomap::point3d& end, CellCode last, CellBlocks& cells) const {
   if (!first_ || *first_ == last) return;
   octomap::point3d direction = end - origin_;
-  const auto length = static_cast<float>(direction.norm());
-  direction /= length;
+  const float length = normalise(direction);
   AxisWalk x = axis_walk(0, direction(0), to_wall_[0], resolution_);
   AxisWalk y = axis_walk(1, direction(1), to_wall_[1], resolution_);
   AxisWalk z = axis_walk(2, direction(2), to_wall_[2], resolution_);
   FreeMarker marker(cells);
   CellCode cell = *first_;
   double leaves_at = 0.0;  // Distance at which the beam leaves the cell; past the end by rounding.
+  int cells_left = most_cells(length, resolution_);
   do {
     marker.mark(cell);
     // Through the nearest wall; of two equally near, that of the later axis.
@@ -100,7 +120,7 @@ void BeamTracer::mark_free(const octomap::point3d& end, CellCode last, CellBlock
       step_along<2>(z, cell);
     }
     leaves_at = std::min(std::min(x.to_next, y.to_next), z.to_next);
-  } while (cell != last && !(leaves_at > length));
+  } while (cell != last && !(leaves_at > length) && --cells_left > 0);
 }
 
 }  // namespace raymoval::octomap_method

@@ -24,7 +24,7 @@ class OctomapRun {
         scans_(scans),
         context_(context),
         lattice_(parameters.resolution),
-        cells_(parameters, context.threads),
+        cells_(parameters, context),
         map_(parameters),
         kept_(scans.size()),
         dropped_(scans.size()) {

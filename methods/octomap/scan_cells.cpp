@@ -13,10 +13,11 @@ constexpr std::size_t kBeamsInTurn = 512;
 
 }  // namespace
 
-ScanCells::ScanCells(const Parameters& parameters, int threads)
+ScanCells::ScanCells(const Parameters& parameters, const RunContext& context)
     : parameters_(parameters),
+      context_(context),
       lattice_(parameters.resolution),
-      threads_(std::clamp(threads, 1, 64)),
+      threads_(std::clamp(context.threads, 1, 64)),
       parts_(static_cast<std::size_t>(threads_)) {}
 
 void ScanCells::compute(const std::vector<octomap::point3d>& points,
@@ -27,6 +28,7 @@ void ScanCells::compute(const std::vector<octomap::point3d>& points,
   // The union does not depend on which part takes which beam.
   parallel_for(threads_, parts_.size(), 1, [&](std::size_t part) {
     for (std::size_t turn = part; turn * kBeamsInTurn < beams_.size(); turn += parts_.size()) {
+      context_.check_cancelled();
       const std::size_t end = std::min(beams_.size(), (turn + 1) * kBeamsInTurn);
       for (std::size_t i = turn * kBeamsInTurn; i < end; ++i) {
         const Beam& beam = beams_[i];

@@ -6,6 +6,7 @@
 #include "core/scan/scan.h"
 #include "methods/octomap/beam_tracer.h"
 #include "methods/octomap/parameters.h"
+#include "methods/remover.h"
 
 namespace raymoval::octomap_method {
 
@@ -21,11 +22,13 @@ enum class PointRole : std::uint8_t {
 /// once however many beams cross it.
 class ScanCells {
  public:
-  ScanCells(const Parameters& parameters, int threads);
+  /// @param context of the run, for its threads and its wish to stop; must outlive this object
+  ScanCells(const Parameters& parameters, const RunContext& context);
 
   /// @param points end points in the tree's frame, metres
   /// @param roles one per point
   /// @param origin of the beams, in the same frame
+  /// @throws Cancelled
   void compute(const std::vector<octomap::point3d>& points, const std::vector<PointRole>& roles,
                const octomap::point3d& origin);
 
@@ -46,6 +49,7 @@ class ScanCells {
                 const octomap::point3d& origin);
 
   const Parameters& parameters_;
+  const RunContext& context_;
   CellLattice lattice_;
   int threads_;
   std::vector<Beam> beams_;

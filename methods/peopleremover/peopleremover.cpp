@@ -180,7 +180,9 @@ class Pass {
         choose_beams(points.local, scan.index,
                      {parameters_.reduce_points, parameters_.reduce_angle,
                       static_cast<std::uint64_t>(parameters_.reduce_seed)});
+    constexpr std::size_t kBeamsInTurn = 512;  // Between two questions whether to stop.
     for (std::size_t k = 0; k < points.size(); ++k) {
+      if (k % kBeamsInTurn == 0) context_.check_cancelled();
       if (chosen[k] == 0) continue;
       if (lengths[k] == kWholeBeam) {
         workspace.walker.walk(points.sensor, points.world[k]);

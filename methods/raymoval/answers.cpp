@@ -21,12 +21,13 @@ std::vector<std::string> answer_reasons() {
 }
 
 /// Why each point of a scan is kept or removed, see `answer_reasons`.
+/// @param by_erasure whether being seen through makes a point a candidate
 std::vector<std::uint8_t> reasons_for(const Mask& candidates, const Mask& dynamic,
-                                      const std::vector<VoxelState>& states) {
+                                      const std::vector<VoxelState>& states, bool by_erasure) {
   std::vector<std::uint8_t> codes(states.size(), kNeverContradicted);
   for (std::size_t k = 0; k < codes.size(); ++k) {
     if (candidates[k] == 0) continue;
-    const bool erased = states[k] == VoxelState::kErased;
+    const bool erased = by_erasure && states[k] == VoxelState::kErased;
     codes[k] = dynamic[k] == 0 ? kRestored : erased ? kSeenThrough : kInFrontOfMap;
   }
   return codes;
@@ -52,6 +53,7 @@ void answer_from_map(StaticMap& map, const Parameters& parameters, const ScanSou
   if (context.threads > 1) of_scan.times = nullptr;
   Workspaces<ScanAgainstMap> workspaces(
       [&] { return std::make_unique<ScanAgainstMap>(parameters, scans.sensor()); });
+  const bool by_erasure = parameters.map_source != MapSource::kPrior || parameters.erased_points;
   const auto answer_scan = [&](Scan& scan) {
     const std::size_t index = scan.index;
     workspaces.with_one([&](ScanAgainstMap& test) {
@@ -64,7 +66,8 @@ void answer_from_map(StaticMap& map, const Parameters& parameters, const ScanSou
       }
       sink.accept(index, dynamic);
       if (context.reasons == nullptr) return;
-      context.reasons->accept(index, reasons_for(candidates, dynamic, test.known().states));
+      context.reasons->accept(index,
+                              reasons_for(candidates, dynamic, test.known().states, by_erasure));
     });
   };
   for_scans_at_once("raymoval, answers", "answer and validation", scans, context, answer_scan);

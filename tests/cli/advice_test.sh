@@ -41,7 +41,7 @@ if [[ $view -eq 1 ]]; then
   expect 0 "wrote" report kept -o page.html --quiet --data data/05
   cp page.html before.html
   expect 2 "no such folder" report kept -o page.html --quiet --data nowhere
-  expect 2 "fingerprint" report kept -o page.html --quiet --data one
+  expect 2 "it holds 1 scan, and the run had 2" report kept -o page.html --quiet --data one
   expect 2 "no known layout" report kept -o page.html --quiet --data empty
   holds "the page is as it was" cmp page.html before.html
 else

@@ -106,6 +106,6 @@ process=$!
 until compgen -G 'map.pcd*.part' >/dev/null || ! kill -0 $process 2>/dev/null; do sleep 0.05; done
 kill -INT $process
 wait $process
-holds "an interruption is told" test $? -eq 1 -a -n "$(grep cancelled interrupted.txt)"
+holds "an interruption is told" test $? -eq 130 -a -n "$(grep cancelled interrupted.txt)"
 nothing_left "an interruption"
 finish clean

@@ -462,7 +462,7 @@ wait_for $finished $process
 # A shell's background jobs ignore SIGINT unless they ask for it, as the program does.
 kill -INT $process
 wait $process
-holds "an interrupted run exits with 1" test $? -eq 1
+holds "an interrupted run exits with 130" test $? -eq 130
 holds "finished cells stay" test -s $finished
 holds "nothing claims to be complete" test ! -e stopped/results.json
 

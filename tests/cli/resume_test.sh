@@ -136,7 +136,7 @@ expect 0 "" "${slow[@]}" --cell street/noop:default
 expect 2 "another run is writing there" "${slow[@]}" --only noop:default
 kill -INT $process
 wait $process
-holds "an interrupted cell exits with 1" test $? -eq 1
+holds "an interrupted cell exits with 130" test $? -eq 130
 holds "its hanging child is gone" test -z "$(pgrep -f "^raymoval run-method" -P 1)"
 holds "no lock is left by it" test -z "$(find busy -name run.lock)"
 

@@ -97,4 +97,63 @@ holds "both are there" test -e mine/film.mkv.part -a -d mine/thesis.part
 mv mine/* without/
 expect 0 "" "${scores[@]}" --out without
 holds "beside a run too" test -e without/film.mkv.part -a -d without/thesis.part
+
+# Several outputs appear together or not at all.
+fresh
+outputs=(-o out/map.pcd --dynamic out/removed.pcd --labels out/labels --quiet --overwrite --force)
+mkdir out
+expect 0 "" clean data --method comb "${outputs[@]}"
+cp -r out before_fault
+export FAULTY_COMMAND="rm out/removed.pcd && mkdir out/removed.pcd && touch out/removed.pcd/mine"
+expect 2 "out/removed.pcd: cannot be written (Is a directory). Nothing was changed" \
+  clean data --method meddle "${outputs[@]}"
+unset FAULTY_COMMAND
+holds "what somebody put there is still there" test -e out/removed.pcd/mine
+rm -r out/removed.pcd before_fault/removed.pcd
+holds "the other outputs are as they were" diff -r before_fault out
+
+# A link to an output stays a link.
+mkdir elsewhere
+touch elsewhere/map.pcd
+ln -s elsewhere/map.pcd link.pcd
+expect 2 "is there already" clean data --method comb -o link.pcd --quiet
+expect 0 "" clean data --method comb -o link.pcd --quiet --overwrite --force
+holds "a link to an output stays a link" test -L link.pcd -a -s elsewhere/map.pcd
+ln -s nowhere.pcd lost.pcd
+expect 2 "lost.pcd: is a link to nowhere.pcd" clean data --method comb -o lost.pcd --quiet
+
+# Standard output that cannot be written is an error of every command.
+for words in --help --version "run --help" "help run" "list methods" "describe raymoval" \
+  "table without" "inspect data --quiet" "plan quick" "compare without without"; do
+  # shellcheck disable=SC2086
+  "$raymoval" $words >/dev/full 2>err.txt
+  code=$?
+  holds "$words to a full disk is an error" test $code -eq 2
+done
+
+# Few descriptors are enough, and fewer are told.
+few() { (ulimit -n "$1" && shift && "$raymoval" "$@") >out.txt 2>said.txt; }
+few 64 "${scores[@]}" --out few
+code=$?
+holds "64 descriptors are enough" test $code -eq 0
+few 12 "${scores[@]}" --out fewer
+code=$?
+holds "12 are told" grep -q "Raise the limit of open files (ulimit -n)" said.txt
+holds "12 are an error" test $code -eq 2
+
+# A copy that broke off may have any size.
+truncate -s 20G data/velodyne/000002.bin
+expect 2 "of which most were never written: it looks like a copy that broke off" \
+  "${scores[@]}" --out sparse
+
+# Worlds and sensors are strict JSON.
+cat >world.json <<'JSON'
+{ "scans": 2, "roads": [{"points": [[-40, 0], [40, 0]]}], "ego": {"points": [[0, 0], [9, 0]]} }
+JSON
+sed 's/"scans": 2/"scans": 1e309/' world.json >large.json
+expect 2 "large.json: holds a number that is too large" simulate large.json -o world
+sed 's/"scans": 2/"scans": 2, "scans": 3/' world.json >twice.json
+expect 2 'the key "scans" stands twice in one object' simulate twice.json -o world
+echo '{ "kind": "spinning", "noise_m": 1e309 }' >sensor.json
+expect 2 "sensor.json: holds a number that is too large" simulate town --sensor sensor.json -o world
 finish trust

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Children here are shell scripts of a line or two, so that all they do can be seen.
 #include "core/process/child_process.h"
 
 #include <unistd.h>
@@ -12,44 +11,13 @@
 #include <thread>
 
 #include "core/files/descriptor_io.h"
+#include "tests/core/shell_children.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
+using namespace raymoval::test;
 using Catch::Matchers::Contains;
 using Kind = ChildEnd::Kind;
-
-namespace {
-
-/// What all descendants of a test's child have in their environment.
-std::string token() {
-  return "RAYMOVAL_TEST_TOKEN=" + std::to_string(::getpid());
-}
-
-ChildSetup shell(const std::string& script) {
-  ChildSetup setup;
-  setup.program = "/bin/sh";
-  setup.arguments = {"sh", "-c", script};
-  setup.environment = {{"RAYMOVAL_TEST_TOKEN", std::to_string(::getpid())}};
-  return setup;
-}
-
-ChildSetup limited(const std::string& script, double seconds) {
-  ChildSetup setup = shell(script);
-  setup.limits.seconds = seconds;
-  return setup;
-}
-
-/// How many processes run that a child of this test has started.
-int descendants() {
-  int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    std::ifstream file(entry.path() / "environ");
-    for (std::string variable; std::getline(file, variable, '\0');) count += variable == token();
-  }
-  return count;
-}
-
-}  // namespace
 
 TEST_CASE("a child ends with its exit code and the end of what it printed") {
   const ChildEnd end = run_child(shell("printf out; printf err >&2; exit 3"));

@@ -4,10 +4,12 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <fstream>
 
 #include "core/error.h"
 #include "core/files/files.h"
@@ -119,8 +121,37 @@ TEST_CASE("Temporary names are new each time and have a form of their own") {
   CHECK(name_of_part(new_part_name("out/run/")) == "run");
   for (const char* other :
        {"film.mkv.part", "thesis.part", "table.md.123.part", "removals.part", ".part",
-        ".raymoval-0123456789abcdef.part", "a.raymoval-0123456789abcdeX.part",
-        "a.raymoval-0123456789abcde.part", "a.raymoval-0123456789abcdef.part.gz"}) {
+        ".raymoval-0123456789abcdef01234567.part", "a.raymoval-0123456789abcdef0123456X.part",
+        "a.raymoval-0123456789abcdef0123456.part", "a.raymoval-0123456789abcdef01234567.part.gz"}) {
     CHECK_FALSE(is_part_name(other));
   }
+}
+
+TEST_CASE("What a dead process left of a file goes when that file is made again") {
+  const TemporaryFolder folder;
+  const fs::path target = folder / "map.pcd", other = folder / "other.pcd";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    // It ends with its locks and without its destructors, as one that is killed.
+    auto* file = new Part(new_part_file(target, 0600));
+    auto* labels = new Part(new_part_folder(target));
+    auto* elsewhere = new Part(new_part_file(other, 0600));
+    std::ofstream(labels->place / "000000.label") << "half";
+    ::_exit(file->held.valid() && labels->held.valid() && elsewhere->held.valid() ? 0 : 1);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  REQUIRE(status == 0);
+  REQUIRE(entries_of(folder.path()).size() == 3);
+  {
+    const Part made = new_part_file(target, 0600);
+    CHECK(made.held.valid());
+    CHECK(entries_of(folder.path()).size() == 2);  // This one, and that of the other file.
+    const Part second = new_part_file(target, 0600);
+    remove_abandoned_part(made.place);  // It is in use.
+    CHECK(entries_of(folder.path()).size() == 3);
+  }
+  const Part made = new_part_file(other, 0600);
+  CHECK(fs::exists(made.place));
+  CHECK(entries_of(folder.path()).size() == 3);  // The two that lost their locks just now are new.
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace raymoval;
@@ -68,6 +69,25 @@ TEST_CASE("The exception of the lowest chunk is thrown") {
       }
     }
   }
+}
+
+TEST_CASE("The exception of the lowest chunk is thrown, also if it comes last") {
+  // Every chunk throws. Chunk 0 waits until some thread has thrown, been caught and gone on to a
+  // further chunk, so that its error is never the first one.
+  if (hardware_threads() < 2) return;  // One thread takes the chunks in their order.
+  std::mutex mutex;
+  std::set<std::thread::id> threw;
+  std::atomic<bool> one_is_kept = false;
+  const auto body = [&](std::size_t chunk) {
+    if (chunk == 0) {
+      while (!one_is_kept) std::this_thread::yield();
+    } else {
+      const std::lock_guard lock(mutex);
+      if (!threw.insert(std::this_thread::get_id()).second) one_is_kept = true;
+    }
+    throw std::runtime_error(std::to_string(chunk));
+  };
+  CHECK_THROWS_WITH(parallel_for(2, 100, 1, body), "0");
 }
 
 TEST_CASE("There is at least one hardware thread") {

@@ -234,6 +234,17 @@ TEST_CASE("copied files are named wherever they are", "[inspect]") {
   CHECK_THAT(report.findings[0].what, Catch::Contains("000002.bin"));
 }
 
+TEST_CASE("a label file that ends with a part of a label is found", "[inspect]") {
+  const TemporaryFolder folder;
+  write_files(folder, good_drive());
+  const auto labels = folder / "labels/000000.label";
+  fs::resize_file(labels, fs::file_size(labels) + 2);
+  const InspectionReport report = inspect_path(folder.text(), {});
+  INFO(text_of(report));
+  REQUIRE(found(report).count("label-count") == 1);
+  CHECK_THAT(text_of(report), Catch::Contains("labels and a part of one for"));
+}
+
 TEST_CASE("cleaning refuses what makes the map wrong, and does not mind labels", "[inspect]") {
   std::set<std::string> refused, unused;
   for (const InspectionCheck& check : inspection_checks()) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "core/scan/reach.h"
 #include "datasets/simulation/scene/library.h"
 #include "tests/datasets/inspect_data.h"
 
@@ -356,4 +357,40 @@ TEST_CASE("a vehicle that is hardly in view is no matter, whatever is evaluated"
   check_silent(drive.inspected());
   drive.labelled = false;
   check_silent(drive.inspected());
+}
+
+TEST_CASE("positions and points beyond the reach of voxels are found", "[inspect]") {
+  EditedSequence drive = good_drive();
+  SECTION("a position") {
+    for (const double far : {1.01 * kUsualReach, 1e9, 1e16, 1e300}) {
+      drive = good_drive();
+      drive.scans[7].T_world_sensor.translation().y() = far;
+      INFO(far << "\n" << text_of(drive.inspected()));
+      CHECK(found(drive.inspected()).contains("out-of-reach"));
+    }
+  }
+  SECTION("a height") {
+    drive.scans[7].T_world_sensor.translation().z() = -1.01 * kUsualReach;
+    CHECK(found(drive.inspected()).contains("out-of-reach"));
+  }
+  SECTION("a world far from its origin") {
+    const auto shifted = [](double metres) {
+      EditedSequence moved = good_drive();
+      moved.each_pose([&](Pose pose) { return pose.pretranslate(Eigen::Vector3d(metres, 0, 0)); });
+      return found(moved.inspected());
+    };
+    CHECK(shifted(1e16).contains("out-of-reach"));
+    CHECK(shifted(1e14).contains("out-of-reach"));
+    CHECK_FALSE(shifted(6e6).contains("out-of-reach"));  // UTM and the like lose nothing.
+  }
+  SECTION("a point") {
+    for (const float far : {1.01F * static_cast<float>(kFarthestReturn), 1e6F, 1e9F, 1e30F}) {
+      drive = good_drive();
+      drive.scans[0].points[1234].x() = -far;
+      const InspectionReport report = drive.inspected();
+      INFO(far << "\n" << text_of(report));
+      CHECK(found(report).contains("out-of-reach"));
+      CHECK_THAT(text_of(report), Catch::Matchers::Contains("point 1,234 lies"));
+    }
+  }
 }

@@ -99,6 +99,79 @@ TEST_CASE("known answers have the rates that the protocols say", "[registry]") {
   CHECK(checked == 5 + 5 + 5);
 }
 
+TEST_CASE("the protocols have the defaults and the legal ranges of what they follow",
+          "[registry]") {
+  struct Expected {
+    const char *protocol, *option;
+    double value, least, most;
+  };
+  // Of the ERASOR paper and code, and of the KTH benchmark's code.
+  for (const Expected& expected : {Expected{"erasor", "voxel_size", 0.2, 0.01, 100.0},
+                                   Expected{"erasor", "minimum_horizontal_range", 2.7, 0.0, 1e6},
+                                   Expected{"erasor", "lift", 1.73, -1e3, 1e3},
+                                   Expected{"dynamicmap", "distance", 0.05, 0.0, 10.0},
+                                   Expected{"dynamicmap", "maximum_range", 0.0, 0.0, 1e6},
+                                   Expected{"dynamicmap", "ego_range", 3.0, 0.0, 1e6},
+                                   Expected{"dynamicmap-strict", "voxel_size", 0.1, 0.01, 100.0},
+                                   Expected{"dynamicmap-strict", "maximum_range", 0.0, 0.0, 1e6},
+                                   Expected{"dynamicmap-strict", "ego_range", 3.0, 0.0, 1e6}}) {
+    CAPTURE(expected.protocol, expected.option);
+    const ParameterSpec& spec = find_parameter(
+        expected.protocol, protocol_entry(expected.protocol).parameters, expected.option);
+    CHECK(std::get<double>(spec.default_value) == expected.value);
+    CHECK(spec.notes.minimum == expected.least);
+    CHECK(spec.notes.maximum == expected.most);
+  }
+  CHECK(std::get<bool>(
+      find_parameter("erasor", protocol_entry("erasor").parameters, "truck_is_moving")
+          .default_value));
+  CHECK_FALSE(std::get<bool>(
+      find_parameter("erasor", protocol_entry("erasor").parameters, "ignore_0_1").default_value));
+}
+
+TEST_CASE("a rate knows its largest and its best value", "[registry]") {
+  CHECK(rate_spec("PR").largest() == 100.0);
+  CHECK(rate_spec("F1").largest() == 1.0);
+  CHECK(rate_spec("PR").best() == 100.0);
+  CHECK(rate_spec("PR").is_better(2.0, 1.0));
+  CHECK_FALSE(rate_spec("PR").is_better(1.0, 1.0));
+  const RegisteredToy toy;
+  CHECK(rate_spec("mistakes").best() == 0.0);
+  CHECK(rate_spec("mistakes").is_better(1.0, 2.0));
+  CHECK_FALSE(rate_spec("mistakes").is_better(1.0, 1.0));
+  CHECK(rate_text("PR", 12.34567) == "12.346");
+  CHECK(rate_text("F1", 0.123456) == "0.1235");
+  CHECK(rate_text("nobody knows it", 1.0) == "1.000");
+}
+
+TEST_CASE("a protocol, a rate or a count that is not there is told", "[registry]") {
+  CHECK_THROWS_WITH(protocol_entry("erasr"),
+                    Catch::Contains("'erasr' is unknown") && Catch::Contains("erasor"));
+  CHECK(find_protocol("erasr") == nullptr);
+  CHECK(find_protocol("erasor") == &protocol_entries().front());
+  ProtocolResult result;
+  result.protocol = "erasor";
+  result.counts = {{"a", 3}, {"b", 4}};
+  CHECK(result.count("b") == 4);
+  CHECK_THROWS_AS(result.count("c"), InternalError);
+  CHECK_FALSE(result.rate("c"));
+}
+
+TEST_CASE("a protocol that reads a calibration says which option wants it", "[registry]") {
+  const MemorySequence sequence = small_street();
+  const auto protocol = protocol_with("erasor", {{"frame", std::string("erasor")}, {"lift", 0.5}});
+  CHECK(protocol->reads_calibration());
+  CHECK_FALSE(protocol_with("erasor")->reads_calibration());
+  CHECK_FALSE(protocol_with("dynamicmap")->reads_calibration());
+  CHECK_THROWS_WITH(protocol->check(sequence.input()),
+                    Catch::Contains("(lift = 0.5, frame = erasor)"));
+  EvaluationInput calibrated = sequence.input();
+  calibrated.T_camera_lidar = Pose::Identity();
+  CHECK_NOTHROW(protocol->check(calibrated));
+  EvaluationInput nothing;
+  CHECK_THROWS_AS(protocol->check(nothing), InternalError);
+}
+
 TEST_CASE("labels that are found again make the oracle uncertain", "[registry]") {
   const ProtocolEntry& erasor = protocol_entry("erasor");
   Configuration options = protocol_defaults("erasor");

@@ -146,6 +146,55 @@ TEST_CASE("rows are found with their values", "[published]") {
   CHECK_FALSE(shipped("erasor_reruns.json").rows.front().value("F1").has_value());
 }
 
+TEST_CASE("a table says what it is of", "[published]") {
+  const std::string head = R"({"table":"t","source":"s","protocol":"p","units":{"PR":"percent"},)";
+  const PublishedTable table =
+      load_published_table(write_file(head + R"("rows":[{"method":"m","PR":1}],"notes":["n"]})"));
+  CHECK(table.table == "t");
+  CHECK(table.source == "s");
+  CHECK(table.protocol == "p");
+  CHECK(table.units.at("PR") == "percent");
+  CHECK(table.notes == std::vector<std::string>{"n"});
+  CHECK(table.averages_printed.empty());
+}
+
+TEST_CASE("each printed number stands beside what follows from the others", "[published]") {
+  // PR 80 and RR 40: F1 = 2 * 0.8 * 0.4 / 1.2 = 8/15. PR 60 and RR 60: F1 = 0.6. Means 70 and 50:
+  // F1 of means = 0.7 / 1.2 = 7/12, mean F1 = 17/30. SA 90 and DA 40: AA = 60. A row without SA
+  // says nothing of its AA.
+  const PublishedTable table = load_published_table(write_file(
+      R"({"table":"t","source":"s","protocol":"p",
+          "units":{"PR":"percent","RR":"percent","F1":"1","SA":"%","DA":"%","AA":"%"},
+          "rows":[{"method":"m","sequence":"a","PR":80,"RR":40,"F1":0.5},
+                  {"method":"m","sequence":"b","PR":60,"RR":60},
+                  {"method":"m","sequence":"c","SA":90,"DA":40,"AA":61},
+                  {"method":"m","sequence":"d","DA":40,"AA":71},
+                  {"method":"other","sequence":"a","PR":1,"RR":1}],
+          "averages_printed":[{"method":"m","PR":69,"F1":0.55,"AA":50}]})"));
+  struct Expected {
+    const char *place, *metric, *rule;
+    double printed, recomputed;
+  };
+  const std::vector<Expected> expected = {{"a", "F1", "harmonic_mean", 0.5, 8.0 / 15},
+                                          {"c", "AA", "geometric_mean", 61.0, 60.0},
+                                          {"average", "PR", "mean", 69.0, 70.0},
+                                          {"average", "F1", "mean_F1", 0.55, 17.0 / 30},
+                                          {"average", "F1", "F1_of_means", 0.55, 7.0 / 12},
+                                          {"average", "AA", "mean", 50.0, 66.0}};
+  const std::vector<ArithmeticCheck> checks = check_arithmetic(table);
+  REQUIRE(checks.size() == expected.size());
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    CAPTURE(i);
+    CHECK(checks[i].method == "m");
+    CHECK(checks[i].place == expected[i].place);
+    CHECK(checks[i].metric == expected[i].metric);
+    CHECK(checks[i].rule == expected[i].rule);
+    CHECK(checks[i].printed == expected[i].printed);
+    CHECK(checks[i].recomputed == Approx(expected[i].recomputed));
+    CHECK(checks[i].deviation() == Approx(expected[i].printed - expected[i].recomputed));
+  }
+}
+
 TEST_CASE("a malformed table is refused with the place", "[published]") {
   const std::string head =
       R"({"table":"t","source":"s","protocol":"p","units":{"PR":"percent"},"rows":)";

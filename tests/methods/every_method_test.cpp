@@ -5,6 +5,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 
+#include "core/scan/reach.h"
 #include "tests/methods/moved_world.h"
 
 using namespace raymoval;
@@ -74,6 +75,41 @@ TEST_CASE("no scans, empty scans and lone points") {
       REQUIRE(masks.has(i));
       CHECK(masks.get(i) == Mask(scans.load(i).size(), 0));
     }
+  }
+}
+
+TEST_CASE("points next to a sensor that stands on walls of voxels end every walk") {
+  toy::HeldScans scans;
+  std::vector<Eigen::Vector3f> points;
+  for (const float length : {1e-45F, 1e-38F, 1e-27F, 1e-23F, 1e-19F, 1e-12F, 1e-6F, 0.2F}) {
+    for (int signs = 0; signs < 27; ++signs) {
+      points.emplace_back(Eigen::Vector3f(static_cast<float>(signs % 3 - 1),
+                                          static_cast<float>(signs / 3 % 3 - 1),
+                                          static_cast<float>(signs / 9 - 1)) *
+                          length);
+    }
+  }
+  scans.add(points);
+  scans.add(points, Pose(Eigen::Translation3d(0.0, 0.0, 3.2)));
+  for (const ConfiguredMethod& method : all_methods()) {
+    INFO(method.full_name());
+    const MaskStore masks = masks_of(*method.make(), scans, 2);
+    for (std::size_t i = 0; i < scans.size(); ++i) CHECK(masks.has(i));
+  }
+}
+
+// What inspection lets pass must not make a method fail.
+TEST_CASE("every method takes scans and points as far away as inspection does") {
+  constexpr double kFar = kUsualReach - kFarthestReturn - 1.0;
+  const auto far = static_cast<float>(kFarthestReturn);
+  toy::HeldScans scans;
+  scans.add({{far, 0.0F, 0.0F}, {0.0F, 0.0F, -far}, {3.0F, 2.0F, 1.0F}});
+  scans.add({{0.0F, far, 0.0F}, {0.0F, 0.0F, -far}, {0.3F, 0.2F, 0.1F}},
+            Pose(Eigen::Translation3d(0.0, kFar, -kFar)));
+  for (const ConfiguredMethod& method : all_methods()) {
+    INFO(method.full_name());
+    const MaskStore masks = masks_of(*method.make(), scans, 2);
+    for (std::size_t i = 0; i < scans.size(); ++i) CHECK(masks.has(i));
   }
 }
 

@@ -177,25 +177,35 @@ TEST_CASE("What a killed process left goes; what may be alive or another's stays
   });
   REQUIRE(entries_of(cache).size() == 1);
   const MakingPlace alive(target);
+  // Made under another kernel: its lock cannot be asked here.
+  std::string elsewhere = new_part_name(target).string();
+  char& digit = elsewhere[elsewhere.rfind("raymoval-") + 9];
+  digit = digit == '0' ? '1' : '0';
   // Names and age alone prove nothing: of earlier versions, of other machines, of anybody.
-  const std::vector<fs::path> others = {cache / "town-0123456789abcdef.1.0.part",
-                                        cache / "thesis.part", new_part_name(target)};
+  const std::vector<fs::path> others = {
+      cache / "town-0123456789abcdef.1.0.part", cache / "thesis.part", elsewhere,
+      cache / "town-0123456789abcdef.raymoval-0123456789abcdef.part"};
   for (const fs::path& other : others) {
     fs::create_directory(other);
     fs::last_write_time(other, fs::file_time_type::clock::now() - std::chrono::hours(480));
   }
   std::ofstream(cache / "film.mkv.part") << "film";
-  // Made by a process of another machine: its lock cannot be asked here.
-  const fs::path elsewhere = new_part_name(target);
-  fs::create_directory(elsewhere);
-  std::ofstream(elsewhere / "lock") << "00000000-0000-0000-0000-000000000000 7 7\n";
+  std::ofstream(cache / "dead.lock") << "process 1 on somewhere\n";
+  FileLock held(cache / "held.lock");
+  REQUIRE(held.take(FileLock::Mode::kExclusive) == FileLock::State::kHeld);
 
   const fs::path made = cached_simulation(small_town(), scratch.text(), 1, nullptr);
   CHECK(fs::is_directory(alive.folder()));
   for (const fs::path& other : others) CHECK(fs::is_directory(other));
-  CHECK(fs::is_directory(elsewhere));
   CHECK(fs::exists(cache / "film.mkv.part"));
-  CHECK(entries_of(cache).size() == 1 + others.size() + 3);  // alive, elsewhere, the film
+  CHECK(fs::exists(cache / "held.lock"));
+  CHECK(entries_of(cache).size() == 1 + others.size() + 3);  // alive, the film, the lock
+
+  // A scene that is there already is a use of the cache, too.
+  in_killed_process([&] { new MakingPlace(target); });
+  std::ofstream(cache / "dead.lock") << "process 1 on somewhere\n";
+  CHECK(cached_simulation(small_town(), scratch.text(), 1, nullptr) == made);
+  CHECK(entries_of(cache).size() == 1 + others.size() + 3);
 }
 
 TEST_CASE("A place that is made never takes the name of something that is there") {

@@ -21,7 +21,7 @@ workflow() {
 cells_run() { grep -c '^rule cell:' workflow.txt; }
 
 cat >suite.json <<'JSON'
-{ "sequences": [{"path": "street", "name": "a", "frames": "0:2"},
+{ "sequences": [{"path": "street", "name": "a $(touch hacked);`id` 'q\" *?[x]{y}", "frames": "0:2"},
                 {"path": "street", "name": "b", "frames": "3:4"}],
   "methods": ["comb", {"method": "comb2", "set": {"milliseconds": {"sweep": [0, 1]}}}],
   "threads": 1 }
@@ -31,6 +31,7 @@ workflow suite.json flow
 holds "the workflow ends well" test $? -eq 0
 holds "each of the 12 cells was a job" test "$(cells_run)" -eq 12
 holds "its files are those of a plain run" same_but_times plain flow
+holds "no name was run by a shell" test ! -e hacked
 workflow suite.json flow
 holds "a second time nothing is to do" grep -q "Nothing to be done" workflow.txt
 sleep 1  # Snakemake looks at the times of files.

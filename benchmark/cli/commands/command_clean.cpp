@@ -12,7 +12,9 @@
 #include "benchmark/process/method_run.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/suite/amounts.h"
+#include "core/files/file_writer.h"
 #include "core/process/proc_files.h"
+#include "core/process/process_family.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
@@ -94,7 +96,8 @@ CleanPaths checked_paths(const CleanFlags& flags) {
   if (flags.path.empty()) throw UsageError("clean what? Expected `raymoval clean PATH -o FILE`.");
   if (flags.output.empty()) throw UsageError("-o FILE is missing: name the cleaned map's file.");
   check_not_both(flags.path);
-  CleanPaths paths{flags.output, flags.dynamic, flags.labels, flags.overwrite};
+  CleanPaths paths{output_target(flags.output), output_target(flags.dynamic), flags.labels,
+                   flags.overwrite};
   check_paths(paths);
   return paths;
 }
@@ -175,6 +178,8 @@ ExitCode clean(const CleanFlags& flags) {
   if (!flags.in_process) {
     return clean_apart(arguments_of_child(), paths, limit, interrupt_flag());
   }
+  // As the child of `clean_apart` it takes what it has started with it when that ends.
+  if (is_family_head()) end_family_with_parent();
   Progress progress(flags.work.style());
   try {
     return clean_here(flags, paths, progress);

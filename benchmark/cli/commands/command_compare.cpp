@@ -4,6 +4,7 @@
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
 #include "benchmark/tables/comparison/comparison_files.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
@@ -130,7 +131,7 @@ ExitCode compare(const CompareFlags& flags) {
       compare_results(read_result_set(find_results(flags.run)),
                       read_result_set(find_results(flags.reference)), subject.options);
   const std::string text = comparison_in(flags.format, comparison, subject);
-  if (!flags.output.empty()) write_atomically(flags.output, text);
+  if (!flags.output.empty()) write_atomically(output_target(flags.output), text);
   const bool shows_text = !flags.output.empty() || flags.format == "text";
   print(shows_text ? coloured_verdicts(comparison_text(comparison)) : text);
   return judged(comparison, subject.options);

@@ -5,6 +5,7 @@
 
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
+#include "benchmark/result/sealed_json.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
 
@@ -71,7 +72,7 @@ ExitCode inspect_command(const InspectFlags& flags) {
   const InspectionReport report =
       inspect_path(flags.path, flags.reading.options(),
                    {flags.work.thread_count(), &progress, &interrupt_flag()});
-  print(flags.json ? to_json(report).dump(2) + "\n" : report_text(report));
+  print(flags.json ? json_text(to_json(report)) : report_text(report));
   return report.has_findings() ? ExitCode::kWorse : ExitCode::kDone;
 }
 

@@ -12,6 +12,7 @@
 #include "benchmark/picture/maps/overview_picture.h"
 #include "benchmark/picture/maps/range_picture.h"
 #include "benchmark/run/folder/kept_run.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/text.h"
 
@@ -22,6 +23,7 @@ struct PictureFlags {
   std::string run, output, kind = "map";
   std::vector<std::string> only;
   std::string sequence, method, scan, crop, resolution, size, protocol, data;
+  bool simulate = false;
   WorkFlags work;
 };
 
@@ -49,6 +51,7 @@ void check_options(const PictureFlags& flags) {
                {"--method", !flags.method.empty(), {"range", "overview"}},
                {"--scan", !flags.scan.empty(), {"range"}},
                {"--data", !flags.data.empty(), {"map", "range", "overview"}},
+               {"--simulate", flags.simulate, {"map", "range", "overview"}},
                {"--protocol", !flags.protocol.empty(), {"pr-rr", "accuracy-time"}}};
   for (const auto& rule : rules) {
     const bool fits =
@@ -137,7 +140,7 @@ Canvas drawn(const PictureFlags& flags, Progress& progress) {
     }
   }
   const OpenContext context{flags.work.thread_count(), &progress, &interrupt_flag()};
-  const KeptRun run(flags.run, flags.data);
+  const KeptRun run(flags.run, flags.data, flags.simulate);
   if (flags.kind == "map") return map_picture(run, map, context);
   const KeptCell& cell = chosen_cell(flags, run);
   return flags.kind == "range" ? range_picture(run, cell, range, context)
@@ -169,9 +172,9 @@ ExitCode draw(const PictureFlags& flags) {
   Progress progress(flags.work.style());
   try {
     if (is_chart(flags.kind)) {
-      write_chart(flags.output, charted(flags));
+      write_chart(output_target(flags.output), charted(flags));
     } else {
-      write_png(flags.output, drawn(flags, progress));
+      write_png(output_target(flags.output), drawn(flags, progress));
     }
   } catch (...) {
     progress.end();
@@ -210,6 +213,9 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
       "--data", "PATH", flags.data,
       "Where the sequences are, if they are no longer where the run found them: the folder of a "
       "sequence, or a folder that holds them by name");
+  options.add_flag("--simulate", flags.simulate,
+                   "map, range, overview: make scenes of the run that are not in the cache; they "
+                   "may be large");
   flags.work.add_to(options);
 }
 

@@ -7,7 +7,10 @@
 #include "benchmark/result/checks/result_sets.h"
 #include "benchmark/run/folder/kept_run.h"
 #include "benchmark/tables/published_columns.h"
+#include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -15,7 +18,7 @@ namespace {
 
 struct ReportFlags {
   std::string run, output, against, data, points;
-  bool no_points = false;
+  bool no_points = false, simulate = false;
   WorkFlags work;
 };
 
@@ -33,6 +36,7 @@ bool with_points(const ReportFlags& flags) {
   const bool built_in = !page_file("view.js").empty();
   const std::string given = !flags.data.empty()     ? "--data " + flags.data
                             : !flags.points.empty() ? "--points " + flags.points
+                            : flags.simulate        ? "--simulate"
                                                     : "";
   if (!given.empty() && flags.no_points) {
     throw UsageError(given +
@@ -50,6 +54,8 @@ bool with_points(const ReportFlags& flags) {
 std::vector<OutsideColumn> papers() {
   try {
     return published_columns();
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const DataError&) {
     return {};
   }
@@ -76,7 +82,7 @@ ExitCode report(const ReportFlags& flags) {
   request.points = point_count(flags);
   request.with_points = with_points(flags);
   const std::filesystem::path results = find_results(flags.run);
-  const KeptRun run(flags.run, flags.data);
+  const KeptRun run(flags.run, flags.data, flags.simulate);
   request.run = &run;
   request.content = {&run.record(), &run.results(), papers()};
   std::optional<Comparison> comparison;
@@ -87,17 +93,17 @@ ExitCode report(const ReportFlags& flags) {
     request.reference = flags.against;
   }
   request.methods = &program_methods();
-  request.points_needed = !flags.data.empty();  // Who says where the data is means it.
+  request.points_needed = !flags.data.empty() || flags.simulate;  // Who says where it is means it.
   request.threads = threads;
   request.progress = &progress;
   request.cancel = &interrupt_flag();
   const Page page = make_page(request);
   progress.end();
   for (const std::string& warning : page.warnings) {
-    std::fprintf(stderr, "raymoval: left out of the 3-D view: %s\n", warning.c_str());
+    print_error("raymoval: left out of the 3-D view: " + warning);
   }
-  const std::filesystem::path output = flags.output.empty() ? results.parent_path() / "report.html"
-                                                            : std::filesystem::path(flags.output);
+  const std::filesystem::path output =
+      flags.output.empty() ? results.parent_path() / "report.html" : output_target(flags.output);
   write_atomically(output, page.html);
   print("wrote " + output.string() + " (" + size_text(page.html.size()) + ")\n");
   return ExitCode::kDone;
@@ -115,6 +121,8 @@ Command add_report_command(CommandParser& program) {
               "Where the sequences are, if they are not where the run read them");
   options.add("--points", "N", flags->points,
               "Put at most N points into the page (default: 1000000)");
+  options.add_flag("--simulate", flags->simulate,
+                   "Make scenes of the run that are not in the cache; they may be large");
   options.add_flag("--no-points", flags->no_points, "Leave the 3-D view out");
   flags->work.add_to(options);
   options.set_footer(

@@ -35,16 +35,16 @@ std::string red(const std::string& text) {
 
 void tell_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
-    std::fprintf(stderr, "%s %s\n", red("raymoval: cell failed:").c_str(), failure.c_str());
+    print_error(red("raymoval: cell failed:") + " " + failure);
   }
   for (const std::string& line : summary.flat_sweeps) {
-    std::fprintf(stderr, "raymoval: warning: %s\n", line.c_str());
+    print_error("raymoval: warning: " + line);
   }
   for (const std::string& problem : summary.controls) {
-    std::fprintf(stderr, "%s %s\n", red("raymoval: controls are off:").c_str(), problem.c_str());
+    print_error(red("raymoval: controls are off:") + " " + problem);
   }
   if (collect && !summary.missing.empty()) {
-    std::fprintf(stderr, "raymoval: cells are missing: %s\n", join(summary.missing).c_str());
+    print_error("raymoval: cells are missing: " + join(summary.missing));
   }
 }
 
@@ -98,10 +98,8 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
                               : run_one_cell(suite, options, flags.cell);
   } catch (const Cancelled&) {
     options.progress->end();
-    std::fputs(
-        "raymoval: cancelled. Finished cells are kept; the same command goes on with the "
-        "rest.\n",
-        stderr);
+    print_error(
+        "raymoval: cancelled. Finished cells are kept; the same command goes on with the rest.");
     return std::nullopt;
   } catch (...) {
     options.progress->end();

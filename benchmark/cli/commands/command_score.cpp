@@ -8,6 +8,7 @@
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/scored_sequence.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
@@ -130,7 +131,7 @@ ExitCode score(const ScoreFlags& flags) {
   }
   progress.end();
   print(score_text(record));
-  if (!flags.json.empty()) write_atomically(flags.json, json_text(to_json(record)));
+  if (!flags.json.empty()) write_atomically(output_target(flags.json), json_text(to_json(record)));
   return ExitCode::kDone;
 }
 

@@ -8,6 +8,7 @@
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/published_columns.h"
 #include "benchmark/tables/tables.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -74,8 +75,8 @@ TableOptions options_of(const TableFlags& flags, const RunResults& results) {
 void tell_unpublished(const RunResults& results, const std::vector<OutsideColumn>& outside) {
   const std::vector<std::string> names = unpublished_sequences(results, outside);
   if (names.empty()) return;
-  std::fprintf(stderr, "raymoval: --with-published: no paper has numbers for %s by %s.\n",
-               join(names).c_str(), join(results.protocols, " or ").c_str());
+  print_error("raymoval: --with-published: no paper has numbers for " + join(names) + " by " +
+              join(results.protocols, " or ") + ".");
 }
 
 std::string tables_text(const TableFlags& flags, RunResults& results) {

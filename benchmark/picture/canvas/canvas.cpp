@@ -107,7 +107,7 @@ void Canvas::hatch(int x, int y, int wide, int high) {
 
 int Canvas::text_width(const std::string& text, int size) const {
   choose_font(context(), size);
-  cairo_text_extents_t extents;
+  cairo_text_extents_t extents{};  // Is left alone if there is no memory.
   cairo_text_extents(context(), printable_text(text).c_str(), &extents);
   return static_cast<int>(std::ceil(extents.x_advance));
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <new>
 #include <span>
 
 #include "core/error.h"
@@ -22,6 +23,7 @@ std::string png_bytes(const Canvas& canvas) {
   if (status == CAIRO_STATUS_SUCCESS) {
     status = cairo_surface_write_to_png_stream(cairo_get_target(canvas.context()), append, &bytes);
   }
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   if (status != CAIRO_STATUS_SUCCESS) {
     throw InternalError(
         fmt::format("a picture cannot be coded: {}", cairo_status_to_string(status)));
@@ -46,9 +48,10 @@ Canvas read_png(const std::filesystem::path& path) {
   const std::unique_ptr<cairo_surface_t, CairoRelease> surface(
       cairo_image_surface_create_from_png_stream(take, &rest));
   const cairo_status_t status = cairo_surface_status(surface.get());
+  // Cairo tells what libpng refuses as a lack of memory, so the two cannot be told apart.
   if (status != CAIRO_STATUS_SUCCESS) {
-    throw DataError(
-        fmt::format("{}: not a PNG file ({}).", path.string(), cairo_status_to_string(status)));
+    throw DataError(fmt::format("{}: not a PNG file, or too large for the memory ({}).",
+                                path.string(), cairo_status_to_string(status)));
   }
   Canvas canvas(cairo_image_surface_get_width(surface.get()),
                 cairo_image_surface_get_height(surface.get()));

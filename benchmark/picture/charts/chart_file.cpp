@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <memory>
+#include <new>
 
 #include "benchmark/picture/canvas/png_file.h"
 #include "core/error.h"
@@ -45,6 +46,7 @@ class DrawableChart {
       throw failure(message_of(error));
     }
     const cairo_status_t status = cairo_status(context);
+    if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
     if (status != CAIRO_STATUS_SUCCESS) throw failure(cairo_status_to_string(status));
   }
 
@@ -74,6 +76,11 @@ std::string pdf_bytes(const DrawableChart& chart) {
   const std::unique_ptr<cairo_t, CairoRelease> context(cairo_create(surface.get()));
   chart.draw(context.get(), kPointsPerPixel);
   cairo_surface_finish(surface.get());
+  const cairo_status_t status = cairo_surface_status(surface.get());
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw DataError(std::string("the chart cannot be coded: ") + cairo_status_to_string(status));
+  }
   return bytes;
 }
 

@@ -71,17 +71,17 @@ void write_removals(const std::filesystem::path& folder, const ScanSource& scans
 }
 
 bool remove_removals(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (!std::filesystem::is_symlink(folder, error) && has_folder(folder)) {
+  if (!is_link(folder) && has_folder(folder)) {
     for (const std::filesystem::path& entry : entries_of(folder)) {
       const std::filesystem::path name =
           is_part_name(entry) ? name_of_part(entry) : entry.filename();
       const bool ours = name.extension() == ".label" || is_reason_file(name);
-      if (ours) std::filesystem::remove(entry, error);
+      if (ours) remove_if_there(entry);
     }
+    if (!entries_of(folder).empty()) return false;
   }
-  std::filesystem::remove(folder, error);
-  return !error;
+  remove_if_there(folder);
+  return true;
 }
 
 namespace {

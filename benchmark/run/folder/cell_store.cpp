@@ -28,6 +28,8 @@ bool has_removals(const path& folder, const Cell& cell, const ScanSource& scans)
   if (!cell.masks) return false;
   try {
     return mask_digest(read_removals(folder / kRemovals, scans, [] {})) == cell.masks->digest;
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const DataError&) {
     return false;
   }
@@ -92,6 +94,8 @@ StoredCell CellStore::find(const CellName& name, const CellIdentity& wanted,
       return {State::kStale, "its removals are asked for and not there, or not whole", {}};
     }
     return {State::kFresh, "", std::move(cell)};
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const DataError&) {
     return {State::kStale, damage(file), {}};
   }
@@ -102,6 +106,8 @@ std::optional<RepeatRecord> CellStore::find_repeat(const CellName& cell, int num
   try {
     RepeatRecord repeat = read_repeat(repeat_file(folder(cell), number));
     if (repeat.key == key) return repeat;
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const DataError&) {
     // It is not there, or damaged: the method is run once more.
   }
@@ -117,17 +123,17 @@ void CellStore::keep(const Cell& cell, const path& removals) const {
   const path cell_folder = folder({cell.sequence, cell.name});
   const path place = cell_folder / kRemovals;
   make_folder(cell_folder);
-  std::error_code error;
   const bool has = !removals.empty() && has_folder(removals);
   if (has || is_there(place)) {
     // A cell never stands beside removals of another one.
-    std::filesystem::remove(cell_folder / "cell.json", error);
+    remove_if_there(cell_folder / "cell.json");
     if (!remove_removals(place)) {
       throw DataError(place.string() +
                       ": holds files that no run writes, so it is not replaced. Move them away.");
     }
   }
   if (has) {
+    std::error_code error;
     std::filesystem::rename(removals, place, error);
     if (error) throw DataError(place.string() + ": cannot be made (" + error.message() + ").");
   }

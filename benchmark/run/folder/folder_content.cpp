@@ -131,6 +131,8 @@ std::optional<RunRecord> present_record(const path& out) {
   std::string problem;
   try {
     return read_run_record(file);
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const FieldError&) {
     problem = "it is not the record of a run";
   } catch (const SchemaVersionError&) {
@@ -239,6 +241,8 @@ EarlierCells read_earlier_cells(const CellStore& store, const RunRecord& record,
         merge_repeats(cell, further_runs(store, cell));
         earlier.kept.push_back(std::move(cell));
       }
+    } catch (const UnreadableError&) {
+      throw;
     } catch (const DataError&) {
     }
     if (!why.empty()) earlier.left_out.push_back(name.title() + ": " + why);

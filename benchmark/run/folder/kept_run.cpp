@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/run/folder/kept_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "benchmark/process/checked_sink.h"
@@ -18,6 +20,15 @@ namespace raymoval {
 namespace {
 
 using std::filesystem::path;
+
+/// A sequence was opened that the run was not made on.
+class OtherData : public DataError {
+ public:
+  OtherData(const std::string& at, const std::string& difference)
+      : DataError(at + ": is not the data that the run was made on: " + difference +
+                  ". It was changed, or it is another sequence; say where the right one is with "
+                  "--data, or run again.") {}
+};
 
 /// Every sequence x method of the suite; some may not have been run.
 std::vector<KeptCell> all_cells(const ResultsRecord& record, const path& folder) {
@@ -59,7 +70,7 @@ std::vector<std::string> places_below(const path& data, const std::string& given
     places.push_back(data.string() + given.substr(colon));
   }
   for (const path& part : {path(name), path(given).filename()}) {
-    if (!part.empty() && is_folder(data / part)) {
+    if (!part.empty() && part != ".." && is_folder(data / part)) {
       places.push_back((data / part).string());
     }
   }
@@ -91,7 +102,8 @@ std::string keep_removals_remedy(const KeptCell& cell) {
          "cells without it are run.";
 }
 
-KeptRun::KeptRun(const std::string& run, const std::string& data) {
+KeptRun::KeptRun(const std::string& run, const std::string& data, bool simulate)
+    : simulate_(simulate) {
   const path file = find_results(run);
   if (!data.empty()) data_ = data_folder(data);
   folder_ = file.parent_path();
@@ -145,22 +157,43 @@ std::string KeptRun::fingerprint_of(const std::string& sequence) const {
   return "";
 }
 
+std::size_t KeptRun::scans_of(const std::string& sequence) const {
+  const SequenceRecord* known = find_named(record_.run.sequences, sequence);
+  return known == nullptr ? 0 : known->data.scans;
+}
+
+Sequence KeptRun::open_at(const std::string& at, const std::string& sequence,
+                          const SequenceRequest& place, const OpenContext& context) const {
+  if (!simulate_ && !is_at_hand(at)) {
+    throw DataError(at +
+                    ": is a scene that is not in the cache. It is only made if you say so: add "
+                    "--simulate if you know the scene and have the time and space for it.");
+  }
+  Sequence opened = open_sequence(at, place.options, context);
+  const std::size_t scans = scans_of(sequence), found = opened.scans->size();
+  if (scans != 0 && found != scans) {
+    throw OtherData(at, fmt::format("it holds {}, and the run had {}", counted_text(found, "scan"),
+                                    grouped_text(scans)));
+  }
+  const std::string wanted = fingerprint_of(sequence);
+  if (wanted.empty() || fingerprint(opened, context.threads) == wanted) return opened;
+  throw OtherData(at, "its fingerprint is another");
+}
+
 Sequence KeptRun::open(const std::string& sequence, const OpenContext& context) const {
   const SequenceRequest place = place_of(sequence);
-  const std::string wanted = fingerprint_of(sequence);
   std::vector<std::string> tried = {place.path};
   if (!data_.empty()) tried = places_below(data_, place.path, sequence);
   std::string problem;
   for (const std::string& at : tried) {
     try {
-      Sequence opened = open_sequence(at, place.options, context);
-      if (wanted.empty() || fingerprint(opened, context.threads) == wanted) return opened;
-      problem = at +
-                ": is not the data that the run was made on: its fingerprint is another. It was "
-                "changed, or it is another sequence; say where the right one is with --data, or "
-                "run again.";
+      return open_at(at, sequence, place, context);
     } catch (const Cancelled&) {
       throw;
+    } catch (const UnreadableError&) {
+      throw;
+    } catch (const OtherData& error) {
+      problem = error.what();
     } catch (const Error& error) {
       if (problem.empty()) problem = error.what();
     }

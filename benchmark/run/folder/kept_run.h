@@ -35,7 +35,8 @@ class KeptRun {
   ///   a folder that holds them by their names; empty: as run.json says
   /// @throws UsageError if there is no such run, or no folder `data`; DataError if its files are
   ///   damaged
-  KeptRun(const std::string& run, const std::string& data);
+  /// @param simulate whether scenes are made that are not in the cache
+  KeptRun(const std::string& run, const std::string& data, bool simulate = false);
 
   /// Copies would refer to the cells of the original.
   KeptRun(const KeptRun&) = delete;
@@ -51,7 +52,9 @@ class KeptRun {
   [[nodiscard]] const KeptCell& cell(const std::string& sequence, const std::string& name) const;
   [[nodiscard]] std::vector<const KeptCell*> cells_of(const std::string& sequence) const;
 
-  /// Opens a sequence as the run did, and checks that its data is still the same.
+  /// Opens a sequence as the run did, and checks that its data is still the same. The run may be
+  /// somebody else's, and run.json name any place: nothing is made there or read but a sequence
+  /// with as many scans as the run had.
   /// @throws DataError saying where it was looked for, or that the data changed; Cancelled
   [[nodiscard]] Sequence open(const std::string& sequence, const OpenContext& context) const;
 
@@ -63,9 +66,15 @@ class KeptRun {
   /// @throws DataError if neither run.json nor --data says it
   [[nodiscard]] SequenceRequest place_of(const std::string& sequence) const;
   [[nodiscard]] std::string fingerprint_of(const std::string& sequence) const;
+  /// Scans that a sequence had in the run; 0 if that is not known.
+  [[nodiscard]] std::size_t scans_of(const std::string& sequence) const;
+  /// Opens what stands at `path`. @throws DataError if it is not what the run was made on
+  [[nodiscard]] Sequence open_at(const std::string& path, const std::string& sequence,
+                                 const SequenceRequest& place, const OpenContext& context) const;
 
   std::filesystem::path folder_;
   std::string data_;
+  bool simulate_;
   ResultsRecord record_;  ///< Its sequences have the places of run.json.
   RunResults results_;
   std::vector<KeptCell> cells_;

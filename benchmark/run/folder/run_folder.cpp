@@ -46,6 +46,8 @@ bool is_lock(const path& entry) {
   try {
     const std::string start = read_piece(entry, 0, 8);
     return start.empty() || start == "process ";
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const DataError&) {
     return false;  // Its holder took it away.
   }
@@ -68,6 +70,8 @@ bool may_be_ours(const path& entry) {
 bool is_run_record(const path& file) {
   try {
     (void)read_run_record(file);
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const SchemaVersionError&) {
     return true;
   } catch (const DataError&) {

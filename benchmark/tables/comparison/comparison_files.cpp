@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "benchmark/result/sealed_json.h"
@@ -44,9 +45,9 @@ std::vector<std::string> sequences_of(const Comparison& comparison) {
 /// Text in a cell of a table.
 std::string in_table(const std::string& text) {
   std::string escaped;
-  for (const char c : text) {
-    if (c == '|' || c == '\\' || c == '`' || c == '*' || c == '_' || c == '<') escaped += '\\';
-    escaped += c == '\n' || c == '\r' ? ' ' : c;
+  for (const char c : printable_text(text)) {
+    if (std::string_view("|\\`*_<[&").find(c) != std::string_view::npos) escaped += '\\';
+    escaped += c;
   }
   return escaped;
 }

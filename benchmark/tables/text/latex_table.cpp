@@ -4,6 +4,7 @@
 
 #include "benchmark/tables/text/text_table.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace raymoval {
 namespace {
@@ -34,7 +35,8 @@ std::string known_character(const std::string& text, std::size_t& at) {
   return "?";
 }
 
-std::string latex_escaped(const std::string& text) {
+std::string latex_escaped(const std::string& any_text) {
+  const std::string text = printable_text(any_text);
   std::string escaped;
   for (std::size_t at = 0; at < text.size();) {
     const std::string character = known_character(text, at);
@@ -73,11 +75,13 @@ std::string latex_escaped(const std::string& text) {
         escaped += "\\" + character;
         break;
       default:
-        escaped += static_cast<unsigned char>(character.front()) < 0x20 ? " " : character;
+        escaped += character;
     }
   }
-  // Behind the end of a row these would belong to it.
-  return escaped.starts_with('[') || escaped.starts_with('*') ? "{}" + escaped : escaped;
+  // Behind the end of a row these would belong to it, however many blanks are between.
+  const std::size_t first = std::min(escaped.find_first_not_of(' '), escaped.size());
+  const bool belongs = escaped[first] == '[' || escaped[first] == '*';
+  return belongs ? "{}" + escaped : escaped;
 }
 
 /// The same for a column that is broken into lines: words may also be broken behind these.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <set>
+#include <string_view>
 
 #include "core/text.h"
 #include "core/utf8.h"
@@ -20,17 +21,8 @@ std::size_t character_at(const std::string& text, std::size_t number) {
   return at;
 }
 
-std::string markdown_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '|' || c == '<' || c == '*') escaped += '\\';
-    escaped += c == '\n' ? ' ' : c;
-  }
-  return escaped;
-}
-
 std::string markdown_cell(const TableCell& cell) {
-  const std::string text = markdown_escaped(cell.text);
+  const std::string text = markdown_text(cell.text);
   if (cell.mark == Mark::kBest) return "**" + text + "**";
   if (cell.mark == Mark::kSecond) return "<u>" + text + "</u>";
   return text;
@@ -40,15 +32,15 @@ std::string markdown_cell(const TableCell& cell) {
 using Lines = std::vector<std::vector<std::string>>;
 
 Lines markdown_lines(const TextTable& table) {
-  Lines lines(1, {markdown_escaped(table.corner)});
+  Lines lines(1, {markdown_text(table.corner)});
   for (const TableGroup& group : table.groups) {
     for (std::size_t i = 0; i < group.columns.size(); ++i) {
       const std::string before = i == 0 && !group.heading.empty() ? group.heading + " " : "";
-      lines[0].push_back(markdown_escaped(before + group.columns[i]));
+      lines[0].push_back(markdown_text(before + group.columns[i]));
     }
   }
   for (const TableRow& row : table.rows) {
-    std::vector<std::string> line = {markdown_escaped(row.label)};
+    std::vector<std::string> line = {markdown_text(row.label)};
     for (const TableCell& cell : row.cells) line.push_back(markdown_cell(cell));
     lines.push_back(std::move(line));
   }
@@ -84,6 +76,16 @@ std::string rule_text(const std::vector<std::size_t>& widths) {
 }
 
 }  // namespace
+
+std::string markdown_text(const std::string& text) {
+  constexpr std::string_view kSpecial = "|<*[`\\&";
+  std::string escaped;
+  for (const char c : printable_text(text)) {
+    if (kSpecial.find(c) != std::string_view::npos) escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
 
 TableCell number_cell(double number, int decimals, const std::string& more) {
   const std::string text = fixed_text(number, decimals);
@@ -189,15 +191,17 @@ std::string to_markdown(const TextTable& table) {
   const Lines lines = markdown_lines(table);
   const std::vector<std::size_t> widths = column_widths(lines);
   const std::string head = line_text(lines[0], widths) + rule_text(widths);
-  std::string text = "## " + table.title + "\n";
+  std::string text = "## " + markdown_text(table.title) + "\n";
   if (table.rows.empty()) text += "\n" + head;
   for (const RowRange& block : blocks_of(table)) {
     const std::string& heading = table.rows[block.first].block;
-    if (!heading.empty()) text += "\n### " + markdown_escaped(heading) + "\n";
+    if (!heading.empty()) text += "\n### " + markdown_text(heading) + "\n";
     text += "\n" + head;
     for (std::size_t i = block.first; i < block.end; ++i) text += line_text(lines[i + 1], widths);
   }
-  for (const std::string& note : table.notes) text += "\n" + wrapped(note, kTerminalWidth);
+  for (const std::string& note : table.notes) {
+    text += "\n" + wrapped(markdown_text(note), kTerminalWidth);
+  }
   return text;
 }
 

@@ -72,6 +72,10 @@ std::string shortened_end(const std::string& text, std::size_t most);
 /// Lines of at most `most` characters, broken between words, each with its end of line.
 std::string wrapped(const std::string& text, std::size_t most);
 
+/// `text` for Markdown, in which nothing of it is a table, tag, link, picture, code or character
+/// entity. Control and invisible characters go the way of `printable_text`.
+std::string markdown_text(const std::string& text);
+
 /// How wide text for a terminal is at most.
 inline constexpr std::size_t kTerminalWidth = 100;
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/scan/voxel_key.h"
 #include "core/text.h"
@@ -35,6 +36,12 @@ Words stored_words(const Samples& samples, std::size_t scan) {
   const auto found = samples.scans().find(scan);
   if (found != samples.scans().end()) return samples.sequence().labels->labels(found->second);
   return samples.sequence().labels->labels(samples.sequence().scans->load(scan));
+}
+
+/// Whether the label file of a scan ends with a part of a label.
+bool ends_in_part(const Samples& samples, std::size_t scan) {
+  if (!in_label_files(samples)) return false;
+  return plain_file_size(samples.files()[scan].label_path) % sizeof(std::uint32_t) != 0;
 }
 
 /// How often points close together have different labels, among those near any point whose label
@@ -71,6 +78,7 @@ double confusion(const Scan& scan, const Words& words) {
 struct CountsSeen {
   std::size_t frames = 0, wrong = 0, first_wrong = 0;
   std::size_t labels = 0, points = 0;  ///< Of the first wrong one.
+  bool cut = false;                    ///< Its file ends with a part of a label.
   std::size_t as_next = 0, as_previous = 0;
 };
 
@@ -86,8 +94,10 @@ CountsSeen look_at_counts(const Samples& samples) {
   for (const auto& [index, count] : points) {
     const std::size_t labels = stored_words(samples, index).size();
     ++seen.frames;
-    if (labels == count) continue;
+    const bool cut = ends_in_part(samples, index);
+    if (labels == count && !cut) continue;
     if (seen.wrong++ == 0) {
+      seen.cut = cut;
       seen.first_wrong = index;
       seen.labels = labels;
       seen.points = count;
@@ -164,8 +174,9 @@ std::vector<Finding> look_for_counts(Samples& samples) {
                                      grouped_text(counts.wrong), grouped_text(counts.frames))
                        : "";
   return {{.where = label_place(samples, counts.first_wrong),
-           .what = fmt::format("{} labels for {} points{}", grouped_text(counts.labels),
-                               grouped_text(counts.points), more)}};
+           .what = fmt::format("{} labels{} for {} points{}", grouped_text(counts.labels),
+                               counts.cut ? " and a part of one" : "", grouped_text(counts.points),
+                               more)}};
 }
 
 /// Intensity of up to three scans as stored.

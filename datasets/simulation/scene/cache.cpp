@@ -43,6 +43,23 @@ std::string identity(const SimulationOptions& options, const simulated::NamedTex
   return hasher.digest();
 }
 
+/// Where a scene stands in the cache, and what makes it the one that is asked for.
+struct CachePlace {
+  std::string identity;
+  fs::path folder;
+};
+
+CachePlace place_of(const SimulationOptions& options, const fs::path& cache_root) {
+  const simulated::NamedText world = simulated::find_world(options.scene);
+  const simulated::WorldFile file = simulated::parse_world(world);
+  const simulated::NamedText sensor =
+      simulated::find_sensor(options.sensor.empty() ? file.sensor : options.sensor);
+  const std::size_t scans =
+      options.scans > 0 ? options.scans : static_cast<std::size_t>(file.scans);
+  const std::string whole = identity(options, world, sensor, scans);
+  return {whole, cache_root / "simulated" / (world.name + "-" + whole.substr(0, 16))};
+}
+
 const char* set_variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value != '\0' ? value : nullptr;
@@ -91,6 +108,20 @@ void take_place(const CachedScene& scene, simulated::MakingPlace& made) {
                   ": cannot take its place; something else writes there again and again.");
 }
 
+/// Removes what killed processes left in the cache. A lock that can be taken is nobody's, and goes
+/// with its object.
+void sweep_cache(const fs::path& folder) {
+  simulated::sweep_making_places(folder);
+  for (const fs::path& entry : entries_of(folder)) {
+    if (entry.extension() != ".lock" || !is_file(entry)) continue;
+    try {
+      FileLock(entry).take(FileLock::Mode::kExclusive);
+    } catch (const DataError&) {
+      // Another user's, in a cache that is shared for reading.
+    }
+  }
+}
+
 void make_scene(const CachedScene& scene) {
   const fs::path parent = scene.folder.parent_path();
   std::error_code error;
@@ -107,7 +138,7 @@ void make_scene(const CachedScene& scene) {
                     " Set RAYMOVAL_CACHE to a folder you may write to.");
   }
   if (scene.is_whole()) return;
-  simulated::sweep_making_places(parent);
+  sweep_cache(parent);
   simulated::MakingPlace place(scene.folder);
   simulated::write_scene(scene.writing, place.folder());
   take_place(scene, place);
@@ -130,25 +161,26 @@ fs::path default_cache_root() {
 fs::path cached_simulation(const SimulationOptions& options, const fs::path& cache_root,
                            int threads, Progress* progress, const std::atomic<bool>* cancel,
                            bool check_content) {
-  const simulated::NamedText world = simulated::find_world(options.scene);
-  const simulated::WorldFile file = simulated::parse_world(world);
-  const simulated::NamedText sensor =
-      simulated::find_sensor(options.sensor.empty() ? file.sensor : options.sensor);
-  const std::size_t scans =
-      options.scans > 0 ? options.scans : static_cast<std::size_t>(file.scans);
-  const std::string whole_identity = identity(options, world, sensor, scans);
-  const simulated::SceneWriting writing{options, whole_identity, threads, progress, cancel};
-  const CachedScene scene{
-      writing, cache_root / "simulated" / (world.name + "-" + whole_identity.substr(0, 16)),
-      check_content};
+  const CachePlace place = place_of(options, cache_root);
+  const simulated::SceneWriting writing{options, place.identity, threads, progress, cancel};
+  const CachedScene scene{writing, place.folder, check_content};
   if (has_folder(scene.folder)) {
     const std::string problem = scene.problem();
-    if (problem.empty()) return scene.folder;
+    if (problem.empty()) {
+      sweep_cache(scene.folder.parent_path());
+      return scene.folder;
+    }
     scene.say(scene.folder.string() + ": is not what was written there (" + problem +
               "); it is made again.");
   }
   make_scene(scene);
   return scene.folder;
+}
+
+bool is_cached(const SimulationOptions& options, const fs::path& cache_root) {
+  const CachePlace place = place_of(options, cache_root);
+  return has_folder(place.folder) &&
+         simulated::scene_folder_problem(place.folder, place.identity, false, 1).empty();
 }
 
 }  // namespace raymoval

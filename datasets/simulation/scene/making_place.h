@@ -3,15 +3,13 @@
 
 #include <filesystem>
 
-#include "core/files/descriptor.h"
+#include "core/files/part_name.h"
 
 namespace raymoval::simulated {
 
 /// A new folder beside a target, in which that target is made before it gets its name. Its name is
-/// nobody else's (see `new_part_name`), on whatever machine, and it goes with this object.
-///
-/// A lock in it lives as long as this process, so that others can tell what a killed process left
-/// from what is still being made.
+/// nobody else's (see `new_part_folder`), on whatever machine, and it goes with this object. It is
+/// locked, so that others can tell what a killed process left from what is still being made.
 class MakingPlace {
  public:
   /// @throws DataError if it cannot be made
@@ -21,7 +19,7 @@ class MakingPlace {
   MakingPlace& operator=(const MakingPlace&) = delete;
 
   /// The folder to be filled; empty at first.
-  [[nodiscard]] std::filesystem::path folder() const { return path_ / "made"; }
+  [[nodiscard]] std::filesystem::path folder() const { return part_.place / "made"; }
 
   /// Gives `folder()` the target's name, on the disk too.
   /// @return false if something that is no empty folder has that name
@@ -34,15 +32,11 @@ class MakingPlace {
   bool replace_target();
 
  private:
-  bool make_locked();
-
-  std::filesystem::path target_, path_;
-  Descriptor lock_;
+  std::filesystem::path target_;
+  Part part_;
 };
 
-/// Removes from `parent` what killed processes left of a MakingPlace. Only what is certainly dead:
-/// made under this very system kernel and file system, whose locks are known to work, and with a
-/// free lock. What another machine left stays.
+/// Removes from `parent` what killed processes left of a MakingPlace, see `remove_abandoned_part`.
 void sweep_making_places(const std::filesystem::path& parent);
 
 }  // namespace raymoval::simulated

@@ -101,4 +101,8 @@ std::filesystem::path cached_simulation(const SimulationOptions& options,
                                         const std::atomic<bool>* cancel = nullptr,
                                         bool check_content = true);
 
+/// Whether `cached_simulation` would find the sequence and make nothing, as far as the names and
+/// sizes of its files tell. @throws as `cached_simulation`
+bool is_cached(const SimulationOptions& options, const std::filesystem::path& cache_root);
+
 }  // namespace raymoval

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
+#include <string>
 #include <unordered_map>
 
 #include "core/error.h"
@@ -21,7 +23,20 @@ using Eigen::Vector3d;
 constexpr std::size_t kPacket = 8;
 constexpr double kNearest = 0.01;  // metres; nothing is nearer to a sensor
 
-[[noreturn]] void fail(const char* what) {
+/// @throws std::bad_alloc if the ray tracer got no memory since it was asked last, InternalError
+/// for another of its faults: it goes on with a part of the scene then
+/// @param device null for that of a device that could not be made
+void check_tracer(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  throw InternalError("the ray tracer (Embree) failed with its error " +
+                      std::to_string(static_cast<int>(error)) + ".");
+}
+
+/// The same, for what is certain to have failed.
+[[noreturn]] void fail(RTCDevice device, const char* what) {
+  check_tracer(device);
   throw InternalError(std::string("the ray tracer (Embree) cannot ") + what + ".");
 }
 
@@ -36,7 +51,7 @@ void commit(RTCScene scene) {
 /// A committed scene of one mesh. Buffers are shared with the mesh, which must outlive it.
 RTCScene build_scene(RTCDevice device, const Mesh& mesh) {
   const RTCScene scene = rtcNewScene(device);
-  if (scene == nullptr) fail("make a scene");
+  if (scene == nullptr) fail(device, "make a scene");
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
   if (!mesh.empty()) {
@@ -48,7 +63,7 @@ RTCScene build_scene(RTCDevice device, const Mesh& mesh) {
     auto* triangles = static_cast<std::uint32_t*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(std::uint32_t), mesh.triangles.size()));
-    if (vertices == nullptr || triangles == nullptr) fail("get memory for a mesh");
+    if (vertices == nullptr || triangles == nullptr) fail(device, "get memory for a mesh");
     for (const auto& v : mesh.vertices) vertices = std::copy(v.data(), v.data() + 3, vertices);
     for (const auto& t : mesh.triangles) triangles = std::copy(t.begin(), t.end(), triangles);
     rtcCommitGeometry(geometry);
@@ -56,6 +71,7 @@ RTCScene build_scene(RTCDevice device, const Mesh& mesh) {
     rtcReleaseGeometry(geometry);
   }
   commit(scene);
+  check_tracer(device);
   return scene;
 }
 
@@ -116,7 +132,7 @@ RayTracer::RayTracer(const World& world, double reach, int threads)
   state_->world = &world;
   state_->reach = reach;
   state_->device = rtcNewDevice("set_affinity=0");
-  if (state_->device == nullptr) fail("start");
+  if (state_->device == nullptr) fail(nullptr, "start");
   state_->tiles.resize(world.tiles().size(), nullptr);
   parallel_for(threads, world.tiles().size(), 1, [&](std::size_t i) {
     state_->tiles[i] = build_scene(state_->device, world.tiles()[i].mesh);
@@ -201,7 +217,7 @@ RayTracer::Moment::Moment(const RayTracer& tracer, const Vector3d& centre,
   const RayTracer::State& world = *tracer.state_;
   state_->reach = world.reach;
   state_->scene = rtcNewScene(world.device);
-  if (state_->scene == nullptr) fail("make a scene");
+  if (state_->scene == nullptr) fail(world.device, "make a scene");
   rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
   const auto& tiles = world.world->tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -218,10 +234,11 @@ RayTracer::Moment::Moment(const RayTracer& tracer, const Vector3d& centre,
     }
     const PlacedPart& part = samples.front()[p];
     const auto scene = world.parts.find(part.mesh);
-    if (scene == world.parts.end()) fail("place a part that is not of its world");
+    if (scene == world.parts.end()) fail(world.device, "place a part that is not of its world");
     state_->add(world.device, scene->second, motions, *part.mesh, part.label);
   }
   commit(state_->scene);
+  check_tracer(world.device);
 }
 
 RayTracer::Moment::~Moment() = default;

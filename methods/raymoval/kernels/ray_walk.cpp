@@ -9,6 +9,10 @@
 namespace raymoval::raymoval_method {
 namespace {
 
+/// An upper bound of the distance between two voxels, in voxels: the walk's, whatever the limits
+/// are.
+constexpr double kLatticeDiagonal = 2.0 * 1.7320509 * kVoxelBias;
+
 /// Walks a ray from cell to cell. Distances are in cells (a ray of unit direction in voxel units).
 class Walk {
  public:
@@ -17,7 +21,8 @@ class Walk {
     for (int k = 0; k < 3; ++k) {
       const auto axis = static_cast<std::size_t>(k);
       cell_[axis] = static_cast<int>(std::floor(origin[k] + from * direction[k]));
-      inverse_[axis] = direction[k] == 0.0 ? 0.0 : 1.0 / direction[k];
+      // Bounded, so that 0 times it is 0: a ray this flat that starts on a wall crosses it at once.
+      inverse_[axis] = direction[k] == 0.0 ? 0.0 : std::clamp(1.0 / direction[k], -1e300, 1e300);
       step_[axis] = direction[k] > 0.0 ? 1 : (direction[k] < 0.0 ? -1 : 0);
       // A ray along the negative axis that starts on a wall is in the lower cell at once, but for
       // the start itself.
@@ -87,7 +92,8 @@ std::optional<FirstHit> cast_ray(const OccupancyMap& map, const Ray& ray, const 
                                  double from) {
   const double scale = map.inverse_voxel_size();
   const double nearest = limits.minimum_range * scale;
-  const double farthest = limits.maximum_range * scale;
+  // No voxel of the map lies beyond the lattice, so that no ray has to go on there.
+  const double farthest = std::min(limits.maximum_range * scale, kLatticeDiagonal);
   Walk walk(ray.origin * scale, ray.direction, from * scale);
   while (walk.distance() <= farthest) {
     const VoxelIndex entry(walk.cell()[0], walk.cell()[1], walk.cell()[2]);

@@ -2,12 +2,15 @@
 #include "benchmark/picture/maps/map_picture.h"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/picture/maps/overview_picture.h"
 #include "benchmark/picture/maps/range_picture.h"
+#include "benchmark/result/run_record_json.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
 #include "core/files/files.h"
@@ -77,6 +80,27 @@ struct TwoPointRun {
   [[nodiscard]] KeptRun kept(const std::string& data_now = "") const {
     return KeptRun(run.string(), data_now);
   }
+};
+
+/// Where scenes are made while it lives.
+class EmptyCache {
+ public:
+  explicit EmptyCache(const fs::path& folder) {
+    if (const char* known = std::getenv("RAYMOVAL_CACHE")) before_ = known;
+    ::setenv("RAYMOVAL_CACHE", folder.c_str(), 1);
+  }
+  ~EmptyCache() {
+    if (before_) {
+      ::setenv("RAYMOVAL_CACHE", before_->c_str(), 1);
+    } else {
+      ::unsetenv("RAYMOVAL_CACHE");
+    }
+  }
+  EmptyCache(const EmptyCache&) = delete;
+  EmptyCache& operator=(const EmptyCache&) = delete;
+
+ private:
+  std::optional<std::string> before_;
 };
 
 MapPictureOptions half_metre(const std::string& only) {
@@ -260,4 +284,37 @@ TEST_CASE("An overview has both colours of what moved") {
   CHECK(moving ==
         4);  // One point of 2 x 2 pixels in the map of all scans, none in the cleaned one.
   CHECK(removed == 4);  // And one in the close view.
+}
+
+TEST_CASE("A run of somebody else makes no scene, and reads nothing but its own data again") {
+  const TwoPointRun two;
+  const EmptyCache cache(two.folder.path() / "cache");
+  const auto with_place = [&](const std::string& place) {
+    RunRecord record = read_run_record(two.run / "run.json");
+    record.sequences.at(0).place->path = place;
+    write_run_record(two.run / "run.json", record);
+  };
+  SECTION("a scene that is not in the cache") {
+    with_place("town:scans=1,sensor=vlp16");
+    CHECK_THROWS_WITH(two.kept().open("two", {}), Contains("--simulate"));
+    CHECK_FALSE(fs::exists(two.folder.path() / "cache"));
+    // It is made if it is asked for, and is then not what the run was made on.
+    CHECK_THROWS_WITH(KeptRun(two.run.string(), "", true).open("two", {}),
+                      Contains("its fingerprint is another"));
+    CHECK(fs::exists(two.folder.path() / "cache"));
+    CHECK_THROWS_WITH(two.kept().open("two", {}), Contains("its fingerprint is another"));
+  }
+  SECTION("another number of scans") {
+    const fs::path more = two.folder.path() / "more";
+    fs::copy(two.data, more, fs::copy_options::recursive);
+    for (const char* part : {"velodyne/00000%.bin", "labels/00000%.label"}) {
+      std::string from = part, to = part;
+      from.replace(from.find('%'), 1, "0");
+      to.replace(to.find('%'), 1, "1");
+      fs::copy(more / from, more / to);
+    }
+    write_atomically(more / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 0\n");
+    with_place(more.string());
+    CHECK_THROWS_WITH(two.kept().open("two", {}), Contains("it holds 2 scans, and the run had 1"));
+  }
 }

@@ -30,7 +30,8 @@ class Draw {
   int below(int end) { return std::uniform_int_distribution(0, end - 1)(random_); }
   bool flip() { return below(2) == 0; }
   std::int64_t count() {
-    return std::uniform_int_distribution<std::int64_t>()(random_) >> below(63);
+    // At most 53 bits, which every reader of JSON holds.
+    return std::uniform_int_distribution<std::int64_t>()(random_) >> (10 + below(53));
   }
   /// Any finite number, also a negative zero or one with an exponent.
   double number() {
@@ -50,6 +51,13 @@ class Draw {
     return text;
   }
   std::string name(std::size_t i) { return text() + std::to_string(i); }
+  /// What may name a sequence, method, protocol or suite, or nothing.
+  std::string legal_name() {
+    static const char* const kPieces[] = {"town", "\"", "\xC3\x9F", ":", "0.5", "<b>", "a b"};
+    std::string name = flip() ? "" : "n";
+    for (int i = name.empty() ? 0 : below(5); i > 0; --i) name += kPieces[below(7)];
+    return name;
+  }
   template <class Make>
   auto maybe(Make make) -> std::optional<decltype(make())> {
     if (flip()) return std::nullopt;
@@ -77,8 +85,8 @@ class Draw {
     });
   }
   DataRecord data() {
-    DataRecord data{text(), text(), text(), text(), static_cast<std::size_t>(below(5000)),
-                    text(), text(), text(), text(), text()};
+    DataRecord data{legal_name(), text(), text(), text(), static_cast<std::size_t>(below(5000)),
+                    text(),       text(), text(), text(), text()};
     data.scan_period_s = maybe([&] { return number(); });
     data.range_m.min = number();
     if (flip()) data.range_m.max = std::min(number(), 1e299);
@@ -90,7 +98,9 @@ class Draw {
     data.fingerprint = text();
     return data;
   }
-  ProtocolRecord protocol(std::size_t i) { return {name(i), text(), name(i), configuration()}; }
+  ProtocolRecord protocol(std::size_t i) {
+    return {legal_name(), legal_name(), name(i), configuration()};
+  }
   Score score(std::size_t i) {
     Score score{protocol(i)};
     score.counts =
@@ -122,8 +132,9 @@ class Draw {
     return measured;
   }
   Cell cell() {
-    Cell cell{text(), text(), text(), static_cast<CellStatus>(below(5)), text(), text()};
-    cell.method = {text(), text(), text(), flip(), flip(), configuration()};
+    Cell cell{legal_name(), legal_name(), text(), static_cast<CellStatus>(below(5)),
+              text(),       text()};
+    cell.method = {legal_name(), legal_name(), text(), flip(), flip(), configuration()};
     cell.data = maybe([&] { return data(); });
     cell.scores = some([&](std::size_t i) { return score(i); });
     cell.columns = maybe([&] {
@@ -137,20 +148,20 @@ class Draw {
     return cell;
   }
   RunRecord run() {
-    RunRecord run{text()};
+    RunRecord run{legal_name()};
     run.sequences = some([&](std::size_t) {
       SequenceRecord sequence{data()};
       sequence.place = maybe([&] { return SequenceRequest{text(), {}}; });
       return sequence;
     });
     run.methods = some([&](std::size_t i) {
-      return SuiteMethodRecord{name(i), text(), text(), configuration(), maybe([&] {
-                                 return SweepRecord{text(), configuration()};
+      return SuiteMethodRecord{legal_name(), legal_name(), name(i), configuration(), maybe([&] {
+                                 return SweepRecord{legal_name(), configuration()};
                                })};
     });
     run.protocols = some([&](std::size_t i) { return protocol(i); });
     run.controls = flip();
-    run.cells = some([&](std::size_t) { return CellName{text(), text()}; });
+    run.cells = some([&](std::size_t) { return CellName{legal_name(), legal_name()}; });
     run.build = maybe([&] { return BuildRecord{text(), text(), text(), text(), text()}; });
     run.machine = maybe([&] {
       return MachineRecord{text(), below(99), maybe([&] { return count(); }), below(99)};
@@ -298,6 +309,12 @@ TEST_CASE("Values that no cell has are refused", "[result]") {
   CHECK_THAT(error_with("/data/label_rule/moving/0", 65536), Contains("data.label_rule.moving"));
   CHECK_THAT(error_with("/masks/removed", 1.5), Contains("masks.removed: expected a whole number"));
   CHECK_THAT(error_with("/masks/removed", 18446744073709551615U), Contains("masks.removed"));
+  // Sums and differences of counts have to fit as well.
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  CHECK(error_with("/masks/removed", kMost).empty());
+  CHECK_THAT(error_with("/masks/removed", kMost + 1), Contains("a whole number of 53 bits"));
+  CHECK_THAT(error_with("/masks/removed", -kMost - 1), Contains("a whole number of 53 bits"));
+  CHECK_THAT(error_with("/masks/removed", 1e308), Contains("expected a whole number"));
   CHECK_THAT(error_with("/measured/threads", 1LL << 40), Contains("measured.threads"));
   CHECK_THAT(error_with("/protocols/0/intervals/rates/PR", {1.0}),
              Contains("expected two numbers"));
@@ -324,6 +341,39 @@ TEST_CASE("A file of another version, or a list of places that does not fit, is 
   write_sealed(file, json);
   CHECK_THROWS_AS(read_run_record(file), SchemaVersionError);
   CHECK_THROWS_WITH(read_run_record(file), Contains("schema version 2, expected 1"));
+}
+
+TEST_CASE("Other people's results have no name that would be more than a name", "[result]") {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "results.json";
+  const auto error_with = [&](const std::string& name, int place) {
+    ResultsRecord results{RunRecord{"quick"}};
+    const auto at = [&](int here) { return place == here ? name : std::string("town"); };
+    results.run.suite = at(0);
+    results.run.sequences = {{DataRecord{at(1)}, std::nullopt}};
+    results.run.methods = {{at(2), at(3), "1", {}, SweepRecord{at(4), {}}}};
+    results.run.protocols = {{at(5), at(6), "1", {}}};
+    Cell cell{at(7), at(8), "", CellStatus::kOk, "", ""};
+    cell.method = {at(9), at(10), "1", false, false, {}};
+    results.cells = {cell};
+    write_results(file, results);
+    try {
+      (void)read_results(file);
+    } catch (const DataError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(error_with("=1", -1).empty());
+  for (const std::string name : {"=1+1", "-x", "@a", " a", "../x", "\x1b[2J",
+                                 "\xe2\x80\xae"
+                                 "x",
+                                 "a\nb"}) {
+    for (int place = 0; place <= 10; ++place) {
+      INFO(name << " at " << place);
+      CHECK_THAT(error_with(name, place), Contains("the name "));
+    }
+  }
 }
 
 TEST_CASE("Files of earlier versions are read", "[result]") {

@@ -70,7 +70,7 @@ TEST_CASE("A folder that may be somebody else's is refused, and nothing in it is
       {"cells/notes.txt", "of a microscope"},
       {"table.md", "a table"},
       {"table.md.part", "half a table"},
-      {"results.raymoval-0123456789abcdef.part", "not a name that a run gives"},
+      {"results.raymoval-0123456789abcdef01234567.part", "not a name that a run gives"},
   };
   for (const auto& [name, content] : foreign) {
     const test::TemporaryFolder folder;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "benchmark/tables/text/text_table.h"
@@ -46,6 +47,34 @@ TEST_CASE("LaTeX shows every character as it is") {
 TEST_CASE("A label cannot be taken for an option of the row before it") {
   CHECK_THAT(latex_of_label("[2] x"), Contains("\n{}[2] x & 1"));
   CHECK_THAT(latex_of_label("*"), Contains("\n{}* & 1"));
+}
+
+TEST_CASE(
+    "Blanks before a bracket do not make it an option either, and no control character is left") {
+  CHECK_THAT(latex_of_label(" [2pt] x"), Contains("\n{} [2pt] x & 1 "));
+  CHECK_THAT(latex_of_label(" \t*x"), Contains("\n{}  *x & 1 "));
+  for (const char* label : {"a\x7f"
+                            "b",
+                            "a\x1b[2Jb", "a\x07\rb", "\xc2\x9b", "\xe2\x80\xae"}) {
+    const std::string latex = latex_of_label(label);
+    CHECK(std::none_of(latex.begin(), latex.end(), [](unsigned char c) {
+      return (c < 0x20 && c != '\n') || c == 0x7F || c == 0x9B || c == 0xAE;
+    }));
+  }
+}
+
+TEST_CASE("Markdown of any text is text") {
+  const TextTable table{"[t](http:x)",
+                        "<b>",
+                        {{"![g](x)", {"`c`"}}},
+                        {{"\x1b[2J a|b", {{"&#x202e; \\", Mark::kBest}}, false}},
+                        {"[n](javascript:x) \xe2\x80\xae \x07"}};
+  const std::string text = to_markdown(table);
+  for (const char* live : {"\x1b", "\x07", "\xe2\x80\xae", " [t]", "![g]", " `c", " &#", "\n[n]"}) {
+    INFO(text);
+    CHECK(text.find(live) == std::string::npos);
+  }
+  CHECK_THAT(text, Contains("\\[t](http:x)") && Contains("a\\|b") && Contains("\\&#x202e; \\\\"));
 }
 
 TEST_CASE("A table that is too wide is set smaller, then spans two columns, then is cut") {

@@ -2,14 +2,12 @@
 // Programs here are shell scripts of a line or two, so that all they do can be seen.
 #include "methods/external/external.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <thread>
 
 #include "core/files/files.h"
+#include "core/files/part_name.h"
 #include "methods/registry.h"
 #include "tests/datasets/temporary_folder.h"
 #include "tests/methods/toy_world.h"
@@ -200,19 +198,31 @@ TEST_CASE("a cancelled program ends with all that it started") {
 
 TEST_CASE("what a killed run left is removed, what a running one has is not") {
   const Fixture f;
-  (void)f.temporary.write("raymoval-external-dead/velodyne/000000.bin", "1234");
-  (void)f.temporary.write("raymoval-external-dead.lock", "");
-  (void)f.temporary.write("raymoval-external-alive/velodyne/000000.bin", "1234");
-  const auto lock = f.temporary.write("raymoval-external-alive.lock", "");
+  const auto target = f.temporary / "raymoval-external";
+  const Part alive = new_part_folder(target);
   (void)f.temporary.write("other/file", "");
-  const int held = ::open(lock.c_str(), O_RDWR | O_CLOEXEC);
-  REQUIRE(::flock(held, LOCK_EX) == 0);
+  std::filesystem::path dead;
+  {
+    const Part ended = new_part_folder(target);
+    dead = ended.place;
+    write_atomically(dead / "000000.bin", "1234");
+  }
   (void)f.masks(kRight);
-  ::close(held);
-  CHECK_FALSE(std::filesystem::exists(f.temporary / "raymoval-external-dead"));
-  CHECK_FALSE(std::filesystem::exists(f.temporary / "raymoval-external-dead.lock"));
-  CHECK(std::filesystem::exists(f.temporary / "raymoval-external-alive/velodyne/000000.bin"));
+  CHECK(std::filesystem::exists(dead));  // It was none when this process looked there.
+  remove_abandoned_working_folders();
+  CHECK_FALSE(std::filesystem::exists(dead));
+  CHECK(std::filesystem::exists(alive.place));
   CHECK(std::filesystem::exists(f.temporary / "other/file"));
+}
+
+TEST_CASE("a program that fills its folder is ended, by whatever files") {
+  const Fixture f;
+  // 0.02 GiB are 20.48 MiB.
+  const std::string fault =
+      f.fault("echo before; mkdir deep; head -c 30000000 /dev/urandom >deep/file; sleep 600",
+              R"(, "disk_limit_gib": 0.02)");
+  test::check_says(fault, {"more than 0.02 GiB", "'disk_limit_gib'", "before"});
+  CHECK(f.nothing_left());
 }
 
 TEST_CASE("the program is told how many threads it may use, and arguments stay whole") {

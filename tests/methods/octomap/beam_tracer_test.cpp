@@ -3,8 +3,10 @@
 
 #include <octomap/OcTree.h>
 
+#include <array>
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <random>
 #include <set>
 
@@ -110,6 +112,67 @@ TEST_CASE("beams cross the very cells that computeRayKeys gives") {
       if (i % 11 == 0) end = {std::round(end.x()), std::round(end.y()), std::round(end.z())};
       INFO(resolution << ": " << origin << " to " << end);
       REQUIRE(traced(resolution, origin, end) == traced_by_library(tree, origin, end));
+    }
+  }
+}
+
+namespace {
+
+std::array<int, 3> keys_of(CellCode cell) {
+  return {gather_bits(cell), gather_bits(cell >> 1), gather_bits(cell >> 2)};
+}
+
+/// Checks that a walk stays in the box of its two ends, of which only the last cell is not marked,
+/// and passes through no more cells than walls lie between these.
+void check_bounded(double resolution, const octomap::point3d& origin, const octomap::point3d& end) {
+  const CellLattice lattice(resolution);
+  const CellCode first = *lattice.cell_of(origin), last = *lattice.cell_of(end);
+  const std::set<CellCode> cells = traced(resolution, origin, end);
+  INFO(resolution << ": " << origin << " to " << end);
+  if (first == last) {
+    CHECK(cells.empty());
+    return;
+  }
+  std::size_t walls = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    walls += static_cast<std::size_t>(std::abs(keys_of(last)[axis] - keys_of(first)[axis]));
+  }
+  CHECK(cells.contains(first));
+  CHECK_FALSE(cells.contains(last));
+  CHECK(cells.size() <= walls + 3);  // Rounding may pass beside the last cell.
+}
+
+}  // namespace
+
+TEST_CASE("a beam too short to be squared ends, wherever its sensor stands") {
+  // The sensor of the first scan stands in the tree's centre, on walls along all axes.
+  for (const double resolution : {0.05, 0.1, 0.2, 0.25, 0.37}) {
+    for (const float length : {1e-45F, 1e-38F, 1e-27F, 1e-23F, 1e-20F, 1e-18F, 1e-15F, 1e-9F}) {
+      for (int signs = 0; signs < 27; ++signs) {
+        const octomap::point3d end(length * static_cast<float>(signs % 3 - 1),
+                                   length * static_cast<float>(signs / 3 % 3 - 1),
+                                   length * static_cast<float>(signs / 9 - 1));
+        check_bounded(resolution, {0.0F, 0.0F, 0.0F}, end);
+        check_bounded(resolution, {0.0F, 0.0F, 1.0F}, end + octomap::point3d(0.0F, 0.0F, 1.0F));
+      }
+    }
+  }
+  // The beam crosses one wall, or three through a corner, where walls and halves of cells are
+  // exact.
+  CHECK(traced(0.25, {0, 0, 0}, {-1e-27F, 0, 0}) == std::set{cell_code(32768, 32768, 32768)});
+  CHECK(traced(0.25, {0, 0, 0}, {-1e-27F, -1e-27F, -1e-27F}).size() == 3);
+}
+
+TEST_CASE("beams through corners, along axes and across the whole tree end") {
+  for (const float far : {6553.4F, 100.0F, 0.6F}) {
+    for (int signs = 0; signs < 27; ++signs) {
+      const octomap::point3d to(far * static_cast<float>(signs % 3 - 1),
+                                far * static_cast<float>(signs / 3 % 3 - 1),
+                                far * static_cast<float>(signs / 9 - 1));
+      check_bounded(0.2, {0, 0, 0}, to);
+      check_bounded(0.2, to * -1.0F, to);
+      check_bounded(0.2, {0.1F, 0.1F, 0.1F}, to);
+      check_bounded(0.2, {0, 1e-42F, -1e-42F}, to);
     }
   }
 }

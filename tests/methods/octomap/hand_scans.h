@@ -40,7 +40,10 @@ inline std::vector<octomap::point3d> rounded(const Points& points) {
 class HandMap {
  public:
   explicit HandMap(const Parameters& parameters, int threads = 1)
-      : parameters_(parameters), cells_(parameters_, threads), map_(parameters_) {}
+      : parameters_(parameters),
+        context_{.threads = threads},
+        cells_(parameters_, context_),
+        map_(parameters_) {}
   HandMap(const HandMap&) = delete;
   HandMap& operator=(const HandMap&) = delete;
 
@@ -64,6 +67,7 @@ class HandMap {
 
  private:
   Parameters parameters_;
+  RunContext context_;
   ScanCells cells_;
   OccupancyTree map_;
 };

@@ -82,7 +82,8 @@ TEST_CASE("the tree is node for node that of insertPointCloud") {
 TEST_CASE("a map kept to some cells has the same values there, and nothing else") {
   const Parameters parameters;
   toy::HandMap whole(parameters);
-  ScanCells cells(parameters, 1);
+  const RunContext context;
+  ScanCells cells(parameters, context);
   OccupancyTree kept(parameters);
   const CellLattice lattice(parameters.resolution);
   CellBlocks wanted;
@@ -138,6 +139,38 @@ TEST_CASE("equal leaves are merged, and parted when they differ") {
   CHECK(map.tree().getNumLeafNodes() > leaves);
 }
 
+TEST_CASE("a block whose cells stand at a clamp is parted only by what can change them") {
+  // 8 x 8 x 8 cells in one node, all missed (or hit) until they stand at the clamp. What pushes one
+  // of them further against it parts nothing; what pulls it back does. Nothing is merged again
+  // where the tree is lazy, so that its size tells.
+  Parameters parameters;
+  parameters.lazy_eval = true;
+  const CellLattice lattice(parameters.resolution);
+  const CellCode cell = *lattice.cell_of(octomap::point3d(3.1F, 0.3F, 0.1F));
+  for (const bool hits : {false, true}) {
+    INFO((hits ? "hits" : "misses"));
+    std::vector<CellBlocks> whole(1), one_hit(1), one_miss(1);
+    CellBlock& block = whole[0].block(cell >> kBlockBits);
+    (hits ? block.occupied : block.free).fill(~std::uint64_t{0});
+    one_hit[0].occupy(cell);
+    one_miss[0].block(cell >> kBlockBits).free[cell >> 6 & 7] |= std::uint64_t{1} << (cell & 63);
+    OccupancyTree tree(parameters);
+    std::vector<CellBlocks> elsewhere(1);  // The first cell of all is made down to its leaf.
+    elsewhere[0].occupy(*lattice.cell_of(octomap::point3d(-3.1F, 0.3F, 0.1F)));
+    tree.update(elsewhere);
+    for (int scan = 0; scan < 6; ++scan) tree.update(whole);
+    const double clamp = hits ? 3.5110 : -2.0000;
+    CHECK(TreeReader(tree.tree()).find(cell)->getLogOdds() == Approx(clamp).margin(1e-3));
+    const std::size_t size = tree.tree().size();
+    tree.update(hits ? one_hit : one_miss);
+    CHECK(tree.tree().size() == size);
+    tree.update(hits ? one_miss : one_hit);
+    CHECK(tree.tree().size() == size + 3 * 8);  // Eight nodes on each of three levels.
+    const double pulled = clamp + (hits ? -0.4055 : 0.8473);
+    CHECK(TreeReader(tree.tree()).find(cell)->getLogOdds() == Approx(pulled).margin(1e-3));
+  }
+}
+
 TEST_CASE("lazy evaluation changes no leaf") {
   Parameters eager, lazy;
   lazy.lazy_eval = true;
@@ -180,4 +213,14 @@ TEST_CASE("the reader gives the node that a search gives") {
   }
   CHECK(known > 2000);
   CHECK(known < 18000);
+}
+
+TEST_CASE("a wish to stop is heard within a scan") {
+  const std::atomic<bool> cancel = true;
+  RunContext context;
+  context.cancel = &cancel;
+  const Parameters parameters;
+  ScanCells cells(parameters, context);
+  const std::vector<octomap::point3d> points = {{3.0F, 0.0F, 0.0F}};
+  CHECK_THROWS_AS(cells.compute(points, {PointRole::kSurface}, {0.0F, 0.0F, 0.0F}), Cancelled);
 }

@@ -149,6 +149,43 @@ TEST_CASE("a beam far from the world's origin visits the same voxels", "[peopler
   CHECK(freed_by(expected, {}, from, to) == expected);
 }
 
+TEST_CASE("a beam of any length and direction visits the walls between its ends",
+          "[peopleremover]") {
+  const Voxels all = cube(4);
+  std::vector<double> places = {0.0, -1.0, 2.0, 0.5};
+  for (const double tiny : {5e-324, 1e-310, 1e-162, 1e-27, 1e-17}) {
+    places.push_back(tiny);
+    places.push_back(-tiny);
+  }
+  // Of all three axes from walls and beside them, among them corners and lines along an axis.
+  std::mt19937 random(12);
+  const auto place = [&] { return places[random() % places.size()]; };
+  for (int beam = 0; beam < 3000; ++beam) {
+    const Eigen::Vector3d from(place(), place(), place()), to(place(), place(), place());
+    INFO("from " << from.transpose() << " to " << to.transpose());
+    const Voxels freed = freed_by(all, {}, from, to);
+    if (from == to) {
+      CHECK(freed.empty());
+      continue;
+    }
+    const Eigen::Vector3i first = from.array().floor().cast<int>();
+    const Eigen::Vector3i last = to.array().floor().cast<int>();
+    CHECK(freed.contains(voxel_key(first)));
+    CHECK(freed.contains(voxel_key(last)));
+    CHECK(freed.size() == 1 + static_cast<std::size_t>((last - first).cwiseAbs().sum()));
+  }
+}
+
+TEST_CASE("a beam across the whole lattice ends at its end", "[peopleremover]") {
+  const double far = kVoxelLimit;
+  for (const Eigen::Vector3d& end : {Eigen::Vector3d(far, far, far),
+                                     Eigen::Vector3d(far, 0.0, -far), Eigen::Vector3d(0, far, 0)}) {
+    const Voxels ends{voxel_key(Eigen::Vector3i((-end).cast<int>())),
+                      voxel_key(Eigen::Vector3i(end.cast<int>()))};
+    CHECK(freed_by(ends, {}, -end, end) == ends);
+  }
+}
+
 TEST_CASE("a beam of no length visits nothing", "[peopleremover]") {
   CHECK(freed_by({voxel_key(0, 0, 0)}, {}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}).empty());
 }

@@ -2,6 +2,7 @@
 #include "methods/raymoval/kernels/first_hit.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -35,6 +36,34 @@ TEST_CASE("a ray ends at the maximum range and starts at the ego radius") {
   CHECK_FALSE(cast_ray(map, ray, {0.5, 1.8}));
   CHECK(cast_ray(map, ray, {0.5, 1.95}));
   CHECK_FALSE(cast_ray(map, {{0.1, 0.1, 0.1}, {0, 0, 1}}, {0.5, 60.0}));
+}
+
+TEST_CASE("a ray ends although no range limits it") {
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  OccupancyMap map(0.2);
+  map.insert({kVoxelLimit, 0, 0});
+  for (const Eigen::Vector3d& direction :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, 0),
+        Eigen::Vector3d(1, 1, 1).normalized().eval()}) {
+    const auto hit = cast_ray(map, {{0.1, 0.1, 0.1}, direction}, {0.0, kNoLimit});
+    CHECK(hit.has_value() == (direction == Eigen::Vector3d(1, 0, 0)));
+  }
+  const double end = -0.2 * kVoxelLimit;  // Across the whole lattice.
+  CHECK(cast_ray(map, {{end, 0.1, 0.1}, {1, 0, 0}}, {0.0, kNoLimit}));
+}
+
+TEST_CASE("a ray that starts on walls and is next to level is in the lower voxel at once") {
+  OccupancyMap map(1.0);
+  map.insert({5, -1, -1});
+  for (const double tiny : {5e-324, 1e-310, 1e-308, 1e-200, 1e-20}) {
+    const auto hit = cast_ray(map, {{0, 0, 0}, {1, -tiny, -tiny}}, {0.0, 60.0});
+    INFO(tiny);
+    REQUIRE(hit);
+    CHECK(hit->range == 5.0);
+    CHECK_FALSE(cast_ray(map, {{0, 0, 0}, {1, tiny, -tiny}}, {0.0, 60.0}));
+    CHECK_FALSE(cast_ray(map, {{0, 0, 0}, {1, 0, 0}}, {0.0, 60.0}));
+    CHECK_FALSE(cast_ray(map, {{0, 0, 0}, {-1, -tiny, -tiny}}, {0.0, 60.0}));
+  }
 }
 
 TEST_CASE("voxels are erased and negative ones are distinct") {

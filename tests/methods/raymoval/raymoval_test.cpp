@@ -2,6 +2,7 @@
 #include "methods/raymoval/raymoval.h"
 
 #include <catch2/catch.hpp>
+#include <map>
 #include <numbers>
 
 #include "core/text.h"
@@ -174,6 +175,8 @@ TEST_CASE("eq. 11 finds what is left of a box that was seen through in part") {
   const double without = share();
   CHECK(without > 0.3);
   CHECK(with_forward_test > without);
+  // Against the map of all points eq. 11 says nothing.
+  CHECK(toy::removed_share(world, run("offline-naive", world), kOtherOwner, 0, 4) == without);
 }
 
 TEST_CASE("without eq. 11 the prior map gives what the naive one does") {
@@ -182,6 +185,93 @@ TEST_CASE("without eq. 11 the prior map gives what the naive one does") {
   set_parameter(prior.configuration, "forward_test", false);
   const MaskStore masks = toy::masks_of(*prior.make(), world), naive = run("offline-naive", world);
   for (std::size_t i = 0; i < world.size(); ++i) REQUIRE(masks.get(i) == naive.get(i));
+}
+
+TEST_CASE("a prior map is seen through for good, whatever a growing one may do") {
+  const World world = box_that(true);
+  ConfiguredMethod method = configured("offline");
+  set_parameter(method.configuration, "forward_test", false);
+  set_parameter(method.configuration, "permanent_erase", false);
+  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 0, 4) > 0.95);
+}
+
+TEST_CASE("online, what stands where a scan has seen through is removed") {
+  // The box comes back. Without eq. 11 only what was seen through tells that it moves.
+  World world{toy::Scanner{}};
+  for (int i = 0; i < 12; ++i) {
+    std::vector<Box> boxes = {kWall};
+    if (i < 4 || i >= 8) boxes.push_back(kCar);
+    world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
+  }
+  ConfiguredMethod method = configured("online");
+  set_parameter(method.configuration, "forward_test", false);
+  const auto share = [&] {
+    return toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11);
+  };
+  CHECK(share() > 0.95);
+  set_parameter(method.configuration, "erased_points", false);
+  CHECK(share() == 0.0);
+}
+
+TEST_CASE("what never came into a growing map is removed from it") {
+  const World world = box_that(false);
+  CHECK(toy::removed_share(world, run("offline-growing", world), kOtherOwner, 5, 9) > 0.95);
+}
+
+namespace {
+
+/// Keeps the codes of a run's reasons.
+class Reasons : public ReasonSink {
+ public:
+  explicit Reasons(std::size_t scans) : codes(scans) {}
+  void explain(const std::vector<std::string>& told) override { sentences = told; }
+  void accept(std::size_t scan, const std::vector<std::uint8_t>& told) override {
+    codes[scan] = told;
+  }
+  std::vector<std::string> sentences;
+  std::vector<std::vector<std::uint8_t>> codes;
+};
+
+/// How many points of `owner` have each reason, over all scans, in percent.
+std::map<std::string, double> reasons_of(const ConfiguredMethod& method, const World& world,
+                                         int owner) {
+  Reasons reasons(world.size());
+  toy::Masks masks(world.size());
+  RunContext context;
+  context.reasons = &reasons;
+  method.make()->run(world, masks, context);
+  std::map<std::string, double> shares;
+  int points = 0;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    for (std::size_t k = 0; k < world.owner[i].size(); ++k) {
+      if (world.owner[i][k] != owner) continue;
+      const std::string& sentence = reasons.sentences.at(reasons.codes[i].at(k));
+      const bool removes = sentence.find("saw through") != std::string::npos ||
+                           sentence.find("stands in front") != std::string::npos;
+      REQUIRE((masks.store.get(i)[k] != 0) == removes);
+      shares[sentence.substr(0, 12)] += 1;
+      ++points;
+    }
+  }
+  for (auto& [sentence, share] : shares) share *= 100.0 / points;
+  return shares;
+}
+
+}  // namespace
+
+TEST_CASE("each point's reason fits its answer") {
+  const World world = box_that(true);
+  ConfiguredMethod method = configured("offline");
+  CHECK(reasons_of(method, world, kOtherOwner)["a scan saw t"] > 80);
+  CHECK(reasons_of(method, world, kWallOwner)["no scan cont"] > 99);
+  set_parameter(method.configuration, "erased_points", false);  // Only eq. 11 is left.
+  CHECK(reasons_of(method, world, kOtherOwner)["it stands in"] > 95);
+  // Validation gives all back where a cluster needs more points than the box has: at 6 m 1,000
+  // times (10 / 6)^2. Without validation all is removed.
+  set_parameter(method.configuration, "cluster_points", 1000.0);
+  CHECK(reasons_of(method, world, kOtherOwner)["it was a can"] > 95);
+  set_parameter(method.configuration, "validate", false);
+  CHECK(reasons_of(method, world, kOtherOwner)["it stands in"] > 95);
 }
 
 TEST_CASE("a sensor that sees only ahead judges only what it sees") {

@@ -140,6 +140,7 @@ TEST_CASE("supported points of a dynamic cluster are kept, and small remainders 
   parameters.minimum_points = 5;  // Four remain.
   CHECK(validate_candidates(points, map, parameters) == Mask(6, 0));
   parameters.minimum_points = 4;
+  CHECK(validate_candidates(points, map, parameters) == Mask{0, 0, 1, 1, 1, 1});
   parameters.minimum_width = 0.1;  // The column has no width at all.
   CHECK(validate_candidates(points, map, parameters) == Mask(6, 0));
 }

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+// What a comparison says, word by word.
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "eval/comparison/compare.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A cell with one rate and one count.
+ComparedCell cell_of(const std::string& name, std::optional<double> pr, std::int64_t kept) {
+  ComparedScore score;
+  score.protocol = "erasor";
+  score.identity = {{"protocol version", "1"}};
+  score.counts = {{"preserved_static", kept}};
+  score.rates = {{"PR", pr, ""}};
+  ComparedCell cell;
+  cell.sequence = "s";
+  cell.name = name;
+  cell.identity = {{"data fingerprint", "abc"}};
+  cell.method_version = "1";
+  cell.scores = {score};
+  return cell;
+}
+
+Comparison compared_one(const ComparedCell& run, const ComparedCell& reference,
+                        const ComparisonOptions& options = {}) {
+  return compare_results({{run}, {}}, {{reference}, {}}, options);
+}
+
+}  // namespace
+
+TEST_CASE("A comparison is told by verdict, cell by cell, with a summary") {
+  ResultSet run, reference;
+  reference.cells = {cell_of("a", 99.0, 990), cell_of("b", 99.0, 990), cell_of("c", 99.0, 990),
+                     cell_of("d", 99.0, 990)};
+  run.cells = {cell_of("a", 98.9, 989), cell_of("b", 99.0, 990), cell_of("c", 99.5, 995),
+               cell_of("e", 99.0, 990)};
+  run.cells[1].seconds_per_scan = 0.05;
+  reference.cells[1].seconds_per_scan = 0.1;
+  const Comparison result = compare_results(run, reference, {});
+  CHECK(comparison_text(result) ==
+        "Not comparable:\n"
+        "  s / d: missing in the run\n"
+        "Worse:\n"
+        "  s / a, erasor: PR 99.0000 -> 98.9000 (-0.1000), preserved_static 990 -> 989 (-1)\n"
+        "Better:\n"
+        "  s / c, erasor: PR 99.0000 -> 99.5000 (+0.5000), preserved_static 990 -> 995 (+5)\n"
+        "Moved or new:\n"
+        "  s / e: not in the reference, not compared\n"
+        "Time:\n"
+        "  s / b: 0.50 times the reference (50.0 ms per scan, was 100.0)\n"
+        "1 of 4 cells are the same as in the reference: not comparable.\n");
+  REQUIRE(result.scores.size() == 5);
+  const std::vector<Change> changes = {Change::kWorse, Change::kSame, Change::kBetter,
+                                       Change::kIncomparable, Change::kMoved};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    CHECK(result.scores[i].change == changes[i]);
+    CHECK(result.scores[i].protocol == "erasor");
+  }
+  REQUIRE(result.scores[0].counts.size() == 1);
+  CHECK(result.scores[0].counts[0].before == 990);
+  CHECK(result.scores[0].counts[0].after == 989);
+  CHECK(result.scores[3].reasons == std::vector<std::string>{"missing in the run"});
+  REQUIRE(result.time_changes.size() == 1);
+  CHECK(result.time_changes[0].ratio() == 0.5);
+  CHECK(result.time_changes[0].change == Change::kSame);
+  CHECK(result.lines.size() == 4);
+}
+
+TEST_CASE("Up to six names are told, of seven the first five and how many more") {
+  const auto line = [](std::size_t cells) {
+    ResultSet run, reference;
+    for (std::size_t i = 0; i < cells; ++i) {
+      reference.cells.push_back(cell_of(std::string(1, static_cast<char>('a' + i)), 99.0, 990));
+    }
+    run.cells = {cell_of("z", 99.0, 990)};
+    const std::string text = comparison_text(compare_results(run, reference, {}));
+    return text.substr(0, text.find("\nMoved"));
+  };
+  CHECK(line(6) == "Not comparable:\n  s / a, b, c, d, e, f: missing in the run");
+  CHECK(line(7) == "Not comparable:\n  s / a, b, c, d, e and 2 more: missing in the run");
+}
+
+TEST_CASE("A fall beyond its tolerance is told with what was allowed") {
+  const ComparedCell reference = cell_of("a", 99.0, 990), run = cell_of("a", 98.5, 985);
+  CHECK_THAT(compared_one(run, reference, {{{"PR", 0.25}}, {}}).worse.at(0),
+             Contains("PR 99.0000 -> 98.5000 (-0.5000, at most -0.25 is allowed)"));
+  CHECK_THAT(compared_one(run, reference, {{{"PR", 0.0}}, {}}).worse.at(0),
+             Contains("PR 99.0000 -> 98.5000 (-0.5000), "));
+  CHECK_THAT(compared_one(run, reference, {{{"PR", 0.5}}, {}}).moved.at(0),
+             Contains("PR 99.0000 -> 98.5000 (-0.5000), "));
+}
+
+TEST_CASE("Rates that differ by rounding only are the same") {
+  const ComparedCell reference = cell_of("a", 99.0, 990);
+  CHECK(compared_one(cell_of("a", 99.0 - 0.8e-9, 990), reference).same_cells == 1);
+  CHECK(compared_one(cell_of("a", 99.0 - 1.5e-9, 990), reference).verdict() == ExitCode::kWorse);
+  CHECK(compared_one(cell_of("a", 99.0 + 1.5e-9, 990), reference).better.size() == 1);
+  // The same for a fall that reaches its tolerance.
+  const ComparisonOptions tenth{{{"PR", 0.125}}, {}};
+  CHECK(compared_one(cell_of("a", 98.875 - 0.8e-9, 990), reference, tenth).worse.empty());
+  CHECK(compared_one(cell_of("a", 98.875 - 1.5e-9, 990), reference, tenth).worse.size() == 1);
+}
+
+TEST_CASE("A rate that is undefined on both sides is the same, one that comes up is worse") {
+  const ComparedCell undefined = cell_of("a", std::nullopt, 990);
+  CHECK(compared_one(undefined, undefined).same_cells == 1);
+  const Comparison defined = compared_one(cell_of("a", 99.0, 990), undefined);
+  CHECK_THAT(defined.worse.at(0), Contains("PR undefined -> 99.0000"));
+  CHECK(defined.scores[0].rates.at(0).change == Change::kWorse);
+}
+
+TEST_CASE("A score that only the run has is told") {
+  ComparedCell run = cell_of("a", 99.0, 990);
+  run.scores.push_back(run.scores[0]);
+  run.scores[1].protocol = "other";
+  const Comparison result = compared_one(run, cell_of("a", 99.0, 990));
+  CHECK(result.verdict() == ExitCode::kDone);
+  CHECK(result.moved ==
+        std::vector<std::string>{"s / a, other: not in the reference, not compared"});
+  CHECK(result.same_cells == 1);
+}
+
+TEST_CASE("What is missing on one side is told as such") {
+  ComparedCell run = cell_of("a", 99.0, 990);
+  run.identity = {{"data fingerprint", "abc"}, {"parameter x", "1"}};
+  CHECK(compared_one(run, cell_of("a", 99.0, 990)).incomparable ==
+        std::vector<std::string>{"s / a: parameter x is 1, the reference has none"});
+  CHECK(compared_one(cell_of("a", 99.0, 990), run).incomparable ==
+        std::vector<std::string>{"s / a: parameter x is missing, the reference has 1"});
+}
+
+TEST_CASE("A control's time is not judged") {
+  ComparedCell run = cell_of("noop", 99.0, 990), reference = run;
+  run.control = reference.control = true;
+  run.seconds_per_scan = 1.0;
+  reference.seconds_per_scan = 0.1;
+  const Comparison result = compared_one(run, reference, {{}, 2.0});
+  CHECK(result.verdict() == ExitCode::kDone);
+  CHECK(result.times.empty());
+}
+
+TEST_CASE("A time at its band is no worse, and one beyond says by how much") {
+  ComparedCell run = cell_of("a", 99.0, 990), reference = run;
+  reference.seconds_per_scan = 0.125;
+  run.seconds_per_scan = 0.25;
+  CHECK(compared_one(run, reference, {{}, 2.0}).worse.empty());
+  run.seconds_per_scan = 0.375;
+  CHECK(compared_one(run, reference, {{}, 2.0}).worse ==
+        std::vector<std::string>{"s / a: 3.00 times the reference (375.0 ms per scan, was 125.0), "
+                                 "more than 2 times"});
+  reference.seconds_per_scan = 0.0;  // Nothing can be told of it.
+  CHECK(compared_one(run, reference).times.empty());
+}
+
+TEST_CASE("Every change has a name") {
+  CHECK(std::string(change_name(Change::kSame)) == "same");
+  CHECK(std::string(change_name(Change::kBetter)) == "better");
+  CHECK(std::string(change_name(Change::kMoved)) == "moved");
+  CHECK(std::string(change_name(Change::kWorse)) == "worse");
+  CHECK(std::string(change_name(Change::kIncomparable)) == "not comparable");
+}
+
+TEST_CASE("A run is better only without anything worse") {
+  const ResultSet reference{{cell_of("a", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
+  const ResultSet better{{cell_of("a", 99.5, 995), cell_of("b", 99.0, 990)}, {}};
+  const ResultSet mixed{{cell_of("a", 99.5, 995), cell_of("b", 98.0, 980)}, {}};
+  CHECK(compare_results(better, reference, {}).verdict_words() == "better, no regression");
+  CHECK(compare_results(mixed, reference, {}).verdict_words() == "worse");
+  CHECK(compare_results(reference, reference, {}).verdict_words() == "no regression");
+}
+
+TEST_CASE("What moves in one protocol is not undone by another that is the same") {
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores.push_back(reference.scores[0]);
+  reference.scores[1].protocol = "other";
+  ComparedCell run = reference;
+  run.scores[0].counts[0].second = 989;
+  CHECK(compared_one(run, reference).same_cells == 0);
+  CHECK(compared_one(reference, reference).same_cells == 1);
+}
+
+TEST_CASE("Other parameters are all that differs only if nothing else does") {
+  ComparedCell other = cell_of("b", 99.0, 990);
+  other.identity["parameter x"] = "1";
+  const ResultSet reference{{cell_of("b", 99.0, 990), cell_of("c", 99.0, 990)}, {}};
+  const ResultSet parameters{{other, cell_of("c", 99.0, 990)}, {}}, also_missing{{other}, {}};
+  CHECK(compare_results(parameters, reference, {}).parameters_only);
+  CHECK_FALSE(compare_results(also_missing, reference, {}).parameters_only);
+  const ResultSet turned{{cell_of("c", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
+  CHECK_FALSE(compare_results(also_missing, turned, {}).parameters_only);
+  CHECK_FALSE(compare_results(turned, reference, {}).parameters_only);
+  const ResultSet only_c{{cell_of("c", 99.0, 990)}, {}};
+  CHECK_FALSE(compare_results(only_c, reference, {}).parameters_only);
+}
+
+TEST_CASE("A change of status is told for each score that one side has") {
+  const ComparedCell ok = cell_of("a", 99.0, 990);
+  ComparedCell failed = ok;
+  failed.status = "timeout";
+  failed.scores.clear();
+  const Comparison worse = compared_one(failed, ok), better = compared_one(ok, failed);
+  CHECK(worse.worse == std::vector<std::string>{"s / a: ok -> timeout"});
+  CHECK(better.better == std::vector<std::string>{"s / a: timeout -> ok"});
+  for (const Comparison& result : {worse, better}) {
+    REQUIRE(result.scores.size() == 1);
+    CHECK(result.scores[0].protocol == "erasor");
+  }
+  failed.reason = "too slow";
+  const Comparison both = compared_one(failed, failed);
+  CHECK(both.moved == std::vector<std::string>{"s / a: failed in both (too slow)"});
+  REQUIRE(both.scores.size() == 1);
+  CHECK(both.scores[0].protocol.empty());
+  CHECK(both.scores[0].change == Change::kMoved);
+  // What cannot be read has no fingerprint: neither side is of other data for that.
+  failed.identity.clear();
+  CHECK(compared_one(ok, failed).verdict() == ExitCode::kDone);
+  CHECK(compared_one(failed, ok).verdict() == ExitCode::kWorse);
+}
+
+TEST_CASE("A cell of other data is told for each score of the reference") {
+  ComparedCell run = cell_of("a", 99.0, 990);
+  run.identity["data fingerprint"] = "xyz";
+  run.scores.clear();
+  const Comparison result = compared_one(run, cell_of("a", 99.0, 990));
+  REQUIRE(result.scores.size() == 1);
+  CHECK(result.scores[0].protocol == "erasor");
+  CHECK(result.scores[0].change == Change::kIncomparable);
+}
+
+TEST_CASE("Cells of other names have lines of their own") {
+  ResultSet reference{{cell_of("a", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
+  reference.cells[1].sequence = "t";
+  const ResultSet run{{cell_of("z", 99.0, 990)}, {}};
+  CHECK_THAT(comparison_text(compare_results(run, reference, {})),
+             Contains("Not comparable:\n  s / a: missing in the run\n  t / b: missing in the run"));
+}
+
+TEST_CASE("A new count is worse, however much better the rate") {
+  ComparedCell run = cell_of("a", 99.5, 995);
+  run.scores[0].counts.emplace_back("fresh", 1);
+  const Comparison result = compared_one(run, cell_of("a", 99.0, 990));
+  CHECK(result.verdict() == ExitCode::kWorse);
+  CHECK(result.scores[0].rates.at(0).change == Change::kBetter);
+}
+
+TEST_CASE("Across parameters counts that move alone are told as that") {
+  ComparedCell run = cell_of("a", 99.0, 989);
+  run.identity["parameter x"] = "1";
+  ComparisonOptions options;
+  options.across_parameters = true;
+  const Comparison result = compared_one(run, cell_of("a", 99.0, 990), options);
+  CHECK(result.verdict() == ExitCode::kDone);
+  CHECK(result.moved.back() == "s / a, erasor: counts moved, and no rate with them");
+}
+
+TEST_CASE("A change of nothing has no sign") {
+  CHECK(change_text(CountChange{"points", 5, 5}) == "points 5 -> 5 (0)");
+  CHECK(change_text(RateChange{"PR", 5.0, 5.0, {}}) == "PR 5.0000 -> 5.0000 (0.0000)");
+  CHECK(change_text(TimeChange{"s", "a", {}, 1.0, Change::kIncomparable}) ==
+        "no time on both sides; leave --time-band out");
+}
+
+TEST_CASE("The same words of other protocols and other words of one have lines of their own") {
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores.push_back(reference.scores[0]);
+  reference.scores[1].protocol = "other";
+  ComparedCell second = reference;
+  second.name = "b";
+  ComparedCell run = reference, run_second = second;
+  run.scores.clear();
+  run_second.scores.pop_back();
+  run_second.scores[0].identity["protocol version"] = "2";
+  const Comparison result = compare_results({{run, run_second}, {}}, {{reference, second}, {}}, {});
+  CHECK_THAT(comparison_text(result),
+             Contains("Not comparable:\n"
+                      "  s / a, erasor: not scored in the run\n"
+                      "  s / a, b, other: not scored in the run\n"
+                      "  s / b, erasor: protocol version is 2, the reference has 1\n"));
+}
+
+TEST_CASE("Several changes of one cell and protocol name the cell once") {
+  ComparedCell run = cell_of("a", 99.0, 990);
+  run.method_version = "2";
+  const ResultSet two{{run, cell_of("b", 99.0, 990)}, {}};
+  const ResultSet reference{{cell_of("a", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
+  const Comparison result = compare_results(two, reference, {});
+  CHECK(result.moved == std::vector<std::string>{"s / a: method version 1 -> 2"});
+  CHECK(result.verdict() == ExitCode::kDone);
+}
+
+TEST_CASE("A run that is whole again says nothing of an old reason") {
+  ComparedCell run = cell_of("a", 99.0, 990), failed = run;
+  run.reason = "left over";
+  failed.status = "failed";
+  failed.reason = "no idea";
+  CHECK(compared_one(run, failed).better == std::vector<std::string>{"s / a: failed -> ok"});
+}
+
+TEST_CASE("Times that are not there are not told") {
+  ComparedCell timed = cell_of("a", 99.0, 990), timeless = timed;
+  timed.seconds_per_scan = 0.1;
+  CHECK(compared_one(timeless, timed).times.empty());
+  CHECK(compared_one(timed, timeless).times.empty());
+  const ResultSet here{{timeless}, {}, "here"}, there{{timeless}, {}, "there"}, none;
+  CHECK(compare_results(here, there, {}).times.empty());
+  CHECK(compare_results(here, none, {{}, 3.0}).incomparable ==
+        std::vector<std::string>{"the reference has no cell"});
+}
+
+TEST_CASE("A tolerance of a rate that is not there says so") {
+  const ComparedCell cell = cell_of("a", 99.0, 990);
+  CHECK_THROWS_WITH(compared_one(cell, cell, {{{"SA", 1.0}}, {}}),
+                    Contains("--tolerance SA: the reference has no such metric"));
+}
+
+TEST_CASE("A rate has a tolerance if one is given, or none at all across parameters") {
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores[0].rates.push_back({"spread", 3.0, ""});
+  ComparedCell run = reference;
+  CHECK_FALSE(compared_one(run, reference).scores.at(0).rates.at(0).tolerance);
+  CHECK(compared_one(run, reference, {{{"PR", 0.5}}, {}}).scores.at(0).rates.at(0).tolerance ==
+        0.5);
+  run.identity["parameter x"] = "1";
+  ComparisonOptions options;
+  options.across_parameters = true;
+  const Comparison across = compared_one(run, reference, options);
+  CHECK(across.scores.at(0).rates.at(0).tolerance == 0.0);
+  CHECK_FALSE(across.scores.at(0).rates.at(1).tolerance);  // Nobody knows what is better.
+}
+
+TEST_CASE("A rate that rises does not outweigh one that falls within its tolerance") {
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores[0].rates.push_back({"RR", 90.0, ""});
+  ComparedCell run = reference;
+  run.scores[0].rates = {{"PR", 98.9, ""}, {"RR", 95.0, ""}};
+  const Comparison result = compared_one(run, reference, {{{"PR", 0.5}}, {}});
+  CHECK(result.verdict() == ExitCode::kDone);
+  CHECK(result.better.empty());
+  CHECK(result.moved.size() == 1);
+}
+
+TEST_CASE("Across parameters a count that is gone, or one of the truth, is told and worse") {
+  ComparisonOptions options;
+  options.across_parameters = true;
+  ComparedCell reference = cell_of("a", 99.0, 990);
+  reference.scores[0].counts.emplace_back("static_voxels", 1000);
+  ComparedCell run = reference;
+  run.identity["parameter x"] = "1";
+  run.scores[0].counts[1].second = 1001;
+  CHECK_THAT(compared_one(run, reference, options).worse.at(0),
+             Contains("static_voxels 1000 -> 1001 (+1)"));
+  run.scores[0].counts = {{"static_voxels", 1000}};
+  CHECK_THAT(compared_one(run, reference, options).worse.at(0),
+             Contains("preserved_static is missing"));
+}

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+// What counts where: small scenes for counts, frames and warnings of all protocols.
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <set>
+
+#include "core/error.h"
+#include "eval/columns/removal_tally.h"
+#include "eval/erasor/accumulate.h"
+#include "eval/erasor/frame.h"
+#include "eval/points/cloud_masks.h"
+#include "tests/eval/memory_sequence.h"
+
+namespace raymoval::test {
+namespace {
+
+/// Points a metre apart from x = 5 on, each in voxels and cells of its own.
+LabelledScan row_with(const std::vector<std::pair<std::uint32_t, bool>>& points) {
+  LabelledScan scan;
+  float x = 5.05f;
+  for (const auto& [label, flagged] : points) {
+    scan.add(x, 0.05f, 0.05f, label, flagged);
+    x += 1.0f;
+  }
+  return scan;
+}
+
+ProtocolResult score_scans(const std::string& protocol, const std::vector<LabelledScan>& scans,
+                           const Settings& settings = {}) {
+  const MemorySequence sequence(scans);
+  return score_by(protocol, sequence.input(), sequence.masks(), settings);
+}
+
+std::set<std::string> truth_counts(const std::string& protocol) {
+  std::set<std::string> names;
+  for (const CountSpec& spec : protocol_entry(protocol).counts) {
+    if (spec.of_truth) names.insert(spec.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("the counts that no mask can change are those of scans and labels", "[counts]") {
+  CHECK(truth_counts("erasor") ==
+        std::set<std::string>{"static_voxels", "dynamic_voxels", "static_voxels_no_truck",
+                              "dynamic_voxels_no_truck", "mixed_label_ties", "unlabelled_voxels",
+                              "evaluated_points", "out_of_range_points", "ignored_points",
+                              "cropped_points"});
+  CHECK(truth_counts("dynamicmap") == std::set<std::string>{"static_points", "dynamic_points",
+                                                            "ego_points", "out_of_range_points",
+                                                            "ignored_points"});
+  CHECK(truth_counts("dynamicmap-strict") ==
+        std::set<std::string>{"static_voxels", "dynamic_voxels", "mixed_voxels", "ego_points",
+                              "out_of_range_points", "ignored_points"});
+  CHECK(rate_spec("F1").formula->shown_of_means);
+  CHECK_FALSE(rate_spec("HA").formula->shown_of_means);
+  CHECK(protocol_entry("erasor").cloud_options ==
+        Configuration{{"label_mode", std::string("nearest")}, {"lift", 0.0}});
+}
+
+TEST_CASE("points that are on neither side are counted by every protocol", "[counts]") {
+  LabelledScan scan = row_with({{40, false}, {252, false}, {99, false}});
+  scan.add(1.0f, 0.0f, 0.0f, 0);    // Unlabelled near the sensor: the ego vehicle.
+  scan.add(60.0f, 0.0f, 0.0f, 40);  // Out of range.
+  scan.add(61.0f, 0.0f, 0.0f, 252, true);
+  const MemorySequence sequence({scan});
+  EvaluationInput input = sequence.input();
+  input.range_m = {0.0, 50.0};
+  input.label_rule.ignored = {99};
+  for (const char* protocol : {"dynamicmap", "dynamicmap-strict"}) {
+    CAPTURE(protocol);
+    const ProtocolResult result = score_by(protocol, input, sequence.masks());
+    CHECK(result.count("out_of_range_points") == 2);
+    CHECK(result.count("ignored_points") == 1);
+    CHECK(result.count("ego_points") == 1);
+  }
+  const ProtocolResult points = score_by("dynamicmap", input, sequence.masks());
+  // Those out of range are neither kept nor flagged.
+  CHECK(points.count("kept_static_points") == 1);
+  CHECK(points.count("flagged_dynamic_points") == 0);
+  CHECK(points.count("static_points") == 1);
+  CHECK(points.count("dynamic_points") == 2);
+}
+
+TEST_CASE("counts are summed over scans", "[counts]") {
+  LabelledScan scan = row_with({{40, false}, {258, true}, {99, false}});
+  scan.add(1.0f, 0.0f, 0.0f, 0);
+  scan.add(60.0f, 0.0f, 0.0f, 40);
+  const MemorySequence sequence({scan, scan, row_with({{40, false}})});
+  EvaluationInput input = sequence.input();
+  input.range_m = {0.0, 50.0};
+  input.label_rule.ignored = {99};
+  const ProtocolResult points = score_by("dynamicmap", input, sequence.masks());
+  CHECK(points.count("ego_points") == 2);
+  CHECK(points.count("out_of_range_points") == 2);
+  CHECK(points.count("ignored_points") == 2);
+  CHECK(points.count("static_points") == 3);
+  CHECK(points.count("dynamic_points") == 4);
+  CHECK(points.count("kept_static_points") == 3);
+  CHECK(points.count("flagged_dynamic_points") == 2);
+  const ProtocolResult voxels = score_by("erasor", input, sequence.masks());
+  CHECK(voxels.count("cropped_points") == 2);
+  CHECK(voxels.count("out_of_range_points") == 2);
+  CHECK(voxels.count("ignored_points") == 2);
+  CHECK(voxels.count("evaluated_points") == 5);
+  CHECK(voxels.count("removed_points") == 2);
+  CHECK(score_by("dynamicmap-strict", input, sequence.masks()).count("ego_points") == 2);
+  // A last scan of which nothing is left is no error.
+  const MemorySequence far_end({row_with({{40, false}}), LabelledScan{}});
+  CHECK(score_by("dynamicmap", far_end.input(), far_end.masks()).count("static_points") == 1);
+}
+
+TEST_CASE("a range below one metre is a limit, too", "[counts]") {
+  LabelledScan scan;
+  scan.add(0.25f, 0.0f, 0.0f, 40);
+  scan.add(0.75f, 0.0f, 0.0f, 40);
+  CHECK(score_scans("dynamicmap", {scan}, {{"maximum_range", 0.5}}).count("static_points") == 1);
+  CHECK(score_scans("dynamicmap", {scan}, {{"maximum_range", 0.0}}).count("static_points") == 2);
+}
+
+TEST_CASE("masks of more scans than there are are the method's error", "[counts]") {
+  const MemorySequence sequence({row_with({{40, false}, {252, true}})});
+  MaskStore masks(2);
+  masks.set(0, {0, 1});
+  masks.set(1, {0, 1});
+  for (const char* protocol : {"erasor", "dynamicmap", "dynamicmap-strict"}) {
+    CHECK_THROWS_AS(score_by(protocol, sequence.input(), masks), MethodError);
+  }
+  CHECK_THROWS_AS(tally_removals(sequence.input(), masks), MethodError);
+  EvaluationInput unlabelled = sequence.input();
+  unlabelled.labels = nullptr;
+  CHECK_THROWS_AS(tally_removals(unlabelled, sequence.masks()), DataError);
+}
+
+TEST_CASE("only the labels 0 and 1 near the sensor are the ego vehicle", "[counts]") {
+  LabelledScan scan;
+  for (const std::uint32_t label : {0U, 1U, 2U}) {
+    scan.add(0.5f, static_cast<float>(label), 0.0f, label);
+  }
+  const MemorySequence sequence({scan});
+  EvaluationInput input = sequence.input();
+  CHECK(score_by("dynamicmap", input, sequence.masks()).count("ego_points") == 2);
+  // Where 1 is the class of what moves, 0 is what stands.
+  input.label_rule = LabelRule{"binary", {1}, {}, {}};
+  const ProtocolResult binary = score_by("dynamicmap", input, sequence.masks());
+  CHECK(binary.count("ego_points") == 0);
+  CHECK(binary.count("static_points") == 2);
+  CHECK(binary.count("dynamic_points") == 1);
+  input.label_rule = LabelRule{"binary", {0}, {}, {}};
+  CHECK(score_by("dynamicmap", input, sequence.masks()).count("ego_points") == 0);
+}
+
+TEST_CASE("an estimate is empty only if nothing at all is kept", "[counts]") {
+  for (const char* protocol : {"dynamicmap", "dynamicmap-strict"}) {
+    CAPTURE(protocol);
+    CHECK(score_scans(protocol, {row_with({{40, true}, {252, true}})}).warnings.size() == 1);
+    CHECK(score_scans(protocol, {row_with({{40, true}, {252, false}})}).warnings.empty());
+    CHECK(score_scans(protocol, {row_with({{40, false}, {252, true}})}).warnings.empty());
+    CHECK(score_scans(protocol, {row_with({{40, false}, {252, false}})}).warnings.empty());
+  }
+}
+
+TEST_CASE("a kept point a metre and a half away is near within two metres", "[counts]") {
+  LabelledScan scan;
+  scan.add(5.0f, 0.0f, 0.0f, 40, true);
+  scan.add(6.5f, 0.0f, 0.0f, 252);
+  for (const auto& [distance, present] : {std::pair{2.0, 1}, std::pair{1.5, 1}, {1.4, 0}}) {
+    const ProtocolResult result = score_scans("dynamicmap", {scan}, {{"distance", distance}});
+    CHECK(result.count("present_static_points") == present);
+    CHECK(result.count("kept_static_points") == 0);
+  }
+}
+
+TEST_CASE("a kept point beyond any wall of the cells that are searched is found", "[counts]") {
+  // Within 2 m cells of 4 m are searched. The removed point lies 0.1 m within the cell around
+  // (22, 2, 2), the kept one as far beyond it: over each side, edge and corner.
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3f way(static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1),
+                              static_cast<float>(i / 9 - 1));
+    if (way.isZero()) continue;
+    const Eigen::Vector3f centre(22.0f, 2.0f, 2.0f);
+    const Eigen::Vector3f removed = centre + 1.9f * way, kept = centre + 2.1f * way;
+    CAPTURE(way.transpose());
+    for (const bool ignored_in_estimate : {true, false}) {
+      LabelledScan scan;
+      scan.add(removed.x(), removed.y(), removed.z(), 40, true);
+      scan.add(kept.x(), kept.y(), kept.z(), 252);
+      const ProtocolResult result = score_scans(
+          "dynamicmap", {scan}, {{"distance", 2.0}, {"ignored_in_estimate", ignored_in_estimate}});
+      CHECK(result.count("present_static_points") == 1);
+    }
+  }
+}
+
+TEST_CASE("of equally near partners a later one in cell order does not count", "[counts]") {
+  // Cells of 0.25 m. The flagged point in the middle of its cell has one kept point 0.15625 m above
+  // it in x, and one as far above it in y, which comes later.
+  for (const bool moving_above : {true, false}) {
+    LabelledScan scan;
+    scan.add(5.125f, 0.125f, 0.125f, 40, true);
+    scan.add(5.28125f, 0.125f, 0.125f, moving_above ? 252 : 40);
+    scan.add(5.125f, 0.28125f, 0.125f, moving_above ? 40 : 252);
+    const ProtocolResult result =
+        score_scans("erasor", {scan}, {{"voxel_size", 0.25}, {"lift", 0.0}});
+    CHECK(result.count("static_voxels") == 2);
+    CHECK(result.count("preserved_static") == (moving_above ? 1 : 2));
+  }
+}
+
+TEST_CASE("a voxel of the truth beyond the last one of the estimate has no partner", "[counts]") {
+  const Settings same_cell = {{"matching", std::string("same_cell")}};
+  const ProtocolResult result =
+      score_scans("erasor", {row_with({{40, false}, {252, false}, {40, true}})}, same_cell);
+  CHECK(result.count("preserved_static") == 1);
+  CHECK(result.count("remaining_dynamic") == 1);
+}
+
+TEST_CASE("a point of the dense map belongs to the scan that ends behind it", "[counts]") {
+  erasor::DenseMap dense;
+  dense.scan_ends = {2, 2, 5};  // Points 0 and 1 of scan 0, none of scan 1, 2 to 4 of scan 2.
+  const std::vector<std::uint32_t> expected = {0, 0, 2, 2, 2};
+  for (std::uint32_t point = 0; point < expected.size(); ++point) {
+    CHECK(dense.scan_of(point) == expected[point]);
+  }
+}
+
+TEST_CASE("unlabelled voxels are left out of PR only where they stand", "[counts]") {
+  const Settings leave_out = {{"ignore_0_1", true}};
+  const std::vector<LabelledScan> scans = {
+      row_with({{0, false}, {1, false}, {2, false}, {40, false}})};
+  CHECK(score_scans("erasor", scans, leave_out).count("static_voxels") == 2);
+  const MemorySequence sequence(scans);
+  EvaluationInput input = sequence.input();
+  input.label_rule = LabelRule{"binary", {1}, {}, {}};
+  const ProtocolResult binary = score_by("erasor", input, sequence.masks(), leave_out);
+  CHECK(binary.count("dynamic_voxels") == 1);
+  CHECK(binary.count("static_voxels") == 2);
+}
+
+TEST_CASE("a truck of an early scan is counted both ways, too", "[counts]") {
+  const LabelledScan truck = row_with({{40, false}, {258, true}}), road = row_with({{40, false}});
+  CHECK(score_scans("erasor", {truck, road}).rate("RR_no_truck") == std::nullopt);
+  CHECK(score_scans("erasor", {truck, road}).count("static_voxels_no_truck") == 2);
+  CHECK(score_scans("erasor", {road, truck}).count("static_voxels_no_truck") == 2);
+}
+
+TEST_CASE("voxels of the labels 0 and 1 are counted as unlabelled", "[counts]") {
+  const ProtocolResult result =
+      score_scans("erasor", {row_with({{0, false}, {1, false}, {2, false}, {40, false}})});
+  CHECK(result.count("unlabelled_voxels") == 2);
+}
+
+TEST_CASE("ties within a scan and between scans are counted on both sides", "[counts]") {
+  // Cells of 0.25 m. In the cell at x = 5 a static and a moving point of one scan lie 1/16 m to
+  // either side of their mean, in that at x = 7 one of each scan.
+  LabelledScan first, second;
+  first.add(5.0625f, 0.125f, 0.125f, 40);
+  first.add(5.1875f, 0.125f, 0.125f, 252);
+  first.add(7.0625f, 0.125f, 0.125f, 40);
+  second.add(7.1875f, 0.125f, 0.125f, 252);
+  const ProtocolResult result =
+      score_scans("erasor", {first, second}, {{"voxel_size", 0.25}, {"lift", 0.0}});
+  CHECK(result.count("mixed_label_ties") == 2);
+  CHECK(result.count("estimate_mixed_label_ties") == 2);
+  // The first point of the first scan gives its label.
+  CHECK(result.count("static_voxels") == 2);
+  CHECK(result.count("dynamic_voxels") == 0);
+}
+
+TEST_CASE("a cloud of one point finds its label again", "[counts][cloud]") {
+  const MemorySequence sequence({row_with({{40, false}, {252, false}})});
+  const Settings nearest = {{"label_mode", std::string("nearest")}, {"lift", 0.0}};
+  const std::vector<Eigen::Vector3f> cloud = {{6.05f, 0.05f, 0.05f}};
+  const auto scorer = protocol_with("erasor", nearest)->open(sequence.input());
+  const ProtocolResult result = scorer->score_cloud(CloudEstimate(cloud));
+  CHECK(result.count("remaining_dynamic") == 1);
+  CHECK(result.count("preserved_static") == 0);
+  CHECK(result.count("estimate_voxels") == 1);
+}
+
+TEST_CASE("a warning needs more than half of the estimate beside the truth", "[counts][cloud]") {
+  const MemorySequence sequence(
+      {row_with({{40, false}, {40, false}, {40, false}, {40, false}, {252, false}})});
+  const Settings nearest = {{"label_mode", std::string("nearest")}, {"lift", 0.0}};
+  const auto scorer = protocol_with("erasor", nearest)->open(sequence.input());
+  const auto warnings = [&](int near, int far) {
+    std::vector<Eigen::Vector3f> cloud;
+    for (int i = 0; i < near; ++i) cloud.emplace_back(5.05f + static_cast<float>(i), 0.05f, 0.05f);
+    for (int i = 0; i < far; ++i) cloud.emplace_back(5.05f + static_cast<float>(i), 3.05f, 0.05f);
+    return scorer->score_cloud(CloudEstimate(cloud)).warnings.size();
+  };
+  CHECK(warnings(4, 1) == 0);
+  CHECK(warnings(2, 2) == 0);
+  CHECK(warnings(2, 3) == 1);
+}
+
+TEST_CASE("a point of a scan is in a cloud up to 5 cm away", "[counts][cloud]") {
+  const MemorySequence sequence({row_with({{40, false}, {40, false}, {252, false}})});
+  const auto scorer = protocol_with("dynamicmap-strict")->open(sequence.input());
+  const std::vector<Eigen::Vector3f> cloud = {{5.05f, 0.09f, 0.05f}, {6.05f, 0.11f, 0.05f}};
+  const CloudEstimate estimate(cloud);
+  CHECK(scorer->score_cloud(estimate).count("preserved_static") == 1);
+  // Asked for with another distance, the masks are others.
+  CHECK(estimate.masks(sequence.input(), 0.05).get(0) == Mask{0, 1, 1});
+  CHECK(estimate.masks(sequence.input(), 0.07).get(0) == Mask{0, 0, 1});
+}
+
+TEST_CASE("each pass over the scans is told with its number of scans", "[counts]") {
+  const LabelledScan scan = row_with({{40, false}, {252, true}});
+  const MemorySequence sequence({scan, scan, scan});
+  std::FILE* told = std::tmpfile();
+  REQUIRE(told != nullptr);
+  Progress progress(ProgressStyle::kTerminal, told);
+  EvaluationInput input = sequence.input();
+  input.progress = &progress;
+  (void)score_by("erasor", input, sequence.masks());
+  (void)score_by("dynamicmap", input, sequence.masks());
+  std::rewind(told);
+  std::string text(4096, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), told));
+  std::fclose(told);
+  for (const char* task : {"ground truth map: 0 of 3", "estimated map: 0 of 3",
+                           "ground truth points: 0 of 3", "points that are gone: 0 of 3"}) {
+    CHECK_THAT(text, Catch::Contains(task));
+  }
+  CHECK_THAT(text, Catch::EndsWith("\r\x1b[K"));  // The last line is cleared.
+}
+
+TEST_CASE("the frame of ERASOR's map tool has the axes forward, left and up", "[counts][frame]") {
+  // A sensor at the origin: the rows of the fixed calibration (right, down, forward) in the order
+  // forward, -right, -down.
+  const Pose pose = erasor::erasor_pose(Pose::Identity(), Pose::Identity());
+  Eigen::Matrix3d rotation;
+  rotation << 9.999773098287e-01, -1.805528627661e-03, -6.496203536139e-03,  //
+      1.857739385241e-03, 9.999659513510e-01, 8.039975204516e-03,            //
+      6.481465826011e-03, -8.051860151134e-03, 9.999466081774e-01;
+  CHECK((pose.linear() - rotation).cwiseAbs().maxCoeff() < 1e-15);
+  const Eigen::Vector3d place(-3.339968064433e-01, 4.784029760483e-03, 7.337429464231e-02);
+  CHECK((pose.translation() - place).norm() < 1e-15);
+  // A metre forward in the camera's frame is a metre along x.
+  Pose ahead = Pose::Identity();
+  ahead.translation().z() = 1.0;
+  const Pose moved = erasor::erasor_pose(ahead, Pose::Identity());
+  CHECK((moved.translation() - place - Eigen::Vector3d::UnitX()).norm() < 1e-15);
+}
+
+}  // namespace raymoval::test

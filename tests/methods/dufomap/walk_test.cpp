@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Walks along lines that rounding treats worst: each ends after no more voxels than walls lie
+// between its ends.
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "methods/dufomap/beams.h"
+#include "methods/dufomap/cell_walk.h"
+#include "methods/dufomap/free_walk.h"
+#include "tests/methods/held_scans.h"
+
+using namespace raymoval;
+using namespace raymoval::dufomap_method;
+
+namespace {
+
+std::size_t free_voxels(const ScanGrid& grid) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    for (const Column& column : grid[i].columns) {
+      count += static_cast<std::size_t>(std::popcount(column.free));
+    }
+  }
+  return count;
+}
+
+/// Directions along axes and diagonals, each also with parts next to nothing.
+std::vector<Eigen::Vector3d> directions() {
+  std::vector<Eigen::Vector3d> all;
+  for (const double tiny : {0.0, 5e-324, -5e-324, 1e-310, -1e-308, 1e-200, -1e-17}) {
+    for (int signs = 0; signs < 27; ++signs) {
+      Eigen::Vector3d direction(signs % 3 - 1, signs / 3 % 3 - 1, signs / 9 - 1);
+      if (direction.isZero()) continue;
+      direction.normalize();
+      for (double& part : direction) part = part == 0.0 ? tiny : part;
+      all.push_back(direction);
+    }
+  }
+  return all;
+}
+
+const std::vector<Eigen::Vector3d>& starts() {
+  static const std::vector<Eigen::Vector3d> all = {
+      {0, 0, 0}, {0.5, 0.5, 0.5}, {31.0, 32.0, 64.0}, {-1.0, 0.25, -64.0}, {-32, -32, -64}};
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a beam marks no more voxels than walls lie on its way", "[dufomap]") {
+  for (const Eigen::Vector3d& start : starts()) {
+    for (const Eigen::Vector3d& direction : directions()) {
+      for (const double length : {5e-324, 1e-162, 1e-9, 0.7, 41.3, 500.0}) {
+        ScanGrid grid;
+        const VoxelIndex last = FreeWalk(start, true, grid).mark_free(direction, length);
+        const VoxelIndex first = voxel_index(start, 1.0);
+        INFO(start.transpose() << " along " << direction.transpose() << ", " << length);
+        const auto walls = static_cast<std::size_t>((last - first).cwiseAbs().sum());
+        CHECK(free_voxels(grid) == walls + 1);
+        CHECK(static_cast<double>(walls) <= length * direction.lpNorm<1>() + 3.0);
+        const Eigen::Vector3d end = start + length * direction;
+        CHECK((end - last.cast<double>().array().matrix()).minCoeff() > -1.001);
+        CHECK((end - last.cast<double>().array().matrix()).maxCoeff() < 2.001);
+      }
+    }
+  }
+}
+
+TEST_CASE("the longest beam ends", "[dufomap]") {
+  ScanGrid grid;
+  const VoxelIndex last =
+      FreeWalk({0.5, 0.5, 0.5}, true, grid).mark_free({1.0, 0.0, 0.0}, FreeWalk::kLongest);
+  CHECK(last.x() >= FreeWalk::kLongest - 1.0);
+  CHECK(free_voxels(grid) <= static_cast<std::size_t>(FreeWalk::kLongest) + 1);
+}
+
+TEST_CASE("a line comes to a distance after a bounded number of voxels", "[dufomap]") {
+  constexpr double kDistance = 50.0;
+  for (const Eigen::Vector3d& start : starts()) {
+    for (const Eigen::Vector3d& direction : directions()) {
+      CellWalk walk(start, direction, voxel_index(start, 1.0));
+      int steps = 0;
+      while (walk.next_distance() < kDistance && steps < 1000) {
+        walk.advance();
+        ++steps;
+      }
+      INFO(start.transpose() << " along " << direction.transpose());
+      CHECK(steps <= kDistance * direction.lpNorm<1>() + 3.0);
+    }
+    // Without a direction there is no next voxel.
+    CHECK(std::isinf(CellWalk(start, {0, 0, 0}, voxel_index(start, 1.0)).next_distance()));
+  }
+}
+
+TEST_CASE("a wish to stop is heard within the beams of a scan", "[dufomap]") {
+  toy::HeldScans scans;
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k < 1000; ++k) points.emplace_back(5.0, 0.1 * k - 50.0, 1.0);
+  scans.add_world({0, 0, 0}, points);
+  const Parameters parameters;
+  const Scan scan = scans.load(0);
+  ScanGrid grid;
+  const auto ends = beam_ends(scan, voxels_of(scan, parameters.voxel_size), parameters, grid);
+  const std::atomic<bool> cancel = true;
+  RunContext context;
+  context.cancel = &cancel;
+  CHECK_THROWS_AS(cast_beams(scan, ends, parameters, grid, context), Cancelled);
+}

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""A second opinion on the columns: shares of points by class, range and height."""
+from collections import defaultdict
+
+from dynamicmap import is_present
+from erasor import Buckets
+from sequence_files import distance_to_sensor, returns
+
+RANGES = [(0, 10, "0-10 m"), (10, 20, "10-20 m"), (20, 30, "20-30 m"), (30, 40, "30-40 m"),
+          (40, 50, "40-50 m"), (50, float("inf"), "50 m and more")]
+HEIGHTS = [(float("-inf"), 0.3, "below 0.3 m"), (0.3, 1, "0.3-1 m"), (1, 2, "1-2 m"),
+           (2, 4, "2-4 m"), (4, float("inf"), "4 m and more")]
+NAMES = {
+    0: "unlabelled", 1: "outlier", 10: "car", 11: "bicycle", 13: "bus", 15: "motorcycle",
+    16: "on-rails", 18: "truck", 20: "other-vehicle", 30: "person", 31: "bicyclist",
+    32: "motorcyclist", 40: "road", 44: "parking", 48: "sidewalk", 49: "other-ground",
+    50: "building", 51: "fence", 52: "other-structure", 60: "lane-marking", 70: "vegetation",
+    71: "trunk", 72: "terrain", 80: "pole", 81: "traffic-sign", 99: "other-object",
+    252: "moving-car", 253: "moving-bicyclist", 254: "moving-person", 255: "moving-motorcyclist",
+    256: "moving-on-rails", 257: "moving-bus", 258: "moving-truck", 259: "moving-other-vehicle",
+}
+SENSOR_HEIGHT = 1.73  # metres
+CROP = 2.7  # metres
+NEAR = 0.05  # metres
+
+
+def bin_of(value, bins):
+    """The name of the bin of a value; its lower end belongs to it."""
+    return next(name for low, high, name in bins if low <= value < high)
+
+
+def values(sequence, names=None, cloud=None):
+    """(part, whole) of each column that has points.
+
+    names: those of classes
+    cloud: points of a cleaned map in the world; a point is removed if none lies within 0.05 m
+    """
+    names = NAMES if names is None else names
+    buckets = None if cloud is None else Buckets(cloud, NEAR)
+    columns = defaultdict(lambda: [0, 0])
+
+    def count(name, hit):
+        columns[name][0] += hit
+        columns[name][1] += 1
+
+    for scan, point, label, removed in returns(sequence):
+        if buckets:
+            removed = not is_present(buckets, scan.world(*point), NEAR)
+        distance = distance_to_sensor(point)
+        if not sequence.range_min <= distance <= sequence.range_max or label in sequence.ignored:
+            continue
+        if point[0] * point[0] + point[1] * point[1] < CROP * CROP:
+            continue
+        moves = label in sequence.moving
+        if removed:
+            count("precision", moves)
+        else:
+            count("residue", moves)
+        if moves:
+            count("recall", removed)
+        name, hit = ("rejection", removed) if moves else ("preservation", not removed)
+        of_range = "range " + bin_of(distance, RANGES)
+        of_height = "height " + bin_of(point[2] + SENSOR_HEIGHT, HEIGHTS)
+        of_class = names.get(label, f"label-{label}")
+        count(name, hit)
+        for what in (of_range, of_height, of_class):
+            count(f"{name} [{what}]", hit)
+        for what in (of_range, of_height):
+            count(f"{name} [{of_class}, {what}]", hit)
+    return {name: tuple(numbers) for name, numbers in columns.items()}
