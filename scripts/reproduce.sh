@@ -120,7 +120,7 @@ elif [[ -n ${RAYMOVAL_DATA:-} ]]; then
   data=$RAYMOVAL_DATA
   # Names of built-in scenes stay as they are.
   scene=${data%%:*}
-  if [[ $scene != street ]] && ! build/release/raymoval list scenes | grep -q "^$scene "; then
+  if [[ $scene != street ]] && ! grep -q "^$scene " <<<"$(build/release/raymoval list scenes)"; then
     data=$(from_caller "$data")
   fi
   label=$(basename "$data" | tr -c 'A-Za-z0-9._\n-' '_')

@@ -14,7 +14,7 @@ says() {
   checks=$((checks + 1))
   "$raymoval" "${@:3}" >out.txt 2>err.txt
   local got=$?
-  [[ $got -eq $1 ]] && cat out.txt err.txt | grep -qF -- "$2" ||
+  [[ $got -eq $1 ]] && grep -qF -- "$2" out.txt err.txt ||
     complain "reproduce.sh ${*:3}: exit code $got, expected $1 and '$2'"
 }
 

@@ -11,7 +11,7 @@ tells() {
   checks=$((checks + 1))
   timeout 20 "$3" "${@:4}" >out.txt 2>err.txt
   local got=$?
-  [[ $got -eq $1 ]] && cat out.txt err.txt | grep -qF -- "$2" ||
+  [[ $got -eq $1 ]] && grep -qF -- "$2" out.txt err.txt ||
     complain "${*:3}: exit code $got, expected $1 and '$2'"
 }
 
