@@ -61,7 +61,8 @@ std::size_t point_limit(const PageRequest& request, const std::vector<std::strin
   double all = 0.0;
   for (const std::string& name : sequences) all += static_cast<double>(scans_of(request, name));
   const double share = static_cast<double>(scans_of(request, sequence)) / std::max(all, 1.0);
-  return std::max<std::size_t>(1000, static_cast<std::size_t>(share * request.points));
+  return std::max<std::size_t>(
+      1000, static_cast<std::size_t>(share * static_cast<double>(request.points)));
 }
 
 void add_scene(const PageRequest& request, const std::string& name, std::size_t limit,

@@ -195,8 +195,8 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol, 
   const double width =
       std::max(16.0 + std::max(1.0 * columns, 2.0) * kPitch,
                std::max(legend_width(series), text_width(title) * 1.1 + 130.0) + 32.0);
-  const auto rows = static_cast<double>((results.sequences.size() + columns - 1) / columns);
-  const double legend_top = kPanelTop - 14.0 + rows * kRowPitch;
+  const std::size_t rows = (results.sequences.size() + columns - 1) / columns;
+  const double legend_top = kPanelTop - 14.0 + static_cast<double>(rows) * kRowPitch;
   const double legend = draw_legend(svg, series, 16.0, legend_top, width - 32.0);
   return svg.finish(width, legend_top + legend + 14.0, place);
 }
