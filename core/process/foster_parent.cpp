@@ -67,16 +67,13 @@ std::vector<pid_t> FosterParent::foster_children() const {
   const std::lock_guard lock(all.mutex);
   // Who starts a family is counted before, so that its head is not taken for a foster child.
   if (all.count > 1 || score_of("/proc/self") >= score_) return {};
-  std::vector<pid_t> living;
+  std::vector<pid_t> found;
   for (const pid_t child : children_of(::getpid())) {
     if (all.heads.count(child) > 0 || score_of(proc_folder(child)) < score_) continue;
-    if (!process_state(child).has_ended()) {
-      living.push_back(child);
-    } else {
-      ::waitpid(child, nullptr, WNOHANG);
-    }
+    found.push_back(child);
+    if (process_state(child).has_ended()) ::waitpid(child, nullptr, WNOHANG);
   }
-  return living;
+  return found;
 }
 
 }  // namespace raymoval

@@ -29,9 +29,9 @@ class FosterParent {
   /// Says that this child is a head and no foster child.
   void set_head(pid_t head);
 
-  /// The foster children that have not ended; those that have are waited for. Which family they are
-  /// of cannot be told, so there are none as long as another family runs too: the last one ends
-  /// them.
+  /// The foster children. Those that have ended are waited for, so that they are found only once.
+  /// Which family they are of cannot be told, so there are none as long as another family runs too:
+  /// the last one ends them.
   [[nodiscard]] std::vector<pid_t> foster_children() const;
 
  private:

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "core/process/proc_files.h"
@@ -75,30 +76,33 @@ bool ProcessFamily::is_member(pid_t process) const {
   return false;
 }
 
-/// All members that have not ended, without the head, each of them stopped.
-std::vector<pid_t> ProcessFamily::stopped_members() const {
-  std::vector<pid_t> members;
-  add_with_descendants(head_, true, members);
+ProcessFamily::Members ProcessFamily::stopped_members() const {
+  std::vector<pid_t> found;
+  add_with_descendants(head_, true, found);
   for (const pid_t process : all_processes()) {
-    if (is_member(process)) add_with_descendants(process, true, members);
+    if (is_member(process)) add_with_descendants(process, true, found);
   }
   if (foster_ != nullptr) {
-    for (const pid_t child : foster_->foster_children()) {
-      add_with_descendants(child, true, members);
-    }
+    for (const pid_t child : foster_->foster_children()) add_with_descendants(child, true, found);
   }
-  std::erase_if(members, [&](pid_t process) {
-    return process == head_ || process_state(process).has_ended();
-  });
+  Members members;
+  for (const pid_t process : found) {
+    if (process == head_) continue;
+    (process_state(process).has_ended() ? members.ended : members.living).push_back(process);
+  }
   return members;
 }
 
 void ProcessFamily::end() const {
   const auto started = std::chrono::steady_clock::now();
+  std::set<pid_t> known_ended;
   do {
-    const std::vector<pid_t> members = stopped_members();
-    if (members.empty()) break;
-    for (const pid_t process : members) ::kill(process, SIGKILL);
+    const Members members = stopped_members();
+    bool quiet = members.living.empty();
+    // Who has ended since the last look may have started another one after it was looked for.
+    for (const pid_t process : members.ended) quiet &= !known_ended.insert(process).second;
+    if (quiet) break;
+    for (const pid_t process : members.living) ::kill(process, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   } while (std::chrono::steady_clock::now() - started < kMostPatience);
   ::kill(-head_, SIGKILL);  // The process group of the head: at once, whatever it does meanwhile.

@@ -33,13 +33,19 @@ class ProcessFamily {
   [[nodiscard]] std::vector<pid_t> members() const;
 
   /// Ends all members by SIGKILL. Each is stopped before its children are looked for, and they are
-  /// looked for until there is none left, so that a member that goes on forking does not escape.
+  /// looked for until there is none left and none has ended meanwhile, so that a chain of members
+  /// that each start the next one and end does not escape.
   /// When this returns, the members have ended, but for those that the system itself holds up for
   /// more than two seconds.
   void end() const;
 
  private:
-  [[nodiscard]] std::vector<pid_t> stopped_members() const;
+  /// Members without the head.
+  struct Members {
+    std::vector<pid_t> living;  ///< All of them are stopped.
+    std::vector<pid_t> ended;   ///< Nobody has waited for them yet.
+  };
+  [[nodiscard]] Members stopped_members() const;
   [[nodiscard]] bool is_member(pid_t process) const;
 
   pid_t head_;
