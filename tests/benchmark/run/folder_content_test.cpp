@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/run/folder/folder_content.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/result/sealed_json.h"
+#include "core/error.h"
+#include "core/files/files.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+using nlohmann::ordered_json;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+SequenceRecord sequence_called(const std::string& name, const std::string& fingerprint = "") {
+  SequenceRecord sequence{DataRecord{name, "files", "", "0:1:1", 2}};
+  sequence.data.fingerprint = fingerprint;
+  return sequence;
+}
+
+SuiteMethodRecord method_called(const std::string& name, const std::string& version = "1") {
+  return {name, "comb:default", version, {{"size", 0.5}}, {}};
+}
+
+/// Sequences with methods, all of them run.
+RunRecord run_of(const Words& sequences, const Words& methods) {
+  RunRecord run{"suite"};
+  for (const std::string& name : sequences) run.sequences.push_back(sequence_called(name));
+  for (const std::string& name : methods) run.methods.push_back(method_called(name));
+  run.protocols = {{"erasor", "erasor", "1", {{"voxel_size", 0.2}}}};
+  run.cells = run.all_cells();
+  return run;
+}
+
+Words titles_of(const std::vector<CellName>& cells) {
+  Words titles;
+  for (const CellName& cell : cells) titles.push_back(cell.title());
+  return titles;
+}
+
+/// A cell of `run`, with its time.
+Cell cell_of(const RunRecord& run, const CellName& name, double seconds = 1.0) {
+  Cell cell{name.sequence, name.name, "key of " + name.title()};
+  const SuiteMethodRecord* method = find_named(run.methods, name.name);
+  cell.method = {"comb", "default", method->version, false, false, method->parameters};
+  cell.data = find_named(run.sequences, name.sequence)->data;
+  cell.scores = {Score{run.protocols[0]}};
+  cell.masks = MaskRecord{"digest", 3};
+  cell.measured.emplace().total_seconds = seconds;
+  cell.measured->mean_seconds = seconds / 2;
+  return cell;
+}
+
+RepeatRecord repeat_of(const Cell& cell, int number, double seconds) {
+  RepeatRecord repeat{cell.key, number, cell.masks->digest};
+  repeat.measured.total_seconds = seconds;
+  repeat.measured.mean_seconds = seconds / 2;
+  return repeat;
+}
+
+}  // namespace
+
+TEST_CASE("The record of a folder is there, absent, or refused with what is wrong with it") {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "run.json";
+  CHECK_FALSE(present_record(folder.path()));
+  write_run_record(file, run_of({"town"}, {"a"}));
+  REQUIRE(present_record(folder.path()));
+  CHECK(present_record(folder.path())->suite == "suite");
+
+  ordered_json json = read_sealed(file);
+  json["schema_version"] = 7;
+  write_sealed(file, json);
+  CHECK_THROWS_WITH(
+      present_record(folder.path()),
+      Contains("run.json: it is of another version of raymoval") && Contains("--overwrite"));
+  json["schema_version"] = kSchemaVersion;
+  json["suite"]["methods"] = 7;
+  write_sealed(file, json);
+  CHECK_THROWS_WITH(present_record(folder.path()), Contains("run.json: it is not the record of"));
+  write_atomically(file, "{");
+  CHECK_THROWS_WITH(present_record(folder.path()),
+                    Contains("run.json: it is damaged, or was changed by hand"));
+}
+
+TEST_CASE("Two suites with names have one folder only if the names are equal") {
+  const RunRecord present = run_of({"town"}, {"a"});
+  RunRecord asked = run_of({"town", "highway"}, {"a", "b"});
+  CHECK(why_not_together(present, asked).empty());
+  asked.suite = "other";
+  CHECK(why_not_together(present, asked) ==
+        "the folder holds the results of suite 'suite' (1 sequence, 1 method), and this is suite "
+        "'other' (2 sequences, 2 methods).");
+  asked.suite = kUnnamedSuite;
+  CHECK(why_not_together(present, asked).empty());
+  CHECK(why_not_together(asked, present).empty());
+}
+
+TEST_CASE(
+    "Sequences and protocols of one name have to be the same, but for what is not known yet") {
+  RunRecord present = run_of({"town", "highway"}, {"a"});
+  present.sequences[1].data.fingerprint = "f";
+  const RunRecord asked = run_of({"highway"}, {"a"});
+  CHECK(why_not_together(present, asked).empty());
+  RunRecord other = asked;
+  other.sequences[0].data.frames = "0:3:1";
+  CHECK(why_not_together(present, other) ==
+        "the folder holds results on other data called 'highway': frames was \"0:1:1\", is "
+        "\"0:3:1\".");
+  other.sequences.insert(other.sequences.begin(), sequence_called("new"));
+  CHECK_THAT(why_not_together(present, other), Contains("called 'highway'"));
+  other = asked;
+  other.protocols[0].version = "2";  // It is run again, or left out.
+  CHECK(why_not_together(present, other).empty());
+  other.protocols[0].options[0].second = 0.4;
+  CHECK(why_not_together(present, other) ==
+        "the folder's results are scored otherwise: protocol erasor options voxel_size was 0.2, is "
+        "0.4.");
+  other.protocols.push_back({"second", "erasor", "1", {}});
+  CHECK(why_not_together(present, other) ==
+        "the folder's results are scored by erasor, and this run by erasor, second.");
+}
+
+TEST_CASE("Names that differ may not share a folder") {
+  const RunRecord present = run_of({"town", "a:b"}, {"m", "x:y"});
+  CHECK(why_not_together(present, run_of({"a:b"}, {"x:y"})).empty());
+  CHECK(why_not_together(present, run_of({"new", "a-b"}, {"m"})) ==
+        "the folder holds results of 'a:b', whose files 'a-b' would replace.");
+  CHECK(why_not_together(present, run_of({"town"}, {"new", "x-y"})) ==
+        "the folder holds results of 'x:y', whose files 'x-y' would replace.");
+}
+
+TEST_CASE("A fingerprint tells other data of the same name") {
+  RunRecord run = run_of({"town", "highway"}, {"a"});
+  CHECK(known_fingerprint(run, "highway").empty());
+  CHECK(known_fingerprint(run, "nowhere").empty());
+  CHECK(why_other_data(run, "highway", "f").empty());  // It is not known.
+  CHECK(set_fingerprint(run, "highway", "f"));
+  CHECK_FALSE(set_fingerprint(run, "highway", "f"));
+  CHECK_FALSE(set_fingerprint(run, "nowhere", "f"));
+  CHECK(known_fingerprint(run, "town").empty());
+  CHECK(known_fingerprint(run, "highway") == "f");
+  CHECK(why_other_data(run, "highway", "f").empty());
+  CHECK(why_other_data(run, "highway", "g") ==
+        "the folder holds results on other data called 'highway': its scans, poses or labels "
+        "differ (fingerprint f, now g).");
+  CHECK_NOTHROW(refuse_other_results("out", ""));
+  CHECK_THROWS_AS(refuse_other_results("out", "why."), UsageError);
+  CHECK_THROWS_WITH(refuse_other_results("out", "why."),
+                    Contains("--out out: why. Name another folder"));
+}
+
+TEST_CASE("A run that is added to a folder leaves what the folder has, and is newer") {
+  RunRecord present = run_of({"town", "highway"}, {"a", "b"});
+  present.sequences[0].data.fingerprint = "f";
+  present.controls = false;
+  RunRecord asked = run_of({"town", "street"}, {"c", "b"});
+  asked.suite = kUnnamedSuite;
+  asked.controls = false;
+  asked.methods[1].version = "2";
+  asked.sequences[0].data.source = "newer";
+  RunRecord merged = merged_run_record(present, asked);
+  CHECK(merged.suite == "suite");
+  CHECK(names_of(merged.sequences) == Words{"town", "highway", "street"});
+  CHECK(names_of(merged.methods) == Words{"a", "b", "c"});
+  CHECK(merged.methods[1].version == "2");
+  CHECK(merged.sequences[0].data.source == "newer");
+  CHECK(merged.sequences[0].data.fingerprint == "f");
+  CHECK(merged.sequences[2].data.fingerprint.empty());
+  CHECK_FALSE(merged.controls);
+  // Nobody asked for the others.
+  CHECK(titles_of(merged.cells) == Words{"town / a", "town / b", "town / c", "highway / a",
+                                         "highway / b", "street / b", "street / c"});
+  asked.suite = "suite";
+  asked.controls = true;
+  CHECK(merged_run_record(present, asked).controls);
+  CHECK(merged_run_record(asked, present).controls);
+  // Where the run has all that the folder has, the order is the run's.
+  merged = merged_run_record(run_of({"town"}, {"a", "b"}), run_of({"street", "town"}, {"b", "a"}));
+  CHECK(names_of(merged.sequences) == Words{"street", "town"});
+  CHECK(names_of(merged.methods) == Words{"b", "a"});
+  RunRecord named = run_of({"town"}, {"a"});
+  named.suite = "named";
+  CHECK(merged_run_record(present, named).suite == "named");
+}
+
+TEST_CASE("Cells of earlier runs stay in the tables if they fit the others") {
+  const test::TemporaryFolder folder;
+  const CellStore store(folder.path());
+  RunRecord record = run_of({"town", "highway"}, {"a", "b", "c"});
+  record.sequences[1].data.fingerprint = "f";
+  for (const CellName& name : record.cells) {
+    if (name == CellName{"town", "c"}) continue;  // It was not run.
+    store.keep(cell_of(record, name));
+  }
+  RunRecord asked = run_of({"town"}, {"a"});
+  const EarlierCells earlier = read_earlier_cells(store, record, asked);
+  REQUIRE(earlier.kept.size() == 4);
+  CHECK(earlier.left_out.empty());
+  CHECK(earlier.find({"town", "a"}) == nullptr);  // It is asked for.
+  CHECK(earlier.find({"town", "c"}) == nullptr);
+  REQUIRE(earlier.find({"highway", "b"}) != nullptr);
+  CHECK(earlier.find({"highway", "b"})->title() == "highway / b");
+  CHECK(earlier.lines() ==
+        Words{"kept of earlier runs on town: b", "kept of earlier runs on highway: a, b, c"});
+
+  // What does not fit is told: another version, other data, a protocol of another version, damage.
+  Cell cell = cell_of(record, {"town", "b"});
+  cell.method.version = "0";
+  store.keep(cell);
+  cell = cell_of(record, {"highway", "a"});
+  cell.data->fingerprint = "g";
+  store.keep(cell);
+  cell = cell_of(record, {"highway", "b"});
+  cell.scores[0].protocol.version = "0";
+  store.keep(cell);
+  write_atomically(store.folder({"highway", "c"}) / "cell.json", "{");
+  const EarlierCells old = read_earlier_cells(store, record, asked);
+  CHECK(old.kept.empty());
+  CHECK(old.left_out == Words{"town / b: method version was \"0\", is \"1\"",
+                              "highway / a: it was made on other data",
+                              "highway / b: protocol erasor version was \"0\", is \"1\"",
+                              "highway / c: its file is damaged"});
+  CHECK(old.lines().at(1) ==
+        "left out of the tables: highway / a: it was made on other data. Run it again to have it.");
+
+  // A cell that failed has no scores that could differ; one without data nothing to compare.
+  cell.fail(CellStatus::kFailed, "no idea");
+  store.keep(cell);
+  cell = cell_of(record, {"highway", "a"});
+  cell.fail(CellStatus::kBadData, "torn");
+  cell.data.reset();
+  store.keep(cell);
+  cell = cell_of(record, {"highway", "c"});
+  cell.data.reset();
+  store.keep(cell);
+  CHECK(read_earlier_cells(store, record, asked).kept.size() == 3);
+  // A fingerprint that is not known cannot differ.
+  record.sequences[1].data.fingerprint.clear();
+  cell = cell_of(record, {"highway", "a"});
+  cell.data->fingerprint = "g";
+  store.keep(cell);
+  CHECK(read_earlier_cells(store, record, asked).find({"highway", "a"}) != nullptr);
+  // A file under the name of one cell that holds another.
+  cell = cell_of(record, {"town", "b"});
+  cell.name = "nobody";
+  write_cell(store.folder({"town", "b"}) / "cell.json", cell);
+  CHECK(read_earlier_cells(store, record, asked).left_out.at(0) == "town / b: its file is damaged");
+}
+
+TEST_CASE("Earlier cells come with their repeats, as far as these are theirs") {
+  const test::TemporaryFolder folder;
+  const CellStore store(folder.path());
+  const RunRecord record = run_of({"town"}, {"a", "b"});
+  const RunRecord asked = run_of({"town"}, {"b"});
+  const CellName name{"town", "a"};
+  Cell cell = cell_of(record, name, 8.0);
+  const auto mean = [&] { return read_earlier_cells(store, record, asked).kept.at(0).measured; };
+  store.keep(cell);
+  store.keep_repeat(name, repeat_of(cell, 2, 2.0));
+  store.keep_repeat(name, repeat_of(cell, 3, 6.0));
+  store.keep_repeat(name, repeat_of(cell, 5, 1.0));  // Number 4 is missing.
+  CHECK(mean()->total_seconds == 6.0);
+  CHECK(mean()->repeats == std::vector<double>{4.0, 1.0, 3.0});
+  // A repeat that removed other points ends the row, and so does one of another cell.
+  RepeatRecord other = repeat_of(cell, 3, 6.0);
+  other.digest = "other";
+  store.keep_repeat(name, other);
+  CHECK(mean()->repeats == std::vector<double>{4.0, 1.0});
+  other = repeat_of(cell, 2, 2.0);
+  other.key = "other";
+  store.keep_repeat(name, other);
+  CHECK(mean()->repeats.empty());
+  CHECK(mean()->total_seconds == 8.0);
+  // Without masks nobody can tell.
+  store.keep_repeat(name, repeat_of(cell, 2, 2.0));
+  CHECK(mean()->repeats.size() == 2);
+  cell.masks.reset();
+  store.keep(cell);
+  CHECK(mean()->repeats.empty());
+  cell = cell_of(record, name, 8.0);
+  cell.fail(CellStatus::kFailed, "no idea");
+  store.keep(cell);
+  CHECK(mean()->repeats.empty());
+}
+
+TEST_CASE("The run of median time stands for all of a cell, the lower of two") {
+  const RunRecord run = run_of({"town"}, {"a"});
+  const auto seconds_of = [&](double first, const std::vector<double>& further) {
+    Cell cell = cell_of(run, {"town", "a"}, first);
+    std::vector<Measurement> more;
+    for (const double seconds : further) {
+      more.push_back(repeat_of(cell, 2, seconds).measured);
+    }
+    merge_repeats(cell, more);
+    CHECK(cell.measured->repeats.size() == (further.empty() ? 0 : further.size() + 1));
+    return cell.measured->total_seconds;
+  };
+  CHECK(seconds_of(5.0, {}) == 5.0);
+  CHECK(seconds_of(5.0, {3.0}) == 3.0);
+  CHECK(seconds_of(5.0, {7.0, 3.0}) == 5.0);
+  CHECK(seconds_of(9.0, {7.0, 3.0}) == 7.0);
+  CHECK(seconds_of(1.0, {2.0, 3.0, 4.0}) == 2.0);
+  CHECK(seconds_of(5.0, {4.0, 3.0, 2.0, 1.0}) == 3.0);
+  // Of equal times the first.
+  Cell cell = cell_of(run, {"town", "a"}, 4.0);
+  Measurement equal = *cell.measured;
+  equal.load_seconds = 1.0;
+  merge_repeats(cell, {equal});
+  CHECK(cell.measured->load_seconds == 0.0);
+  CHECK(cell.measured->repeats == std::vector<double>{2.0, 2.0});
+  cell.measured.reset();
+  merge_repeats(cell, {equal});
+  CHECK_FALSE(cell.measured);
+  cell = cell_of(run, {"town", "a"}, 4.0);
+  cell.fail(CellStatus::kFailed, "no idea");
+  merge_repeats(cell, {equal});
+  CHECK(cell.measured->repeats.empty());
+}
