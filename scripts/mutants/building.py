@@ -88,8 +88,22 @@ class MutatedBuild:
             self.planted[name] = planted
             # Room for some more, so that a changed file does not number all others anew.
             number = (number + len(planted.mutants) + 70) // 50 * 50
+        self._clear()
         print(f"{sum(len(p.mutants) for p in self.planted.values())} changes in "
               f"{len(self.planted)} files", flush=True)
+
+    def _clear(self):
+        """Takes away what an earlier run planted in files that are not chosen now: its numbers are
+        those of other mutants."""
+        for path in [p for p in self.sources.rglob("*") if p.is_file()]:
+            name = str(path.relative_to(self.sources))
+            if name == "mutant_switch.h" or name in self.planted:
+                continue
+            path.unlink()
+            place = str(self.release.root / name)
+            for made, (source, _) in self.release.units.items():
+                if place == str(source) or place in self.release.dependencies.get(made, ()):
+                    (self.objects / made).unlink(missing_ok=True)
 
     def _unit_with(self, place):
         """A source file that has `place` in it, and its command: itself or the nearest one."""

@@ -102,6 +102,20 @@ TEST_CASE("a return at the front saves a voxel as far as the next beam", "[raymo
   CHECK(lookout.reach_of_rows() == 0);
 }
 
+TEST_CASE("a return at the front saves a voxel at most a hundred rows beside it", "[raymoval]") {
+  // Rows of 0.0025 degrees: half a degree would be 200 of them.
+  Lookout lookout;
+  lookout.parameters.elevation_bins = 3600;
+  lookout.sensor.elevation_min = -4.5 * kDegree;
+  lookout.sensor.elevation_max = 4.5 * kDegree;
+  const auto erases_beside = [&](int rows) {
+    return !lookout.evidence_of({{180, 1800, 30.0}, {180, 1800 + rows, 9.4}}, {10, 0, 0})
+                .seen_through.empty();
+  };
+  CHECK_FALSE(erases_beside(100));
+  CHECK(erases_beside(101));
+}
+
 TEST_CASE("a return at the front saves a voxel as many columns beside it as asked for",
           "[raymoval]") {
   Lookout lookout;

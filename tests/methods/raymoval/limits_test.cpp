@@ -257,23 +257,29 @@ TEST_CASE("clusters in one voxel, or with voxels beside each other, are one grou
   CHECK(joined_groups({0, 1, 0}, {0, 1, 1}) == std::vector<int>{0, 0, 0});
 }
 
-TEST_CASE("a map forgets what it erased if it is filled again, unless erasing is for good",
+TEST_CASE("the rows reach beyond the sensor's view by the margin, and not beyond the poles",
           "[raymoval]") {
-  const VoxelIndex voxel(1, 2, 3), never(1, 2, 4);
-  for (const bool permanent : {false, true}) {
-    StaticMap map(0.2, permanent);
-    map.integrate(voxel);
-    map.erase(never);  // Nothing stands there.
-    CHECK_FALSE(map.was_erased(never));
-    map.erase(voxel);
-    CHECK(map.was_erased(voxel));
-    map.integrate(voxel);
-    CHECK(map.occupied().contains(voxel) == !permanent);
-    CHECK(map.was_erased(voxel) == permanent);
-    VoxelLookup found;
-    map.look_up({voxel, never}, 1, found);
-    CHECK(found.states ==
-          std::vector<VoxelState>{permanent ? VoxelState::kErased : VoxelState::kOccupied,
-                                  VoxelState::kEmpty});
-  }
+  constexpr double kHalfPi = 1.5707963267948966;
+  Parameters parameters;
+  parameters.elevation_margin = 9.0;  // A twentieth of pi.
+  SensorModel sensor;
+  sensor.elevation_min = -0.3;
+  sensor.elevation_max = 0.1;
+  CHECK(grid_for(sensor, parameters).elevation_min == Approx(-0.3 - kHalfPi / 10));
+  CHECK(grid_for(sensor, parameters).elevation_max == Approx(0.1 + kHalfPi / 10));
+  sensor.elevation_min = -1.5;
+  sensor.elevation_max = 1.45;
+  CHECK(grid_for(sensor, parameters).elevation_min == -kHalfPi);
+  CHECK(grid_for(sensor, parameters).elevation_max == kHalfPi);
+  // What is asked for goes before the sensor's steps.
+  sensor.azimuth_step = sensor.elevation_step = 0.01;
+  parameters.azimuth_bins = parameters.elevation_bins = 1;
+  CHECK(grid_for(sensor, parameters).size() == 1);
+}
+
+TEST_CASE("no points are not covered", "[raymoval]") {
+  OccupancyMap map(0.2);
+  map.insert({0, 0, 0});
+  CHECK(coverage({}, voxel_points({}), map, 1) == 0.0);
+  CHECK(validate_candidates(voxel_points({}), map, give_nothing_back()).empty());
 }

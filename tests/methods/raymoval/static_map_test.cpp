@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a static map holds and what it remembers.
+#include <catch2/catch.hpp>
+
+#include "methods/raymoval/static_map.h"
+
+using namespace raymoval;
+using namespace raymoval::raymoval_method;
+
+TEST_CASE("a map forgets what it erased if it is filled again, unless erasing is for good",
+          "[raymoval]") {
+  const VoxelIndex voxel(1, 2, 3), never(1, 2, 4);
+  for (const bool permanent : {false, true}) {
+    StaticMap map(0.2, permanent);
+    map.integrate(voxel);
+    map.erase(never);  // Nothing stands there.
+    CHECK_FALSE(map.was_erased(never));
+    map.erase(voxel);
+    CHECK(map.was_erased(voxel));
+    map.integrate(voxel);
+    CHECK(map.occupied().contains(voxel) == !permanent);
+    CHECK(map.was_erased(voxel) == permanent);
+    VoxelLookup found;
+    map.look_up({voxel, never}, 1, found);
+    CHECK(found.states ==
+          std::vector<VoxelState>{permanent ? VoxelState::kErased : VoxelState::kOccupied,
+                                  VoxelState::kEmpty});
+  }
+}
+
+TEST_CASE("a map tells bricks apart that a look-up keeps in one place", "[raymoval]") {
+  // In voxels of bricks that are 32, 32 and 4 apart, at both ends of the table, and negative.
+  std::vector<VoxelIndex> places;
+  for (const int x : {0, 1, 31, 32, -1, -32}) {
+    for (const int y : {0, 1, 31, 32, -1, -32}) {
+      for (const int z : {0, 1, 3, 4, -1, -4}) places.emplace_back(8 * x + 3, 8 * y + 5, 8 * z + 6);
+    }
+  }
+  StaticMap map(0.2, true);
+  VoxelLookup found;
+  found.remembers = true;
+  for (int round = 0; round < 3; ++round) {
+    map.look_up(places, 1, found);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const VoxelState state = round == 0   ? VoxelState::kEmpty
+                               : k % 2 == 1 ? VoxelState::kErased
+                                            : VoxelState::kOccupied;
+      REQUIRE(found.states[k] == state);
+      REQUIRE(found.slots[k] == map.occupied().find_slot(OccupancyMap::brick_of(places[k])));
+    }
+    if (round == 0) map.integrate(places, found, Mask(places.size(), 0));
+    for (std::size_t k = 1; k < places.size(); k += 2) map.erase(places[k]);
+    CHECK(map.occupied().size() == places.size() / 2);
+  }
+}
+
+TEST_CASE("points of new and old bricks in any order come into the map, dynamic ones do not",
+          "[raymoval]") {
+  const VoxelIndex origin(0, 0, 0), beside(1, 0, 0), far(80, 0, 0), farther(81, 0, 0);
+  const std::vector<VoxelIndex> voxels = {far, origin, origin, farther, beside, {0, 0, 80}};
+  for (const bool permanent : {false, true}) {
+    StaticMap map(0.2, permanent);
+    VoxelLookup found;
+    map.look_up(voxels, 1, found);
+    map.integrate(voxels, found, {0, 0, 0, 1, 0, 0});
+    CHECK(map.occupied().size() == 4);
+    for (const VoxelIndex& voxel : {far, origin, beside, VoxelIndex(0, 0, 80)}) {
+      CHECK(map.occupied().contains(voxel));
+    }
+    // What is erased comes back only where erasing is not for good.
+    map.erase(origin);
+    map.look_up(voxels, 1, found);
+    CHECK(found.states == std::vector<VoxelState>{VoxelState::kOccupied, VoxelState::kErased,
+                                                  VoxelState::kErased, VoxelState::kEmpty,
+                                                  VoxelState::kOccupied, VoxelState::kOccupied});
+    map.integrate(voxels, found, Mask(6, 0));
+    CHECK(map.occupied().contains(origin) == !permanent);
+    CHECK(map.was_erased(origin) == permanent);
+    CHECK(map.occupied().contains(farther));
+  }
+}
