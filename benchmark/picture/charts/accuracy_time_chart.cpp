@@ -14,7 +14,7 @@ constexpr double kPlotWidth = 460.0;
 constexpr double kPlotHeight = 330.0;
 constexpr double kPlotLeft = 64.0;
 constexpr double kPlotTop = 48.0;
-constexpr double kMost = 30.0;  ///< Names in the list beside the plot before it gets longer.
+constexpr std::size_t kMost = 30;  ///< Names in the list beside the plot before it gets longer.
 
 /// A method in the plane of time and accuracy.
 struct Spot {

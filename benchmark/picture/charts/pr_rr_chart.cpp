@@ -193,7 +193,7 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol, 
     if (!any) panel.say_empty();
   }
   const double width =
-      std::max(16.0 + std::max(1.0 * columns, 2.0) * kPitch,
+      std::max(16.0 + std::max(static_cast<double>(columns), 2.0) * kPitch,
                std::max(legend_width(series), text_width(title) * 1.1 + 130.0) + 32.0);
   const std::size_t rows = (results.sequences.size() + columns - 1) / columns;
   const double legend_top = kPanelTop - 14.0 + static_cast<double>(rows) * kRowPitch;
