@@ -6,6 +6,7 @@ import hashlib
 import pathlib
 import pickle
 import re
+import shlex
 import sys
 
 import operators
@@ -36,13 +37,13 @@ def short(text):
 
 def clang_arguments(command):
     """What clang needs to know of a compile command of GCC."""
-    words, chosen = command.split(), []
+    words, chosen = shlex.split(command), []
     for i, word in enumerate(words):
         if word.startswith(("-I", "-D", "-std=")) and len(word) > 2:
             chosen.append(word)
         elif word in ("-isystem", "-I", "-D"):
             chosen += [word, words[i + 1]]
-    return [word.replace('\\"', '"') for word in chosen]
+    return chosen
 
 
 @dataclasses.dataclass

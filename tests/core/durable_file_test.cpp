@@ -3,8 +3,10 @@
 // code under test asks of the system passes here on its way: this program's fsync, rename and
 // fchown are found before those of the C library.
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -16,6 +18,7 @@
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
+#include "core/files/replacements.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -238,6 +241,10 @@ TEST_CASE("A place where no file can be is told with the system's reason") {
   CHECK_THROWS_WITH(FileWriter(file / "below"), Contains("cannot be written (Not a directory)"));
   CHECK_THROWS_WITH(FileWriter(folder.path() / "none/a.txt"),
                     Contains("cannot be written (No such file or directory)"));
+  // The name is short enough, and that of its part is not.
+  const auto long_name = folder.write(std::string(250, 'n'), "before");
+  CHECK_THROWS_WITH(FileWriter(long_name), Contains("cannot be written (File name too long)"));
+  CHECK_THROWS_WITH(sync_folder(file), Contains("file: cannot be opened (Not a directory)"));
   FileWriter writer(folder.path() / "a.txt");
   CHECK(writer.path() == folder.path() / "a.txt");
   writer.append("abc");
@@ -245,4 +252,63 @@ TEST_CASE("A place where no file can be is told with the system's reason") {
   CHECK_THROWS_WITH(writer.overwrite(3, "!"), Contains("a.txt: overwrites what was not written"));
   writer.commit();
   CHECK(read_text(folder.path() / "a.txt") == "xyz");
+}
+
+TEST_CASE(
+    "A new file may be read and written by whom the user's mask lets, also in a link's place") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.txt", link = folder.path() / "link";
+  std::filesystem::create_symlink("nowhere", link);
+  const mode_t usual = ::umask(0);
+  write_atomically(file, "x");
+  write_atomically(link, "x");
+  ::umask(usual);
+  CHECK(all_rights_of(file) == 0666);
+  CHECK(all_rights_of(link) == 0666);  // Links have all rights, which are none.
+}
+
+TEST_CASE("A file is written where its folder may not be listed") {
+  const TemporaryFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    bool done = ::chdir(folder.text().c_str()) == 0 && ::mkdir("closed", 0700) == 0;
+    if (::geteuid() == 0) {  // Root may list everything.
+      for (const char* place : {".", "closed"}) done = ::chown(place, 12, 34) == 0 && done;
+      done = ::setgid(34) == 0 && ::setuid(12) == 0 && done;
+    }
+    done = ::chmod("closed", 0300) == 0 && done;
+    try {
+      write_atomically("closed/a.txt", "x");
+    } catch (...) {
+      done = false;
+    }
+    (void)::chmod("closed", 0700);
+    ::_exit(done ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  CHECK(status == 0);
+  CHECK(read_text(folder.path() / "closed/a.txt") == "x");
+}
+
+TEST_CASE("A file that gets its name with others is on the disk before, and nobody's part after") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.txt";
+  FileWriter file(path);
+  file.append("nine byte");
+  {
+    const Recording begun;
+    Replacements all;
+    file.commit_with(all);
+    REQUIRE(requests.size() == 1);
+    CHECK(requests[0].what == "sync");
+    CHECK(requests[0].bytes == 9);
+    all.commit();
+  }
+  FileWriter other(folder.path() / "b.txt");
+  other.commit();
+  for (const char* name : {"a.txt", "b.txt"}) {
+    const Descriptor opened(::open((folder.path() / name).c_str(), O_RDONLY | O_CLOEXEC));
+    CHECK(::flock(opened.get(), LOCK_EX | LOCK_NB) == 0);  // Its writer is there still.
+  }
 }

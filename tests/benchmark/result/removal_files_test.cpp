@@ -3,9 +3,13 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
+#include "benchmark/result/removals/reasons.h"
+#include "benchmark/result/sealed_json.h"
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/part_name.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -67,4 +71,104 @@ TEST_CASE("A missing or cut-off label file is named") {
                     Contains("000007.label") && Contains("19 bytes, expected 20"));
   std::filesystem::remove(folder.path() / "000007.label");
   CHECK_THROWS_WITH(read_removals(folder.path(), scans, [] {}), Contains("000007.label: missing"));
+}
+
+TEST_CASE("Whoever gives the folder above that of the label files is told which one to name") {
+  const test::TwoScans scans;
+  const test::TemporaryFolder folder;
+  for (const char* below : {"labels", "predictions", "removals"}) {
+    const std::filesystem::path above = folder.path() / (std::string("of ") + below);
+    write_removals(above / below, scans, two_masks(), [] {});
+    CHECK_THROWS_WITH(read_removals(above, scans, [] {}),
+                      Contains("holds no 000007.label, but its folder " + std::string(below) +
+                               "/ does. Name that one."));
+  }
+  CHECK_THROWS_WITH(read_removals(folder.path() / "none", scans, [] {}),
+                    Contains("none: no such folder; expected one with"));
+  const auto file = folder.write("file", "x");
+  CHECK_THROWS_WITH(read_removals(file, scans, [] {}), Contains("file: is no folder; expected"));
+  CHECK_THROWS_WITH(write_removals(file / "below", scans, two_masks(), [] {}),
+                    Contains("file/below: cannot be made") && Contains("Choose another folder"));
+  // A later scan that is missing is named itself.
+  write_removals(folder.path() / "some", scans, two_masks(), [] {});
+  std::filesystem::create_directories(folder.path() / "some/labels");
+  std::filesystem::rename(folder.path() / "some/000008.label",
+                          folder.path() / "some/labels/000008.label");
+  CHECK_THROWS_WITH(read_removals(folder.path() / "some", scans, [] {}),
+                    Contains("000008.label: missing"));
+}
+
+TEST_CASE("After each scan the caller may stop") {
+  const test::TwoScans scans;
+  const test::TemporaryFolder folder;
+  int times = 0;
+  write_removals(folder.path(), scans, two_masks(), [&] { ++times; });
+  CHECK(times == 2);
+  (void)read_removals(folder.path(), scans, [&] { ++times; });
+  CHECK(times == 4);
+}
+
+TEST_CASE("A point that is neither kept nor removed is written as such, and read as kept") {
+  const test::TwoScans scans;
+  const test::TemporaryFolder folder;
+  write_removal(folder.path(), scans.load(0), {kLeftOutMask, 1, 0});
+  CHECK(words_of(folder.path() / "000007.label") == std::vector<std::uint32_t>{0, 0, 251, 0, 9});
+  write_removal(folder.path(), scans.load(1), {0});
+  CHECK(read_removals(folder.path(), scans, [] {}).get(0) == Mask{0, 1, 0});
+}
+
+TEST_CASE(
+    "A folder of removals goes with all that a run writes there, and stays for anything else") {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path place = folder.path() / "removals";
+  CHECK(remove_removals(place));  // It is not there.
+  const auto fill = [&] {
+    for (const char* name : {"000007.label", "000007.reason", "reasons.json"}) {
+      (void)folder.write("removals/" + std::string(name), "x");
+    }
+    write_atomically(new_part_name(place / "000008.label"), "half");
+    write_atomically(new_part_name(place / "reasons.json"), "half");
+  };
+  fill();
+  CHECK(remove_removals(place));
+  CHECK_FALSE(std::filesystem::exists(place));
+  fill();
+  const std::vector<std::filesystem::path> foreign = {place / "notes.txt", place / "other.json",
+                                                      new_part_name(place / "notes.txt")};
+  for (const auto& file : foreign) write_atomically(file, "mine");
+  CHECK_FALSE(remove_removals(place));
+  for (const auto& file : foreign) CHECK(read_text(file) == "mine");
+  CHECK(std::distance(std::filesystem::directory_iterator(place), {}) == 3);
+  // A link goes alone.
+  std::filesystem::create_symlink(place, folder.path() / "link");
+  (void)folder.write("removals/000007.label", "x");
+  CHECK(remove_removals(folder.path() / "link"));
+  CHECK_FALSE(std::filesystem::is_symlink(folder.path() / "link"));
+  CHECK(read_text(place / "000007.label") == "x");
+}
+
+TEST_CASE("Reasons are written for scans that have some, and refused where they do not fit") {
+  const test::TwoScans scans;
+  const test::TemporaryFolder folder;
+  CHECK(Reasons{}.empty());
+  write_reasons(folder.path(), scans, {{}, {{0}, {0}}});  // Without sentences there are none.
+  CHECK(std::filesystem::is_empty(folder.path()));
+  CHECK(read_reasons(folder.path(), scans.load(0), 2).empty());
+  write_reasons(folder.path(), scans, {{"near", "far"}, {{}, {1}}});
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "000007.reason"));
+  CHECK(read_reason_sentences(folder.path()) == std::vector<std::string>{"near", "far"});
+  CHECK(read_reasons(folder.path(), scans.load(1), 2) == std::vector<std::uint8_t>{1});
+  CHECK(read_reasons(folder.path(), scans.load(1), 0).empty());
+  CHECK_THROWS_WITH(read_reasons(folder.path(), scans.load(1), 1),
+                    Contains("000008.reason: does not fit its scan of 1 points"));
+  (void)folder.write("000008.reason", std::string(2, '\0'));
+  CHECK_THROWS_WITH(read_reasons(folder.path(), scans.load(1), 2), Contains("does not fit"));
+  CHECK(is_reason_file("reasons.json"));
+  CHECK(is_reason_file("000007.reason"));
+  CHECK_FALSE(is_reason_file("000007.label"));
+  CHECK_FALSE(is_reason_file("other.json"));
+  write_sealed(folder.path() / "reasons.json", {{"sentences", 7}});
+  CHECK_THROWS_WITH(
+      read_reason_sentences(folder.path()),
+      Contains("reasons.json: not the reasons of a method") && Contains("--keep-removals"));
 }

@@ -118,6 +118,21 @@ TEST_CASE("No cell stands beside removals of another one at any moment") {
   }
 }
 
+TEST_CASE("A cell that had no removals goes before those of another one come") {
+  const test::TemporaryFolder folder;
+  const CellStore store(folder.path());
+  const MaskStore masks = masks_of_two_scans();
+  const Cell cell = cell_of(identity(), masks);
+  store.keep(cell);
+  const fs::path removals = written_removals(store, masks);
+  FolderWatch watch({store.folder(kName)});
+  store.keep(cell, removals);
+  const auto events = watch.events();
+  CAPTURE(events);
+  REQUIRE(position(events, "gone cell.json") < std::ssize(events));
+  CHECK(position(events, "gone cell.json") < position(events, "there removals"));
+}
+
 TEST_CASE("A cell without removals does not stand beside those of an earlier one") {
   const test::TemporaryFolder folder;
   const CellStore store(folder.path());

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/sealed_json.h"
+#include "benchmark/run/folder/folder_lock.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
@@ -136,4 +137,73 @@ TEST_CASE("Runs of earlier versions and cells that were copied together are reco
   write(copied / "run.json.12.part", "{");
   CHECK(run_suite(one_scan(), {.out = copied}).reused == 3);
   CHECK(fs::exists(copied / "run.json.12.part"));
+}
+
+TEST_CASE(
+    "What a run leaves before it marks its folder is taken for its own, and nothing like it") {
+  const auto is_taken = [](const std::vector<std::pair<fs::path, std::string>>& files) {
+    const test::TemporaryFolder folder;
+    for (const auto& [name, content] : files) write(folder.path() / name, content);
+    try {
+      prepare_run_folder(folder.path());
+    } catch (const UsageError&) {
+      CHECK_FALSE(has_file(folder.path() / kRunMarker));
+      return false;
+    }
+    return read_text(folder.path() / kRunMarker).find("raymoval run --out") != std::string::npos;
+  };
+  CHECK(is_taken({}));
+  CHECK(is_taken({{"run.lock", ""}}));
+  CHECK(is_taken({{"run.lock", "process 1 on host"}}));
+  CHECK_FALSE(is_taken({{"run.lock", "proces"}}));
+  CHECK_FALSE(is_taken({{"other.lock", "process 1 on host"}}));
+  CHECK_FALSE(is_taken({{"run.lock/file", ""}}));
+  for (const char* name :
+       {"run.json", "results.json", "results.csv", "table.md", "table.tex", ".raymoval-run"}) {
+    CHECK(is_taken({{new_part_name(name), "half"}}));
+    CHECK(is_taken({{std::string(name) + ".1.part", "half"}}));
+  }
+  CHECK_FALSE(is_taken({{new_part_name("notes.txt"), "half"}}));
+  CHECK_FALSE(is_taken({{"notes.txt.1.part", "half"}}));
+  CHECK_FALSE(is_taken({{"table.md.1.txt", "half"}}));
+  CHECK_FALSE(is_taken({{"table.md..part", "half"}}));
+  CHECK_FALSE(is_taken({{"table.md.x.part", "half"}}));
+  CHECK(is_taken({{"cells/town/noop/cell.json", "half"}}));
+  CHECK_FALSE(is_taken({{"other/town/noop/cell.json", "half"}}));
+  CHECK_FALSE(is_taken({{"cells/town/noop/cell.json", "half"}, {"cells/notes.txt", "mine"}}));
+  CHECK_FALSE(is_taken({{"cells", "a file"}}));
+  CHECK_FALSE(is_taken({{"run.lock", ""}, {"zebra.txt", "mine"}}));
+}
+
+TEST_CASE("A marked folder stays one, and only half-written results of a run go") {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder.path() / "deep/run";
+  prepare_run_folder(out);
+  const std::string marker = read_text(out / kRunMarker);
+  write(out / kRunMarker, "of an earlier version");
+  write(out / "notes.txt", "mine");
+  prepare_run_folder(out);  // It is marked, whatever else stands there.
+  CHECK(read_text(out / kRunMarker) == "of an earlier version");
+  const std::vector<fs::path> left = {new_part_name(out / "table.tex"),
+                                      new_part_name(out / kRunMarker)};
+  const std::vector<fs::path> kept = {out / "table.tex", new_part_name(out / "notes.txt")};
+  for (const fs::path& file : left) write(file, "half");
+  for (const fs::path& file : kept) write(file, "whole");
+  sweep_run_folder(out);
+  for (const fs::path& file : left) CHECK_FALSE(fs::exists(file));
+  for (const fs::path& file : kept) CHECK(fs::exists(file));
+  CHECK_FALSE(marker.empty());
+  write(folder.path() / "file", "x");
+  CHECK_THROWS_AS(prepare_run_folder(folder.path() / "file"), DataError);
+}
+
+TEST_CASE("The lock of a run folder is refused to a second one, by name") {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / kLockFile;
+  const FolderLock first(file, FolderLock::Mode::kExclusive);
+  CHECK_THROWS_WITH(FolderLock(file, FolderLock::Mode::kExclusive),
+                    Contains(folder.text() + ": another run is writing there (process ") &&
+                        Contains("choose another --out"));
+  CHECK_THROWS_WITH(FolderLock(folder.path() / "none" / kLockFile, FolderLock::Mode::kExclusive),
+                    Contains("Nothing was changed; choose another --out."));
 }

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Values at the ends of what a result file may hold, and what is said of those beyond.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/result/sealed_json.h"
+#include "core/files/files.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json plain_cell() {
+  Cell cell{"town", "comb", "key"};
+  cell.method = {"comb", "default", "1", false, false, {}};
+  cell.data = DataRecord{"town", "files"};
+  cell.data->label_rule = LabelRule{"rule", {252}, {}};
+  cell.masks = MaskRecord{"d", 7};
+  cell.measured.emplace();
+  return to_json(cell);
+}
+
+/// What is said of a cell with `value` at `place`; empty if it is read.
+std::string said_of(const char* place, const ordered_json& value) {
+  ordered_json json = plain_cell();
+  json[ordered_json::json_pointer(place)] = value;
+  try {
+    (void)cell_from(json, "cell.json");
+  } catch (const FieldError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("Whole numbers are read up to the ends of their types", "[result]") {
+  const char* const threads = "/measured/threads";
+  CHECK(said_of(threads, 2147483647).empty());
+  CHECK(said_of(threads, -2147483648LL).empty());
+  CHECK_THAT(said_of(threads, 2147483648LL),
+             Contains("measured.threads: expected a whole number of 32 bits, found 2147483648)"));
+  CHECK_THAT(said_of(threads, -2147483649LL), Contains("of 32 bits"));
+  const char* const id = "/data/label_rule/moving/0";
+  CHECK(said_of(id, 65535).empty());
+  CHECK(said_of(id, 0).empty());
+  CHECK_THAT(said_of(id, 65536), Contains("data.label_rule.moving[0]: expected a whole number up "
+                                          "to 65535, found 65536"));
+  CHECK_THAT(said_of(id, -1), Contains("a whole number of at least 0"));
+  CHECK(said_of("/data/scans", 0).empty());
+  CHECK(said_of("/data/scans", 18446744073709551615U).empty());
+  CHECK_THAT(said_of("/data/scans", 1.0), Contains("a whole number of at least 0, found 1.0"));
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  CHECK(said_of("/masks/removed", -kMost).empty());
+  CHECK_THAT(said_of("/masks/removed", std::uint64_t{1} << 63U), Contains("of 53 bits"));
+}
+
+TEST_CASE("What is found in place of a value is told, if it is short", "[result]") {
+  CHECK_THAT(said_of("/reason", {1, 2}), Contains("cell.json: not the results of a run (reason: "
+                                                  "expected a text, found [1,2]). Run `raymoval "
+                                                  "run` again with the same --out."));
+  // 40 characters with the quotes, and one more.
+  CHECK_THAT(said_of("/masks/removed", std::string(38, 'x')), Contains("found \"xxx"));
+  CHECK_THAT(said_of("/masks/removed", std::string(39, 'x')), Contains("found a long string)"));
+  CHECK_THAT(said_of("/measured/stages", "x"), Contains("measured.stages: expected a list"));
+  CHECK_THAT(said_of("/method/parameters", {1}), Contains("method.parameters: expected an object"));
+  CHECK_THAT(said_of("/method/online", 1), Contains("method.online: expected true or false"));
+  CHECK_THROWS_WITH(cell_from(7, "cell.json"),
+                    Contains("cell.json: not the results of a run (expected an object, found 7)"));
+}
+
+TEST_CASE("Parameters keep their types; what is no number any more stays none", "[result]") {
+  ordered_json json = plain_cell();
+  json["method"]["parameters"] = {
+      {"flag", true}, {"count", 3}, {"size", 3.0}, {"text", "3"}, {"infinite", nullptr}};
+  const Configuration values = cell_from(json, "cell.json").method.parameters;
+  REQUIRE(values.size() == 5);
+  CHECK(std::get<bool>(values[0].second));
+  CHECK(std::get<std::int64_t>(values[1].second) == 3);
+  CHECK(std::get<double>(values[2].second) == 3.0);
+  CHECK(std::get<std::string>(values[3].second) == "3");
+  CHECK(std::isnan(std::get<double>(values[4].second)));
+  CHECK(value_text(values[2].second) == "3.0");
+  CHECK(value_text(std::string("a\xff")) == "\"a\xef\xbf\xbd\"");
+}
+
+TEST_CASE("A range without an end is null, and read as none", "[result]") {
+  Cell cell = cell_from(plain_cell(), "cell.json");
+  cell.data->range_m = {1.0, RangeLimits{}.max};
+  CHECK(to_json(cell)["data"]["range_m"]["max"].is_null());
+  CHECK(cell_from(to_json(cell), "cell.json").data->range_m.max == RangeLimits{}.max);
+  cell.data->range_m.max = 20.0;
+  CHECK(to_json(cell)["data"]["range_m"]["max"] == 20.0);
+}
+
+TEST_CASE("Every status has a name, and no other name is one", "[result]") {
+  const std::vector<std::pair<CellStatus, std::string>> names = {
+      {CellStatus::kOk, "ok"},
+      {CellStatus::kFailed, "failed"},
+      {CellStatus::kTimeout, "timeout"},
+      {CellStatus::kOutOfMemory, "out_of_memory"},
+      {CellStatus::kBadData, "bad_data"}};
+  for (const auto& [status, name] : names) {
+    CHECK(status_name(status) == name);
+    CHECK(status_called(name) == status);
+  }
+  CHECK_FALSE(status_called("OK"));
+  CHECK_THROWS_AS(status_name(static_cast<CellStatus>(5)), InternalError);
+}
+
+TEST_CASE("A cell that fails loses its scores, and says why", "[result]") {
+  Cell cell = cell_from(plain_cell(), "cell.json");
+  Score score;
+  score.rates = {{"PR", 90.0}, {"RR", {}, "nothing moves"}};
+  CHECK(score.rate("PR") == 90.0);
+  CHECK_FALSE(score.rate("RR"));
+  CHECK_FALSE(score.rate("F1"));
+  cell.scores = {score};
+  cell.columns = ColumnRecord{"1", {}};
+  CHECK(cell.ok());
+  cell.fail(CellStatus::kOutOfMemory, "too large");
+  CHECK_FALSE(cell.ok());
+  CHECK(cell.reason == "too large");
+  CHECK(cell.scores.empty());
+  CHECK_FALSE(cell.columns);
+  CHECK(cell.title() == "town / comb");
+}
+
+TEST_CASE("Rates that are no number are null with their reason, and so are half an interval's ends",
+          "[result]") {
+  Cell cell = cell_from(plain_cell(), "cell.json");
+  Score score{{"erasor", "erasor", "1", {}}};
+  score.rates = {{"PR", std::nan(""), "not a number"}, {"RR", {}, "nothing moves"}, {"F1", 0.5}};
+  score.intervals.emplace().rates = {
+      {"PR", 1.0, {}, "no high end"}, {"RR", {}, 2.0, "no low end"}, {"F1", 1.0, 2.0}};
+  cell.scores = {score};
+  const Score back = cell_from(to_json(cell), "cell.json").scores.at(0);
+  CHECK_FALSE(back.rates[0].value);
+  CHECK(back.rates[0].undefined_reason == "not a number");
+  CHECK(back.rates[1].undefined_reason == "nothing moves");
+  CHECK(back.rates[2].value == 0.5);
+  CHECK(back.rates[2].undefined_reason.empty());
+  REQUIRE(back.intervals);
+  CHECK_FALSE(back.intervals->rates[0].low);
+  CHECK(back.intervals->rates[0].undefined_reason == "no high end");
+  CHECK(back.intervals->rates[1].undefined_reason == "no low end");
+  CHECK(back.intervals->rates[2].low == 1.0);
+  CHECK(back.intervals->rates[2].high == 2.0);
+}
+
+TEST_CASE("A sealed file is whole and unchanged, or it is refused with what to do", "[result]") {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "a.json";
+  write_sealed(file, {{"checksum", "of before"}, {"count", 3}, {"text", "a\xff"}});
+  const ordered_json json = read_sealed(file);
+  CHECK(json == ordered_json{{"count", 3}, {"text", "a\xef\xbf\xbd"}});
+  CHECK(json_text(json) == "{\n  \"count\": 3,\n  \"text\": \"a\xef\xbf\xbd\"\n}\n");
+  for (const char* text : {"[1]", "{", "7", "{\"count\": 3}", "{\"checksum\": 3}"}) {
+    write_atomically(file, text);
+    CHECK_THROWS_WITH(read_sealed(file), Contains("a.json: not a whole result file of raymoval") &&
+                                             Contains("Run `raymoval run` again"));
+  }
+  write_sealed(file, {{"count", 3}});
+  std::string text = read_text(file);
+  text.replace(text.find("3"), 1, "4");
+  write_atomically(file, text);
+  CHECK_THROWS_WITH(read_sealed(file), Contains("a.json: the content does not fit its checksum") &&
+                                           Contains("Run `raymoval run` again"));
+  CHECK_THROWS_AS(read_sealed(folder.path() / "none.json"), DataError);
+}
+
+TEST_CASE("The text of results is that of the file without its checksum", "[result]") {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "results.json";
+  ResultsRecord results{RunRecord{"quick"}};
+  results.cells = {cell_from(plain_cell(), "cell.json")};
+  write_results(file, results);
+  CHECK(read_results_text(file) == json_text(to_json(results)));
+  const ResultsRecord back = read_results(file);
+  REQUIRE(back.find({"town", "comb"}) != nullptr);
+  CHECK(back.find({"town", "comb"})->key == "key");
+  CHECK(back.find({"town", "other"}) == nullptr);
+  CHECK(back.find({"other", "comb"}) == nullptr);
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/run/folder/kept_run.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/run/runner.h"
+#include "core/error.h"
+#include "core/files/files.h"
+#include "methods/controls/controls.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A sequence of one scan with a static and a moving point, in the folder's layout of KITTI.
+void write_drive(const test::TemporaryFolder& folder, const std::string& place) {
+  (void)folder.write(place + "/velodyne/000000.bin", test::floats({5, 0, 0, 0, 5, 10, 0, 0}));
+  (void)folder.write(place + "/labels/000000.label", test::words({40, 252}));
+  (void)folder.write(place + "/poses.txt", test::kIdentityRow);
+  (void)folder.write(place + "/calib.txt", "Tr: " + test::kIdentityRow);
+}
+
+/// A run of noop, which keeps all points, on sequences `drive` and ROOT:05.
+struct TwoSequences {
+  test::TemporaryFolder folder;
+  fs::path root = folder.path() / "data", run = folder.path() / "run";
+
+  TwoSequences() {
+    write_drive(folder, "data/drive");
+    write_drive(folder, "data/sequences/05");
+    static const MethodRegistry methods = [] {
+      MethodRegistry registry;
+      registry.add(noop_entry());
+      return registry;
+    }();
+    Suite suite;
+    for (const std::string& place : {(root / "drive").string(), root.string() + ":05"}) {
+      SequenceOptions options;
+      options.frames = parse_frame_range("0:0");
+      options.name = suite.sequences.empty() ? "drive" : "five";
+      suite.sequences.push_back({place, options});
+    }
+    add_method(suite, "noop", "", methods);
+    add_protocol(suite, "erasor", "");
+    suite.controls = false;
+    suite.threads = 1;
+    (void)run_suite(suite, {.out = run, .keep_removals = true});
+  }
+  [[nodiscard]] std::size_t scans_of(const std::string& sequence, const fs::path& data = "") const {
+    return KeptRun(run.string(), data.string()).open(sequence, {}).scans->size();
+  }
+  /// Changes what results.json says.
+  template <class Change>
+  void change_results(Change change) const {
+    ResultsRecord results = read_results(run / "results.json");
+    change(results);
+    write_results(run / "results.json", results);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A kept run knows its cells, those that were not run included") {
+  const TwoSequences two;
+  two.change_results([](ResultsRecord& results) {
+    results.cells[0].fail(CellStatus::kTimeout, "took too long");
+    results.cells.pop_back();
+  });
+  const KeptRun run(two.run.string(), "");
+  REQUIRE(run.cells().size() == 2);
+  const KeptCell& failed = run.cell("drive", "noop:default");
+  CHECK(failed.sequence == "drive");
+  CHECK(failed.name == "noop:default");
+  CHECK(failed.control);
+  CHECK(failed.status == "timeout");
+  CHECK(failed.reason == "took too long");
+  CHECK_FALSE(failed.has_result());
+  CHECK_FALSE(failed.has_removals());  // There are some, but not of a result.
+  CHECK(fs::exists(failed.removals / "000000.label"));
+  const KeptCell& missing = run.cell("five", "noop:default");
+  CHECK(missing.cell == nullptr);
+  CHECK_FALSE(missing.control);
+  CHECK(missing.status == "not run");
+  CHECK(missing.reason.empty());
+  CHECK_FALSE(missing.has_result());
+  CHECK(run.cells_of("five") == std::vector<const KeptCell*>{&missing});
+  CHECK(run.cells_of("nowhere").empty());
+  CHECK_THROWS_WITH(
+      run.cell("drive", "nop:default"),
+      Contains("--method nop:default: this run has no such method.") && Contains("'noop:default'"));
+  CHECK_THROWS_WITH(
+      run.cell("fives", "noop:default"),
+      Contains("--sequence fives: this run has no such sequence.") && Contains("'five'"));
+  const Sequence sequence = run.open("drive", {});
+  CHECK_THROWS_WITH(run.masks(failed, sequence),
+                    Catch::Equals("drive / noop:default: timeout, took too long."));
+  CHECK_THROWS_WITH(run.masks(missing, sequence), Catch::Equals("five / noop:default: not run."));
+  CHECK(run.record().cells.size() == 1);
+  CHECK(run.results().sequences == std::vector<std::string>{"drive", "five"});
+}
+
+TEST_CASE("Removals are given only if they were kept and are those of the result") {
+  const TwoSequences two;
+  {
+    const KeptRun run(two.run.string(), "");
+    const KeptCell& cell = run.cell("drive", "noop:default");
+    CHECK(run.masks(cell, run.open("drive", {})).get(0) == Mask{0, 0});
+    fs::rename(cell.removals, two.run / "aside");
+    CHECK_THROWS_WITH(run.masks(cell, run.open("drive", {})),
+                      Contains("drive / noop:default: what it removed was not kept") &&
+                          Contains("--keep-removals"));
+    fs::rename(two.run / "aside", cell.removals);
+  }
+  two.change_results([](ResultsRecord& results) { results.cells[0].masks.reset(); });
+  const KeptRun run(two.run.string(), "");
+  CHECK_THROWS_WITH(run.masks(run.cell("drive", "noop:default"), run.open("drive", {})),
+                    Contains("removals: does not hold what the method was scored by"));
+}
+
+TEST_CASE("A sequence that was moved is looked for below --data, by the run's place and its name") {
+  const TwoSequences two;
+  CHECK(two.scans_of("drive") == 1);
+  CHECK(two.scans_of("five") == 1);
+  const fs::path moved = two.folder.path() / "moved";
+  fs::rename(two.root, moved);
+  CHECK_THROWS_WITH(two.scans_of("drive"), Contains("sequence 'drive' cannot be opened again") &&
+                                               Contains("say where it is with --data"));
+  CHECK(two.scans_of("drive", moved) == 1);
+  CHECK(two.scans_of("five", moved) == 1);
+  CHECK(two.scans_of("drive", moved / "drive") == 1);
+  CHECK(two.scans_of("five", moved.string() + ":05") == 1);
+  // By the name in the run, where the folder has that.
+  fs::rename(moved / "sequences/05", moved / "five");
+  fs::remove(moved / "sequences");
+  CHECK(two.scans_of("five", moved) == 1);
+  // What is told is that other data stands there, and not what else was tried in vain.
+  fs::rename(moved / "five", two.folder.path() / "aside");
+  CHECK_THROWS_WITH(two.scans_of("five", moved),
+                    Contains("sequence 'five' cannot be opened again"));
+  (void)two.folder.write("moved/drive/velodyne/000000.bin", test::floats({6, 0, 0, 0, 5, 9, 0, 0}));
+  try {
+    (void)two.scans_of("drive", moved);
+    FAIL("other data was opened");
+  } catch (const DataError& error) {
+    CHECK_THAT(error.what(), Contains("its fingerprint is another"));
+    CHECK_THAT(error.what(), !Contains("If it was moved"));  // --data says where it is.
+  }
+  CHECK_THROWS_AS(KeptRun(two.run.string(), (moved / "none").string()), UsageError);
+  CHECK_THROWS_WITH(KeptRun(two.run.string(), (moved / "none").string() + ":05"),
+                    Contains("none:05: no such folder"));
+}
+
+TEST_CASE("Without run.json only --data says where a sequence is") {
+  const TwoSequences two;
+  fs::remove(two.run / "run.json");
+  CHECK_THROWS_WITH(two.scans_of("drive"),
+                    Contains("run.json does not say where sequence 'drive' is") &&
+                        Contains("Say it with --data."));
+  CHECK(two.scans_of("drive", two.root) == 1);
+  // With the frames of the run, of which there are more now.
+  for (const char* part : {"velodyne/00000%.bin", "labels/00000%.label"}) {
+    std::string from = part, to = part;
+    from.replace(from.find('%'), 1, "0");
+    to.replace(to.find('%'), 1, "1");
+    fs::copy(two.root / "drive" / from, two.root / "drive" / to);
+  }
+  (void)two.folder.write("data/drive/poses.txt", test::kIdentityRow + test::kIdentityRow);
+  const Sequence again = KeptRun(two.run.string(), two.root.string()).open("drive", {});
+  CHECK(again.scans->size() == 1);
+  CHECK(again.name == "drive");
+  // Nothing is known of a sequence that the run does not have.
+  CHECK_THROWS_WITH(two.scans_of("nowhere"), Contains("'nowhere'"));
+}
+
+TEST_CASE("A run on data that could not be read is compared by its number of scans only") {
+  const TwoSequences two;
+  two.change_results([](ResultsRecord& results) {
+    for (Cell& cell : results.cells) cell.data.reset();
+  });
+  (void)two.folder.write("data/drive/velodyne/000000.bin", test::floats({6, 0, 0, 0, 5, 9, 0, 0}));
+  CHECK(two.scans_of("drive") == 1);
+  two.change_results([](ResultsRecord& results) { results.run.sequences[0].data.scans = 3; });
+  CHECK_THROWS_WITH(two.scans_of("drive"), Contains("it holds 1 scan, and the run had 3"));
+  two.change_results([](ResultsRecord& results) { results.run.sequences[0].data.scans = 0; });
+  CHECK(two.scans_of("drive") == 1);
+}
