@@ -68,7 +68,11 @@ TEST_CASE("a number is rounded once where nothing is taken off it", "[cloud]") {
 
 TEST_CASE("what is taken off coordinates is not taken off intensities", "[cloud]") {
   const TemporaryFolder folder;
-  const Eigen::Vector3d origin(1.0, -0.5, 0.125);
+  // An origin has three numbers; what follows it in memory is none of them.
+  const struct {
+    Eigen::Vector3d origin;
+    double behind;
+  } given{{1.0, -0.5, 0.125}, 100.0};
   const std::string head =
       "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 1\nHEIGHT 1\nDATA ";
   const std::string row = floats({1.5F, 2, 3, 7});
@@ -79,7 +83,7 @@ TEST_CASE("what is taken off coordinates is not taken off intensities", "[cloud]
         folder.write("c.pcd", head + "binary_compressed\n" + words({17, 16}) + "\x0F" + row),
         folder.write("d.bin", row)}) {
     CAPTURE(path);
-    const Cloud cloud = read_cloud(path, origin);
+    const Cloud cloud = read_cloud(path, given.origin);
     CHECK(cloud.points.at(0) == Eigen::Vector3f(0.5F, 2.5F, 2.875F));
     CHECK(cloud.intensity == std::vector<float>{7.0F});
   }
@@ -127,4 +131,9 @@ TEST_CASE("a block that announces more than LZF can give is not decoded at all",
                                words({static_cast<std::uint32_t>(stream.size()), 4294967280U}) +
                                stream),
       {"damaged"});
+}
+
+TEST_CASE("an unknown ending of a cloud's name is told with those there are", "[cloud]") {
+  check_says(message_of<UsageError>([] { read_cloud("a.las"); }),
+             {"a.las: '.las' is no known cloud format", ".pcd, .ply, .bin"});
 }
