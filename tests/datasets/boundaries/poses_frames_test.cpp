@@ -52,6 +52,7 @@ TEST_CASE("times of poses are finite and may stand, but not go back", "[poses]")
   const TemporaryFolder folder;
   const std::string rest = " 0 0 0 0 0 0 1\n";
   CHECK(read_pose_file(folder.write("p.txt", "5" + rest + "5" + rest)).rows.size() == 2);
+  check_says(tum_says("1" + rest + "5" + rest + "3" + rest), {"line 3: time 3 is before"});
   check_says(tum_says("nan" + rest), {"line 1", "not finite"});
   check_says(tum_says("5" + rest + "inf" + rest), {"line 2", "not finite"});
   check_says(tum_says("0 0 0 0 nan 0 0 1\n"), {"line 1: the pose holds a number that is not"});
@@ -65,7 +66,7 @@ TEST_CASE("rows of a pose file are all of one kind", "[poses]") {
 TEST_CASE("a calibration row needs a colon and no blank behind it", "[poses]") {
   const TemporaryFolder folder;
   const auto path =
-      folder.write("calib.txt", "Tr of this drive\n: 1\nTr:1 0 0 4 0 1 0 5 0 0 1 6\n");
+      folder.write("calib.txt", "Tr of this drive\n: 1\nLeft Tr: 1\nTr:1 0 0 4 0 1 0 5 0 0 1 6\n");
   CHECK(read_calibration(path, "Tr").translation() == Eigen::Vector3d(4, 5, 6));
   CHECK(read_calibration(path, "Tr").linear() == Eigen::Matrix3d::Identity());
 }
@@ -86,6 +87,8 @@ TEST_CASE("digits are 0 to 9, and leading zeros do not count", "[frames]") {
   CHECK_FALSE(natural_less("10", "9"));
   CHECK(natural_less("01", "2"));
   CHECK(natural_less("002", "03"));
+  CHECK(natural_less("2abc", "10"));
+  CHECK(natural_less("az", "b"));
   CHECK(natural_less("a10", "a:"));  // ':' follows '9'.
   CHECK_FALSE(natural_less("a:", "a10"));
   CHECK_FALSE(natural_less("a.", "a--"));
@@ -116,6 +119,23 @@ TEST_CASE("a gap is an error with either end of the range given", "[frames]") {
   CHECK(choose_frames(with_gap(), parse_frame_range("3:"), "d").files.size() == 2);
   CHECK(choose_frames(with_gap(), parse_frame_range(":1"), "d").files.size() == 2);
   CHECK(choose_frames(with_gap(), parse_frame_range("3:3"), "d").files.size() == 1);
+}
+
+TEST_CASE("a range beyond either end reaches outside the data", "[frames]") {
+  const std::vector<NumberedFile> files = {{3, {}}, {4, {}}, {5, {}}};
+  for (const char* range : {"2:4", "4:6", "6:", ":2"}) {
+    check_says(message_of<DataError>([&] { choose_frames(files, parse_frame_range(range), "d"); }),
+               {"reaches outside the data"});
+  }
+}
+
+TEST_CASE("a stride without ends takes what there is, also where it steps over the last one",
+          "[frames]") {
+  const std::vector<NumberedFile> files = {{0, {}}, {1, {}}, {2, {}}, {7, {}}};
+  const ChosenFrames chosen = choose_frames(files, parse_frame_range("::2"), "d");
+  REQUIRE(chosen.files.size() == 2);
+  CHECK(chosen.files[1].number == 2);
+  CHECK(frame_range_text(chosen.range) == "0:7:2");
 }
 
 TEST_CASE("frame numbers are not below 0", "[frames]") {
