@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Values of clouds: each number type, each rounding and each count at its bound, worked out by
+// hand.
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "core/error.h"
+#include "datasets/clouds/cloud_file.h"
+#include "tests/datasets/temporary_folder.h"
+
+using namespace raymoval;
+using namespace raymoval::test;
+
+namespace {
+
+/// A header of x, y, z, each of this size and type.
+std::string pcd_of(const std::string& size, const std::string& type, int points,
+                   const std::string& data) {
+  const std::string count = std::to_string(points);
+  return "FIELDS x y z\nSIZE " + size + " " + size + " " + size + "\nTYPE " + type + " " + type +
+         " " + type + "\nWIDTH " + count + "\nHEIGHT 1\nDATA " + data + "\n";
+}
+
+template <class Value>
+Eigen::Vector3f read_binary(const std::string& type, const std::vector<Value>& values) {
+  const TemporaryFolder folder;
+  const std::string size = std::to_string(sizeof(Value));
+  return read_cloud(folder.write("a.pcd", pcd_of(size, type, 1, "binary") + bytes_of(values)))
+      .points.at(0);
+}
+
+std::string cloud_error(const std::string& name, const std::string& content) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(name, content);
+  return message_of<DataError>([&] { read_cloud(path); });
+}
+
+}  // namespace
+
+TEST_CASE("each number type of a PCD file has its size and sign", "[cloud]") {
+  // All bits set are -1 with a sign, and the largest number without one.
+  CHECK(read_binary<std::int8_t>("I", {-1, 2, -128}) == Eigen::Vector3f(-1, 2, -128));
+  CHECK(read_binary<std::uint8_t>("U", {255, 2, 128}) == Eigen::Vector3f(255, 2, 128));
+  CHECK(read_binary<std::int16_t>("I", {-1, 300, -32768}) == Eigen::Vector3f(-1, 300, -32768));
+  CHECK(read_binary<std::uint16_t>("U", {65535, 300, 32768}) == Eigen::Vector3f(65535, 300, 32768));
+  CHECK(read_binary<std::int32_t>("I", {-1, 70000, -70000}) == Eigen::Vector3f(-1, 70000, -70000));
+  CHECK(read_binary<std::uint32_t>("U", {0x80000000U, 70000, 1}) ==
+        Eigen::Vector3f(0x1p31F, 70000, 1));
+  CHECK(read_binary<std::int64_t>("I", {-1, 1LL << 40, -5}) == Eigen::Vector3f(-1, 0x1p40F, -5));
+  CHECK(read_binary<std::uint64_t>("U", {1ULL << 63, 1ULL << 40, 5}) ==
+        Eigen::Vector3f(0x1p63F, 0x1p40F, 5));
+  CHECK(read_binary<float>("F", {-1.5F, 0.1F, 9}) == Eigen::Vector3f(-1.5F, 0.1F, 9));
+  CHECK(read_binary<double>("F", {-1.5, 0.1, 9}) == Eigen::Vector3f(-1.5F, 0.1F, 9));
+}
+
+TEST_CASE("a number is rounded once where nothing is taken off it", "[cloud]") {
+  // float32 near 2^60 goes in steps of 2^37, so 2^36 + 1 is more than half a step. In float64,
+  // with steps of 2^8, the 1 is lost, and what is left is half a step, which rounds down.
+  const std::int64_t more = (1LL << 60) + (1LL << 36) + 1;
+  CHECK(read_binary<std::int64_t>("I", {more, 0, 0}).x() == 0x1p60F + 0x1p37F);
+  // The same at 1 in a text: 2^-24 is half a step of float32, and the last digit is below any of
+  // float64.
+  const TemporaryFolder folder;
+  const auto path = folder.write(
+      "a.pcd", pcd_of("4", "F", 1, "ascii") + "1.000000059604644775390625000001 0 0\n");
+  CHECK(read_cloud(path).points.at(0).x() == 1.0F + 0x1p-23F);
+}
+
+TEST_CASE("what is taken off coordinates is not taken off intensities", "[cloud]") {
+  const TemporaryFolder folder;
+  // An origin has three numbers; what follows it in memory is none of them.
+  const struct {
+    Eigen::Vector3d origin;
+    double behind;
+  } given{{1.0, -0.5, 0.125}, 100.0};
+  const std::string head =
+      "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 1\nHEIGHT 1\nDATA ";
+  const std::string row = floats({1.5F, 2, 3, 7});
+  // 17 bytes as they are: LZF's control byte is the count less one.
+  for (const auto& path :
+       {folder.write("a.pcd", head + "ascii\n1.5 2 3 7\n"),
+        folder.write("b.pcd", head + "binary\n" + row),
+        folder.write("c.pcd", head + "binary_compressed\n" + words({17, 16}) + "\x0F" + row),
+        folder.write("d.bin", row)}) {
+    CAPTURE(path);
+    const Cloud cloud = read_cloud(path, given.origin);
+    CHECK(cloud.points.at(0) == Eigen::Vector3f(0.5F, 2.5F, 2.875F));
+    CHECK(cloud.intensity == std::vector<float>{7.0F});
+  }
+}
+
+TEST_CASE("an intensity of two values a point is none", "[cloud]") {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.pcd",
+                                 "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 2"
+                                 "\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3 4 5\n");
+  CHECK(read_cloud(path).points.at(0) == Eigen::Vector3f(1, 2, 3));
+  CHECK(read_cloud(path).intensity.empty());
+}
+
+TEST_CASE("ASCII rows may have blank lines between them and no end of the last line", "[cloud]") {
+  const TemporaryFolder folder;
+  const std::string head = pcd_of("4", "F", 2, "ascii");
+  for (const std::string body :
+       {"1 2 3\n4 5 6", "\n1 2 3\n \t\r\n4 5 6\n\n\t\n", "1 2 3\r\n4 5 6\r"}) {
+    const Cloud cloud = read_cloud(folder.write("a.pcd", head + body));
+    CHECK(cloud.points == std::vector<Eigen::Vector3f>{{1, 2, 3}, {4, 5, 6}});
+    CHECK(cloud.intensity.empty());
+  }
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n1 2 3\n";
+  check_says(cloud_error("a.ply", ply + "4 five 6\n"), {"line 9, column 3", "'five'"});
+}
+
+TEST_CASE("a compressed block may be empty, and has two sizes before it", "[cloud]") {
+  const TemporaryFolder folder;
+  const std::string none = pcd_of("4", "F", 0, "binary_compressed");
+  CHECK(read_cloud(folder.write("a.pcd", none + words({0, 0}))).points.empty());
+  const std::string two = pcd_of("4", "F", 2, "binary_compressed");
+  check_says(cloud_error("a.pcd", two + words({5, 24})), {"8 bytes follow", "needs 13"});
+  check_says(cloud_error("a.pcd", two), {"0 bytes follow", "needs 8"});
+}
+
+TEST_CASE("a block that announces more than LZF can give is not decoded at all", "[cloud]") {
+  // A megabyte as it is would be written far beyond what was set aside.
+  std::string stream;
+  for (int i = 0; i < 1 << 15; ++i) stream += "\x1F" + std::string(32, 'a');
+  check_says(
+      cloud_error("a.pcd", pcd_of("4", "F", 357913940, "binary_compressed") +
+                               words({static_cast<std::uint32_t>(stream.size()), 4294967280U}) +
+                               stream),
+      {"damaged"});
+}
+
+TEST_CASE("an unknown ending of a cloud's name is told with those there are", "[cloud]") {
+  check_says(message_of<UsageError>([] { read_cloud("a.las"); }),
+             {"a.las: '.las' is no known cloud format", ".pcd, .ply, .bin"});
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// What a path may name, and what is said where it names something near to a sequence.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/cloud_writer.h"
+#include "datasets/layouts.h"
+#include "datasets/open_sequence.h"
+#include "tests/datasets/temporary_folder.h"
+
+using namespace raymoval;
+using namespace raymoval::test;
+
+namespace {
+
+std::string path_error(const std::string& path, const SequenceOptions& options = {}) {
+  return message_of<DataError>([&] { open_sequence(path, options); });
+}
+
+void write_drive(const TemporaryFolder& folder, const std::string& at) {
+  folder.write(at + "/velodyne/000000.bin", floats({1, 2, 3, 4}));
+  folder.write(at + "/poses.txt", kIdentityRow);
+  folder.write(at + "/calib.txt", "Tr: " + kIdentityRow);
+}
+
+}  // namespace
+
+TEST_CASE("a folder of scans inside a sequence leads to the sequence", "[layouts]") {
+  const TemporaryFolder folder;
+  write_drive(folder, "drive");
+  const std::string drive = folder.text() + "/drive";
+  for (const char* part : {"/velodyne", "/velodyne/"}) {
+    check_says(path_error(drive + part),
+               {"holds scans only; the sequence they belong to is " + drive + "."});
+  }
+  check_says(path_error(drive + "/velodyne/000000.bin"),
+             {"is a scan, expected the folder of its sequence: " + drive + "."});
+  check_says(path_error(drive + "/poses.txt"), {"is a file, expected a folder.", "Known are: "});
+  // Poses of its own make it a sequence, whoever names them.
+  SequenceOptions options;
+  options.poses = drive + "/poses.txt";
+  CHECK(open_sequence(drive + "/velodyne", options).layout == "files");
+  folder.write("drive/velodyne/poses.txt", kIdentityRow);
+  CHECK(open_sequence(drive + "/velodyne", {}).layout == "files");
+  // Scans below a folder of another name belong to nothing.
+  write_cloud(folder / "loose.bin", {{1, 2, 3}});
+  check_says(path_error(folder.text()), {"there is no pose file 'poses.txt'", "no .txt file"});
+}
+
+TEST_CASE("a name near that of a scene is told", "[layouts]") {
+  check_says(path_error("stret"), {"stret: no such folder.", "Did you mean the scene 'street'?"});
+  CHECK_THAT(path_error("/none/at/all"), !Catch::Contains("Did you mean"));
+}
+
+TEST_CASE("scenes are told from folders", "[layouts]") {
+  const TemporaryFolder folder;
+  write_drive(folder, "street");
+  const std::string drive = folder.text() + "/street";
+  CHECK(is_scene("street"));
+  CHECK_FALSE(is_scene(drive));
+  CHECK(is_at_hand("street"));
+  CHECK(is_at_hand(drive));
+  CHECK(sequence_name("street", {}) == "street");
+  CHECK(sequence_name(drive, {}) == "street");
+  SequenceOptions options;
+  options.name = "mine";
+  CHECK(sequence_name("/none", options) == "mine");
+  const auto names = scene_names();
+  for (const char* name : {"street", "town"}) {
+    CHECK(std::find(names.begin(), names.end(), name) != names.end());
+  }
+  check_says(scene_or_folder("street", folder.path()),
+             {"street: is a scene and also a folder here; write ./street for the folder"});
+  CHECK(scene_or_folder("town", folder.path()).empty());
+  CHECK(scene_or_folder(drive, folder.path()).empty());
+  CHECK_NOTHROW(check_not_both(drive));
+}
+
+TEST_CASE("the own vehicle is left out of what is opened, and of nothing else", "[layouts]") {
+  const TemporaryFolder folder;
+  folder.write("0.bin", floats({1, 0, 0, 0, 9, 0, 0, 0}));
+  folder.write("poses.txt", kIdentityRow);
+  SequenceOptions options;
+  const Sequence whole = open_sequence(folder.text(), options);
+  CHECK(whole.opened == whole.scans);
+  CHECK(whole.scans->load(0).size() == 2);
+  CHECK(ego_free_source(whole) == nullptr);
+  CHECK(file_source(whole) != nullptr);
+  options.drop_ego = parse_ego_region("1.5");
+  const Sequence less = open_sequence(folder.text(), options);
+  CHECK(less.opened == less.scans);
+  CHECK(less.scans->load(0).size() == 1);
+  CHECK(ego_free_source(less) != nullptr);
+  CHECK(file_source(less) != nullptr);
+}
+
+TEST_CASE("a layout of a test is asked after scenes and before folders", "[layouts]") {
+  Layout mine;
+  mine.name = "files";
+  check_says(message_of<UsageError>([&] { register_layout(mine); }),
+             {"already a layout 'files'", "another name"});
+  mine.name = "one of a test";
+  mine.expected = "nothing else";
+  mine.forms = {{"test:", "a test"}};
+  mine.recognise = [](Layout::Path path) { return path == "test:"; };
+  register_layout(mine);
+  std::vector<std::string> names;
+  for (const Layout& layout : layouts()) names.push_back(layout.name);
+  const auto at = std::find(names.begin(), names.end(), mine.name) - names.begin();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    CHECK((static_cast<long>(i) < at) == std::next(layouts().begin(), long(i))->scenes.has_value());
+  }
+  REQUIRE(recognised_layout("test:") != nullptr);
+  CHECK(recognised_layout("test:")->name == mine.name);
+  CHECK(recognised_layout("street")->name == "simulated");
+  CHECK(recognised_layout("/none") == nullptr);
+}
+
+TEST_CASE("a .bin file has no room for float64", "[cloud]") {
+  const TemporaryFolder folder;
+  CloudWriter writer(folder / "map.bin");
+  check_says(message_of<UsageError>([&] { writer.start(false, Coordinates::kDouble); }),
+             {"map.bin: a .bin file holds float32 numbers only"});
+  CHECK_NOTHROW(check_coordinates("map.bin", Coordinates::kFloat));
+  CHECK_NOTHROW(check_coordinates("map.pcd", Coordinates::kDouble));
+}
+
+TEST_CASE("a cloud of float64 keeps its intensities", "[cloud]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.pcd", "a.ply"}) {
+    CloudWriter writer(folder / name);
+    writer.start(true, Coordinates::kDouble);
+    writer.add({{1, 2, 3}}, {0.5F});
+    writer.add_exact({{0.1, 0.2, 0.3}}, {7});
+    writer.finish();
+    writer.commit();
+    const Cloud cloud = read_cloud(folder / name, Eigen::Vector3d(0.1, 0.2, 0.3));
+    REQUIRE(cloud.points.size() == 2);
+    CHECK(cloud.points[1] == Eigen::Vector3f::Zero());
+    CHECK(cloud.intensity == std::vector<float>{0.5F, 7});
+    CHECK_THROWS_AS(CloudWriter(folder / name).add({{1, 2, 3}}, {1, 2}), InternalError);
+  }
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Poses, times and frame numbers at the bounds of what is taken.
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "datasets/clouds/frames.h"
+#include "datasets/clouds/poses.h"
+#include "tests/datasets/temporary_folder.h"
+
+using namespace raymoval;
+using namespace raymoval::test;
+
+namespace {
+
+std::string tum_says(const std::string& content) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("poses.txt", content);
+  return message_of<DataError>([&] { read_pose_file(path); });
+}
+
+std::vector<NumberedFile> with_gap() {
+  std::vector<NumberedFile> files;
+  for (const long number : {0, 1, 3, 4}) files.push_back({number, {}});
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("a quaternion may be a thousandth too long or too short", "[poses]") {
+  const Eigen::Vector3d t = Eigen::Vector3d::Zero();
+  const auto turn = [&](double w) { return rigid_pose(t, Eigen::Vector4d(w, 0, 0, 0), "here"); };
+  for (const double length : {1.0008, 0.9992}) {
+    CHECK(turn(length).matrix() == Eigen::Matrix4d::Identity());
+  }
+  for (const double length : {1.0015, 0.9985}) {
+    check_says(message_of<DataError>([&] { turn(length); }), {"here: the quaternion has length"});
+  }
+}
+
+TEST_CASE("a rotation may deviate by a thousandth", "[poses]") {
+  // diag(1 + e, 1, 1): |R^T R - I| = 2 e + e^2.
+  const auto stretched = [](double e) {
+    Eigen::Matrix<double, 3, 4> matrix = Eigen::Matrix<double, 3, 4>::Identity();
+    matrix(0, 0) += e;
+    return rigid_pose(matrix, "here");
+  };
+  CHECK((stretched(0.0004).matrix() - Eigen::Matrix4d::Identity()).norm() < 1e-14);
+  check_says(message_of<DataError>([&] { stretched(0.0006); }), {"no rotation", "0.0012"});
+}
+
+TEST_CASE("times of poses are finite and may stand, but not go back", "[poses]") {
+  const TemporaryFolder folder;
+  const std::string rest = " 0 0 0 0 0 0 1\n";
+  CHECK(read_pose_file(folder.write("p.txt", "5" + rest + "5" + rest)).rows.size() == 2);
+  check_says(tum_says("1" + rest + "5" + rest + "3" + rest), {"line 3: time 3 is before"});
+  check_says(tum_says("nan" + rest), {"line 1", "not finite"});
+  check_says(tum_says("5" + rest + "inf" + rest), {"line 2", "not finite"});
+  check_says(tum_says("0 0 0 0 nan 0 0 1\n"), {"line 1: the pose holds a number that is not"});
+}
+
+TEST_CASE("rows of a pose file are all of one kind", "[poses]") {
+  check_says(tum_says(kIdentityRow + "1 0 0 0 0 0 0 1\n"), {"line 2", "expected 12 as in"});
+  check_says(tum_says("1 0 0 0 0 0 0 1\n" + kIdentityRow), {"line 2", "expected 8 as in"});
+}
+
+TEST_CASE("a calibration row needs a colon and no blank behind it", "[poses]") {
+  const TemporaryFolder folder;
+  const auto path =
+      folder.write("calib.txt", "Tr of this drive\n: 1\nLeft Tr: 1\nTr:1 0 0 4 0 1 0 5 0 0 1 6\n");
+  CHECK(read_calibration(path, "Tr").translation() == Eigen::Vector3d(4, 5, 6));
+  CHECK(read_calibration(path, "Tr").linear() == Eigen::Matrix3d::Identity());
+}
+
+TEST_CASE("a column of numbers is finite and may begin with a carriage return", "[poses]") {
+  const TemporaryFolder folder;
+  CHECK(read_number_column(folder.write("t.txt", "\r12\n# none\n34\r\n")) ==
+        std::vector<double>{12, 34});
+  for (const char* text : {"1\nnan\n", "1\ninf\n", "1\n2 3\n"}) {
+    const auto path = folder.write("t.txt", text);
+    check_says(message_of<DataError>([&] { read_number_column(path); }),
+               {"line 2", "one finite number"});
+  }
+}
+
+TEST_CASE("digits are 0 to 9, and leading zeros do not count", "[frames]") {
+  CHECK(natural_less("9", "10"));
+  CHECK_FALSE(natural_less("10", "9"));
+  CHECK(natural_less("01", "2"));
+  CHECK(natural_less("002", "03"));
+  CHECK(natural_less("2abc", "10"));
+  CHECK(natural_less("az", "b"));
+  CHECK(natural_less("a10", "a:"));  // ':' follows '9'.
+  CHECK_FALSE(natural_less("a:", "a10"));
+  CHECK_FALSE(natural_less("a.", "a--"));
+  CHECK_FALSE(natural_less("b", "ab"));
+  CHECK_FALSE(natural_less("ab", "a"));
+  CHECK_FALSE(natural_less("", ""));
+  CHECK(natural_less("", "a"));
+  CHECK(natural_less("1", "a"));
+  CHECK_FALSE(natural_less("a", "1"));
+  CHECK(natural_less("a01", "a1"));  // Nothing but the zeros differs.
+}
+
+TEST_CASE("the frame 0 alone is told how to be a range", "[frames]") {
+  check_says(message_of<UsageError>([] { parse_frame_range("0"); }), {"A single frame is 0:0."});
+  CHECK(parse_frame_range("0:0:1").last == 0);
+  check_says(message_of<UsageError>([] { parse_frame_range("1:2:0"); }),
+             {"stride '0'", "from 1 on"});
+  check_says(message_of<UsageError>([] { parse_frame_range("-1:2"); }),
+             {"first '-1'", "from 0 on"});
+}
+
+TEST_CASE("a gap is an error with either end of the range given", "[frames]") {
+  for (const char* range : {"0:", ":4", "1:", ":3", "1:3"}) {
+    const auto says =
+        message_of<DataError>([&] { choose_frames(with_gap(), parse_frame_range(range), "d"); });
+    check_says(says, {"no file for frame 2", "4 frames from 0 to 4"});
+  }
+  CHECK(choose_frames(with_gap(), parse_frame_range("3:"), "d").files.size() == 2);
+  CHECK(choose_frames(with_gap(), parse_frame_range(":1"), "d").files.size() == 2);
+  CHECK(choose_frames(with_gap(), parse_frame_range("3:3"), "d").files.size() == 1);
+}
+
+TEST_CASE("a range beyond either end reaches outside the data", "[frames]") {
+  const std::vector<NumberedFile> files = {{3, {}}, {4, {}}, {5, {}}};
+  for (const char* range : {"2:4", "4:6", "6:", ":2"}) {
+    check_says(message_of<DataError>([&] { choose_frames(files, parse_frame_range(range), "d"); }),
+               {"reaches outside the data"});
+  }
+}
+
+TEST_CASE("a stride without ends takes what there is, also where it steps over the last one",
+          "[frames]") {
+  const std::vector<NumberedFile> files = {{0, {}}, {1, {}}, {2, {}}, {7, {}}};
+  const ChosenFrames chosen = choose_frames(files, parse_frame_range("::2"), "d");
+  REQUIRE(chosen.files.size() == 2);
+  CHECK(chosen.files[1].number == 2);
+  CHECK(frame_range_text(chosen.range) == "0:7:2");
+}
+
+TEST_CASE("frame numbers are not below 0", "[frames]") {
+  const TemporaryFolder folder;
+  folder.write("0.bin", "x");
+  CHECK(list_numbered_files(folder.path(), ".bin").size() == 1);
+  folder.write("-1.bin", "x");
+  check_says(message_of<DataError>([&] { list_numbered_files(folder.path(), ".bin"); }),
+             {"-1.bin", "no frame number"});
+}
+
+TEST_CASE("the content of a folder is told with up to eight names", "[frames]") {
+  const TemporaryFolder folder;
+  CHECK(content_text(folder.path()) == "nothing");
+  folder.write("b/in.txt", "x");
+  folder.write("a.txt", "x");
+  CHECK(content_text(folder.path()) == "a.txt, b/");
+  for (const char* name : {"c", "d", "e", "f", "g", "h"}) folder.write(name, "x");
+  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h");
+  folder.write("i", "x");
+  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h and 1 more");
+  folder.write("j", "x");
+  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h and 2 more");
+}
