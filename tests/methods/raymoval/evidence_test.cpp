@@ -126,6 +126,18 @@ TEST_CASE("a return at the front saves a voxel as many columns beside it as aske
   }
 }
 
+TEST_CASE("a voxel in which the scan has a point itself is not seen through", "[raymoval]") {
+  Lookout lookout;
+  // Its columns are 3.5 to 8.5 degrees to the left; beside the ray, no window reaches the other.
+  const VoxelIndex aside(10, 1, 0);
+  CHECK(lookout.evidence_of({{184, 60, 30.0}}, aside).seen_through.size() == 1);
+  CHECK(lookout.evidence_of({{184, 60, 30.0}, {187, 60, 9.885}}, aside).seen_through.empty());
+  // In the voxel behind it, which is of the same brick.
+  CHECK(lookout.evidence_of({{184, 60, 30.0}, {187, 60, 10.8}}, aside).seen_through.size() == 1);
+  // At the same place of another brick, in which the map has nothing.
+  CHECK(lookout.evidence_of({{180, 60, 26.0}}, {10, 0, 0}).seen_through.size() == 1);
+}
+
 TEST_CASE("a falling ray has to cross a voxel's height behind the first hit", "[raymoval]") {
   // Row 21 looks 5.775 degrees down: a ray falls 0.5 m, a voxel, in 0.5 / 0.10062 = 4.97 m.
   Lookout lookout(0.5);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Each inequality of the paper exactly at its bound, and each rounding half way.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "core/simd/instruction_set_scope.h"
 #include "methods/common/range_adaptive_clusters.h"
@@ -255,6 +257,21 @@ TEST_CASE("clusters in one voxel, or with voxels beside each other, are one grou
   // Cluster 0 has elements in components 0 and 1, cluster 1 in component 2 alone.
   CHECK(joined_groups({0, 0, 1}, {0, 1, 2}) == std::vector<int>{0, 0, 2});
   CHECK(joined_groups({0, 1, 0}, {0, 1, 1}) == std::vector<int>{0, 0, 0});
+  CHECK(joined_groups({0, 1}, {1, 0}) == std::vector<int>{1, 0});
+  // In every direction, as far as the gap and no farther.
+  const VoxelKey middle = voxel_key(3, -5, 7);
+  for (int x = -3; x <= 3; ++x) {
+    for (int y = -3; y <= 3; ++y) {
+      for (int z = -3; z <= 3; ++z) {
+        const int distance = std::max({std::abs(x), std::abs(y), std::abs(z)});
+        const VoxelKey other = voxel_key(3 + x, -5 + y, 7 + z);
+        for (const int gap : {1, 2}) {
+          REQUIRE(voxel_components({middle, other}, gap) ==
+                  std::vector<int>{0, distance <= gap ? 0 : 1});
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("the rows reach beyond the sensor's view by the margin, and not beyond the poles",

@@ -52,6 +52,11 @@ TEST_CASE("a map tells bricks apart that a look-up keeps in one place", "[raymov
     for (std::size_t k = 1; k < places.size(); k += 2) map.erase(places[k]);
     CHECK(map.occupied().size() == places.size() / 2);
   }
+  // A single voxel, for which nothing is remembered yet.
+  VoxelLookup fresh;
+  fresh.remembers = true;
+  map.look_up({places[0]}, 1, fresh);
+  CHECK(fresh.states == std::vector<VoxelState>{VoxelState::kOccupied});
 }
 
 TEST_CASE("points of new and old bricks in any order come into the map, dynamic ones do not",
