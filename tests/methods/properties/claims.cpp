@@ -79,9 +79,9 @@ constexpr Line kLines[] = {
     // Voids are united over scans, and a scan is a set of voxels. In halves, the points of one do
     // not protect their voxels from the beams of the other, and neither knows as much around it.
     {"dufomap:offline", "= = ? = = = - = ="},
-    {"dufomap:online", "= = ? = = = = ? ?"},
+    {"dufomap:online", "= = ? = = = = ? ="},
     {"dufomap:offline-dp2", "= = ? = = = - = ="},
-    {"dufomap:online-dp2", "= = ? = = = = ? ?"},
+    {"dufomap:online-dp2", "= = ? = = = = ? ="},
 };
 
 }  // namespace
