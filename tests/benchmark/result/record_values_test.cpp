@@ -161,6 +161,10 @@ TEST_CASE("A sealed file is whole and unchanged, or it is refused with what to d
   const ordered_json json = read_sealed(file);
   CHECK(json == ordered_json{{"count", 3}, {"text", "a\xef\xbf\xbd"}});
   CHECK(json_text(json) == "{\n  \"count\": 3,\n  \"text\": \"a\xef\xbf\xbd\"\n}\n");
+  // The checksum is that of the short text, so that other versions find the same.
+  write_sealed(file, {{"text", "\xC3\x9F"}});
+  CHECK(ordered_json::parse(read_text(file))["checksum"] ==
+        content_hash("{\"text\":\"\xC3\x9F\"}"));
   for (const char* text : {"[1]", "{", "7", "{\"count\": 3}", "{\"checksum\": 3}"}) {
     write_atomically(file, text);
     CHECK_THROWS_WITH(read_sealed(file), Contains("a.json: not a whole result file of raymoval") &&

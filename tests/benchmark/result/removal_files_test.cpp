@@ -89,6 +89,9 @@ TEST_CASE("Whoever gives the folder above that of the label files is told which 
   CHECK_THROWS_WITH(read_removals(file, scans, [] {}), Contains("file: is no folder; expected"));
   CHECK_THROWS_WITH(write_removals(file / "below", scans, two_masks(), [] {}),
                     Contains("file/below: cannot be made") && Contains("Choose another folder"));
+  write_removals(folder.path() / "both", scans, two_masks(), [] {});
+  write_removals(folder.path() / "both/labels", scans, two_masks(), [] {});
+  CHECK(read_removals(folder.path() / "both", scans, [] {}).get(1) == Mask{1});
   // A later scan that is missing is named itself.
   write_removals(folder.path() / "some", scans, two_masks(), [] {});
   std::filesystem::create_directories(folder.path() / "some/labels");

@@ -33,6 +33,9 @@ struct TwoSequences {
   TwoSequences() {
     write_drive(folder, "data/drive");
     write_drive(folder, "data/sequences/05");
+    // Other data than that of `drive`.
+    (void)folder.write("data/sequences/05/velodyne/000000.bin",
+                       test::floats({5, 0, 0, 0, 5, 11, 0, 0}));
     static const MethodRegistry methods = [] {
       MethodRegistry registry;
       registry.add(noop_entry());
@@ -173,6 +176,8 @@ TEST_CASE("Without run.json only --data says where a sequence is") {
   const Sequence again = KeptRun(two.run.string(), two.root.string()).open("drive", {});
   CHECK(again.scans->size() == 1);
   CHECK(again.name == "drive");
+  CHECK(KeptRun(two.run.string(), two.root.string() + ":05").open("five", {}).name == "five");
+  CHECK_THROWS_AS(two.scans_of("nowhere", two.root), DataError);
   // Nothing is known of a sequence that the run does not have.
   CHECK_THROWS_WITH(two.scans_of("nowhere"), Contains("'nowhere'"));
 }
@@ -188,4 +193,19 @@ TEST_CASE("A run on data that could not be read is compared by its number of sca
   CHECK_THROWS_WITH(two.scans_of("drive"), Contains("it holds 1 scan, and the run had 3"));
   two.change_results([](ResultsRecord& results) { results.run.sequences[0].data.scans = 0; });
   CHECK(two.scans_of("drive") == 1);
+}
+
+TEST_CASE("A folder of --data is never taken for a scene of its name") {
+  const TwoSequences two;
+  fs::rename(two.root / "drive", two.folder.path() / "town");
+  const fs::path before = fs::current_path();
+  fs::current_path(two.folder.path());
+  std::size_t scans = 0;
+  try {
+    scans = two.scans_of("drive", "town");
+  } catch (const Error& error) {
+    UNSCOPED_INFO(error.what());
+  }
+  fs::current_path(before);
+  CHECK(scans == 1);
 }

@@ -207,3 +207,29 @@ TEST_CASE("The lock of a run folder is refused to a second one, by name") {
   CHECK_THROWS_WITH(FolderLock(folder.path() / "none" / kLockFile, FolderLock::Mode::kExclusive),
                     Contains("Nothing was changed; choose another --out."));
 }
+
+TEST_CASE("A folder without a marker is known by a run.json that is whole, of whatever version") {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "run.json";
+  write(folder.path() / "notes.txt", "mine");
+  write(file, "{}");
+  CHECK_THROWS_WITH(prepare_run_folder(folder.path()),
+                    Contains("its run.json is not as raymoval wrote it"));
+  write_sealed(file, {{"schema_version", 7}});
+  prepare_run_folder(folder.path());
+  CHECK(has_file(folder.path() / kRunMarker));
+}
+
+TEST_CASE("The record of a run says whether controls are checked, and what it was made with") {
+  Suite suite;
+  for (const bool controls : {true, false}) {
+    suite.controls = controls;
+    const RunRecord run = run_record(suite, {}, 3);
+    CHECK(run.controls == controls);
+    REQUIRE(run.build);
+    CHECK_FALSE(run.build->compiler.empty());
+    REQUIRE(run.machine);
+    CHECK(run.machine->threads == 3);
+    CHECK(run.cells.empty());
+  }
+}
