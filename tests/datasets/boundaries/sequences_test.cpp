@@ -373,3 +373,12 @@ TEST_CASE("data that changed before, or has other counts, has changed", "[finger
   after.scans.pop_back();
   CHECK_THAT(changed_data(before, after), Catch::Contains("it had 2 scans and has 1"));
 }
+
+TEST_CASE("a fingerprint tells whether missing returns mean something", "[fingerprint]") {
+  SequenceOptions options;
+  options.frames = parse_frame_range("0:0");
+  options.up = "z";
+  const Sequence street = open_sequence("street", options);
+  REQUIRE(street.scans->sensor().missing_return_is_meaningful);
+  CHECK(fingerprint(street, 1) == fingerprint_by_hand(street));
+}
