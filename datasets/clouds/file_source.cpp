@@ -91,10 +91,14 @@ KindCounts keep_returns(Cloud&& cloud, float nearest, Scan& scan) {
 }
 
 /// Takes the returns among `points` from the world to the sensor; others stay as they are stored.
-void bring_to_sensor(const Pose& T_sensor_world, std::vector<Eigen::Vector3f>& points) {
+/// @param origin what was taken off the points when they were read
+void bring_to_sensor(const Pose& T_sensor_world, const Eigen::Vector3d& origin,
+                     std::vector<Eigen::Vector3f>& points) {
+  const Eigen::Vector3f zero = (-origin).cast<float>();  // Where a stored zero is now.
   for (Eigen::Vector3f& point : points) {
-    if (kind_of(point, kAtZero) != PointKind::kReturn) continue;
-    point = (T_sensor_world * point.cast<double>()).cast<float>();
+    const Eigen::Vector3f stored = point - zero;
+    const bool is_return = kind_of(stored, kAtZero) == PointKind::kReturn;
+    point = is_return ? (T_sensor_world * point.cast<double>()).cast<float>() : stored;
   }
 }
 
@@ -139,7 +143,7 @@ Scan FileScanSource::load(std::size_t index) const {
   }
   Cloud cloud = read_cloud(frame.path, origin);
   if (!traits_.has_reflectance) cloud.intensity.clear();
-  if (in_world) bring_to_sensor(T_world_sensor.inverse(), cloud.points);
+  if (in_world) bring_to_sensor(T_world_sensor.inverse(), origin, cloud.points);
   const KindCounts counts = keep_returns(std::move(cloud), kAtSensor, scan);
   check_kinds(counts, frame.path);
   tally_.set(index, counts.stored, counts.no_returns);

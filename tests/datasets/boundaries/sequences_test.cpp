@@ -13,6 +13,7 @@
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
+#include "datasets/semantickitti/semantickitti.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -56,8 +57,8 @@ void add(std::string& bytes, const Pose& pose) {
   bytes += std::string(reinterpret_cast<const char*>(matrix.data()), 16 * sizeof(double));
 }
 
-/// The fingerprint as it is described: hashes of scans behind the bytes of what holds for all.
-std::string fingerprint_by_hand(const Sequence& sequence) {
+/// The bytes of what holds for all scans.
+std::string settings_by_hand(const Sequence& sequence) {
   const SensorModel& s = sequence.scans->sensor();
   std::string whole = bytes_of<double>(
       {s.azimuth_min, s.azimuth_max, s.elevation_min, s.elevation_max, s.azimuth_step,
@@ -67,6 +68,12 @@ std::string fingerprint_by_hand(const Sequence& sequence) {
   add(whole, sequence.label_rule.ignored);
   const Eigen::Vector3d up = sequence.up().direction;
   if (up != Eigen::Vector3d(0, 0, 1)) whole += bytes_of<double>({up.x(), up.y(), up.z()});
+  return whole;
+}
+
+/// The fingerprint as it is described: hashes of scans behind the bytes of what holds for all.
+std::string fingerprint_by_hand(const Sequence& sequence) {
+  std::string whole = settings_by_hand(sequence);
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
     const Scan scan = sequence.scans->load(i);
     std::string bytes = bytes_of<double>({scan.time_s});
@@ -139,6 +146,7 @@ TEST_CASE("points in the sensor's frame stay as they are wherever the sensor sta
   const TemporaryFolder folder;
   const Sequence sequence =
       one_scan(folder, {1, 2, 3, 4}, "1 0 0 691000 0 1 0 5336000 0 0 1 500\n");
+  CHECK(sequence.poses_file == "poses.txt");
   CHECK(sequence.scans->load(0).points.at(0) == Eigen::Vector3f(1, 2, 3));
   CHECK_THROWS_AS(sequence.scans->load(1), InternalError);
   CHECK_THROWS_AS(sequence.scans->pose(1), InternalError);
@@ -208,6 +216,9 @@ TEST_CASE("a fingerprint is what it is described as", "[fingerprint]") {
     const Sequence sequence = open_sequence(folder.text(), options);
     prints.push_back(fingerprint(sequence, 1));
     CHECK(prints.back() == fingerprint_by_hand(sequence));
+    std::string all = settings_by_hand(sequence);
+    for (std::size_t i = 0; i < sequence.scans->size(); ++i) add(all, sequence.scans->pose(i));
+    CHECK(watched(sequence).loaded().settings == content_hash(all));
   };
   for (const std::string& sensor : sensor_model_names()) {
     SequenceOptions options;
@@ -238,7 +249,9 @@ TEST_CASE("each layout says where its scans, poses and labels are", "[layouts]")
   CHECK(kitti.class_names.contains(252));
   const Layout& root = layout_named("semantickitti root");
   CHECK(root.scan_folder == "velodyne");
+  CHECK(root.expected == "a SemanticKITTI root as ROOT:05 or ROOT:kitti-05 (sequences/NN)");
   CHECK(root.forms.size() == 6);
+  CHECK(root.forms[0].first == "ROOT:05");
   CHECK(root.forms[1].first == "ROOT:kitti-00");
   CHECK_THAT(root.forms[1].second, Catch::Contains("sequence 00, frames 4390:4530:2"));
   REQUIRE(root.folder_of);
@@ -299,4 +312,73 @@ TEST_CASE("a segment of one frame is named as a range, and a user's range is the
   CHECK(sequence.T_camera_lidar->translation() == Eigen::Vector3d(1, 2, 3));
   folder.write(at + "sequence.json", R"({"poses_are_lidar": true})");
   CHECK_FALSE(open_sequence(folder.text() + ":05", {}).T_camera_lidar);
+}
+
+TEST_CASE("a missing return stored as zero is none in a world far from its origin either",
+          "[no-returns]") {
+  for (const char* place : {"8000 0 0", "8001 0 0", "691000.25 5336000.5 512"}) {
+    const TemporaryFolder folder;
+    folder.write("pcd/0.pcd", world_pcd("x y z", std::string(place) + " 1 0 0 0", "0 0 0"));
+    const Sequence sequence = open_sequence(folder.text(), {});
+    CHECK_THROWS_WITH(sequence.scans->load(0), Catch::Contains("none of its 1 points"));
+  }
+}
+
+TEST_CASE("the segments are those that papers compare on", "[semantickitti]") {
+  std::vector<std::string> texts;
+  for (const PaperSegment& segment : paper_segments()) {
+    texts.push_back(segment.name + " " + frame_range_text(segment.frames));
+  }
+  CHECK(texts == std::vector<std::string>{"kitti-00 4390:4530:2", "kitti-01 150:250:1",
+                                          "kitti-02 860:950:2", "kitti-05 2350:2670:2",
+                                          "kitti-07 630:820:2"});
+}
+
+TEST_CASE("a segment without its root, and a root without sequences, are told", "[semantickitti]") {
+  const TemporaryFolder folder;
+  check_says(message_of<DataError>([] { open_sequence("kitti-05", {}); }),
+             {"kitti-05: no such folder; the segment of that name is ROOT:kitti-05"});
+  check_says(message_of<UsageError>([&] { open_sequence(folder.text() + ":05", {}); }),
+             {"holds no folder sequences/"});
+}
+
+TEST_CASE("what is left out of the own vehicle is told once something was read", "[ego]") {
+  const TemporaryFolder folder;
+  folder.write("sequence.json", R"({"drop_ego": 1.5})");
+  const Sequence one = one_scan(folder, {9, 0, 0, 0});
+  CHECK(left_out_lines(one).empty());
+  (void)one.scans->load(0);
+  CHECK(
+      left_out_lines(one) ==
+      std::vector<std::string>{"no point is of the own vehicle (nearer than 1.5 m) and left out"});
+  const Sequence two = one_scan(folder, {9, 0, 0, 0, 1, 0, 0, 0});
+  (void)two.scans->load(0);
+  CHECK(left_out_lines(two) ==
+        std::vector<std::string>{"50.0 % of the stored points are of the own vehicle (nearer than "
+                                 "1.5 m) and are left out"});
+}
+
+TEST_CASE("data that changed before, or has other counts, has changed", "[fingerprint]") {
+  LoadedData before;
+  before.names = before.scans = before.labels = {"a", "b"};
+  CHECK(changed_data(before, before).empty());
+  LoadedData after = before;
+  after.change = "this one";
+  CHECK(changed_data(before, after) == "this one");
+  CHECK(changed_data(after, before) == "this one");
+  after = before;
+  after.labels.pop_back();
+  CHECK_THAT(changed_data(before, after), Catch::Contains("it had 2 scans"));
+  after = before;
+  after.scans.pop_back();
+  CHECK_THAT(changed_data(before, after), Catch::Contains("it had 2 scans and has 1"));
+}
+
+TEST_CASE("a fingerprint tells whether missing returns mean something", "[fingerprint]") {
+  SequenceOptions options;
+  options.frames = parse_frame_range("0:0");
+  options.up = "z";
+  const Sequence street = open_sequence("street", options);
+  REQUIRE(street.scans->sensor().missing_return_is_meaningful);
+  CHECK(fingerprint(street, 1) == fingerprint_by_hand(street));
 }

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Settings of a sequence, and what follows from them.
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "datasets/layouts.h"
+#include "datasets/open_sequence.h"
+#include "datasets/reading/loaded_data.h"
+#include "tests/datasets/temporary_folder.h"
+
+using namespace raymoval;
+using namespace raymoval::test;
+
+namespace {
+
+void write_two(const TemporaryFolder& folder, const std::string& settings = "{}") {
+  folder.write("0.bin", floats({1, 2, 3, 4}));
+  folder.write("1.bin", floats({1, 2, 3, 4}));
+  folder.write("poses.txt", "1 0 0 5 0 1 0 6 0 0 1 7\n" + kIdentityRow);
+  folder.write("sequence.json", settings);
+}
+
+std::string settings_error(const std::string& settings) {
+  const TemporaryFolder folder;
+  write_two(folder, settings);
+  return message_of<ConfigurationError>([&] { open_sequence(folder.text(), {}); });
+}
+
+}  // namespace
+
+TEST_CASE("a range in sequence.json may lie within the first metre", "[settings]") {
+  const TemporaryFolder folder;
+  write_two(folder, R"({"range_m": {"min": 0.5, "max": 0.75}})");
+  const Sequence sequence = open_sequence(folder.text(), {});
+  CHECK(sequence.range_m.min == 0.5);
+  CHECK(sequence.range_m.max == 0.75);
+  CHECK(sequence.label_rule.class_names == layout_of(sequence).class_names);
+}
+
+TEST_CASE("settings of a wrong kind are told", "[settings]") {
+  check_says(settings_error(R"({"sensor": "estimate"})"), {"Did you mean 'estimated'?"});
+  check_says(settings_error(R"({"up": {"x": 0, "y": 0, "z": 1}})"), {"up", "is no direction"});
+  check_says(settings_error(R"({"up": [0, 1]})"), {"up", "is no direction"});
+  check_says(settings_error(R"({"drop_ego": true})"), {"drop_ego", "expected a text in quotes"});
+}
+
+TEST_CASE("frames of a sequence begin at its first scan and turn up to z", "[layouts]") {
+  const TemporaryFolder folder;
+  write_two(folder);
+  SequenceOptions options;
+  options.up = "-y";
+  const Sequence sequence = open_sequence(folder.text(), options);
+  CHECK((sequence.method_frame() * Eigen::Vector3d(5, 6, 7)).norm() < 1e-12);
+  CHECK((sequence.method_frame() * Eigen::Vector3d(5, 5, 7) - Eigen::Vector3d(0, 0, 1)).norm() <
+        1e-12);
+  CHECK((sequence.upright_frame() * Eigen::Vector3d(0, -2, 0) - Eigen::Vector3d(0, 0, 2)).norm() <
+        1e-12);
+}
+
+TEST_CASE("the files of a sequence are found behind what passes scans on", "[layouts]") {
+  const TemporaryFolder folder;
+  write_two(folder, R"({"drop_ego": 0.5})");
+  const WatchedSequence data = watched(open_sequence(folder.text(), {}));
+  CHECK(file_source(data.sequence) != nullptr);
+  CHECK(ego_free_source(data.sequence) != nullptr);
+  Sequence alone = open_sequence(folder.text(), {});
+  alone.opened = nullptr;
+  CHECK(file_source(alone) != nullptr);
+  CHECK(ego_free_source(alone) != nullptr);
+}
+
+TEST_CASE("a label rule as an option makes labels of intensities", "[dynamicmap]") {
+  const TemporaryFolder folder;
+  folder.write("pcd/0.pcd",
+               "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 1\nHEIGHT 1\nVIEWPOINT "
+               "0 0 0 1 0 0 0\nDATA ascii\n1 2 3 1\n");
+  CHECK_FALSE(open_sequence(folder.text(), {}).labels);
+  SequenceOptions options;
+  options.label_rule = folder.write("rule.json", R"({"moving": [1]})");
+  CHECK(open_sequence(folder.text(), options).labels);
+}
+
+TEST_CASE("what a segment lacks is told with the range there is", "[semantickitti]") {
+  const TemporaryFolder folder;
+  const std::string at = "sequences/05/";
+  for (const char* name : {"000002", "000004"}) {
+    folder.write(at + "velodyne/" + name + ".bin", floats({1, 2, 3, 4}));
+  }
+  check_says(message_of<DataError>([&] { open_sequence(folder.text() + ":kitti-05", {}); }),
+             {"2 frames from 2 to 4", ":05 --frames 2:4:2."});
+}
