@@ -331,6 +331,13 @@ TEST_CASE("empty directions erase only where they are asked to, and not at the f
   CHECK(share() > 0.8);
   set_parameter(method.configuration, "no_return_scans", std::int64_t{7});  // Only six are silent.
   CHECK(share() == 0.0);
+  // So it is in a growing map, where validation runs beside the search for evidence.
+  method = configured("offline-growing");
+  set_parameter(method.configuration, "no_return", true);
+  set_parameter(method.configuration, "no_return_scans", std::int64_t{7});
+  CHECK(share() == 0.0);
+  set_parameter(method.configuration, "no_return_scans", std::int64_t{3});
+  CHECK(share() > 0.8);
 }
 
 TEST_CASE("an erased voxel stays erased, or may be filled again") {
