@@ -9,15 +9,16 @@
 #include <random>
 
 #include "benchmark/result/checks/differences.h"
-#include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/files/files.h"
+#include "tests/benchmark/result/full_cell.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
 using nlohmann::ordered_json;
+using test::full_cell;
 namespace fs = std::filesystem;
 
 namespace {
@@ -189,30 +190,6 @@ std::string error_of(const ordered_json& cell) {
     return error.what();
   }
   return "";
-}
-
-/// A cell in which every part that may be missing is there.
-ordered_json full_cell() {
-  Cell cell{"town", "comb", "key", CellStatus::kOk, "", ""};
-  cell.method = {"comb", "default", "1", true, false, {{"size", 0.5}}};
-  DataRecord data{"town",      "files",  "here",      "0:1:1", 2,
-                  "poses.txt", "hdl64e", "two scans", "z",     "given"};
-  data.scan_period_s = 0.1;
-  data.range_m.max = 50.0;
-  data.drop_ego = {"auto", "none"};
-  data.label_rule = LabelRule{"rule", {252}, {0}};
-  data.fingerprint = "f";
-  cell.data = data;
-  Score score{{"erasor", "erasor", "1", {{"lift", 0.0}}}};
-  score.counts = {{"points", 3}};
-  score.rates = {{"PR", 90.0}, {"F1", {}, "nothing moves"}};
-  score.warnings = {"few points"};
-  score.intervals.emplace().rates = {{"PR", 80.0, 95.0}, {"F1", {}, {}, "nothing moves"}};
-  cell.scores = {score};
-  cell.columns = ColumnRecord{"1", {{"recall", {1, 2}, ""}, {"residue", {0, 0}, "nothing"}}};
-  cell.masks = MaskRecord{"d", 7};
-  cell.measured = {1, 0.1, 0.1, 0.2, 0.1, 0.1, 1.0, 0.5, {{"cast", 0.3}}, 90.0, {0.1, 0.2}};
-  return ordered_json::parse(to_json(cell).dump());
 }
 
 using Pointer = ordered_json::json_pointer;
@@ -408,49 +385,4 @@ TEST_CASE("Files of earlier versions are read", "[result]") {
   CHECK(cell.data->up.empty());
   CHECK(comparison_facts(cell).count("data up") == 0);  // They took z.
   CHECK_FALSE(cell.measured->early_seconds);
-}
-
-TEST_CASE("What differs between two cells is told in words", "[result]") {
-  const ordered_json json = full_cell();
-  const std::string file = "cell.json";
-  const Cell cell = cell_from(json, file);
-  const CellIdentity same{cell.method, *cell.data, protocols_of(cell)};
-  const auto difference_with = [&](auto change) {
-    CellIdentity wanted = same;
-    change(wanted);
-    CHECK(cell_key(wanted) != cell_key(same));
-    return identity_difference(cell, wanted);
-  };
-  CHECK(difference_with([](CellIdentity& to) { to.method.parameters[0].second = 1.0; }) ==
-        "parameter size was 0.5, is 1.0");
-  CHECK(difference_with([](CellIdentity& to) { to.method.parameters.clear(); }) ==
-        "parameter size is no more");
-  CHECK(difference_with([](CellIdentity& to) { to.method.version = "2"; }) ==
-        "method version was \"1\", is \"2\"");
-  CHECK(difference_with([](CellIdentity& to) { to.protocols[0].options[0].second = 1.5; }) ==
-        "protocol erasor options lift was 0.0, is 1.5");
-  CHECK(difference_with([](CellIdentity& to) { to.protocols.clear(); }) ==
-        "protocol erasor is no more asked for");
-  CHECK(difference_with([](CellIdentity& to) { to.protocols[0].name = "other"; }) ==
-        "protocol other is new");
-  CHECK(difference_with([](CellIdentity& to) { to.data.range_m = {}; }) ==
-        "data range_m max was 50.0, is null");
-  CHECK(difference_with([](CellIdentity& to) { to.data.label_rule->moving = {1}; }) ==
-        "data label_rule moving was [252], is [1]");
-  CHECK(identity_difference(cell, same) == "it was made otherwise");
-  Cell older = cell;
-  older.columns.reset();
-  CHECK(identity_difference(older, same) == "columns is new");
-}
-
-TEST_CASE("A cell whose data could not be read is compared too", "[result]") {
-  const test::TemporaryFolder folder;
-  ResultsRecord results;
-  Cell cell{"town", "comb", ""};
-  cell.fail(CellStatus::kBadData, "000001.bin: torn");
-  results.cells = {cell};
-  write_results(folder.path() / "results.json", results);
-  const ResultSet set = read_result_set(folder.path() / "results.json");
-  REQUIRE(set.cells.size() == 1);
-  CHECK(set.cells[0].status == "bad_data");
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "benchmark/result/cell_json.h"
+
+namespace raymoval::test {
+
+/// A cell in which every part that may be missing is there.
+inline nlohmann::ordered_json full_cell() {
+  Cell cell{"town", "comb", "key", CellStatus::kOk, "", ""};
+  cell.method = {"comb", "default", "1", true, false, {{"size", 0.5}}};
+  DataRecord data{"town",      "files",  "here",      "0:1:1", 2,
+                  "poses.txt", "hdl64e", "two scans", "z",     "given"};
+  data.scan_period_s = 0.1;
+  data.range_m.max = 50.0;
+  data.drop_ego = {"auto", "none"};
+  data.label_rule = LabelRule{"rule", {252}, {0}};
+  data.fingerprint = "f";
+  cell.data = data;
+  Score score{{"erasor", "erasor", "1", {{"lift", 0.0}}}};
+  score.counts = {{"points", 3}};
+  score.rates = {{"PR", 90.0}, {"F1", {}, "nothing moves"}};
+  score.warnings = {"few points"};
+  score.intervals.emplace().rates = {{"PR", 80.0, 95.0}, {"F1", {}, {}, "nothing moves"}};
+  cell.scores = {score};
+  cell.columns = ColumnRecord{"1", {{"recall", {1, 2}, ""}, {"residue", {0, 0}, "nothing"}}};
+  cell.masks = MaskRecord{"d", 7};
+  cell.measured = {1, 0.1, 0.1, 0.2, 0.1, 0.1, 1.0, 0.5, {{"cast", 0.3}}, 90.0, {0.1, 0.2}};
+  return nlohmann::ordered_json::parse(to_json(cell).dump());
+}
+
+}  // namespace raymoval::test
