@@ -43,14 +43,9 @@ bool is_part_of_earlier_version(const path& name) {
 
 bool is_lock(const path& entry) {
   if (entry.filename() != kLockFile || !is_file(entry)) return false;
-  try {
-    const std::string start = read_piece(entry, 0, 8);
-    return start.empty() || start == "process ";
-  } catch (const UnreadableError&) {
-    throw;
-  } catch (const DataError&) {
-    return false;  // Its holder took it away.
-  }
+  const auto start = if_whole([&] { return read_piece(entry, 0, 8); });
+  if (!start) return false;  // Its holder took it away.
+  return start->empty() || *start == "process ";
 }
 
 /// A folder that holds folders only.
