@@ -28,7 +28,10 @@ TEST_CASE("eq. 1: range, azimuth and elevation of a point") {
   // Straight behind is +pi, the closed end of (-pi, pi].
   CHECK(to_spherical({-2.0, 0.0, 0.0}).azimuth == Approx(pi));
   CHECK(to_spherical({0.0, 0.0, -1.0}).elevation == Approx(-pi / 2));
-  CHECK(to_spherical({0.0, 0.0, 0.0}).range == 0.0);
+  const Spherical origin = to_spherical({0.0, 0.0, 0.0});
+  CHECK(origin.range == 0.0);
+  CHECK(origin.azimuth == 0.0);
+  CHECK(origin.elevation == 0.0);
 }
 
 TEST_CASE("eqs 2-3: steps and bins") {

@@ -110,10 +110,11 @@ TEST_CASE("a point that eq. 11 alone speaks against is not told to have been see
   CHECK(shares["it stands in"] == 0);
 }
 
-TEST_CASE("the first point of a scan has its reason, too", "[raymoval]") {
+TEST_CASE("the first point of a scan has its answer and its reason, too", "[raymoval]") {
   // The sensor looks away from the box, which is where its turn begins.
   const World world = box_before_wall(3.0, std::numbers::pi);
   REQUIRE(world.owner[0][0] == kOtherOwner);
+  CHECK(toy::masks_of(*on_toy_grid("offline").make(), world).get(0)[0] == 1);
   CHECK(reasons_of(on_toy_grid("offline"), world, kOtherOwner)["a scan saw t"] > 80);
 }
 
