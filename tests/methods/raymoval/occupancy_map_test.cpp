@@ -91,6 +91,25 @@ TEST_CASE("a cover has one box where one is enough") {
   CHECK(tight_box(single).packed == BrickBox::from({5, 6, 1}, {5, 6, 1}).packed);
 }
 
+TEST_CASE("the tight box of voxels reaches from the first to the last along each axis") {
+  const auto corner = [](int number) {
+    return std::array<int, 3>{number >> 6 & 7, number >> 3 & 7, number & 7};
+  };
+  for (int one = 0; one < 512; ++one) {
+    for (const int other : {one, one * 37 % 512, 511 - one}) {
+      const std::array<int, 3> a = corner(one), b = corner(other);
+      Brick brick;
+      brick.add(a[0], a[1], a[2]);
+      brick.add(b[0], b[1], b[2]);
+      const BrickBox box = tight_box(brick);
+      for (std::size_t k = 0; k < 3; ++k) {
+        REQUIRE(box.first(k) == std::min(a[k], b[k]));
+        REQUIRE(box.last(k) == std::max(a[k], b[k]));
+      }
+    }
+  }
+}
+
 TEST_CASE("the map holds what a plain set holds, whatever comes and goes") {
   Random random(8);
   OccupancyMap map(0.2);
