@@ -27,7 +27,7 @@ eval                   . points dynamicmap|erasor protocol_registry columns|comp
 benchmark              harness suite result process tables run clean picture report cli cli/shell cli/commands
 benchmark              kernels
 benchmark/picture      canvas charts|maps
-benchmark/result       . removals|checks
+benchmark/result       . removals|checks|speed
 benchmark/run          folder .
 benchmark/tables       text comparison .
 "
