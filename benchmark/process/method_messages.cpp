@@ -32,11 +32,12 @@ struct OrderMessage {
   json parameters;
   int threads = 1;
   bool with_reasons = false;
+  bool loads_ahead = true;
   int progress = 0;
   std::string progress_context;
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OrderMessage, place, name, method, parameters, threads,
-                                   with_reasons, progress, progress_context)
+                                   with_reasons, loads_ahead, progress, progress_context)
 
 /// What stands before the masks and reasons of an answer.
 struct AnswerHead {
@@ -106,9 +107,10 @@ class MessageReader {
 
 void write_order(int file, const MethodOrder& order) {
   const ConfiguredMethod& method = order.request.method;
-  MessageWriter(file).put_json(OrderMessage{
-      to_json(order.place), order.request.name, method.address(), to_json(method.configuration),
-      order.threads, order.with_reasons, static_cast<int>(order.progress), order.progress_context});
+  MessageWriter(file).put_json(
+      OrderMessage{to_json(order.place), order.request.name, method.address(),
+                   to_json(method.configuration), order.threads, order.with_reasons,
+                   order.loads_ahead, static_cast<int>(order.progress), order.progress_context});
 }
 
 MethodOrder read_order(int file, const MethodRegistry& registry) {
@@ -119,11 +121,9 @@ MethodOrder read_order(int file, const MethodRegistry& registry) {
     const ParameterSpec& spec = find_parameter(entry.name, entry.parameters, key);
     set_parameter(request.method.configuration, key, checked_value(entry.name, spec, value));
   }
-  return {place_from(message.place),
-          std::move(request),
-          message.threads,
-          message.with_reasons,
-          static_cast<ProgressStyle>(message.progress),
+  return {place_from(message.place), std::move(request),
+          message.threads,           message.with_reasons,
+          message.loads_ahead,       static_cast<ProgressStyle>(message.progress),
           message.progress_context};
 }
 

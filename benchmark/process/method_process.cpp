@@ -77,7 +77,7 @@ MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& pla
                               const ChildLimits& limits) {
   const Descriptor order_file = memory_file("order");
   const Descriptor answer_file = memory_file("answer");
-  MethodOrder order{place, *task.request, task.threads, task.with_reasons};
+  MethodOrder order{place, *task.request, task.threads, task.with_reasons, task.loads_ahead};
   if (task.progress != nullptr) {
     order.progress = task.progress->style();
     order.progress_context = task.progress->context();
@@ -125,8 +125,8 @@ void serve_method(const MethodRegistry& registry) {
     // The parent compares what is loaded here with what it has checked itself.
     const WatchedSequence data = watched(open_sequence(order.place.path, order.place.options,
                                                        {order.threads, &progress, nullptr, false}));
-    answer = run_method(
-        {&data.sequence, &order.request, order.threads, &progress, nullptr, order.with_reasons});
+    answer = run_method({&data.sequence, &order.request, order.threads, &progress, nullptr,
+                         order.with_reasons, order.loads_ahead});
     answer.loaded = data.loaded();
   } catch (const Error& error) {
     answer.status = CellStatus::kBadData;

@@ -6,6 +6,7 @@
 
 #include "benchmark/process/method_run.h"
 #include "core/files/files.h"
+#include "eval/points/labelled_voxels.h"
 
 namespace raymoval {
 namespace {
@@ -30,6 +31,26 @@ void check_has_what_is_needed(const Protocol& protocol, const EvaluationInput& i
     throw DataError("sequence '" + sequence + "': " + error.what());
   }
 }
+
+/// Notes which points move when their labels are read.
+class NotedLabels : public LabelSource {
+ public:
+  NotedLabels(std::shared_ptr<const LabelSource> source, const LabelRule& rule, MaskStore& moving)
+      : source_(std::move(source)), classes_(rule), moving_(moving) {}
+  [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override {
+    std::vector<std::uint32_t> words = source_->labels(scan);
+    Mask mask(words.size());
+    std::transform(words.begin(), words.end(), mask.begin(),
+                   [&](std::uint32_t word) { return std::uint8_t{classes_.moving(word)}; });
+    moving_.set(scan.index, mask);
+    return words;
+  }
+
+ private:
+  std::shared_ptr<const LabelSource> source_;
+  LabelClasses classes_;
+  MaskStore& moving_;
+};
 
 ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
   check_is_listed(result, protocol_entry(protocol.name()));
@@ -56,7 +77,10 @@ ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequ
 
 const std::string& ScoredSequence::data_fingerprint() {
   if (!fingerprint_.empty()) return fingerprint_;
-  fingerprint_ = fingerprint(sequence(), threads_);
+  Sequence read = sequence();
+  moving_points_ = MaskStore(read.scans->size());
+  read.labels = std::make_shared<NotedLabels>(read.labels, read.label_rule, moving_points_);
+  fingerprint_ = fingerprint(read, threads_);
   loaded_ = watched_.loaded();
   const bool calibrated =
       std::any_of(protocols_.begin(), protocols_.end(),
@@ -69,6 +93,11 @@ const std::string& ScoredSequence::data_fingerprint() {
     fingerprint_ = hasher.digest();
   }
   return fingerprint_;
+}
+
+const MaskStore& ScoredSequence::moving_points() {
+  (void)data_fingerprint();
+  return moving_points_;
 }
 
 std::string ScoredSequence::data_change(const LoadedData* loaded) {
@@ -96,6 +125,7 @@ std::vector<ColumnValue> ScoredSequence::columns(const MaskStore& masks) const {
 
 const Scorer& ScoredSequence::scorer(std::size_t i) {
   OpenedProtocol& opened = protocols_[i];
+  const std::lock_guard lock(*opened.making);
   if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
   return *opened.scorer;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@
 namespace raymoval {
 
 /// An opened sequence with the protocols that score on it. What a protocol derives from scans and
-/// labels is built when first needed, then shared by all methods.
+/// labels is built when first needed, then shared by all methods. Once the fingerprint is known,
+/// cells may be scored on several threads at once.
 class ScoredSequence {
  public:
   /// @throws DataError if the sequence has no labels, ConfigurationError for bad options
@@ -33,6 +35,10 @@ class ScoredSequence {
 
   /// Hash of all that methods and protocols read; computed once. @throws DataError
   const std::string& data_fingerprint();
+
+  /// The masks of an answer that removes exactly the moving points, from the reading that made the
+  /// fingerprint. Their sizes are those of the scans. @throws DataError as `data_fingerprint`
+  [[nodiscard]] const MaskStore& moving_points();
 
   /// What of the data was not the same whenever it was read, by this object or by a method in a
   /// process of its own; empty: nothing.
@@ -56,6 +62,8 @@ class ScoredSequence {
     std::string name;
     std::unique_ptr<Protocol> protocol;
     std::unique_ptr<Scorer> scorer;  ///< Null until it is first needed.
+    /// Held while it is made, for cells that run at once.
+    std::unique_ptr<std::mutex> making = std::make_unique<std::mutex>();
   };
   [[nodiscard]] EvaluationInput input() const;
   const Scorer& scorer(std::size_t i);
@@ -66,6 +74,7 @@ class ScoredSequence {
   int threads_;
   Progress* progress_;
   std::string fingerprint_;
+  MaskStore moving_points_;
   LoadedData loaded_;  ///< What the fingerprint is of.
   std::vector<OpenedProtocol> protocols_;
 };
