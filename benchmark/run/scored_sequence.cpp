@@ -6,6 +6,7 @@
 
 #include "benchmark/process/method_run.h"
 #include "core/files/files.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -94,18 +95,36 @@ std::vector<ColumnValue> ScoredSequence::columns(const MaskStore& masks) const {
   return column_values(tally_removals(input(), masks));
 }
 
-const Scorer& ScoredSequence::scorer(std::size_t i) {
-  OpenedProtocol& opened = protocols_[i];
-  if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
-  return *opened.scorer;
+void ScoredSequence::open_protocols() {
+  for (OpenedProtocol& opened : protocols_) {
+    if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
+  }
 }
 
-ProtocolResult ScoredSequence::score(std::size_t i, const MaskStore& masks) {
-  return checked(scorer(i).score(masks), protocol(i));
+SequenceScores ScoredSequence::score(const MaskStore& masks, const std::atomic<bool>* cancel) {
+  open_protocols();
+  EvaluationInput scored = input();
+  scored.cancel = cancel;
+  RemovalCount removals(scored);
+  std::vector<ScanVisitor*> visitors = {&removals};
+  std::vector<std::unique_ptr<Scoring>> scorings;
+  for (const OpenedProtocol& opened : protocols_) {
+    scorings.push_back(opened.scorer->start());
+    visitors.push_back(scorings.back().get());
+  }
+  run_passes(scored, masks, visitors);
+  SequenceScores scores;
+  for (std::size_t i = 0; i < protocols_.size(); ++i) {
+    scores.protocols.push_back(checked(scorings[i]->result(), protocol(i)));
+    scorings[i].reset();
+  }
+  scores.columns = column_values(removals.tally());
+  return scores;
 }
 
 ProtocolResult ScoredSequence::score_cloud(std::size_t i, const CloudEstimate& cloud) {
-  return checked(scorer(i).score_cloud(cloud), protocol(i));
+  open_protocols();
+  return checked(protocols_[i].scorer->score_cloud(cloud), protocol(i));
 }
 
 const MaskStore& ScoredSequence::cloud_masks(const CloudEstimate& cloud) const {
