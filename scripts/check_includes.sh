@@ -23,7 +23,7 @@ methods                controls|external|raymoval|raymoval_plus
 methods                |octomap|peopleremover|removert|erasor|dufomap registry
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects .
-eval                   . points dynamicmap|erasor protocol_registry columns|comparison|published
+eval                   . points lattice dynamicmap|erasor protocol_registry columns|comparison|published
 benchmark              harness suite result process tables run clean picture report cli cli/shell cli/commands
 benchmark              kernels
 benchmark/picture      canvas charts|maps

@@ -42,14 +42,15 @@ void check_cancelled(const CellTask& task) {
 }
 
 void score_all(const CellTask& task, const MaskStore& masks, Cell& cell) {
-  for (std::size_t i = 0; i < task.scored->protocol_count(); ++i) {
-    check_cancelled(task);
-    ProtocolResult result = task.scored->score(i, masks);
+  check_cancelled(task);
+  SequenceScores scores = task.scored->score(masks, task.cancel);
+  for (std::size_t i = 0; i < scores.protocols.size(); ++i) {
+    ProtocolResult& result = scores.protocols[i];
     cell.scores.push_back({protocol_record(*task.scored, i), std::move(result.counts),
                            std::move(result.rates), std::move(result.warnings),
                            std::move(result.intervals)});
   }
-  cell.columns = ColumnRecord{kColumnsVersion, task.scored->columns(masks)};
+  cell.columns = ColumnRecord{kColumnsVersion, std::move(scores.columns)};
 }
 
 void write_cell_removals(const CellTask& task, const MethodAnswer& answer) {

@@ -7,6 +7,7 @@
 #include "benchmark/process/method_run.h"
 #include "core/files/files.h"
 #include "eval/points/labelled_voxels.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -123,19 +124,45 @@ std::vector<ColumnValue> ScoredSequence::columns(const MaskStore& masks) const {
   return column_values(tally_removals(input(), masks));
 }
 
-const Scorer& ScoredSequence::scorer(std::size_t i) {
-  OpenedProtocol& opened = protocols_[i];
-  const std::lock_guard lock(*opened.making);
-  if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
-  return *opened.scorer;
+void ScoredSequence::open_protocols() {
+  const auto open = [&](OpenedProtocol& opened) {
+    if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
+  };
+  // Of several threads that need all of them, each first opens those that no other one does.
+  for (OpenedProtocol& opened : protocols_) {
+    const std::unique_lock lock(*opened.making, std::try_to_lock);
+    if (lock.owns_lock()) open(opened);
+  }
+  for (OpenedProtocol& opened : protocols_) {
+    const std::lock_guard lock(*opened.making);
+    open(opened);
+  }
 }
 
-ProtocolResult ScoredSequence::score(std::size_t i, const MaskStore& masks) {
-  return checked(scorer(i).score(masks), protocol(i));
+SequenceScores ScoredSequence::score(const MaskStore& masks, const std::atomic<bool>* cancel) {
+  open_protocols();
+  EvaluationInput scored = input();
+  scored.cancel = cancel;
+  RemovalCount removals(scored);
+  std::vector<ScanVisitor*> visitors = {&removals};
+  std::vector<std::unique_ptr<Scoring>> scorings;
+  for (const OpenedProtocol& opened : protocols_) {
+    scorings.push_back(opened.scorer->start());
+    visitors.push_back(scorings.back().get());
+  }
+  run_passes(scored, masks, visitors);
+  SequenceScores scores;
+  for (std::size_t i = 0; i < protocols_.size(); ++i) {
+    scores.protocols.push_back(checked(scorings[i]->result(), protocol(i)));
+    scorings[i].reset();
+  }
+  scores.columns = column_values(removals.tally());
+  return scores;
 }
 
 ProtocolResult ScoredSequence::score_cloud(std::size_t i, const CloudEstimate& cloud) {
-  return checked(scorer(i).score_cloud(cloud), protocol(i));
+  open_protocols();
+  return checked(protocols_[i].scorer->score_cloud(cloud), protocol(i));
 }
 
 const MaskStore& ScoredSequence::cloud_masks(const CloudEstimate& cloud) const {

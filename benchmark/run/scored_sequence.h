@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -15,6 +16,12 @@
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
+
+/// What an answer scores on a sequence.
+struct SequenceScores {
+  std::vector<ProtocolResult> protocols;  ///< In the order of the sequence's protocols.
+  std::vector<ColumnValue> columns;       ///< By class, range and height.
+};
 
 /// An opened sequence with the protocols that score on it. What a protocol derives from scans and
 /// labels is built when first needed, then shared by all methods. Once the fingerprint is known,
@@ -45,8 +52,15 @@ class ScoredSequence {
   /// @param loaded by the method; null: it ran in this process
   [[nodiscard]] std::string data_change(const LoadedData* loaded);
 
-  /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
-  ProtocolResult score(std::size_t i, const MaskStore& masks);
+  /// Builds what protocols derive from scans and labels, where that was not done yet. Afterwards
+  /// several threads may score at a time.
+  /// @throws DataError if there is nothing to score against
+  void open_protocols();
+
+  /// Scores `masks` by all protocols and by columns. All of them read a scan together.
+  /// @param cancel ends the scoring when it is set; null: nothing does
+  /// @throws DataError, MethodError as the protocols; Cancelled
+  SequenceScores score(const MaskStore& masks, const std::atomic<bool>* cancel = nullptr);
 
   /// Scores a cleaned cloud by protocol `i`.
   ProtocolResult score_cloud(std::size_t i, const CloudEstimate& cloud);
@@ -66,7 +80,6 @@ class ScoredSequence {
     std::unique_ptr<std::mutex> making = std::make_unique<std::mutex>();
   };
   [[nodiscard]] EvaluationInput input() const;
-  const Scorer& scorer(std::size_t i);
 
   WatchedSequence watched_;
   /// The scans as protocols get them: from `lattice_origin`.

@@ -4,13 +4,10 @@
 #include <algorithm>
 
 #include "eval/erasor/frame.h"
-#include "eval/points/checked_scan.h"
-#include "eval/points/scan_loops.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval::erasor {
 namespace {
-
-constexpr std::uint16_t kMovingTruck = 258;
 
 /// Which of the counts a point belongs to.
 std::int64_t PointCounts::*fate_of(const Eigen::Vector3d& point, LabelClass label_class,
@@ -27,37 +24,6 @@ Pose pose_of(const Scan& scan, const EvaluationInput& input, const Options& opti
   return options.frame == FrameOption::kErasor
              ? erasor_pose(scan.T_world_sensor, input.T_camera_lidar.value())
              : scan.T_world_sensor;
-}
-
-struct PlacedScan {
-  LabelledCloud cloud;  ///< World frame.
-  PointCounts points;
-};
-
-PlacedScan place_scan(const EvaluationInput& input, const Options& options,
-                      const LabelClasses& classes, const MaskStore* masks, std::size_t index) {
-  const CheckedScan loaded = load_checked(input, masks, index);
-  const Scan& scan = loaded.scan;
-  const std::vector<std::uint32_t>& labels = loaded.labels;
-  const Pose T_world_sensor = pose_of(scan, input, options);
-  PlacedScan placed;
-  placed.cloud.points.reserve(scan.size());
-  placed.cloud.labels.reserve(scan.size());
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3d point = scan.points[i].cast<double>();
-    const auto fate = fate_of(point, classes.of(labels[i]), input, options);
-    ++(placed.points.*fate);
-    if (fate != &PointCounts::evaluated) continue;
-    if (semantic_id(labels[i]) == kMovingTruck) ++placed.points.trucks;
-    if (loaded.removed(i)) {
-      ++placed.points.removed;
-      continue;
-    }
-    const Eigen::Vector3d lifted = point + Eigen::Vector3d(0.0, 0.0, options.lift);
-    placed.cloud.points.push_back(T_world_sensor * lifted);
-    placed.cloud.labels.push_back(labels[i]);
-  }
-  return placed;
 }
 
 }  // namespace
@@ -83,23 +49,54 @@ LabelRule effective_rule(const LabelRule& rule, const Options& options) {
   return effective;
 }
 
+PlacedScan place_scan(const CheckedScan& loaded, const EvaluationInput& input,
+                      const Options& options, const LabelClasses& classes) {
+  const Scan& scan = loaded.scan;
+  const std::vector<std::uint32_t>& labels = loaded.labels;
+  const Pose T_world_sensor = pose_of(scan, input, options);
+  PlacedScan placed;
+  placed.cloud.points.reserve(scan.size());
+  placed.cloud.labels.reserve(scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3d point = scan.points[i].cast<double>();
+    const auto fate = fate_of(point, classes.of(labels[i]), input, options);
+    ++(placed.points.*fate);
+    if (fate != &PointCounts::evaluated) continue;
+    if (semantic_id(labels[i]) == kMovingTruck) ++placed.points.trucks;
+    if (loaded.removed(i)) {
+      ++placed.points.removed;
+      continue;
+    }
+    const Eigen::Vector3d lifted = point + Eigen::Vector3d(0.0, 0.0, options.lift);
+    placed.cloud.points.push_back(T_world_sensor * lifted);
+    placed.cloud.labels.push_back(labels[i]);
+  }
+  return placed;
+}
+
+DenseScan dense_scan(const CheckedScan& scan, const EvaluationInput& input, const Options& options,
+                     const LabelClasses& classes) {
+  const PlacedScan placed = place_scan(scan, input, options, classes);
+  return {voxelise(placed.cloud, options.voxel_size, classes, 1), placed.points};
+}
+
+void append(const DenseScan& scan, DenseMap& dense) {
+  dense.cloud.append(scan.voxels.cloud);
+  dense.mixed_label_ties += scan.voxels.mixed_label_ties;
+  dense.points += scan.points;
+  dense.scan_ends.push_back(dense.cloud.size());
+}
+
 DenseMap accumulate(const EvaluationInput& input, const Options& options,
-                    const LabelClasses& classes, const MaskStore* masks, const std::string& task) {
-  struct Part {
-    LabelledVoxels voxels;
-    PointCounts points;
-  };
+                    const LabelClasses& classes, const std::string& task) {
   DenseMap dense;
-  const auto read = [&](std::size_t scan) {
-    const PlacedScan placed = place_scan(input, options, classes, masks, scan);
-    return Part{voxelise(placed.cloud, options.voxel_size, classes, 1), placed.points};
-  };
-  in_scan_order<Part>(input, task, read, [&](const Part& part) {
-    dense.cloud.append(part.voxels.cloud);
-    dense.mixed_label_ties += part.voxels.mixed_label_ties;
-    dense.points += part.points;
-    dense.scan_ends.push_back(dense.cloud.size());
-  });
+  std::vector<DenseScan> slots(usual_slots(input));
+  in_scan_order(
+      input, task, slots.size(),
+      [&](std::size_t scan, std::size_t slot) {
+        slots[slot] = dense_scan(load_checked(input, nullptr, scan), input, options, classes);
+      },
+      [&](std::size_t slot) { append(slots[slot], dense); });
   return dense;
 }
 

@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "core/scan/mask_store.h"
+#include "eval/checked_scan.h"
 #include "eval/erasor/options.h"
 #include "eval/points/labelled_voxels.h"
 #include "eval/protocol.h"
 
 namespace raymoval::erasor {
+
+/// Semantic id of the trucks that early published tables count as static.
+inline constexpr std::uint16_t kMovingTruck = 258;
 
 /// What became of the points of all scans. The first four counts add up to the points that were
 /// read.
@@ -40,13 +43,34 @@ struct DenseMap {
 /// The label rule as the options want it: id 258 moves only with `truck_is_moving`.
 LabelRule effective_rule(const LabelRule& rule, const Options& options);
 
-/// Steps 1 to 5 of the ground truth: crop, lift in the sensor frame, pose, label-preserving
-/// voxelisation of each scan, append.
-/// @param masks flagged points are left out; null: no point is flagged
+/// The points of a scan that are evaluated and not flagged.
+struct PlacedScan {
+  LabelledCloud cloud;  ///< World frame, lifted.
+  PointCounts points;
+};
+
+/// Steps 1 to 3 of the ground truth for one scan: crop, lift in the sensor frame, pose. Points that
+/// the mask flags are left out.
+PlacedScan place_scan(const CheckedScan& scan, const EvaluationInput& input, const Options& options,
+                      const LabelClasses& classes);
+
+/// A scan's part of the dense map.
+struct DenseScan {
+  LabelledVoxels voxels;
+  PointCounts points;
+};
+
+/// The same, and step 4: label-preserving voxelisation.
+DenseScan dense_scan(const CheckedScan& scan, const EvaluationInput& input, const Options& options,
+                     const LabelClasses& classes);
+
+/// Step 5 for the next scan: append.
+void append(const DenseScan& scan, DenseMap& dense);
+
+/// Steps 1 to 5 for all scans. No point is flagged.
 /// @param task shown as progress
-/// @throws MethodError if a mask is missing or has the wrong length
 /// @throws DataError if a scan's labels do not fit it
 DenseMap accumulate(const EvaluationInput& input, const Options& options,
-                    const LabelClasses& classes, const MaskStore* masks, const std::string& task);
+                    const LabelClasses& classes, const std::string& task);
 
 }  // namespace raymoval::erasor

@@ -9,11 +9,12 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "eval/erasor/accumulate.h"
+#include "eval/erasor/map_passes.h"
 #include "eval/erasor/matching.h"
 #include "eval/erasor/rates.h"
-#include "eval/points/checked_scan.h"
 #include "eval/points/cloud_masks.h"
 #include "eval/points/nearest_labels.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval::erasor {
 namespace {
@@ -53,27 +54,16 @@ Overlap overlap_of(const LabelledVoxels& estimate, const LabelledVoxels& truth,
 class ErasorScorer : public Scorer {
  public:
   ErasorScorer(const EvaluationInput& input, const Options& options)
-      : input_(input), options_(options), classes_(effective_rule(input.label_rule, options)) {
-    DenseMap dense = accumulate(input_, options_, classes_, nullptr, "ground truth map");
-    truth_ = voxelise(dense.cloud, options_.voxel_size, classes_, input_.threads);
-    if (truth_.size() == 0) throw_empty_truth(dense.points);
-    truth_.mixed_label_ties += dense.mixed_label_ties;
-    truth_points_ = dense.points;
-    for (const std::uint32_t point : truth_.label_points) {
-      scan_of_voxel_.push_back(dense.scan_of(point));
-    }
+      : Scorer(input), options_(options), classes_(effective_rule(input.label_rule, options)) {
+    build_truth();
     if (options_.label_mode == LabelMode::kNearest) {
-      dense_ = std::make_unique<NearestLabels>(std::move(dense.cloud));
+      dense_ = std::make_unique<NearestLabels>(
+          accumulate(this->input(), options_, classes_, "points for labels").cloud);
     }
   }
 
-  [[nodiscard]] ProtocolResult score(const MaskStore& masks) const override {
-    check_mask_count(input_, masks);
-    const DenseMap dense = accumulate(input_, options_, classes_, &masks, "estimated map");
-    LabelledVoxels map = voxelise(dense.cloud, options_.voxel_size, classes_, input_.threads);
-    map.mixed_label_ties += dense.mixed_label_ties;
-    if (dense_) map.cloud.labels = dense_->labels_of(map.cloud.points, input_.threads);
-    return result_of(map, dense.points);
+  [[nodiscard]] std::unique_ptr<Scoring> start() const override {
+    return std::make_unique<ErasorScoring>(*this);
   }
 
   [[nodiscard]] ProtocolResult score_cloud(const CloudEstimate& cloud) const override {
@@ -91,20 +81,54 @@ class ErasorScorer : public Scorer {
   }
 
  private:
+  class ErasorScoring : public Scoring {
+   public:
+    explicit ErasorScoring(const ErasorScorer& scorer)
+        : scorer_(scorer), map_(scorer.rules(), scorer.cells_, MapPasses::Labels::kClasses) {}
+
+    bool begin_pass(std::size_t slots) override { return map_.begin_pass(slots); }
+    void read(const CheckedScan& scan, std::size_t slot) override { map_.read(scan, slot); }
+    void take(std::size_t slot) override { map_.take(slot); }
+    ProtocolResult result() override {
+      LabelledVoxels map = map_.finish(nullptr);
+      if (scorer_.dense_) {
+        map.cloud.labels = scorer_.dense_->labels_of(map.cloud.points, scorer_.input().threads);
+      }
+      return scorer_.result_of(map, map_.points());
+    }
+
+   private:
+    const ErasorScorer& scorer_;
+    MapPasses map_;
+  };
+
+  [[nodiscard]] MapRules rules() const { return {input(), options_, classes_}; }
+
+  void build_truth() {
+    MapCellsPass cells(rules());
+    run_passes(input(), "cells of the map", {&cells});
+    cells_ = cells.cells();
+    MapPasses map(rules(), cells_, MapPasses::Labels::kExact);
+    run_passes(input(), "ground truth map", {&map});
+    truth_ = map.finish(&scan_of_voxel_);
+    truth_points_ = map.points();
+    if (truth_.size() == 0) throw_empty_truth(truth_points_);
+  }
+
   /// The voxelised cloud, each voxel with the label of its nearest point in the dense map. Points
   /// of ignored labels stand in that map too, and what lies nearest to one is ignored likewise.
   [[nodiscard]] LabelledVoxels cloud_map(const std::vector<Eigen::Vector3f>& points) const {
     LabelledCloud cloud;
     for (const Eigen::Vector3f& point : points) cloud.points.push_back(point.cast<double>());
     cloud.labels.resize(points.size());
-    const LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes_, input_.threads);
+    const LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes_, input().threads);
     if (all.size() == 0) return all;
-    EvaluationInput whole = input_;
+    EvaluationInput whole = input();
     whole.label_rule.ignored.clear();
     const LabelClasses whole_classes(effective_rule(whole.label_rule, options_));
     const NearestLabels dense(
-        accumulate(whole, options_, whole_classes, nullptr, "points for labels").cloud);
-    const std::vector<std::uint32_t> labels = dense.labels_of(all.cloud.points, input_.threads);
+        accumulate(whole, options_, whole_classes, "points for labels").cloud);
+    const std::vector<std::uint32_t> labels = dense.labels_of(all.cloud.points, input().threads);
     LabelledVoxels map;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (classes_.of(labels[i]) == LabelClass::kIgnored) continue;
@@ -119,15 +143,15 @@ class ErasorScorer : public Scorer {
   [[nodiscard]] ProtocolResult result_of(const LabelledVoxels& estimate,
                                          const PointCounts& points) const {
     const std::vector<std::uint32_t> partners =
-        find_partners(truth_, estimate, options_.voxel_size, options_.matching, input_.threads);
-    const Overlap overlap = overlap_of(estimate, truth_, options_, input_.threads);
+        find_partners(truth_, estimate, options_.voxel_size, options_.matching, input().threads);
+    const Overlap overlap = overlap_of(estimate, truth_, options_, input().threads);
     ProtocolResult result;
     result.protocol = "erasor";
     add_matches(count_matches(truth_, estimate, partners, classes_, options_), "", result);
     add_map_counts(estimate, overlap, points, result);
     add_no_truck(estimate, partners, result);
     result.intervals = intervals_of(count_matches_by_scan(
-        truth_, estimate, partners, scan_of_voxel_, input_.scans->size(), classes_, options_));
+        truth_, estimate, partners, scan_of_voxel_, input().scans->size(), classes_, options_));
     add_warnings(estimate, overlap, result);
     return result;
   }
@@ -156,8 +180,8 @@ class ErasorScorer : public Scorer {
                     ProtocolResult& result) const {
     Options without = options_;
     without.truck_is_moving = false;
-    const LabelRule with_trucks = effective_rule(input_.label_rule, options_);
-    const LabelRule without_trucks = effective_rule(input_.label_rule, without);
+    const LabelRule with_trucks = effective_rule(input().label_rule, options_);
+    const LabelRule without_trucks = effective_rule(input().label_rule, without);
     if (truth_points_.trucks == 0 || with_trucks.moving == without_trucks.moving) return;
     add_matches(count_matches(truth_, estimate, partners, LabelClasses(without_trucks), without),
                 kNoTruck, result);
@@ -175,9 +199,9 @@ class ErasorScorer : public Scorer {
     }
   }
 
-  EvaluationInput input_;
   Options options_;
   LabelClasses classes_;
+  MapCells cells_;
   LabelledVoxels truth_;
   PointCounts truth_points_;
   /// For each voxel of the truth the scan whose point gave it its label.

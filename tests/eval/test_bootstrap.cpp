@@ -86,14 +86,14 @@ TEST_CASE("voxels belong to the scan that gave them their label", "[bootstrap][w
   const MemorySequence sequence = worked_example();
   const LabelClasses classes{LabelRule{}};
   const erasor::Options options;
-  const auto dense = erasor::accumulate(sequence.input(), options, classes, nullptr, "truth");
+  const auto dense = erasor::accumulate(sequence.input(), options, classes, "truth");
   const LabelledVoxels truth = voxelise(dense.cloud, 0.2, classes, 1);
   std::vector<std::uint32_t> scans;
   for (const std::uint32_t point : truth.label_points) scans.push_back(dense.scan_of(point));
   // In the order of the keys. (25, 0, 0) holds a point of either scan at equal distances: the first
   // one. (59, 0, 0) and (60, 0, 0) are of the second scan.
   CHECK(scans == std::vector<std::uint32_t>{0, 0, 1, 1, 0, 0, 0});
-  const auto kept = erasor::accumulate(sequence.input(), options, classes, nullptr, "all");
+  const auto kept = erasor::accumulate(sequence.input(), options, classes, "all");
   const LabelledVoxels all = voxelise(kept.cloud, 0.2, classes, 1);
   const auto partners = erasor::find_partners(truth, all, 0.2, erasor::MatchingOption::kRadius, 1);
   const auto by_scan =

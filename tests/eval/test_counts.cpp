@@ -320,8 +320,8 @@ TEST_CASE("each pass over the scans is told with its number of scans", "[counts]
   std::string text(4096, '\0');
   text.resize(std::fread(text.data(), 1, text.size(), told));
   std::fclose(told);
-  for (const char* task : {"ground truth map: 0 of 3", "estimated map: 0 of 3",
-                           "ground truth points: 0 of 3", "points that are gone: 0 of 3"}) {
+  for (const char* task : {"ground truth map: 0 of 3", "ground truth points: 0 of 3",
+                           "scoring: 0 of 3", "scoring, pass 2: 0 of 3"}) {
     CHECK_THAT(text, Catch::Contains(task));
   }
   CHECK_THAT(text, Catch::EndsWith("\r\x1b[K"));  // The last line is cleared.

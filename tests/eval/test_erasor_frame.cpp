@@ -74,7 +74,7 @@ TEST_CASE("points are lifted along the sensor's axis before they are placed", "[
   erasor::Options options;
   options.frame = erasor::FrameOption::kErasor;
   const LabelClasses classes(input.label_rule);
-  const auto dense = erasor::accumulate(input, options, classes, nullptr, "");
+  const auto dense = erasor::accumulate(input, options, classes, "");
   const Pose pose = erasor::erasor_pose(some_pose(), calibration_of_00());
   REQUIRE(dense.cloud.size() == 4);
   for (const float x : {10.0f, 12.0f, 14.0f, 16.0f}) {

@@ -57,7 +57,7 @@ TEST_CASE("the worked example's truth has the cells, centroids and labels as wri
   const MemorySequence sequence = worked_example();
   const LabelClasses classes{LabelRule{}};
   const erasor::DenseMap dense =
-      erasor::accumulate(sequence.input(), erasor::Options{}, classes, nullptr, "test");
+      erasor::accumulate(sequence.input(), erasor::Options{}, classes, "test");
   CHECK(dense.cloud.size() == 8);
   const LabelledVoxels truth = voxelise(dense.cloud, 0.2, classes, 1);
   struct Voxel {
