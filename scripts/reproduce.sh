@@ -112,7 +112,7 @@ fi
 scripts/install_dependencies.sh
 # Files compiled several at a time build sooner. A build folder that is there stays as it is.
 sooner=()
-[[ -z $quick || -e build/release/CMakeCache.txt ]] ||
+[[ -e build/release/CMakeCache.txt ]] ||
   sooner=("-DRAYMOVAL_UNITY=core;datasets;methods;eval;benchmark")
 cmake --preset release "${sooner[@]}"
 cmake --build --preset release --target raymoval_program

@@ -26,13 +26,13 @@ struct CellSpeed {
 
 /// What `scripts/benchmark.sh` writes to speed.json: whole cells of every method on one scene.
 struct SpeedRecord {
-  std::string scene;  ///< As for --sequence.
+  std::string scene = {};  ///< As for --sequence.
   int scans = 0;
   int threads = 1;
   int repetitions = 0;
-  std::string yardstick;  ///< Its name, which changes whenever its work does.
+  std::string yardstick = {};  ///< Its name, which changes whenever its work does.
   double yardstick_milliseconds = 0.0;
-  std::string processor, commit;  ///< For a reader.
+  std::string processor = {}, commit = {};  ///< For a reader.
   std::vector<CellSpeed> cells = {};
 };
 
