@@ -24,6 +24,7 @@ methods                |octomap|peopleremover|removert|erasor|dufomap registry
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects .
 eval                   . points lattice dynamicmap|erasor protocol_registry columns|comparison|published
+eval/erasor            options|frame maps matching rates scorer .
 benchmark              harness suite result process tables run clean picture report cli cli/shell cli/commands
 benchmark              kernels
 benchmark/picture      canvas charts|maps

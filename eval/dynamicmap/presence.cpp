@@ -2,6 +2,7 @@
 #include "eval/dynamicmap/presence.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/parallel.h"
 #include "eval/dynamicmap/undecided_points.h"
@@ -94,22 +95,33 @@ class PresenceCount::State {
 
   bool begin_pass(std::size_t slots) {
     slots_.resize(slots);
-    ++pass_;
-    if (pass_ == 1) return true;
-    if (pass_ == 2) {
-      if (!any_flagged_ || !any_kept_) return false;  // All are present, or all are gone.
-      if (input_.grid.same_cell_is_near()) flagged_.subtract(kept_);
-      undecided_.begin();
-      return true;
+    switch (++pass_) {
+      case kCount:
+        has_flagged_.assign(input_.blocks.size(), 0);
+        return true;
+      case kMark:
+        if (!any_flagged_ || !any_kept_) return false;  // All are present, or all are gone.
+        is_near_flagged_ = with_blocks_beside(
+            input_.blocks, [&](CellLattice::Number block) { return has_flagged_[block] != 0; });
+        has_flagged_ = {};
+        return true;
+      case kCollect:
+        is_near_flagged_ = {};
+        if (input_.grid.same_cell_is_near()) flagged_.subtract(kept_);
+        undecided_.begin();
+        return true;
+      default:
+        search();
+        return undecided_.begin_next();
     }
-    search();
-    return undecided_.begin_next();
   }
 
   void read(const CheckedScan& scan, std::size_t slot) {
     Part& part = slots_[slot];
     part.scan = static_cast<std::uint32_t>(scan.scan.index);
-    if (pass_ == 1) {
+    if (pass_ == kCount) {
+      count(scan, part);
+    } else if (pass_ == kMark) {
       mark(scan, part);
     } else {
       collect(scan, part);
@@ -118,19 +130,21 @@ class PresenceCount::State {
 
   void take(std::size_t slot) {
     Part& part = slots_[slot];
-    if (pass_ == 1) {
+    if (pass_ == kCount) {
       scans_[part.scan] = part.counts;
       any_flagged_ = any_flagged_ || part.any_flagged;
       any_kept_ = any_kept_ || part.any_kept;
-      return;
+    } else if (pass_ >= kCollect) {
+      if (pass_ == kCollect) scans_[part.scan] += part.counts;
+      undecided_.add(part.found);
     }
-    if (pass_ == 2) scans_[part.scan] += part.counts;
-    undecided_.add(part.found);
   }
 
   std::vector<ScanPresence> finish() { return std::move(scans_); }
 
  private:
+  /// What the passes do; those behind the last one collect, too.
+  enum Pass { kCount = 1, kMark, kCollect };
   struct Part {
     std::uint32_t scan = 0;
     ScanPresence counts;
@@ -146,18 +160,33 @@ class PresenceCount::State {
     return block;
   }
 
-  /// Counts what the mask says itself, and marks the cells of kept and of flagged points.
-  void mark(const CheckedScan& loaded, Part& part) {
+  /// Counts what the mask says itself, and finds the blocks of flagged points.
+  void count(const CheckedScan& loaded, Part& part) {
     part.any_flagged = part.any_kept = false;
     CellLattice::Cursor cursor;
     part.counts = count_by_index(
         input_.truth, loaded, [&](const Scan& scan, std::size_t p, Kind kind, bool removed) {
-          const bool is_kept = in_estimate(kind, removed);
-          if (!is_kept && !(removed && is_truth(kind))) return;
+          part.any_kept = part.any_kept || in_estimate(kind, removed);
+          if (!removed || !is_truth(kind)) return;
+          part.any_flagged = true;
           const FineCell cell = input_.grid.cell_of(placed(scan, p));
-          (is_kept ? kept_ : flagged_).set(block_at(cell, part, cursor), cell);
-          (is_kept ? part.any_kept : part.any_flagged) = true;
+          const std::atomic_ref<std::uint8_t> flag(has_flagged_[block_at(cell, part, cursor)]);
+          flag.store(1, std::memory_order_relaxed);
         });
+  }
+
+  /// Marks the cells of flagged points, and those of kept ones where flagged ones may be near.
+  void mark(const CheckedScan& loaded, const Part& part) {
+    CellLattice::Cursor cursor;
+    (void)input_.truth.visit_scan(loaded,
+                                  [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
+                                    const bool is_kept = in_estimate(kind, removed);
+                                    if (!is_kept && !(removed && is_truth(kind))) return;
+                                    const FineCell cell = input_.grid.cell_of(placed(scan, p));
+                                    const CellLattice::Number block = block_at(cell, part, cursor);
+                                    if (is_near_flagged_[block] != 0)
+                                      (is_kept ? kept_ : flagged_).set(block, cell);
+                                  });
   }
 
   /// Counts the flagged points that the marks decide on, and collects the others and what may be
@@ -203,8 +232,9 @@ class PresenceCount::State {
   std::vector<Part> slots_;
   std::vector<ScanPresence> scans_;
   bool any_flagged_ = false, any_kept_ = false;
+  std::vector<std::uint8_t> has_flagged_, is_near_flagged_;  ///< By block.
   FineBits kept_;
-  FineBits flagged_;  ///< After the first pass those alone on which `kept_` has not decided.
+  FineBits flagged_;  ///< When points are collected, those on which `kept_` has not decided.
   UndecidedPoints undecided_;
 };
 

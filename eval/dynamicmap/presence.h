@@ -31,13 +31,14 @@ CellLattice blocks_of(const TruthPoints& truth, const FineGrid& grid);
 /// (the point itself included) at `options.distance` metres or less.
 ///
 /// A kept point is its own partner, so partners are searched for flagged points only. The first
-/// pass marks the fine cells of kept and of flagged points. That decides on most flagged points:
-/// one that shares its cell with a kept point is present, one without a kept point two cells around
-/// is gone. The second pass counts these and collects the others, with the kept points around them,
-/// and these are searched. Where they are too many for the room that the number of blocks gives
-/// them, only those of the first blocks stay, and another pass collects those of the next ones.
-/// So memory is bounded by the map: at most 140 bytes a block for the marks and 72 for the points,
-/// but room for these is never less than 64 MiB.
+/// pass finds the blocks that have any. The second one marks the fine cells of flagged points, and
+/// of kept ones in these blocks and those beside them. That decides on most flagged points: one
+/// that shares its cell with a kept point is present, one without a kept point two cells around is
+/// gone. The third pass counts these and collects the others, with the kept points around them, and
+/// these are searched. Where they are too many for the room that the number of blocks gives them,
+/// only those of the first blocks stay, and another pass collects those of the next ones. So memory
+/// is bounded by the map: at most 130 bytes a block for the marks, where points were flagged, and
+/// 72 for the points, but room for these is never less than 64 MiB.
 class PresenceCount : public ScanVisitor {
  public:
   struct Input {

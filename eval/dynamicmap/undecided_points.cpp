@@ -17,24 +17,31 @@ constexpr std::size_t kGrain = 4096;
 
 }  // namespace
 
+std::vector<std::uint8_t> with_blocks_beside(const CellLattice& blocks,
+                                             const std::function<bool(std::uint32_t)>& is_chosen) {
+  std::vector<std::uint8_t> chosen(blocks.size(), 0);
+  CellLattice::Cursor cursor;
+  blocks.for_each([&](CellLattice::Number number, VoxelKey block) {
+    if (!is_chosen(number)) return;
+    for (int z = -1; z <= 1; ++z) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+          const auto beside = blocks.find(cell_beside(block, x, y, z), cursor);
+          if (beside != CellLattice::kNone) chosen[beside] = 1;
+        }
+      }
+    }
+  });
+  return chosen;
+}
+
 UndecidedPoints::UndecidedPoints(const Map& map, std::size_t room)
     : map_(map),
       room_(room != 0 ? room : std::max(kLeastRoom, kRoomPerBlock * map.blocks.size())) {}
 
 void UndecidedPoints::begin() {
-  is_near_flagged_.assign(map_.blocks.size(), 0);
-  CellLattice::Cursor cursor;
-  map_.blocks.for_each([&](Number number, VoxelKey block) {
-    if (!map_.flagged.any(number)) return;
-    for (int z = -1; z <= 1; ++z) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int x = -1; x <= 1; ++x) {
-          const Number beside = map_.blocks.find(cell_beside(block, x, y, z), cursor);
-          if (beside != CellLattice::kNone) is_near_flagged_[beside] = 1;
-        }
-      }
-    }
-  });
+  is_near_flagged_ =
+      with_blocks_beside(map_.blocks, [&](Number block) { return map_.flagged.any(block); });
   first_ = 0;
   end_ = static_cast<Number>(map_.blocks.size());
 }

@@ -13,6 +13,11 @@
 
 namespace raymoval::dynamicmap {
 
+/// For each block of a lattice whether it, or one beside it, is chosen.
+/// @param is_chosen says so of a block, by its number
+std::vector<std::uint8_t> with_blocks_beside(const CellLattice& blocks,
+                                             const std::function<bool(std::uint32_t)>& is_chosen);
+
 /// Flagged points that have a kept point near but not in their fine cell, and the kept points
 /// around them, for a range of blocks at a time. The range begins with all blocks that are left.
 /// Where the points get too many, its end moves down and the points beyond it are forgotten; they

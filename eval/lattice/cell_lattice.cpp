@@ -35,12 +35,4 @@ CellLattice::CellLattice(const CellSet& cells) {
   }
 }
 
-std::vector<CellPoint> CellLattice::sorted() const {
-  std::vector<CellPoint> cells;
-  cells.reserve(size_);
-  for_each([&](Number number, VoxelKey cell) { cells.push_back({cell, number}); });
-  sort_by_cell(cells);
-  return cells;
-}
-
 }  // namespace raymoval

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/scan/voxel_key.h"
-#include "eval/points/cell_sort.h"
 
 namespace raymoval {
 
@@ -113,16 +112,21 @@ class CellLattice {
   /// Calls `visit(number, cell)` for each cell, in the order of the numbers.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Brick& brick : bricks_) {
-      Number number = brick.first;
-      for (std::uint64_t left = brick.bits; left != 0; left &= left - 1) {
-        visit(number++, cell_at(brick.key, std::countr_zero(left)));
+    for_each_in(0, bricks(), visit);
+  }
+
+  /// How many bricks the cells stand in, for loops that cut the work by bricks.
+  [[nodiscard]] std::size_t bricks() const { return bricks_.size(); }
+  /// The same as `for_each` for the bricks [begin, end).
+  template <class Visit>
+  void for_each_in(std::size_t begin, std::size_t end, Visit&& visit) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      Number number = bricks_[i].first;
+      for (std::uint64_t left = bricks_[i].bits; left != 0; left &= left - 1) {
+        visit(number++, cell_at(bricks_[i].key, std::countr_zero(left)));
       }
     }
   }
-
-  /// All cells with their numbers, in the order of their keys.
-  [[nodiscard]] std::vector<CellPoint> sorted() const;
 
  private:
   struct Brick {
