@@ -110,7 +110,8 @@ void sweep_run_folder(const path& out) {
   }
 }
 
-RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads) {
+RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads,
+                     int jobs) {
   RunRecord run{suite.name};
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     run.sequences.push_back({sequences[i].record(), absolute_place(suite.sequences[i])});
@@ -129,6 +130,7 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
   run.cells = run.all_cells();
   run.build = build_record();
   run.machine = machine_record(threads);
+  if (jobs > 1) run.machine->jobs = jobs;
   return run;
 }
 
