@@ -6,6 +6,7 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
+#include "core/files/files.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -172,6 +173,21 @@ TEST_CASE("The keys of timing-2.json are these, with nothing missing and nothing
   write_repeat(file, repeat);
   CHECK(read_sealed(file).dump() == whole.dump());
   CHECK(RepeatRecord{}.number == 2);  // The first run made the cell.
+}
+
+TEST_CASE("A cell's key is the hash of all that its counts depend on", "[result]") {
+  const Cell cell = cell_from(whole_cell(), "cell.json");
+  const ordered_json versions = {{"version", kColumnsVersion}};
+  ordered_json whole = {{"schema_version", 1},
+                        {"method", parsed(kMethod)},
+                        {"data", parsed(kData)},
+                        {"columns", versions},
+                        {"protocols", ordered_json::array({parsed(kProtocol)})}};
+  CellIdentity identity{cell.method, *cell.data, {cell.scores.at(0).protocol}};
+  CHECK(cell_key(identity) == content_hash(json_text(whole)));
+  identity.protocols.clear();
+  whole.erase("protocols");
+  CHECK(cell_key(identity) == content_hash(json_text(whole)));
 }
 
 TEST_CASE("Parts of a cell have the keys that they have in its file", "[result]") {
