@@ -157,6 +157,11 @@ TEST_CASE("Other data, parameters or protocols are not comparable, and it is sai
   run = kReference;
   run.scores[0].identity["option voxel_size"] = "0.1";
   CHECK_THAT(reason(run), Contains("option voxel_size"));
+  run.scores[0].identity.erase("option voxel_size");
+  CHECK_THAT(reason(run), Contains("erasor: option voxel_size is missing, the reference has 0.2"));
+  run = kReference;
+  run.scores[0].identity["option new"] = "1";
+  CHECK_THAT(reason(run), Contains("erasor: option new is 1, the reference has none"));
   run = kReference;
   run.scores.clear();
   CHECK_THAT(reason(run), Contains("erasor: not scored in the run"));
@@ -254,6 +259,14 @@ TEST_CASE("Across parameters rates are judged, and it is told which parameters d
   const Comparison better = compared(good, kReference, across_parameters());
   CHECK(better.verdict() == ExitCode::kDone);
   CHECK(better.better.size() == 1);
+}
+
+TEST_CASE("What is worse does not hide that only parameters keep cells from being compared") {
+  ResultSet run{{with_tau0(kReference, "0.4"), cell_with(989, 20, "other:v")}, {}};
+  const ResultSet reference{{kReference, cell_with(990, 20, "other:v")}, {}};
+  CHECK(compare_results(run, reference, {}).parameters_only);
+  run.cells[1].identity["data fingerprint"] = "xyz";
+  CHECK_FALSE(compare_results(run, reference, {}).parameters_only);
 }
 
 TEST_CASE("Across parameters a cell that does not differ in them is judged by its counts") {

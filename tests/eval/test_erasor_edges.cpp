@@ -143,6 +143,14 @@ TEST_CASE("a mask that does not fit its scan is the method's error", "[erasor][e
   CHECK_THAT(message, Contains("5 values") && Contains("3 points") && Contains("frame 0"));
   CHECK_THROWS_AS(score_erasor(sequence.input(), MaskStore(1)), MethodError);
   CHECK_THROWS_AS(score_erasor(sequence.input(), MaskStore(2)), MethodError);
+  // A scan without points has a mask without values, and not none.
+  const MemorySequence with_empty({row_of({{40, false}, {252, true}}), LabelledScan{}});
+  MaskStore masks(2);
+  masks.set(0, {0, 1});
+  CHECK_THAT(message_of<MethodError>([&] { score_erasor(with_empty.input(), masks); }),
+             Contains("scan 1 (frame 1) has no mask"));
+  masks.set(1, {});
+  CHECK(score_erasor(with_empty.input(), masks).rate("RR") == 100.0);
 }
 
 TEST_CASE("labels that do not fit their scan are a data error", "[erasor][edge]") {
@@ -376,6 +384,21 @@ TEST_CASE("scans that change after a protocol was opened are bad data", "[erasor
     CHECK_THAT(message_of<DataError>([&] { (void)scorer->score(sequence.masks()); }),
                Contains("changed"));
   }
+}
+
+TEST_CASE("a voxel at exactly half an edge is near, and the warning says how far that is",
+          "[erasor][edge]") {
+  // Voxels of 0.5 m, so that half an edge and the shift are the same number.
+  MovedSequence sequence({row_of({{40, false}, {40, false}, {252, false}})});
+  const auto warnings = [&](double shift) {
+    sequence.shift = shift;
+    const auto scorer = protocol_with("erasor", {{"voxel_size", 0.5}})->open(sequence.input());
+    sequence.shift = 0.0;
+    return scorer->score(sequence.masks()).warnings;
+  };
+  CHECK(warnings(0.25).empty());
+  REQUIRE(warnings(0.375).size() == 1);
+  CHECK_THAT(warnings(0.375)[0], Contains("lie over 0.25 m from the ground truth"));
 }
 
 TEST_CASE("options come back as given, unknown ones are refused", "[erasor][edge]") {
