@@ -31,7 +31,7 @@ class RangeImage {
 
   /// The number of bins. It is at most about four million, whatever the sensor's steps are.
   [[nodiscard]] std::size_t size() const {
-    return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(grid_.columns);
+    return static_cast<std::size_t>(image_.rows) * static_cast<std::size_t>(image_.columns);
   }
 
   /// Replaces the image with that of `scan`.
@@ -50,19 +50,17 @@ class RangeImage {
                std::vector<ObservedPlace>& observed) const;
 
  private:
-  /// The nearest and the farthest return of some directions, metres; +-infinity without a return.
-  struct Bin {
-    float nearest, farthest;
-  };
   struct Window {
     int wide, high;  ///< Half sizes, bins.
   };
   void choose_steps(const SensorModel& sensor);
-  [[nodiscard]] std::size_t row_start(int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
+  /// The place of a bin's two numbers in the arrays of `SightImage`.
+  [[nodiscard]] std::size_t bin(int row, int column) const {
+    return 2 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.stride()) +
+                static_cast<std::size_t>(image_.margin + column));
   }
-  /// Finds the nearest and the farthest return of the least window around each bin.
-  void fill_windows();
+  void fill_bins(const Scan& scan);
+  [[nodiscard]] kernels::SightTest test() const;
   [[nodiscard]] Window window_at(float range) const;
   /// @param row may lie beyond the image
   template <bool kEveryBin>
@@ -72,12 +70,11 @@ class RangeImage {
   kernels::SightKernels kernels_ = kernels::best_sight_kernels();
   kernels::SightGrid grid_;
   float azimuth_step_ = 0.0F, elevation_step_ = 0.0F;  ///< Size of a bin, radians.
-  int rows_ = 0;
-  int stride_ = 0;                         ///< Bins in a row, those of its margins included.
+  kernels::SightImage image_;
   float half_voxel_;                       ///< Metres.
   std::array<float, 2> agree_, occluded_;  ///< Metres at range 0, and for each metre of it.
-  std::vector<Bin> bins_, row_windows_, windows_;  ///< Returns of a bin, of `window_columns` around
-                                                   ///< it, and of `window_rows` of these.
+  /// Returns of each bin, of `window_columns` around it, and of `window_rows` of these.
+  std::vector<float> bins_, row_windows_, windows_;
 };
 
 }  // namespace raymoval::raymoval_plus_method

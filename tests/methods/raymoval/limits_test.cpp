@@ -157,6 +157,28 @@ TEST_CASE("a bin is seen through beyond the margins and not at them", "[raymoval
   }
 }
 
+TEST_CASE("what lies behind the last bin in memory is not looked at", "[raymoval]") {
+  for (const std::size_t bins : {1, 15, 16, 17, 31}) {
+    // The memory of one bin more, which would be seen through, is still there.
+    const auto shortened = [&](float value) {
+      std::vector<float> values(bins + 1, value);
+      values.pop_back();
+      return values;
+    };
+    ProjectedScan scan;
+    scan.minimum_range = shortened(20.0F);
+    FirstHitImage hits;
+    hits.range = shortened(10.0F);
+    const std::vector<float> nearest = shortened(20.0F), reference = shortened(10.0F);
+    std::vector<int> found, every;
+    for (const SeenThrough& at : find_seen_through(scan, nearest, hits, reference, {1, 0.1}, 1)) {
+      found.push_back(at.bin);
+    }
+    for (std::size_t bin = 0; bin < bins; ++bin) every.push_back(static_cast<int>(bin));
+    CHECK(found == every);
+  }
+}
+
 TEST_CASE("no-return evidence reaches to its range, and any return speaks against it",
           "[raymoval]") {
   const AngularGrid grid{4, 1, -0.1, 0.1};
