@@ -184,7 +184,6 @@ class OccupancyMap {
   std::vector<Change> changes_;        ///< Of each brick.
   std::vector<ChangedBrick> changed_;  ///< In the order of their first change.
   std::vector<Brick> before_;
-  std::vector<NewBoxes> new_boxes_;  ///< Kept for their memory.
   VoxelMap<std::uint32_t> tile_index_;
   std::vector<std::vector<BrickHead>> tiles_;
   std::vector<BrickBox> boxes_;
