@@ -169,9 +169,10 @@ TEST_CASE("what lies behind the last bin in memory is not looked at", "[raymoval
     scan.minimum_range = shortened(20.0F);
     FirstHitImage hits;
     hits.range = shortened(10.0F);
-    const std::vector<float> nearest = shortened(20.0F), reference = shortened(10.0F);
+    const std::vector<float> reference = shortened(10.0F);
+    const BinWindow alone{{static_cast<int>(bins), 1, 0.0, 0.1}, 0, 0};
     std::vector<int> found, every;
-    for (const SeenThrough& at : find_seen_through(scan, nearest, hits, reference, {1, 0.1}, 1)) {
+    for (const SeenThrough& at : find_seen_through(scan, alone, hits, reference, {1, 0.1}, 1)) {
       found.push_back(at.bin);
     }
     for (std::size_t bin = 0; bin < bins; ++bin) every.push_back(static_cast<int>(bin));
