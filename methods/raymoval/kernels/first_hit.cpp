@@ -252,7 +252,7 @@ class FirstHitCaster::State {
   /// Each thread lists the bricks of one part of the circle; the parts are then swept in smaller
   /// pieces, some of which take longer than others.
   void sweep(const Frame& frame, int threads, float* range) {
-    constexpr std::size_t kPiece = 3 * kGroup;
+    constexpr std::size_t kPiece = kGroup;
     const auto columns = static_cast<std::size_t>(grid_.azimuth_bins);
     const auto parts = static_cast<std::size_t>(std::max(threads, 1));
     const std::size_t width = (columns / parts / kPiece + 1) * kPiece;
