@@ -90,6 +90,58 @@ TEST_CASE("The exception of the lowest chunk is thrown, also if it comes last") 
   CHECK_THROWS_WITH(parallel_for(2, 100, 1, body), "0");
 }
 
+TEST_CASE("A loop within a loop visits everything, on no more threads than were asked for") {
+  for (const int threads : {1, 2, 3, 8}) {
+    for (const int inner_threads : {1, 2, 8}) {
+      std::vector<std::atomic<int>> visits(30 * 40);
+      std::atomic<int> at_work = 0, most = 0;
+      parallel_for(threads, 30, 1, [&](std::size_t outer) {
+        parallel_for(inner_threads, 40, 3, [&](std::size_t inner) {
+          const int now = ++at_work;
+          int seen = most;
+          while (seen < now && !most.compare_exchange_weak(seen, now)) {
+          }
+          ++visits[outer * 40 + inner];
+          --at_work;
+        });
+      });
+      int wrong = 0;
+      for (const auto& count : visits) wrong += count == 1 ? 0 : 1;
+      INFO(threads << " threads, " << inner_threads << " within");
+      CHECK(wrong == 0);
+      // Loops of different numbers of threads have threads of their own.
+      if (inner_threads == 1 || inner_threads == threads) CHECK(most <= threads);
+    }
+  }
+}
+
+TEST_CASE("The exception of a loop within a loop comes out of both") {
+  for (const int threads : {1, 2, 8}) {
+    const auto inner = [&](std::size_t outer) {
+      parallel_for(threads, 50, 1, [&](std::size_t i) {
+        if (outer >= 3 && i >= 7) throw std::runtime_error(std::to_string(outer * 100 + i));
+      });
+    };
+    CHECK_THROWS_WITH(parallel_for(threads, 10, 1, inner), "307");
+  }
+}
+
+TEST_CASE("Whoever has done its part of a loop helps in a loop within another part") {
+  // The two chunks of the inner loop wait for each other.
+  if (hardware_threads() < 2) return;
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    std::atomic<int> arrived = 0;
+    parallel_for(2, 2, 1, [&](std::size_t outer) {
+      if (outer == 0) return;
+      parallel_for(2, 2, 1, [&](std::size_t) {
+        ++arrived;
+        while (arrived < 2) std::this_thread::yield();
+      });
+    });
+    CHECK(arrived == 2);
+  }
+}
+
 TEST_CASE("There is at least one hardware thread") {
   CHECK(hardware_threads() >= 1);
 }
