@@ -56,7 +56,7 @@ struct BrickBox {
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes);
 
 /// Mends a cover after voxels were added: appends boxes for `added`, voxels of `brick` that are in
-/// no box yet. It has fewer boxes to choose from than a new cover, is several times faster, and
+/// no box yet. It does not choose between boxes, is several times faster than a new cover, and
 /// gives a few boxes more.
 void cover_added(const Brick& brick, const Brick& added, std::vector<BrickBox>& boxes);
 
