@@ -388,17 +388,22 @@ TEST_CASE("scans that change after a protocol was opened are bad data", "[erasor
 
 TEST_CASE("a voxel at exactly half an edge is near, and the warning says how far that is",
           "[erasor][edge]") {
-  // Voxels of 0.5 m, so that half an edge and the shift are the same number.
-  MovedSequence sequence({row_of({{40, false}, {40, false}, {252, false}})});
-  const auto warnings = [&](double shift) {
-    sequence.shift = shift;
-    const auto scorer = protocol_with("erasor", {{"voxel_size", 0.5}})->open(sequence.input());
-    sequence.shift = 0.0;
-    return scorer->score(sequence.masks()).warnings;
+  // Voxels of 0.5 m, so that half an edge and the shift are the same number, without rounding.
+  LabelledScan scan;
+  for (const float x : {5.125F, 7.125F, 9.125F}) scan.add(x, 0.125F, -1.625F, 40);
+  const MemorySequence sequence({scan});
+  const auto scorer =
+      protocol_with("erasor",
+                    {{"voxel_size", 0.5}, {"label_mode", std::string("nearest")}, {"lift", 0.0}})
+          ->open(sequence.input());
+  const auto warnings = [&](float shift) {
+    std::vector<Eigen::Vector3f> cloud = sequence.scans().front().points;
+    for (Eigen::Vector3f& point : cloud) point.y() += shift;
+    return scorer->score_cloud(CloudEstimate(cloud)).warnings;
   };
-  CHECK(warnings(0.25).empty());
-  REQUIRE(warnings(0.375).size() == 1);
-  CHECK_THAT(warnings(0.375)[0], Contains("lie over 0.25 m from the ground truth"));
+  CHECK(warnings(0.25F).empty());
+  REQUIRE(warnings(0.375F).size() == 1);
+  CHECK_THAT(warnings(0.375F)[0], Contains("lie over 0.25 m from the ground truth"));
 }
 
 TEST_CASE("options come back as given, unknown ones are refused", "[erasor][edge]") {
