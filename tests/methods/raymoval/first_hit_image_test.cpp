@@ -112,8 +112,9 @@ TEST_CASE("voxels within the minimum range stop no ray, the next voxel of the sa
 }
 
 TEST_CASE("a sensor within a layer of loose voxels sees them on all sides") {
-  // Every second voxel of one layer, each of which the sensor's level plane cuts: all in all many
-  // more pieces than a map of walls has. It stands in an empty one.
+  // Every second voxel of one layer, each of which the sensor's level plane cuts: many more pieces
+  // than a map of walls has. Rays that look up stay open, so that no brick is hidden from the rows
+  // beside them.
   OccupancyMap map(0.2);
   for (int x = -80; x < 80; ++x) {
     for (int y = -80; y < 80; ++y) {
@@ -122,11 +123,11 @@ TEST_CASE("a sensor within a layer of loose voxels sees them on all sides") {
   }
   Random random(4);
   const Pose pose = random_map::pose({0.13, 0.07, 0.1}, random, 0.01);
-  const AngularGrid grid{360, 40, -0.05, 0.05};
+  const AngularGrid grid{360, 16, -0.05, 0.75};
   const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 30.0}, 1);
   const auto compared = random_map::compare_with_rays(map, image);
   CHECK(compared.wrong == 0);
-  CHECK(compared.hits == compared.bins);
+  CHECK(compared.hits > 360);
 }
 
 TEST_CASE("a brick that holds no voxel yet stops no ray") {
