@@ -130,6 +130,34 @@ TEST_CASE("a sensor within a layer of loose voxels sees them on all sides") {
   CHECK(compared.hits > 360);
 }
 
+TEST_CASE("the outermost voxel of a brick is hit at the end of the range, whichever way it lies") {
+  // Voxels of 1 m, bricks of 8. Forward along an axis the sensor stands 0.9 m in its voxel and
+  // meets voxel 8 after 7.1 m; backward it stands 0.1 m in it and meets voxel -9 after 8.1 m.
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int sign : {1, -1}) {
+      const double expected = sign > 0 ? 7.1 : 8.1;
+      VoxelIndex voxel(0, 0, 0);
+      voxel[axis] = sign > 0 ? 8 : -9;
+      OccupancyMap map(1.0);
+      map.insert(voxel);
+      Eigen::Vector3d ahead = Eigen::Vector3d::Zero();
+      ahead[axis] = sign;
+      Pose pose = Pose::Identity();
+      pose.linear() =
+          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), ahead).toRotationMatrix();
+      pose.translation().setConstant(0.5);
+      pose.translation()[axis] = sign > 0 ? 0.9 : 0.1;
+      const AngularGrid grid{3, 1, -0.1, 0.1};
+      const auto hit = [&](double maximum) {
+        return cast_first_hits(map, pose, grid, {0.0, maximum}, 1).range[1];
+      };
+      INFO(axis << ", " << sign);
+      CHECK(hit(expected + 0.05) == Approx(expected));
+      CHECK(hit(expected - 0.05) == kNoRange);
+    }
+  }
+}
+
 TEST_CASE("a brick that holds no voxel yet stops no ray") {
   OccupancyMap map(0.2);
   map.insert({40, 0, 0});
