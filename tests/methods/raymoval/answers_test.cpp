@@ -114,7 +114,10 @@ TEST_CASE("the first point of a scan has its answer and its reason, too", "[raym
   // The sensor looks away from the box, which is where its turn begins.
   const World world = box_before_wall(3.0, std::numbers::pi);
   REQUIRE(world.owner[0][0] == kOtherOwner);
-  CHECK(toy::masks_of(*on_toy_grid("offline").make(), world).get(0)[0] == 1);
+  ConfiguredMethod method = on_toy_grid("offline");
+  CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
+  set_parameter(method.configuration, "forward_test", false);  // It was seen through.
+  CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
   CHECK(reasons_of(on_toy_grid("offline"), world, kOtherOwner)["a scan saw t"] > 80);
 }
 
