@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "methods/raymoval_plus/objects/low_points.h"
 #include "methods/raymoval_plus/objects/reasons.h"
+#include "tests/methods/raymoval_plus/map_points.h"
 
 using namespace raymoval;
 using namespace raymoval::raymoval_plus_method;
@@ -16,25 +18,31 @@ namespace {
 class Scene {
  public:
   Parameters parameters;
-  EvidenceMap map{0.2};
+  toy::MapPoints in_map;
+  EvidenceMap& map = in_map.map;
   LocatedScan scan;
 
   void add(const Eigen::Vector3d& point, Verdict verdict, int agree_scans = 3) {
-    const std::uint32_t voxel = map.add(point, cursor_);
+    const std::uint32_t voxel = in_map.add(point);
     map.evidence(voxel).agree_scans = static_cast<std::uint16_t>(agree_scans);
     map.set_decision(voxel, verdict);
     map.set_verdict(voxel, verdict);
-    scan.points.push_back(point);
+    scan.in_map.x.push_back(map.index(voxel).x());
+    scan.in_map.y.push_back(map.index(voxel).y());
     scan.scan.points.push_back(point.cast<float>());
     scan.height.push_back(static_cast<float>(point.z()));
     scan.voxel.push_back(voxel);
+    scan.verdict.push_back(verdict);
   }
   /// Points in a column above (x, y), 0.1 m from each other, from `low` metres upward.
   void add_column(double x, double y, double low, int points, Verdict verdict) {
     for (int k = 0; k < points; ++k) add({x, y, low + 0.1 * k}, verdict);
   }
   [[nodiscard]] SegmentedScan segmented() const {
-    return find_objects(scan, map, parameters, RunContext{});
+    SegmentedScan segmented{scan, {}, {}, {}};
+    find_clusters(parameters, RunContext{}, segmented);
+    divide_clusters(map, parameters, RunContext{}, segmented);
+    return segmented;
   }
   /// The number of dynamic points from number `first` to before `end`, after step 6.
   [[nodiscard]] int dynamic(int first, int end, const std::vector<int>& marked = {}) const {
@@ -42,9 +50,6 @@ class Scene {
     return static_cast<int>(
         std::count(verdicts.begin() + first, verdicts.begin() + end, Verdict::kDynamic));
   }
-
- private:
-  EvidenceMap::Blocks::Cursor cursor_;
 };
 
 }  // namespace
@@ -105,7 +110,11 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
   CHECK(objects[0].points == 8);
   CHECK(objects[0].dynamic == 4);
   CHECK(objects[0].agree_scans == 3.0F);
-  CHECK(objects[0].center.isApprox(Eigen::Vector3d(4.15, 3.05, 0.55)));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 8; ++k)
+    sum += scene.scan.scan.points[static_cast<std::size_t>(k)].cast<double>();
+  CHECK(objects[0].center.isApprox(sum / 8.0));
+  CHECK(objects[0].center.isApprox(Eigen::Vector3d(4.15, 3.05, 0.55), 1e-7));  // They are floats.
   CHECK(objects[0].width() == Approx(0.2));
 }
 
@@ -126,8 +135,8 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
       verdicts.push_back(Verdict::kDynamic);
       scene.add({5.05, 0.05, 1.0 + 0.01 * k}, Verdict::kDynamic);
     }
-    const Verdicts decided =
-        decide_low_points(scene.scan, verdicts, scene.parameters, RunContext{});
+    Verdicts decided = verdicts;
+    decide_low_points(scene.scan, scene.parameters, RunContext{}, decided);
     const auto feet = std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic);
     CHECK(feet == (dynamic == 3   ? 0
                    : dynamic == 5 ? 2
