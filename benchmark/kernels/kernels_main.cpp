@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Google Benchmark programs; see scripts/benchmark.sh. `raymoval_kernels --table FILE...` writes
-// the medians of earlier runs as Markdown.
+// the medians of earlier runs as Markdown, and `--cells FILE` times whole cells.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "benchmark/kernels/cell_times.h"
 #include "benchmark/kernels/registration.h"
 #include "benchmark/kernels/table.h"
 
@@ -22,11 +23,25 @@ int print_tables(const std::vector<std::string>& files) {
   }
 }
 
+/// Times whole cells into `file`, and prints their table.
+int time_whole_cells(const std::string& file) {
+  try {
+    const raymoval::SpeedRecord speed = raymoval::kernels_bench::time_cells();
+    raymoval::write_speed(file, speed);
+    std::fputs(raymoval::kernels_bench::cells_table(speed).c_str(), stdout);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kernels: %s\n", error.what());
+    return 2;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace raymoval;
   if (argc > 1 && std::string(argv[1]) == "--table") return print_tables({argv + 2, argv + argc});
+  if (argc == 3 && std::string(argv[1]) == "--cells") return time_whole_cells(argv[2]);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   try {

@@ -74,16 +74,24 @@ int newly_covered(const Brick& left, const Candidate& box) {
   return count;
 }
 
-/// The best of the boxes around the lowest voxel of word `x` of `left`: of two, or of four.
-Candidate best_box(const Brick& brick, const Brick& left, int x, bool thorough) {
+/// How many boxes there are to choose from.
+enum class Choice : int { kOne = 1, kTwo = 2, kFour = 4 };
+
+/// The best of the boxes around the lowest voxel of word `x` of `left`.
+Candidate best_box(const Brick& brick, const Brick& left, int x, Choice choice) {
   const std::uint64_t word = left.occupied[static_cast<std::size_t>(x)];
   const int y = std::countr_zero(word) / 8;
   const std::uint64_t seed = std::uint64_t{1} << (std::countr_zero(word) % 8);
   const std::uint64_t line = brick.occupied[static_cast<std::size_t>(x)] >> (8 * y) & 0xFF;
   const std::uint64_t run = run_around(line, seed);
   Candidate best{x, x, y, y, run};
+  if (choice == Choice::kOne) {
+    grow_x(brick, best);
+    grow_y(brick, best);
+    return best;
+  }
   int best_count = 0;
-  for (int kind = 0; kind < (run == seed || !thorough ? 2 : 4); ++kind) {
+  for (int kind = 0; kind < (run == seed ? 2 : static_cast<int>(choice)); ++kind) {
     Candidate box{x, x, y, y, kind < 2 ? run : seed};
     if (kind % 2 == 0) {
       grow_x(brick, box);
@@ -125,23 +133,34 @@ void keep_full_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
   });
 }
 
-}  // namespace
-
-/// Covers what is in no box of `boxes` yet.
-void cover_brick(const Brick& brick, Change change, std::vector<BrickBox>& boxes) {
-  Brick left = brick;
-  // What is added to a cover is small: two boxes to choose from are enough.
-  const bool thorough = boxes.empty();
-  if (change == Change::kShrunk) keep_full_boxes(brick, boxes);
-  for (const BrickBox box : boxes) take_out(candidate_of(box), left);
+/// Appends boxes for `left`, voxels of `brick`.
+void cover_left(const Brick& brick, Brick left, Choice choice, std::vector<BrickBox>& boxes) {
   for (int x = 0; x < Brick::kSide; ++x) {
     while (left.occupied[static_cast<std::size_t>(x)] != 0) {
-      const Candidate box = best_box(brick, left, x, thorough);
+      const Candidate box = best_box(brick, left, x, choice);
       take_out(box, left);
       boxes.push_back(BrickBox::from({box.x0, box.y0, std::countr_zero(box.column)},
                                      {box.x1, box.y1, 63 - std::countl_zero(box.column)}));
     }
   }
+}
+
+}  // namespace
+
+void cover_all(const Brick& brick, std::vector<BrickBox>& boxes) {
+  cover_left(brick, brick, Choice::kFour, boxes);
+}
+
+/// What is added to a cover is small: one box is enough to choose from.
+void cover_more(const Brick& brick, const Brick& added, std::vector<BrickBox>& boxes) {
+  cover_left(brick, added, Choice::kOne, boxes);
+}
+
+void keep_and_cover(const Brick& brick, std::vector<BrickBox>& boxes) {
+  keep_full_boxes(brick, boxes);
+  Brick left = brick;
+  for (const BrickBox box : boxes) take_out(candidate_of(box), left);
+  cover_left(brick, left, Choice::kTwo, boxes);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -153,15 +172,21 @@ HWY_AFTER_NAMESPACE();
 
 namespace raymoval::raymoval_method {
 
-HWY_EXPORT(cover_brick);
+HWY_EXPORT(cover_all);
+HWY_EXPORT(cover_more);
+HWY_EXPORT(keep_and_cover);
 
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
   boxes.clear();
-  mend_cover(brick, Change::kGrown, boxes);
+  RAYMOVAL_BEST_KERNEL(cover_all)(brick, boxes);
 }
 
-void mend_cover(const Brick& brick, Change change, std::vector<BrickBox>& boxes) {
-  RAYMOVAL_BEST_KERNEL(cover_brick)(brick, change, boxes);
+void cover_added(const Brick& brick, const Brick& added, std::vector<BrickBox>& boxes) {
+  RAYMOVAL_BEST_KERNEL(cover_more)(brick, added, boxes);
+}
+
+void mend_cover(const Brick& brick, std::vector<BrickBox>& boxes) {
+  RAYMOVAL_BEST_KERNEL(keep_and_cover)(brick, boxes);
 }
 
 BrickBox tight_box(const Brick& brick) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "hwy/cache_control.h"
 #include "methods/common/workspaces.h"
 #include "methods/raymoval/kernels/first_hit_sweep.h"
 
@@ -169,8 +170,9 @@ std::size_t most_groups(const OccupancyMap& map, const BrickList& bricks,
     }
     // Boxes beside the sensor are cut. They are rare; a bound that is too high costs address space
     // only.
-    const std::size_t boxes = map.boxes(bricks.slot[brick]).size();
-    most += ((beside ? 8 : 1) * boxes + kGroup - 1) / kGroup;
+    const auto boxes = map.boxes(bricks.slot[brick]);
+    most += ((beside ? 8 : 1) * boxes.size() + kGroup - 1) / kGroup;
+    hwy::Prefetch(boxes.data());  // Most of them are looked at soon.
   }
   return most;
 }
@@ -189,9 +191,14 @@ std::array<int, 2> level_axes(const std::array<double, 3>& up) {
 class FirstHitCaster::State {
  public:
   State(const AngularGrid& grid, const RayLimits& limits)
-      : grid_(grid), limits_(limits), tables_(tables_for(grid)), kernels_(sweep::best_kernels()) {}
+      : grid_(grid), limits_(limits), tables_(tables_for(grid)), kernels_(sweep::best_kernels()) {
+    all_.ask_for_all(grid);
+  }
 
-  void cast(OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
+  [[nodiscard]] const WantedBins& all() const { return all_; }
+
+  void cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted, int threads,
+            FirstHitImage& image) {
     map.update_boxes(threads);
     image.grid = grid_;
     image.T_world_sensor = T_world_sensor;
@@ -199,6 +206,7 @@ class FirstHitCaster::State {
     image.directions = directions_;
     image.range.resize(static_cast<std::size_t>(grid_.size()));
     Frame frame = start_frame(map, T_world_sensor);
+    frame.wanted = &wanted;
     gather_bricks(map, walls_, frame.maximum_range, bricks_);
     parallel_chunks(threads, bricks_.count, 32 * kGroup, [&](std::size_t begin, std::size_t end) {
       kernels_.measure_bricks(frame, begin, end);
@@ -254,6 +262,7 @@ class FirstHitCaster::State {
 
   AngularGrid grid_;
   RayLimits limits_;
+  WantedBins all_;
   std::shared_ptr<const DirectionTable> directions_ = std::make_shared<DirectionTable>(grid_);
   GridTables tables_;
   sweep::Kernels kernels_;
@@ -273,7 +282,12 @@ FirstHitCaster& FirstHitCaster::operator=(FirstHitCaster&&) noexcept = default;
 
 void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, int threads,
                           FirstHitImage& image) {
-  state_->cast(map, T_world_sensor, threads, image);
+  state_->cast(map, T_world_sensor, state_->all(), threads, image);
+}
+
+void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted,
+                          int threads, FirstHitImage& image) {
+  state_->cast(map, T_world_sensor, wanted, threads, image);
 }
 
 FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,

@@ -7,6 +7,7 @@
 
 #include "methods/raymoval/kernels/angular_grid.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
+#include "methods/raymoval/kernels/wanted_bins.h"
 
 namespace raymoval::raymoval_method {
 
@@ -95,6 +96,9 @@ class FirstHitCaster {
   /// Casts the image from `T_world_sensor`. The boxes of changed bricks are brought up to date.
   /// @param image replaced; its memory is used again
   void cast(OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image);
+  /// The same for some bins only. The ranges of the other bins mean nothing.
+  void cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted, int threads,
+            FirstHitImage& image);
 
  private:
   class State;

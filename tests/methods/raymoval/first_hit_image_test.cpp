@@ -111,6 +111,36 @@ TEST_CASE("voxels within the minimum range stop no ray, the next voxel of the sa
   CHECK(ahead(39.85) == kNoRange);  // The last voxel is entered at 39.7 m.
 }
 
+TEST_CASE("a sensor within a layer of loose voxels sees them on all sides") {
+  // Every second voxel of one layer, each of which the sensor's level plane cuts: all in all many
+  // more pieces than a map of walls has. It stands in an empty one.
+  OccupancyMap map(0.2);
+  for (int x = -80; x < 80; ++x) {
+    for (int y = -80; y < 80; ++y) {
+      if (((x + y) & 1) != 0) map.insert({x, y, 0});
+    }
+  }
+  Random random(4);
+  const Pose pose = random_map::pose({0.13, 0.07, 0.1}, random, 0.01);
+  const AngularGrid grid{360, 40, -0.05, 0.05};
+  const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 30.0}, 1);
+  const auto compared = random_map::compare_with_rays(map, image);
+  CHECK(compared.wrong == 0);
+  CHECK(compared.hits == compared.bins);
+}
+
+TEST_CASE("a brick that holds no voxel yet stops no ray") {
+  OccupancyMap map(0.2);
+  map.insert({40, 0, 0});
+  map.make_brick({2, 0, 0});  // Between the sensor and the voxel.
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(0.1, 0.1, 0.1);
+  const AngularGrid grid{3, 1, -0.1, 0.1};  // The middle one of three columns looks along x.
+  const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1);
+  CHECK(image.range[1] == Approx(7.9));
+  CHECK(image.range[0] == kNoRange);
+}
+
 TEST_CASE("nothing is hit beyond the maximum range, in an empty map, and where all was erased") {
   OccupancyMap map(0.2);
   const AngularGrid grid{36, 9, -0.5, 0.5};

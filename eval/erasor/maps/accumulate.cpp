@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "eval/erasor/accumulate.h"
+#include "eval/erasor/maps/accumulate.h"
 
 #include <algorithm>
 
 #include "eval/erasor/frame.h"
-#include "eval/points/checked_scan.h"
-#include "eval/points/scan_loops.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval::erasor {
 namespace {
-
-constexpr std::uint16_t kMovingTruck = 258;
 
 /// Which of the counts a point belongs to.
 std::int64_t PointCounts::*fate_of(const Eigen::Vector3d& point, LabelClass label_class,
@@ -29,31 +26,25 @@ Pose pose_of(const Scan& scan, const EvaluationInput& input, const Options& opti
              : scan.T_world_sensor;
 }
 
-struct PlacedScan {
-  LabelledCloud cloud;  ///< World frame.
-  PointCounts points;
-};
-
-PlacedScan place_scan(const EvaluationInput& input, const Options& options,
-                      const LabelClasses& classes, const MaskStore* masks, std::size_t index) {
-  const CheckedScan loaded = load_checked(input, masks, index);
+/// The evaluated points that are flagged, or those that are not.
+PlacedScan place_points(const CheckedScan& loaded, const MapRules& rules, bool flagged) {
   const Scan& scan = loaded.scan;
   const std::vector<std::uint32_t>& labels = loaded.labels;
-  const Pose T_world_sensor = pose_of(scan, input, options);
+  const Pose T_world_sensor = pose_of(scan, rules.input, rules.options);
   PlacedScan placed;
-  placed.cloud.points.reserve(scan.size());
-  placed.cloud.labels.reserve(scan.size());
+  if (!flagged) {
+    placed.cloud.points.reserve(scan.size());
+    placed.cloud.labels.reserve(scan.size());
+  }
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const Eigen::Vector3d point = scan.points[i].cast<double>();
-    const auto fate = fate_of(point, classes.of(labels[i]), input, options);
+    const auto fate = fate_of(point, rules.classes.of(labels[i]), rules.input, rules.options);
     ++(placed.points.*fate);
     if (fate != &PointCounts::evaluated) continue;
     if (semantic_id(labels[i]) == kMovingTruck) ++placed.points.trucks;
-    if (loaded.removed(i)) {
-      ++placed.points.removed;
-      continue;
-    }
-    const Eigen::Vector3d lifted = point + Eigen::Vector3d(0.0, 0.0, options.lift);
+    placed.points.removed += loaded.removed(i) ? 1 : 0;
+    if (loaded.removed(i) != flagged) continue;
+    const Eigen::Vector3d lifted = point + Eigen::Vector3d(0.0, 0.0, rules.options.lift);
     placed.cloud.points.push_back(T_world_sensor * lifted);
     placed.cloud.labels.push_back(labels[i]);
   }
@@ -72,34 +63,30 @@ PointCounts& PointCounts::operator+=(const PointCounts& other) {
   return *this;
 }
 
-std::uint32_t DenseMap::scan_of(std::uint32_t point) const {
-  const auto end = std::upper_bound(scan_ends.begin(), scan_ends.end(), std::size_t{point});
-  return static_cast<std::uint32_t>(end - scan_ends.begin());
-}
-
 LabelRule effective_rule(const LabelRule& rule, const Options& options) {
   LabelRule effective = rule;
   if (!options.truck_is_moving) std::erase(effective.moving, kMovingTruck);
   return effective;
 }
 
-DenseMap accumulate(const EvaluationInput& input, const Options& options,
-                    const LabelClasses& classes, const MaskStore* masks, const std::string& task) {
-  struct Part {
-    LabelledVoxels voxels;
-    PointCounts points;
-  };
-  DenseMap dense;
-  const auto read = [&](std::size_t scan) {
-    const PlacedScan placed = place_scan(input, options, classes, masks, scan);
-    return Part{voxelise(placed.cloud, options.voxel_size, classes, 1), placed.points};
-  };
-  in_scan_order<Part>(input, task, read, [&](const Part& part) {
-    dense.cloud.append(part.voxels.cloud);
-    dense.mixed_label_ties += part.voxels.mixed_label_ties;
-    dense.points += part.points;
-    dense.scan_ends.push_back(dense.cloud.size());
-  });
+PlacedScan place_scan(const CheckedScan& scan, const MapRules& rules) {
+  return place_points(scan, rules, false);
+}
+
+PlacedScan place_flagged(const CheckedScan& scan, const MapRules& rules) {
+  return place_points(scan, rules, true);
+}
+
+LabelledCloud dense_map(const MapRules& rules, const std::string& task) {
+  LabelledCloud dense;
+  std::vector<LabelledCloud> slots(usual_slots(rules.input));
+  in_scan_order(
+      rules.input, task, slots.size(),
+      [&](std::size_t scan, std::size_t slot) {
+        const PlacedScan placed = place_scan(load_checked(rules.input, nullptr, scan), rules);
+        slots[slot] = voxelise(placed.cloud, rules.options.voxel_size, rules.classes, 1).cloud;
+      },
+      [&](std::size_t slot) { dense.append(slots[slot]); });
   return dense;
 }
 
