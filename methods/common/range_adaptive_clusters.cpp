@@ -76,6 +76,7 @@ class Clustering {
     for (Run& run : runs) run.key -= corner;  // Keys then differ in few digits.
     sort_by_key(runs);
     order_.reserve(points_.size());
+    placed_.reserve(points_.size());
     for (std::size_t r = 0; r < runs.size(); ++r) {
       const Run& run = runs[r];
       if (r == 0 || run.key != runs[r - 1].key) begin_cell(run.key + corner, run.first);
@@ -169,6 +170,7 @@ class Clustering {
 
   void add_to_cell(std::uint32_t point, Cell<Scalar>& cell) {
     order_.push_back(point);
+    placed_.push_back({points_[point], ranges_[point]});
     ++cell.last;
     cell.low = cell.low.min(points_[point].array());
     cell.high = cell.high.max(points_[point].array());
@@ -264,11 +266,11 @@ class Clustering {
     const Array apart = (a.low - b.high).max(b.low - a.high).max(Scalar(0));
     if (apart.matrix().squaredNorm() > widest * widest) return false;
     for (std::uint32_t i = a.first; i < a.last; ++i) {
-      const std::uint32_t p = order_[i];
+      const Placed& p = placed_[i];
       for (std::uint32_t j = b.first; j < b.last; ++j) {
-        const std::uint32_t q = order_[j];
-        const Scalar near_enough = reach_at(std::min(ranges_[p], ranges_[q]));
-        if ((points_[p] - points_[q]).squaredNorm() <= near_enough * near_enough) return true;
+        const Placed& q = placed_[j];
+        const Scalar near_enough = reach_at(std::min(p.range, q.range));
+        if ((p.point - q.point).squaredNorm() <= near_enough * near_enough) return true;
       }
     }
     return false;
@@ -293,7 +295,13 @@ class Clustering {
   const std::vector<Vector>& points_;
   const std::vector<Scalar>& ranges_;
   Scalar gap_, growth_, edge_;
-  std::vector<std::uint32_t> order_;
+  /// A point and its range.
+  struct Placed {
+    Vector point;
+    Scalar range;
+  };
+  std::vector<std::uint32_t> order_;  ///< The points in order of cells, ...
+  std::vector<Placed> placed_;        ///< ... and what they are.
   std::vector<Cell<Scalar>> cells_;
   std::vector<Column<Scalar>> columns_;
   std::vector<std::uint32_t> rows_;  ///< First column of each row, and the end.

@@ -2,9 +2,13 @@
 #include "methods/raymoval_plus/objects/objects.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <map>
+#include <random>
 
 #include "methods/raymoval_plus/objects/low_points.h"
+#include "methods/raymoval_plus/objects/point_runs.h"
 #include "methods/raymoval_plus/objects/reasons.h"
 #include "tests/methods/raymoval_plus/map_points.h"
 
@@ -143,6 +147,86 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
                                   : 3));  // With half of it they are as they were.
     CHECK(std::equal(decided.begin() + 3, decided.end(), verdicts.begin() + 3));
   }
+}
+
+namespace {
+
+/// Step 8 with every column counted. 1 for each point that is dynamic afterwards.
+std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before, float low) {
+  std::map<std::pair<int, int>, std::array<int, 2>> standing;  // Fixed and dynamic points.
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (scan.height[k] < low || scan.height[k] >= 1.0F) continue;
+    ++standing[{scan.in_map.x[k], scan.in_map.y[k]}][before[k] == Verdict::kDynamic ? 1 : 0];
+  }
+  std::vector<int> dynamic(before.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    dynamic[k] = before[k] == Verdict::kDynamic ? 1 : 0;
+    if (scan.voxel[k] == EvidenceMap::kNone || scan.height[k] >= low) continue;
+    std::array<int, 2> sum{};
+    for (const auto& [at, points] : standing) {
+      if (std::abs(at.first - scan.in_map.x[k]) > 1) continue;
+      if (std::abs(at.second - scan.in_map.y[k]) > 1) continue;
+      for (std::size_t i = 0; i < 2; ++i) sum[i] += points[i];
+    }
+    if (sum[1] > 0 && sum[1] >= 2 * sum[0]) {
+      dynamic[k] = 1;
+    } else if (sum[0] > 0 && sum[0] >= 2 * sum[1]) {
+      dynamic[k] = 0;
+    }
+  }
+  return dynamic;
+}
+
+}  // namespace
+
+TEST_CASE("low points are those of a count over all columns") {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> place(-3.0, 3.0), height(0.0, 1.3);
+  int changed = 0;
+  for (int round = 0; round < 10; ++round) {
+    Scene scene;
+    Verdicts before;
+    for (int i = 0; i < 600; ++i) {
+      const Eigen::Vector3d at(place(random), place(random), height(random));
+      // Dynamic ones gather on one side.
+      const bool dynamic = at.x() > 2.0 ? random() % 4 > 0 : random() % 20 == 0;
+      before.push_back(dynamic             ? Verdict::kDynamic
+                       : random() % 5 == 0 ? Verdict::kUndecided
+                                           : Verdict::kStatic);
+      scene.add(at, before.back());
+      if (at.z() < 0.07) scene.scan.voxel.back() = EvidenceMap::kNone;
+    }
+    Verdicts decided = before;
+    decide_low_points(scene.scan, scene.parameters, RunContext{}, decided);
+    const std::vector<int> expected =
+        slow_low_points(scene.scan, before, static_cast<float>(scene.parameters.object_height));
+    for (std::size_t k = 0; k < decided.size(); ++k) {
+      REQUIRE((decided[k] == Verdict::kDynamic) == (expected[k] == 1));
+      changed += (before[k] == Verdict::kDynamic) != (expected[k] == 1) ? 1 : 0;
+    }
+  }
+  CHECK(changed > 50);
+}
+
+TEST_CASE("the points of what a track may mark are remembered") {
+  Scene scene;
+  scene.add_column(4.05, 3.05, 0.4, 6, Verdict::kStatic);   // points 0 to 5, few scans agree
+  scene.add_column(9.05, 3.05, 0.4, 6, Verdict::kDynamic);  // dynamic by itself
+  scene.add_column(14.05, 3.05, 0.4, 5, Verdict::kStatic);  // points 12 to 16
+  scene.add_column(4.25, 3.05, 0.4, 4, Verdict::kStatic);   // points 17 to 20, of the first
+  for (int k = 0; k < 6; ++k) scene.add({19.05, 3.05, 0.4 + 0.1 * k}, Verdict::kStatic, 500);
+  const SegmentedScan scan = scene.segmented();
+  const auto objects = summarise_objects(scan, scene.map, scene.parameters, RunContext{});
+  REQUIRE(objects.size() == 4);
+  std::map<int, std::vector<std::uint32_t>> points;  // By cluster.
+  for (const PointRun& run : remembered_points(scan, objects, scene.parameters)) {
+    for (std::uint32_t k = 0; k < run.count; ++k) {
+      points[objects[run.object].cluster].push_back(run.first + k);
+    }
+  }
+  const std::map<int, std::vector<std::uint32_t>> expected{{0, {0, 1, 2, 3, 4, 5, 17, 18, 19, 20}},
+                                                           {2, {12, 13, 14, 15, 16}}};
+  CHECK(points == expected);
 }
 
 TEST_CASE("the reason for a verdict is the step that made it") {
