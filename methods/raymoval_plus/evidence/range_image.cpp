@@ -43,7 +43,7 @@ constexpr float kWindowsGrow = 1.001F;
 struct SightRoom {
   AlignedArray<float> range;
   AlignedArray<std::int32_t> column, row, sighted;
-  AlignedArray<std::uint32_t> place;
+  AlignedArray<std::uint32_t> place, unsure;
 
   kernels::ChosenSights room_for(std::size_t places) {
     for (AlignedArray<std::int32_t>* const array : {&column, &row, &sighted}) {
@@ -51,6 +51,7 @@ struct SightRoom {
     }
     range.require(places + kernels::kMostLanes);
     place.require(places + kernels::kMostLanes);
+    unsure.require(places + kernels::kMostLanes);
     return {place.data(), sighted.data(), {range.data(), column.data(), row.data()}};
   }
 };
@@ -62,6 +63,10 @@ kernels::SightPlaces in_sensor_frame(const float* places, std::size_t count, con
       pose.linear().cast<float>();
   Eigen::Map<Eigen::Vector3f>(job.translation.data()) = pose.translation().cast<float>();
   return job;
+}
+
+kernels::Sighted sighted_at(const kernels::ChosenSights& chosen, std::size_t i) {
+  return static_cast<kernels::Sighted>(chosen.sighted[i]);
 }
 
 }  // namespace
@@ -102,8 +107,7 @@ void RangeImage::choose_steps(const SensorModel& sensor) {
   grid_ = {1.0F / azimuth_step_, 1.0F / elevation_step_, static_cast<float>(low), columns};
 }
 
-void RangeImage::fill(const Scan& scan, const RunContext& context) {
-  const StageScope timed(context.times, "range image");
+void RangeImage::fill(const Scan& scan) {
   fill_bins(scan);
   for (int r = 0; r < image_.rows; ++r) {
     float* const bins = bins_.data() + bin(r, -kMargin);
@@ -145,6 +149,9 @@ kernels::SightTest RangeImage::test() const {
   kernels::SightTest test;
   test.bins = bins_.data();
   test.windows = windows_.data();
+  test.row_windows = row_windows_.data();
+  test.wide = parameters_.window_columns;
+  test.high = parameters_.window_rows;
   test.least_range = kWindowsGrow * half_voxel_ /
                      std::min(azimuth_step_ * static_cast<float>(parameters_.window_columns + 1),
                               elevation_step_ * static_cast<float>(parameters_.window_rows + 1));
@@ -159,21 +166,27 @@ void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_
                          std::vector<ObservedPlace>& observed) const {
   const std::size_t count = places.size() / 3;
   const kernels::ChosenSights chosen = sight_room.room_for(count);
+  const kernels::SightTest test = this->test();
   const std::size_t chosen_count = kernels_.choose(
-      grid_, in_sensor_frame(places.data(), count, T_sensor_places), image_, test(), chosen);
+      grid_, in_sensor_frame(places.data(), count, T_sensor_places), image_, test, chosen);
+  std::size_t unsure_count = 0;
+  for (std::size_t i = 0; i < chosen_count; ++i) {
+    sight_room.unsure[unsure_count] = static_cast<std::uint32_t>(i);
+    if (sighted_at(chosen, i) == kernels::Sighted::kUnsure) ++unsure_count;
+  }
+  kernels_.settle(image_, test, sight_room.unsure.data(), unsure_count, chosen);
   observed.clear();
   for (std::size_t i = 0; i < chosen_count; ++i) {
     const float range = chosen.sights.range[i];
-    const auto sighted = static_cast<kernels::Sighted>(chosen.sighted[i]);
-    Observation observation = Observation::kFree;
-    if (sighted == kernels::Sighted::kAgree) {
-      observation = Observation::kAgree;
-    } else if (sighted == kernels::Sighted::kUnsure) {
+    const kernels::Sighted sighted = sighted_at(chosen, i);
+    if (sighted == kernels::Sighted::kNothing) continue;
+    Observation observation =
+        sighted == kernels::Sighted::kAgree ? Observation::kAgree : Observation::kFree;
+    if (sighted == kernels::Sighted::kUnsure) {
       observation = observe_window<false>(range, chosen.sights.column[i], chosen.sights.row[i]);
+      if (observation != Observation::kAgree && observation != Observation::kFree) continue;
     }
-    if (observation == Observation::kAgree || observation == Observation::kFree) {
-      observed.push_back({chosen.place[i], observation, range});
-    }
+    observed.push_back({chosen.place[i], observation, range});
   }
 }
 

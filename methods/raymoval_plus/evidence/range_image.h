@@ -9,7 +9,6 @@
 #include "core/scan/sensor_model.h"
 #include "methods/raymoval_plus/common/parameters.h"
 #include "methods/raymoval_plus/evidence/sight_kernels.h"
-#include "methods/remover.h"
 
 namespace raymoval::raymoval_plus_method {
 
@@ -35,7 +34,7 @@ class RangeImage {
   }
 
   /// Replaces the image with that of `scan`.
-  void fill(const Scan& scan, const RunContext& context);
+  void fill(const Scan& scan);
   /// What the scan says of a place of the sensor frame (metres). It **agrees** if any return of the
   /// window lies at the place's range. Else the place is **occluded** if any return is nearer, else
   /// **free** if there is a return at or below it, else **unknown**. So any agreement saves a

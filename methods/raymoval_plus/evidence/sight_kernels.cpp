@@ -178,6 +178,80 @@ std::size_t choose(const SightGrid& grid, const SightPlaces& places, const Sight
   return count;
 }
 
+/// What the bins that were looked at say of some places.
+struct Findings {
+  hn::Mask<Reals> agree, occluded, below;
+};
+
+/// Looks at the bins of one row of the windows of `asked` places.
+/// @param pair the numbers of the place's column in that row
+HWY_INLINE void look_at_row(const SightTest& test, R range, const Bounds& bounds, W pair,
+                            bool is_below, hn::Mask<Reals> asked, Findings& found) {
+  const Reals d;
+  const R infinite = real(std::numeric_limits<float>::infinity());
+  const auto take = [&](R nearest, hn::Mask<Reals> of) {
+    found.occluded = hn::Or(found.occluded, hn::And(of, hn::Lt(nearest, bounds.beyond)));
+    if (is_below) found.below = hn::Or(found.below, hn::And(of, hn::Lt(nearest, infinite)));
+  };
+  // Few rows have returns at about the place's range. The others say the same as their nearest.
+  const R nearest = hn::GatherIndex(d, test.row_windows, pair);
+  const R farthest = hn::Neg(hn::GatherIndex(d, test.row_windows + 1, pair));
+  const auto aside = hn::Or(hn::Lt(farthest, bounds.from), hn::Gt(nearest, bounds.farther));
+  take(nearest, hn::And(asked, aside));
+  const auto look = hn::AndNot(aside, asked);
+  if (hn::AllFalse(d, look)) return;
+  for (int shift = -2 * test.wide; shift <= 2 * test.wide; shift += 2) {
+    const R near = hn::GatherIndex(d, test.bins + shift, pair);
+    const R far = hn::Neg(hn::GatherIndex(d, test.bins + shift + 1, pair));
+    const auto agrees = hn::Or(hn::Le(hn::Abs(hn::Sub(near, range)), bounds.reach),
+                               hn::Le(hn::Abs(hn::Sub(far, range)), bounds.reach));
+    found.agree = hn::Or(found.agree, hn::And(look, agrees));
+    take(near, look);
+  }
+}
+
+void settle(const SightImage& image, const SightTest& test, const std::uint32_t* unsure,
+            std::size_t count, const ChosenSights& chosen) {
+  const Reals d;
+  const Whole whole;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto code = [&](Sighted sighted) {
+    return hn::Set(whole, static_cast<std::int32_t>(sighted));
+  };
+  for (std::size_t first = 0; first < count; first += lanes) {
+    const auto there = hn::FirstN(whole, std::min(count - first, lanes));
+    const W which = hn::IfThenElseZero(
+        there, hn::BitCast(whole, hn::LoadU(hn::Rebind<std::uint32_t, Reals>(), unsure + first)));
+    const R range = hn::GatherIndex(d, chosen.sights.range, which);
+    const W column = hn::GatherIndex(whole, chosen.sights.column, which);
+    const W row = hn::GatherIndex(whole, chosen.sights.row, which);
+    const auto known_window = hn::Gt(range, real(test.least_range));
+    const Bounds bounds = bounds_at(range, test);
+    const auto none = hn::Lt(hn::Zero(d), hn::Zero(d));
+    Findings found{none, none, none};
+    for (int up = -test.high; up <= test.high; ++up) {
+      const W r = hn::Add(row, hn::Set(whole, up));
+      const auto inside =
+          hn::And(hn::Gt(r, hn::Set(whole, -1)), hn::Lt(r, hn::Set(whole, image.rows)));
+      const W bin = hn::Add(hn::Mul(r, hn::Set(whole, image.stride())),
+                            hn::Add(column, hn::Set(whole, image.margin)));
+      const W safe = hn::IfThenElse(inside, bin, hn::Set(whole, image.margin));
+      look_at_row(test, range, bounds, hn::Add(safe, safe), up <= 0,
+                  hn::And(hn::RebindMask(d, inside), known_window), found);
+    }
+    const auto free = hn::AndNot(found.occluded, found.below);
+    W sighted =
+        hn::IfThenElse(hn::RebindMask(whole, free), code(Sighted::kFree), code(Sighted::kNothing));
+    sighted = hn::IfThenElse(hn::RebindMask(whole, found.agree), code(Sighted::kAgree), sighted);
+    sighted = hn::IfThenElse(hn::RebindMask(whole, known_window), sighted, code(Sighted::kUnsure));
+    std::int32_t settled[kMostLanes];
+    hn::StoreU(sighted, whole, settled);
+    for (std::size_t i = 0; i < std::min(count - first, lanes); ++i) {
+      chosen.sighted[unsure[first + i]] = settled[i];
+    }
+  }
+}
+
 /// Calls `visit(k)` with the places of vectors that cover `count` numbers; the last one may overlap
 /// the one before.
 template <class Visit>
@@ -226,7 +300,7 @@ void fill_windows(const SightImage& image, int wide, int high, const float* bins
 }  // namespace
 
 SightKernels sight_kernels() {
-  return {&locate, &choose, &fill_windows};
+  return {&locate, &choose, &settle, &fill_windows};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -51,13 +51,15 @@ struct SightTest {
   /// The least of the window around each bin. Where no return of it lies in the bin's row or below,
   /// the second number has no minus.
   const float* windows = nullptr;
-  float least_range = 0.0F;                  ///< Nearer places have larger windows.
+  const float* row_windows = nullptr;  ///< The least of the bins to either side, in the same row.
+  int wide = 0, high = 0;              ///< Half sizes of the least window, bins.
+  float least_range = 0.0F;            ///< Nearer places have larger windows.
   std::array<float, 2> agree{}, occluded{};  ///< Metres at range 0, and for each metre of range.
   float range_min = 0.0F, range_max = 0.0F;  ///< Places beyond are not chosen.
 };
 
-/// What the numbers of a window say of a place.
-enum class Sighted : std::int32_t { kUnsure, kAgree, kFree };
+/// What a scan says of a place: `kNothing` where it is occluded or unknown.
+enum class Sighted : std::int32_t { kUnsure, kAgree, kFree, kNothing };
 
 /// The places that a scan may agree with or see through. Each array has room for `kMostLanes` more
 /// than there are.
@@ -75,6 +77,11 @@ struct SightKernels {
   /// @return how many there are
   std::size_t (*choose)(const SightGrid& grid, const SightPlaces& places, const SightImage& image,
                         const SightTest& test, const ChosenSights& chosen);
+  /// Looks at each bin of the windows of places that are unsure. Only those nearer than the test's
+  /// least range are unsure afterwards.
+  /// @param unsure places in the arrays of `chosen`, `count` of them and room for `kMostLanes` more
+  void (*settle)(const SightImage& image, const SightTest& test, const std::uint32_t* unsure,
+                 std::size_t count, const ChosenSights& chosen);
   /// Fills the least of `wide` bins to either side of each bin, and from that, of `high` rows below
   /// and above it; `windows` as in `SightTest`. Margins are not filled.
   void (*fill_windows)(const SightImage& image, int wide, int high, const float* bins,
