@@ -4,11 +4,13 @@
 #include "methods/erasor/erasor.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/text.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
+#include "methods/common/side_by_side.h"
 #include "methods/common/thinned_points.h"
 #include "methods/erasor/ground_fit.h"
 #include "methods/erasor/naive_map.h"
@@ -35,6 +37,12 @@ struct MapBins {
   std::vector<std::vector<Member>> members;  ///< Chunk by chunk, in order.
 };
 
+/// Voxel and world point of each point of a scan.
+struct LocatedPoints {
+  std::vector<VoxelKey> keys;
+  std::vector<Eigen::Vector3d> world;
+};
+
 class ErasorRun {
  public:
   ErasorRun(const Parameters& parameters, const ScanSource& scans, const RunContext& context)
@@ -47,11 +55,20 @@ class ErasorRun {
   /// The map of all scans.
   NaiveMap collect_naive_map() {
     NaiveMapBuilder builder;
+    LocatedPoints known, next;
+    const auto add_known = [&](const RunContext& context) {
+      const StageScope timed(context.times, "naive map");
+      builder.add(known.keys, known.world);
+    };
     for_each_scan("erasor, naive map", scans_, context_, [&](const Scan& scan) {
-      const StageScope timed(context_.times, "naive map");
-      locate(scan, parameters_.minimum_range);
-      builder.add(keys_, world_);
+      // Scans are added one after the other, each beside the search for the next one's voxels.
+      side_by_side(context_, "naive map", add_known, [&](const RunContext& context) {
+        const StageScope timed(context.times, "naive map");
+        locate(scan, parameters_.minimum_range, next);
+      });
+      std::swap(known, next);
     });
+    add_known(context_);
     const StageScope timed(context_.times, "naive map");
     return builder.finish();
   }
@@ -67,23 +84,30 @@ class ErasorRun {
 
   /// A point is dynamic iff its voxel is out of the map.
   void answer(const NaiveMap& map, RemovalSink& sink) {
-    for_each_scan("erasor, answers", scans_, context_, [&](const Scan& scan) {
-      const StageScope timed(context_.times, "answer");
+    const auto answer_scan = [&](const Scan& scan) {
+      const StageScope timed(context_.threads > 1 ? nullptr : context_.times, "answer");
       Mask removed(scan.size(), 0);
       const double inverse = 1.0 / parameters_.map_voxel_size;
-      parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
+      for (std::size_t k = 0; k < removed.size(); ++k) {
         const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
         removed[k] = map.is_out(voxel_key(voxel_index(world, inverse))) ? 1 : 0;
-      });
+      }
       sink.accept(scan.index, removed);
-    });
+    };
+    for_scans_at_once("erasor, answers", "answer", scans_, context_, answer_scan);
   }
 
  private:
   void process(const Scan& scan, NaiveMap& map) {
-    const QueryBins query = describe(scan);                     // R-POD of the scan
-    const MapBins around = describe(map, scan.T_world_sensor);  // R-POD of the map
-    for (std::size_t b = 0; b < bins_.size(); ++b) {            // Scan ratio test
+    QueryBins query;
+    MapBins around;
+    side_by_side(
+        context_, "query bins and map bins",
+        [&](const RunContext& context) { query = describe(scan, context); },  // R-POD of the scan
+        [&](const RunContext& context) {                                      // R-POD of the map
+          around = describe(map, scan.T_world_sensor, context);
+        });
+    for (std::size_t b = 0; b < bins_.size(); ++b) {  // Scan ratio test
       const BinFinding finding = compare_extents(around.extents[b], query.extents[b], parameters_);
       actions_[b] = action_for(finding, around.extents[b], parameters_);
     }
@@ -92,15 +116,16 @@ class ErasorRun {
   }
 
   /// World point and map voxel of each point of `scan`; none for those nearer than `minimum_range`.
-  void locate(const Scan& scan, double minimum_range) {
-    keys_.resize(scan.size());
-    world_.resize(scan.size());
+  void locate(const Scan& scan, double minimum_range, LocatedPoints& points) const {
+    points.keys.resize(scan.size());
+    points.world.resize(scan.size());
     const double inverse = 1.0 / parameters_.map_voxel_size;
     parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
-      world_[k] = scan.T_world_sensor * scan.points[k].cast<double>();
-      keys_[k] = is_own_car(scan.points[k], minimum_range)
-                     ? NaiveMapBuilder::kNoVoxel
-                     : voxel_key(voxel_index(world_[k], inverse));
+      const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
+      points.world[k] = world;
+      points.keys[k] = is_own_car(scan.points[k], minimum_range)
+                           ? NaiveMapBuilder::kNoVoxel
+                           : voxel_key(voxel_index(world, inverse));
     });
   }
 
@@ -113,8 +138,8 @@ class ErasorRun {
   }
 
   /// Thins the scan in its own frame and sorts what is left into bins.
-  QueryBins describe(const Scan& scan) {
-    const StageScope timed(context_.times, "query bins");
+  [[nodiscard]] QueryBins describe(const Scan& scan, const RunContext& context) const {
+    const StageScope timed(context.times, "query bins");
     QueryBins query;
     query.extents.resize(bins_.size());
     query.bin_of_point.assign(scan.size(), -1);
@@ -138,8 +163,9 @@ class ErasorRun {
   }
 
   /// Sorts the voxels that are in the map within the disc around the sensor into bins.
-  MapBins describe(const NaiveMap& map, const Pose& T_world_sensor) const {
-    const StageScope timed(context_.times, "map bins");
+  [[nodiscard]] MapBins describe(const NaiveMap& map, const Pose& T_world_sensor,
+                                 const RunContext& context) const {
+    const StageScope timed(context.times, "map bins");
     const Eigen::Vector3d centre = T_world_sensor.translation();
     const std::vector<NaiveMap::Tile> tiles =
         map.tiles_around(centre.x(), centre.y(), parameters_.maximum_range);
@@ -147,7 +173,7 @@ class ErasorRun {
     MapBins around;
     around.members.resize(tiles.size() / kTilesAChunk + 1);
     parallel_chunks(
-        context_.threads, tiles.size(), kTilesAChunk, [&](std::size_t begin, std::size_t end) {
+        context.threads, tiles.size(), kTilesAChunk, [&](std::size_t begin, std::size_t end) {
           for (std::size_t t = begin; t < end; ++t) {
             collect(map, tiles[t], T_world_sensor, around.members[begin / kTilesAChunk]);
           }
@@ -225,8 +251,6 @@ class ErasorRun {
   const RunContext& context_;
   PolarBins bins_;
   std::vector<BinAction> actions_;
-  std::vector<VoxelKey> keys_;          ///< Of the scan at hand.
-  std::vector<Eigen::Vector3d> world_;  ///< Of the scan at hand.
 };
 
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
