@@ -101,7 +101,8 @@ TEST_CASE("A pass that goes backward is foreseen too, and none beyond the ends")
   const LoadingAhead ahead(scans, kEver);
   for (const std::size_t index : {6, 5, 4}) (void)ahead.load(index);
   wait_for_loads(scans, 5);
-  for (const std::size_t index : {3, 2, 1, 0}) CHECK(first_value(ahead.load(index)) == index);
+  for (const std::size_t index : {3, 2, 1, 0})
+    CHECK(first_value(ahead.load(index)) == static_cast<float>(index));
   CHECK(ahead.used() >= 2);
   CHECK(scans.loads() == 7);
 }
