@@ -62,7 +62,7 @@ class RaymovalRun {
         context_, "validation and erase",
         [&](const RunContext& context) { dynamic = validate(candidates, context.times); },
         [&](const RunContext& context) { evidence = find_evidence(context); });
-    left_over_ = {std::move(evidence), dynamic};
+    left_over_ = {std::move(evidence), dynamic};  // The map takes it in before the next cast.
     return dynamic;
   }
 
