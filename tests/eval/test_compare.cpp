@@ -362,3 +362,25 @@ TEST_CASE("Times of another machine are said to be that") {
   CHECK_THAT(compare_results(here, there, {}).times.at(1),
              Contains("this processor") && Contains("another"));
 }
+
+TEST_CASE("Times of cells that ran at once are compared only with those of as many at once") {
+  ComparedCell beside = kReference;
+  beside.side_by_side = 2;
+  beside.seconds_per_scan = 0.9;  // Nine times the reference's.
+  const Comparison shown = compared(beside, kReference);
+  CHECK(shown.verdict() == ExitCode::kDone);
+  REQUIRE(shown.times.size() == 1);
+  CHECK_THAT(shown.times[0], Contains("not compared") && Contains("2 cells at once") &&
+                                 Contains("the reference with 1"));
+  ComparisonOptions judging;
+  judging.time_band = 3.0;
+  const Comparison asked = compared(beside, kReference, judging);
+  CHECK(asked.verdict() == ExitCode::kCannotDo);
+  CHECK_THAT(asked.incomparable.at(0), Contains("not taken alike") && Contains("--time-band"));
+  CHECK(compared(kReference, beside, judging).verdict() == ExitCode::kCannotDo);
+  ComparedCell also_beside = kReference;
+  also_beside.side_by_side = 2;
+  CHECK(compared(beside, also_beside, judging).verdict() == ExitCode::kWorse);
+  beside.seconds_per_scan = 0.2;
+  CHECK(compared(beside, also_beside, judging).verdict() == ExitCode::kDone);
+}

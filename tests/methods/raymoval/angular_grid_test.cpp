@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/simd/instruction_set_scope.h"
+#include "methods/raymoval/kernels/voxel_runs.h"
 
 using namespace raymoval;
 using namespace raymoval::raymoval_method;
@@ -28,7 +29,10 @@ TEST_CASE("eq. 1: range, azimuth and elevation of a point") {
   // Straight behind is +pi, the closed end of (-pi, pi].
   CHECK(to_spherical({-2.0, 0.0, 0.0}).azimuth == Approx(pi));
   CHECK(to_spherical({0.0, 0.0, -1.0}).elevation == Approx(-pi / 2));
-  CHECK(to_spherical({0.0, 0.0, 0.0}).range == 0.0);
+  const Spherical origin = to_spherical({0.0, 0.0, 0.0});
+  CHECK(origin.range == 0.0);
+  CHECK(origin.azimuth == 0.0);
+  CHECK(origin.elevation == 0.0);
 }
 
 TEST_CASE("eqs 2-3: steps and bins") {
@@ -66,12 +70,15 @@ TEST_CASE("eqs 4-5: the centre of a bin lies in that bin") {
 TEST_CASE("eq. 10: a bin keeps its nearest range, the ego vehicle is in no bin") {
   const AngularGrid grid = coarse_grid();
   Scan scan;
-  scan.points = {{5, 1, 0.5F}, {3, 1, 0.5F}, {1, 0.1F, 0.1F}, {0, 0, 9}};
+  scan.points = {{-3, -1, -0.5F}, {5, 1, 0.5F}, {3, 1, 0.5F},
+                 {1, 0.1F, 0.1F}, {0, 0, 9},    {-5, -1, -0.5F}};
   ProjectedScan projected;
   project(scan, grid, 2.0, 1, projected);
-  CHECK(projected.bin == std::vector<std::int32_t>{6, 6, -1, -1});
+  CHECK(projected.bin == std::vector<std::int32_t>{0, 6, 6, -1, -1, 0});
+  // The first point of the scan is the nearest in its bin, the third one in the other.
+  CHECK(projected.minimum_range[0] == Approx(std::sqrt(9 + 1 + 0.25)));
   CHECK(projected.minimum_range[6] == Approx(std::sqrt(9 + 1 + 0.25)));
-  CHECK(projected.range[0] == Approx(std::sqrt(25 + 1 + 0.25)));
+  CHECK(projected.range[1] == Approx(std::sqrt(25 + 1 + 0.25)));
   CHECK(projected.minimum_range[5] == kNoRange);
 }
 
@@ -96,8 +103,9 @@ TEST_CASE("points on borders of bins and elsewhere go where the formulas say, on
     const InstructionSetScope scope(set);
     ProjectedScan projected;
     project(scan, grid, 2.0, 2, projected);
-    std::vector<VoxelIndex> voxels;
-    find_voxels(scan, 5.0, 2, voxels);
+    VoxelRuns runs;
+    find_voxels(scan, 5.0, 2, runs);
+    const std::vector<VoxelIndex> voxels = runs.of_points(runs.voxels);
     for (std::size_t k = 0; k < scan.size(); ++k) {
       const Spherical at = to_spherical(scan.points[k].cast<double>());
       const auto bin = grid.bin_of(at.azimuth, at.elevation);
@@ -112,6 +120,6 @@ TEST_CASE("a point beyond the lattice is an error") {
   Scan scan;
   scan.points.assign(100, {1, 2, 3});
   scan.points[50].x() = 1e9F;
-  std::vector<VoxelIndex> voxels;
-  CHECK_THROWS_AS(find_voxels(scan, 5.0, 1, voxels), DataError);
+  VoxelRuns runs;
+  CHECK_THROWS_AS(find_voxels(scan, 5.0, 1, runs), DataError);
 }

@@ -38,6 +38,67 @@ TEST_CASE("a ray ends at the maximum range and starts at the ego radius") {
   CHECK_FALSE(cast_ray(map, {{0.1, 0.1, 0.1}, {0, 0, 1}}, {0.5, 60.0}));
 }
 
+TEST_CASE("a voxel that is entered at the very end of the range counts, at either end") {
+  // In the sensor's own brick, in the next one, and behind an empty one: the middle of a voxel is
+  // half a metre from its wall.
+  for (const int x : {5, 8, 16}) {
+    const Ray ray{{0.5, 0.5, 0.5}, {1, 0, 0}};
+    const double range = x - 0.5;
+    OccupancyMap map(1.0);
+    map.insert({x, 0, 0});
+    INFO(x);
+    REQUIRE(cast_ray(map, ray, {range, range}));
+    CHECK(cast_ray(map, ray, {range, range})->range == range);
+    CHECK_FALSE(cast_ray(map, ray, {0.0, range - 0.001}));
+    CHECK_FALSE(cast_ray(map, ray, {range + 0.001, 60.0}));
+  }
+}
+
+TEST_CASE("a ray through an edge of voxels passes the one beside it along the last axis") {
+  const auto meets = [](const Eigen::Vector3d& direction, const VoxelIndex& voxel) {
+    OccupancyMap map(1.0);
+    map.insert(voxel);
+    return cast_ray(map, {{0.5, 0.5, 0.5}, direction.normalized()}, {0.0, 60.0}).has_value();
+  };
+  CHECK(meets({1, 1, 0}, {0, 1, 0}));
+  CHECK_FALSE(meets({1, 1, 0}, {1, 0, 0}));
+  CHECK(meets({1, 0, 1}, {0, 0, 1}));
+  CHECK_FALSE(meets({1, 0, 1}, {1, 0, 0}));
+  CHECK(meets({0, 1, 1}, {0, 0, 1}));
+  CHECK_FALSE(meets({0, 1, 1}, {0, 1, 0}));
+  // Through a corner: z, then y, then x.
+  for (const VoxelIndex& met : {VoxelIndex(0, 0, 1), VoxelIndex(0, 1, 1), VoxelIndex(1, 1, 1)}) {
+    CHECK(meets({1, 1, 1}, met));
+  }
+  for (const VoxelIndex& missed : {VoxelIndex(1, 0, 0), VoxelIndex(0, 1, 0), VoxelIndex(1, 0, 1)}) {
+    CHECK_FALSE(meets({1, 1, 1}, missed));
+  }
+}
+
+TEST_CASE("a ray may begin farther on, and still tells where it entered the voxel") {
+  OccupancyMap map(1.0);
+  map.insert({0, 0, 0});
+  map.insert({3, 0, 0});
+  for (const int sign : {1, -1}) {
+    // 0.5 m before the one voxel and, the other way, behind the other.
+    const Ray ray{{sign > 0 ? -0.5 : 4.5, 0.5, 0.5}, {1.0 * sign, 0, 0}};
+    const VoxelIndex near(sign > 0 ? 0 : 3, 0, 0), far(sign > 0 ? 3 : 0, 0, 0);
+    const auto from = [&](double metres) {
+      const auto hit = cast_ray(map, ray, {0.0, 60.0}, metres);
+      REQUIRE(hit);
+      CHECK(hit->range == (hit->voxel == near ? 0.5 : 3.5));
+      return hit->voxel;
+    };
+    CHECK(from(0.0) == near);
+    CHECK(from(0.25) == near);
+    CHECK(from(0.75) == near);
+    CHECK(from(1.75) == far);
+    CHECK(from(3.75) == far);
+    CHECK_FALSE(cast_ray(map, ray, {0.0, 60.0}, 4.75));
+    CHECK_FALSE(cast_ray(map, ray, {0.0, 3.0}, 1.75));  // Beyond the range.
+  }
+}
+
 TEST_CASE("a ray ends although no range limits it") {
   constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   OccupancyMap map(0.2);

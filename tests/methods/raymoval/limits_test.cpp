@@ -136,12 +136,12 @@ TEST_CASE("a bin is seen through beyond the margins and not at them", "[raymoval
   };
   ProjectedScan scan;
   FirstHitImage hits;
-  std::vector<float> nearest, reference;
+  const BinWindow alone{{99, 1, 0.0, 0.1}, 0, 0};
+  std::vector<float> reference;
   std::vector<int> expected;
   for (int bin = 0; bin < 99; ++bin) {
     const Case& at = cases[static_cast<std::size_t>(bin) % cases.size()];
     scan.minimum_range.push_back(bin < 90 ? at.nearest : kNoRange);
-    nearest.push_back(at.nearest);
     hits.range.push_back(at.first_hit);
     reference.push_back(at.reference);
     if (at.through && bin < 90) expected.push_back(bin);
@@ -150,10 +150,33 @@ TEST_CASE("a bin is seen through beyond the margins and not at them", "[raymoval
     const InstructionSetScope scope(set);
     std::vector<int> found;
     for (const SeenThrough& through :
-         find_seen_through(scan, nearest, hits, reference, {1.0, 0.5}, 1)) {
+         find_seen_through(scan, alone, hits, reference, {1.0, 0.5}, 1)) {
       found.push_back(through.bin);
     }
     CHECK(found == expected);
+  }
+}
+
+TEST_CASE("what lies behind the last bin in memory is not looked at", "[raymoval]") {
+  for (const std::size_t bins : {1, 15, 16, 17, 31}) {
+    // The memory of one bin more, which would be seen through, is still there.
+    const auto shortened = [&](float value) {
+      std::vector<float> values(bins + 1, value);
+      values.pop_back();
+      return values;
+    };
+    ProjectedScan scan;
+    scan.minimum_range = shortened(20.0F);
+    FirstHitImage hits;
+    hits.range = shortened(10.0F);
+    const std::vector<float> reference = shortened(10.0F);
+    const BinWindow alone{{static_cast<int>(bins), 1, 0.0, 0.1}, 0, 0};
+    std::vector<int> found, every;
+    for (const SeenThrough& at : find_seen_through(scan, alone, hits, reference, {1, 0.1}, 1)) {
+      found.push_back(at.bin);
+    }
+    for (std::size_t bin = 0; bin < bins; ++bin) every.push_back(static_cast<int>(bin));
+    CHECK(found == every);
   }
 }
 
@@ -184,6 +207,8 @@ TEST_CASE("eq. 13: the median range decides, and none below a metre", "[raymoval
   // m(10) = 12 and m(20) = 3. Of an even number the farther one of the middle two decides.
   ScanPoints points = voxel_points({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}});
   points.range = {10, 20, 20, 20};
+  CHECK(passes_cluster_screen({0, 1, 2}, points, parameters));
+  points.range = {20, 10, 20, 20};  // In any order.
   CHECK(passes_cluster_screen({0, 1, 2}, points, parameters));
   points.range = {10, 10, 20, 20};
   CHECK(passes_cluster_screen({0, 1, 2, 3}, points, parameters));

@@ -58,11 +58,17 @@ TEST_CASE("a mended cover holds exactly the voxels that are there now") {
     brick.occupied[static_cast<std::size_t>(x)] ^= Brick::bit(y, z);
     if (round % 7 == 0) brick.occupied[static_cast<std::size_t>(y)] |= 0xFFFFULL << (8 * x);
     if (round % 3 != 0) continue;  // Several changes at once.
-    mend_cover(brick, Change::kShrunk, boxes);
+    mend_cover(brick, boxes);
     REQUIRE(union_of(boxes).occupied == brick.occupied);
     // Now it only grows.
+    Brick added;
+    added.occupied[static_cast<std::size_t>(z)] =
+        Brick::bit(x, y) & ~brick.occupied[static_cast<std::size_t>(z)];
     brick.occupied[static_cast<std::size_t>(z)] |= Brick::bit(x, y);
-    mend_cover(brick, Change::kGrown, boxes);
+    const std::vector<BrickBox> before = boxes;
+    cover_added(brick, added, boxes);
+    REQUIRE(std::equal(before.begin(), before.end(), boxes.begin(),
+                       [](BrickBox a, BrickBox b) { return a.packed == b.packed; }));
     REQUIRE(union_of(boxes).occupied == brick.occupied);
   }
 }
@@ -89,6 +95,25 @@ TEST_CASE("a cover has one box where one is enough") {
   Brick single;
   single.occupied[5] = Brick::bit(6, 1);
   CHECK(tight_box(single).packed == BrickBox::from({5, 6, 1}, {5, 6, 1}).packed);
+}
+
+TEST_CASE("the tight box of voxels reaches from the first to the last along each axis") {
+  const auto corner = [](int number) {
+    return std::array<int, 3>{number >> 6 & 7, number >> 3 & 7, number & 7};
+  };
+  for (int one = 0; one < 512; ++one) {
+    for (const int other : {one, one * 37 % 512, 511 - one}) {
+      const std::array<int, 3> a = corner(one), b = corner(other);
+      Brick brick;
+      brick.add(a[0], a[1], a[2]);
+      brick.add(b[0], b[1], b[2]);
+      const BrickBox box = tight_box(brick);
+      for (std::size_t k = 0; k < 3; ++k) {
+        REQUIRE(box.first(k) == std::min(a[k], b[k]));
+        REQUIRE(box.last(k) == std::max(a[k], b[k]));
+      }
+    }
+  }
 }
 
 TEST_CASE("the map holds what a plain set holds, whatever comes and goes") {
@@ -118,6 +143,37 @@ TEST_CASE("the map holds what a plain set holds, whatever comes and goes") {
     }
     REQUIRE(voxels == expected.size());
   }
+}
+
+TEST_CASE("a brick that is filled voxel by voxel ends with few boxes") {
+  // Each voxel comes after the cover of those before it was made. All boxes that were ever right
+  // still are, since no voxel leaves.
+  OccupancyMap map(0.2);
+  std::size_t most = 0;
+  for (int k = 0; k < 512; ++k) {
+    map.insert({k / 64, k / 8 % 8, k % 8});
+    map.update_boxes(1);
+    most = std::max(most, map.boxes(0).size());
+  }
+  // What is filled so far is three boxes at most: a block, rows on it and the last voxels. A cover
+  // that was mended may have half as many more, and two.
+  CHECK(most <= 6);
+}
+
+TEST_CASE("a map tells at least the memory of what is in it") {
+  OccupancyMap map(0.2);
+  for (int brick = 0; brick < 100; ++brick) {
+    // Four loose voxels in each brick: as many boxes.
+    for (const int corner : {0, 2, 4, 6}) map.insert({8 * brick + corner, corner, 0});
+  }
+  map.update_boxes(1);
+  std::size_t boxes = 0;
+  for (OccupancyMap::Slot slot = 0; slot < map.brick_count(); ++slot) {
+    boxes += map.boxes(slot).size();
+  }
+  REQUIRE(boxes == 400);
+  CHECK(map.memory_bytes() > 100 * sizeof(Brick) + 400 * sizeof(BrickBox) +
+                                 100 * sizeof(OccupancyMap::BrickHead) + 100 * 16);
 }
 
 TEST_CASE("a voxel nearby is found across the borders of bricks") {

@@ -2,7 +2,6 @@
 #include "methods/raymoval/raymoval.h"
 
 #include <catch2/catch.hpp>
-#include <map>
 #include <numbers>
 
 #include "core/text.h"
@@ -216,62 +215,6 @@ TEST_CASE("online, what stands where a scan has seen through is removed") {
 TEST_CASE("what never came into a growing map is removed from it") {
   const World world = box_that(false);
   CHECK(toy::removed_share(world, run("offline-growing", world), kOtherOwner, 5, 9) > 0.95);
-}
-
-namespace {
-
-/// Keeps the codes of a run's reasons.
-class Reasons : public ReasonSink {
- public:
-  explicit Reasons(std::size_t scans) : codes(scans) {}
-  void explain(const std::vector<std::string>& told) override { sentences = told; }
-  void accept(std::size_t scan, const std::vector<std::uint8_t>& told) override {
-    codes[scan] = told;
-  }
-  std::vector<std::string> sentences;
-  std::vector<std::vector<std::uint8_t>> codes;
-};
-
-/// How many points of `owner` have each reason, over all scans, in percent.
-std::map<std::string, double> reasons_of(const ConfiguredMethod& method, const World& world,
-                                         int owner) {
-  Reasons reasons(world.size());
-  toy::Masks masks(world.size());
-  RunContext context;
-  context.reasons = &reasons;
-  method.make()->run(world, masks, context);
-  std::map<std::string, double> shares;
-  int points = 0;
-  for (std::size_t i = 0; i < world.size(); ++i) {
-    for (std::size_t k = 0; k < world.owner[i].size(); ++k) {
-      if (world.owner[i][k] != owner) continue;
-      const std::string& sentence = reasons.sentences.at(reasons.codes[i].at(k));
-      const bool removes = sentence.find("saw through") != std::string::npos ||
-                           sentence.find("stands in front") != std::string::npos;
-      REQUIRE((masks.store.get(i)[k] != 0) == removes);
-      shares[sentence.substr(0, 12)] += 1;
-      ++points;
-    }
-  }
-  for (auto& [sentence, share] : shares) share *= 100.0 / points;
-  return shares;
-}
-
-}  // namespace
-
-TEST_CASE("each point's reason fits its answer") {
-  const World world = box_that(true);
-  ConfiguredMethod method = configured("offline");
-  CHECK(reasons_of(method, world, kOtherOwner)["a scan saw t"] > 80);
-  CHECK(reasons_of(method, world, kWallOwner)["no scan cont"] > 99);
-  set_parameter(method.configuration, "erased_points", false);  // Only eq. 11 is left.
-  CHECK(reasons_of(method, world, kOtherOwner)["it stands in"] > 95);
-  // Validation gives all back where a cluster needs more points than the box has: at 6 m 1,000
-  // times (10 / 6)^2. Without validation all is removed.
-  set_parameter(method.configuration, "cluster_points", 1000.0);
-  CHECK(reasons_of(method, world, kOtherOwner)["it was a can"] > 95);
-  set_parameter(method.configuration, "validate", false);
-  CHECK(reasons_of(method, world, kOtherOwner)["it stands in"] > 95);
 }
 
 TEST_CASE("a sensor that sees only ahead judges only what it sees") {

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// What a run tells besides its masks: the reason of each point, and the stages it was timed by.
+#include <catch2/catch.hpp>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "core/stage_timer.h"
+#include "methods/registry.h"
+#include "tests/methods/toy_world.h"
+
+using namespace raymoval;
+using toy::Box;
+using toy::World;
+
+namespace {
+
+constexpr int kWallOwner = 0;
+constexpr int kOtherOwner = 1;
+
+/// A wall 12 m ahead that ends at `wall_top`, and before it a box of car size in the first five of
+/// ten scans. The sensor looks `turn` to the left of it.
+World box_before_wall(double wall_top = 3.0, double turn = 0.0) {
+  World world{toy::Scanner{}};
+  for (int i = 0; i < 10; ++i) {
+    std::vector<Box> boxes = {{{12.03, -9, -3}, {12.5, 9, wall_top}}};
+    if (i < 5) boxes.push_back({{6.03, -1, -2}, {8, 1, 0.6}});
+    Pose pose = Pose::Identity();
+    pose.translation() = Eigen::Vector3d(0.013 * i + 0.01, 0.02, 0.03);
+    pose.linear() = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).matrix();
+    world.scan(boxes, pose);
+  }
+  return world;
+}
+
+/// One bin per beam and two beams per bin along a row: the toy scanner needs no more.
+ConfiguredMethod on_toy_grid(const std::string& variant) {
+  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:" + variant);
+  set_parameter(method.configuration, "azimuth_bins", std::int64_t{360});
+  set_parameter(method.configuration, "elevation_bins", std::int64_t{44});
+  return method;
+}
+
+/// Keeps the codes of a run's reasons.
+class Reasons : public ReasonSink {
+ public:
+  explicit Reasons(std::size_t scans) : codes(scans) {}
+  void explain(const std::vector<std::string>& told) override { sentences = told; }
+  void accept(std::size_t scan, const std::vector<std::uint8_t>& told) override {
+    codes[scan] = told;
+  }
+  std::vector<std::string> sentences;
+  std::vector<std::vector<std::uint8_t>> codes;
+};
+
+/// How many points of `owner` have each reason, over all scans, in percent.
+std::map<std::string, double> reasons_of(const ConfiguredMethod& method, const World& world,
+                                         int owner) {
+  Reasons reasons(world.size());
+  toy::Masks masks(world.size());
+  RunContext context;
+  context.reasons = &reasons;
+  method.make()->run(world, masks, context);
+  std::map<std::string, double> shares;
+  int points = 0;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    for (std::size_t k = 0; k < world.owner[i].size(); ++k) {
+      if (world.owner[i][k] != owner) continue;
+      const std::string& sentence = reasons.sentences.at(reasons.codes[i].at(k));
+      const bool removes = sentence.find("saw through") != std::string::npos ||
+                           sentence.find("stands in front") != std::string::npos;
+      REQUIRE((masks.store.get(i)[k] != 0) == removes);
+      shares[sentence.substr(0, 12)] += 1;
+      ++points;
+    }
+  }
+  for (auto& [sentence, share] : shares) share *= 100.0 / points;
+  return shares;
+}
+
+}  // namespace
+
+TEST_CASE("each point's reason fits its answer", "[raymoval]") {
+  const World world = box_before_wall();
+  ConfiguredMethod method = on_toy_grid("offline");
+  CHECK(reasons_of(method, world, kOtherOwner)["a scan saw t"] > 80);
+  CHECK(reasons_of(method, world, kWallOwner)["no scan cont"] > 99);
+  set_parameter(method.configuration, "erased_points", false);  // Only eq. 11 is left.
+  CHECK(reasons_of(method, world, kOtherOwner)["it stands in"] > 95);
+  // Validation gives all back where a cluster needs more points than the box has: at 6 m 1,000
+  // times (10 / 6)^2. Without validation all is removed.
+  set_parameter(method.configuration, "cluster_points", 1000.0);
+  CHECK(reasons_of(method, world, kOtherOwner)["it was a can"] > 95);
+  set_parameter(method.configuration, "validate", false);
+  CHECK(reasons_of(method, world, kOtherOwner)["it stands in"] > 95);
+}
+
+TEST_CASE("a point that eq. 11 alone speaks against is not told to have been seen through",
+          "[raymoval]") {
+  // The wall ends at 0.3 m, so that no return tells that the upper half of the box has left.
+  const World world = box_before_wall(0.3);
+  auto shares = reasons_of(on_toy_grid("offline"), world, kOtherOwner);
+  CHECK(shares["a scan saw t"] > 20);
+  CHECK(shares["it stands in"] > 0.5);
+  // Against the map of all points eq. 11 says nothing, whatever else is asked for.
+  ConfiguredMethod naive = on_toy_grid("offline-naive");
+  set_parameter(naive.configuration, "erased_points", false);
+  shares = reasons_of(naive, world, kOtherOwner);
+  CHECK(shares["a scan saw t"] > 20);
+  CHECK(shares["it stands in"] == 0);
+}
+
+TEST_CASE("the first point of a scan has its answer and its reason, too", "[raymoval]") {
+  // The sensor looks away from the box, which is where its turn begins.
+  const World world = box_before_wall(3.0, std::numbers::pi);
+  REQUIRE(world.owner[0][0] == kOtherOwner);
+  ConfiguredMethod method = on_toy_grid("offline");
+  CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
+  set_parameter(method.configuration, "forward_test", false);  // It was seen through.
+  CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
+  CHECK(reasons_of(on_toy_grid("offline"), world, kOtherOwner)["a scan saw t"] > 80);
+}
+
+namespace {
+
+/// Counts what the masks of a run say.
+class Said : public RemovalSink {
+ public:
+  void accept(std::size_t /*scan*/, const Mask& mask) override {
+    for (const std::uint8_t says : mask) ++counts[says];
+  }
+  std::map<int, int> counts;
+};
+
+}  // namespace
+
+TEST_CASE("masks say 0 or 1, validated or not", "[raymoval]") {
+  const World world = box_before_wall();
+  for (const char* variant : {"offline", "offline-growing", "offline-naive", "online"}) {
+    for (const bool validate : {false, true}) {
+      ConfiguredMethod method = on_toy_grid(variant);
+      set_parameter(method.configuration, "validate", validate);
+      Said said;
+      method.make()->run(world, said, {});
+      for (const auto& [says, count] : said.counts) CHECK((says == 0 || says == 1));
+      CHECK(said.counts[0] > 1000);
+      if (std::string(variant) != "online") CHECK(said.counts[1] > 1000);
+    }
+  }
+}
+
+namespace {
+
+/// Names of the stages that a run is timed by.
+std::set<std::string> stages_of(const ConfiguredMethod& method, int threads) {
+  const World world = box_before_wall();
+  toy::Masks masks(world.size());
+  StageTimes times;
+  RunContext context;
+  context.threads = threads;
+  context.times = &times;
+  method.make()->run(world, masks, context);
+  std::set<std::string> names;
+  for (const StageTimes::Stage& stage : times.stages()) {
+    CHECK(stage.seconds > 0.0);
+    names.insert(stage.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a run is timed by the steps that it takes", "[raymoval]") {
+  using Names = std::set<std::string>;
+  const Names steps = {"binning", "raycasting", "classification",
+                       "erase",   "validation", "integration"};
+  CHECK(stages_of(on_toy_grid("online"), 1) == steps);
+  CHECK(stages_of(on_toy_grid("offline"), 1) == steps);
+  ConfiguredMethod method = on_toy_grid("offline-naive");
+  Names naive = steps;
+  naive.insert("answer");
+  CHECK(stages_of(method, 1) == naive);
+  // What several threads do side by side is one stage.
+  Names side_by_side = stages_of(method, 2);
+  CHECK(side_by_side.count("answer and validation") == 1);
+  CHECK(side_by_side.count("answer") == 0);
+  CHECK(side_by_side.count("validation") == 0);
+  // A step that is left out has no time.
+  set_parameter(method.configuration, "validate", false);
+  naive.erase("validation");
+  CHECK(stages_of(method, 1) == naive);
+  method = on_toy_grid("online");
+  set_parameter(method.configuration, "validate", false);
+  set_parameter(method.configuration, "erase", false);
+  set_parameter(method.configuration, "no_return", true);
+  CHECK(stages_of(method, 1) ==
+        Names{"binning", "raycasting", "classification", "no-return evidence", "integration"});
+}
