@@ -69,6 +69,7 @@ TEST_CASE("A file keeps what it held until all of the new content has its name")
   const auto path = folder.path() / "a.txt";
   write_atomically(path, "before");
   FileWriter file(path);
+  CHECK(file.path() == path);
   file.append("count 0, ");
   file.append("points");
   file.overwrite(6, "2");

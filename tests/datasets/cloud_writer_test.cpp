@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/replacements.h"
 #include "datasets/clouds/cloud_file.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -35,6 +36,19 @@ TEST_CASE("A cloud written in pieces reads back as one, in every format", "[clou
     write_cloud(whole, kPoints, kIntensity);
     CHECK(read_text(whole) == read_text(path));
   }
+}
+
+TEST_CASE("A cloud gets its name with other files if that is asked for", "[cloud]") {
+  const TemporaryFolder folder;
+  Replacements together;
+  CloudWriter writer(folder / "map.pcd");
+  writer.start(false);
+  writer.add(kPoints, {});
+  writer.finish();
+  writer.commit_with(together);
+  CHECK_FALSE(std::filesystem::exists(folder / "map.pcd"));
+  together.commit();
+  CHECK(read_cloud(folder / "map.pcd").points == kPoints);
 }
 
 TEST_CASE("Missing intensities count as 0, or have no field", "[cloud]") {

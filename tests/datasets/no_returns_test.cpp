@@ -112,3 +112,11 @@ TEST_CASE("an empty name of a sensor means none", "[settings]") {
   options.sensor = "";
   CHECK(open_sequence(folder.text(), options).scans->sensor().name == "estimated");
 }
+
+TEST_CASE("Of a sequence that is not read from files nothing is left out") {
+  const LeftOutPoints points = left_out_points(open_sequence("street", {}));
+  CHECK(points.stored == 0);
+  CHECK(points.no_returns == 0);
+  CHECK(points.looked_at == 0);
+  CHECK(points.own_vehicle == 0);
+}

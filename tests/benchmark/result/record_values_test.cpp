@@ -212,4 +212,6 @@ TEST_CASE("The text of results is that of the file without its checksum", "[resu
   CHECK(back.find({"town", "comb"})->key == "key");
   CHECK(back.find({"town", "other"}) == nullptr);
   CHECK(back.find({"other", "comb"}) == nullptr);
+  write_sealed(file, {{"schema_version", 7}});
+  CHECK_THROWS_AS(read_results_text(file), SchemaVersionError);
 }

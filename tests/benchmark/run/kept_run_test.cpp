@@ -243,6 +243,15 @@ TEST_CASE("Below --data only folders that are there are tried, and none above it
   }
 }
 
+TEST_CASE("A scene that a run.json names is not made unless somebody asks for that") {
+  const TwoSequences two;
+  RunRecord run = read_run_record(two.run / "run.json");
+  run.sequences.at(0).place->path = "town:scans=2,seed=20261122";
+  write_run_record(two.run / "run.json", run);
+  CHECK_THROWS_WITH(KeptRun(two.run.string(), "").open("drive", {}),
+                    Contains("is a scene that is not in the cache"));
+}
+
 TEST_CASE("Of a sequence whose frames or scans nobody knows all are opened") {
   const TwoSequences two;
   fs::remove(two.run / "run.json");
