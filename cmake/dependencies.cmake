@@ -14,7 +14,7 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # SIMD chosen at run time.
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 
-# PCL only where .pcd and .ply files are read and where a method says so.
+# PCL only where a method says so.
 find_path(RAYMOVAL_PCL_INCLUDE_DIRS pcl/point_cloud.h PATH_SUFFIXES pcl-1.13 pcl-1.12 REQUIRED)
 find_package(octomap 1.9 REQUIRED)
 include(cmake/system_libraries.cmake)

@@ -9,8 +9,9 @@ set(first_headers
   core/scan/voxel_key.h
   datasets/open_sequence.h
   datasets/sequence.h
-  eval/points/checked_scan.h
+  eval/checked_scan.h
   eval/points/scan_loops.h
+  eval/scan_passes.h
   eval/protocol.h
   eval/protocol_registry.h
   methods/common/scan_passes.h

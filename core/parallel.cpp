@@ -75,30 +75,58 @@ class LoopOrder {
 #endif
 };
 
-/// Runs `work` with at most `threads` threads. An arena that is kept finds its threads still awake
-/// when one short loop follows another; a loop within a loop, or beside one, gets one of its own.
+/// The arena that is kept from loop to loop, which finds its threads still awake when one short
+/// loop follows another.
+struct KeptArena {
+  std::atomic_flag is_busy;
+  int threads = 0;
+  std::unique_ptr<tbb::task_arena> arena;
+};
+KeptArena& kept_arena() {
+  static KeptArena& kept = *new KeptArena;  // Never destroyed: TBB may be gone before it.
+  return kept;
+}
+
+/// Of the loop that this thread is in: the threads of the kept arena if it runs there, else 0.
+thread_local int threads_around = 0;
+
+/// What a chunk is run in.
+class ChunkScope {
+ public:
+  explicit ChunkScope(int threads) : outer_(threads_around) { threads_around = threads; }
+  ~ChunkScope() { threads_around = outer_; }
+  ChunkScope(const ChunkScope&) = delete;
+  ChunkScope& operator=(const ChunkScope&) = delete;
+
+ private:
+  int outer_;
+};
+
+/// Runs `work(threads of the kept arena, or 0 if it is not used)` with at most `threads` threads. A
+/// loop within a loop of as many threads shares their arena, so that whoever has nothing left to do
+/// helps; while it waits for the others, its thread takes up nothing else. A loop within a smaller
+/// one, or beside one, gets an arena of its own.
 template <class Work>
 void run_in_arena(int threads, Work&& work) {
-  struct Kept {
-    std::atomic_flag is_busy;
-    int threads = 0;
-    std::unique_ptr<tbb::task_arena> arena;
-  };
-  static Kept& kept = *new Kept;  // Never destroyed: TBB may be gone before it.
   // TBB never runs more than this, and warns on standard error where it is asked to. It is the
   // number of processors, unless a `tbb::global_control` says otherwise.
   const std::size_t allowed =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const int most = static_cast<int>(std::min(static_cast<std::size_t>(threads), allowed));
+  if (threads_around == most) {
+    tbb::this_task_arena::isolate([&] { work(most); });
+    return;
+  }
+  KeptArena& kept = kept_arena();
   if (kept.is_busy.test_and_set(std::memory_order_acquire)) {
-    tbb::task_arena(most).execute(work);
+    tbb::task_arena(most).execute([&] { work(0); });
     return;
   }
   if (kept.threads != most) {
     kept.arena = std::make_unique<tbb::task_arena>(most);
     kept.threads = most;
   }
-  kept.arena->execute(work);
+  kept.arena->execute([&] { work(most); });
   kept.is_busy.clear(std::memory_order_release);
 }
 
@@ -118,10 +146,11 @@ void parallel_chunks(int threads, std::size_t count, std::size_t grain,
   FirstError first_error;
   LoopOrder order;
   order.loop_begins();
-  run_in_arena(threads, [&] {
+  run_in_arena(threads, [&](int threads_of_arena) {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
+          const ChunkScope scope(threads_of_arena);
           for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
             order.chunk_begins();
             try {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -33,6 +34,12 @@ std::optional<double> ProtocolResult::rate(const std::string& name) const {
     if (rate.name == name) return rate.value;
   }
   return std::nullopt;
+}
+
+ProtocolResult Scorer::score(const MaskStore& masks) const {
+  const std::unique_ptr<Scoring> scoring = start();
+  run_passes(input_, masks, {scoring.get()});
+  return scoring->result();
 }
 
 ProtocolResult Scorer::score_cloud(const CloudEstimate& /*cloud*/) const {

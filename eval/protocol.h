@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -21,6 +23,7 @@
 namespace raymoval {
 
 class CloudEstimate;
+struct CheckedScan;
 
 /// What a protocol scores against: posed scans, a label word for each point, and what labels mean.
 struct EvaluationInput {
@@ -33,6 +36,7 @@ struct EvaluationInput {
   std::optional<Pose> T_camera_lidar = std::nullopt;
   int threads = 1;
   Progress* progress = nullptr;
+  const std::atomic<bool>* cancel = nullptr;  ///< Set when scoring is to stop; null: it never is.
 };
 
 /// @param asker stands in the message
@@ -55,20 +59,56 @@ struct ProtocolResult {
   [[nodiscard]] std::optional<double> rate(const std::string& name) const;
 };
 
+/// Looks at all scans of an answer, in passes: a pass shows it each scan once. All that look at the
+/// same answer share its passes, so that a scan is read once for all of them (`run_passes`).
+class ScanVisitor {
+ public:
+  virtual ~ScanVisitor() = default;
+  /// Prepares the next pass.
+  /// @param slots how many scans may be in work at a time
+  /// @return false if no further pass is needed
+  virtual bool begin_pass(std::size_t slots) = 0;
+  /// Looks at a scan and leaves in `slot` what `take` needs. Several threads call it at a time,
+  /// each with a slot of its own, also while another thread is in `take`.
+  virtual void read(const CheckedScan& scan, std::size_t slot) = 0;
+  /// Takes in what `read` left in `slot`. It is called once a scan, in the order of the scans.
+  virtual void take(std::size_t slot) = 0;
+};
+
+/// The scoring of one answer by one protocol.
+class Scoring : public ScanVisitor {
+ public:
+  /// What the passes add up to. Called once, after the last pass.
+  [[nodiscard]] virtual ProtocolResult result() = 0;
+};
+
 /// A protocol opened for one sequence. It holds what depends on scans and labels only, so one
-/// scorer serves all methods.
+/// scorer serves all methods. Several threads may score answers with it at a time.
 class Scorer {
  public:
+  explicit Scorer(EvaluationInput input) : input_(std::move(input)) {}
   virtual ~Scorer() = default;
+  Scorer(const Scorer&) = delete;
+  Scorer& operator=(const Scorer&) = delete;
+
+  /// Begins to score an answer. The scorer outlives the scoring.
+  [[nodiscard]] virtual std::unique_ptr<Scoring> start() const = 0;
+  /// Scores an answer by this protocol alone.
   /// @param masks one mask per scan, as long as the scan has points
   /// @throws MethodError if a mask is missing or has the wrong length
-  [[nodiscard]] virtual ProtocolResult score(const MaskStore& masks) const = 0;
+  [[nodiscard]] ProtocolResult score(const MaskStore& masks) const;
   /// Scores a cleaned map without labels that was made elsewhere. Labels are found again by nearest
   /// neighbour, so the result must not stand in one table with scores by masks. A protocol that
   /// does not override this function scores no clouds.
   /// @param cloud points in the world frame of the scans' poses
   /// @throws UsageError if the protocol or its options rule it out
   [[nodiscard]] virtual ProtocolResult score_cloud(const CloudEstimate& cloud) const;
+
+ protected:
+  [[nodiscard]] const EvaluationInput& input() const { return input_; }
+
+ private:
+  EvaluationInput input_;
 };
 
 /// What a protocol is: all that the program needs to know of it.

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Times the kernels of the raymoval method and the usual ways to cast rays, in one process.
+# Times the kernels of the raymoval method and the usual ways to cast rays, in one process, and whole
+# cells of every method.
 #
 #   scripts/benchmark.sh [--out DIR]                 results go to DIR (default: results/run-kernels)
 #   RAYMOVAL_DATA=DIR scripts/benchmark.sh           also on your own sequence, see
@@ -8,7 +9,9 @@
 #
 # Writes kernels.json (images and scans: repetitions in random order), maps.json (maps by size: one
 # size after the other, since only one such map is held at a time) and kernels.md, the table of
-# medians.
+# medians; and speed.json: whole cells (load, method, score) of every method on one scene, relative to
+# a fixed kernel of the same run, so that two machines can be compared:
+#   raymoval compare --speed DIR OTHER
 set -euo pipefail
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -32,7 +35,7 @@ while [[ $# -gt 0 ]]; do
       shift 2
       ;;
     -h | --help)
-      sed -n '3,11s/^# \{0,1\}//p' scripts/benchmark.sh
+      sed -n '3,15s/^# \{0,1\}//p' scripts/benchmark.sh
       exit 0
       ;;
     *) fail "unknown argument '$1'; usage: scripts/benchmark.sh [--out DIR]" ;;
@@ -70,7 +73,9 @@ run kernels --benchmark_filter='-^map_' --benchmark_min_time=0.1 \
 run maps --benchmark_filter='^map_'
 
 "$kernels" --table "$out/kernels.json" "$out/maps.json" >"$out/kernels.md.part"
+# Last, since nothing else may run beside it.
+"$kernels" --cells "$out/speed.json" >>"$out/kernels.md.part" || fail "the whole cells failed, see above"
 mv "$out/kernels.md.part" "$out/kernels.md"
 cat "$out/kernels.md"
 echo
-echo "benchmark.sh: wrote $out/kernels.json, $out/maps.json and $out/kernels.md"
+echo "benchmark.sh: wrote $out/kernels.json, $out/maps.json, $out/speed.json and $out/kernels.md"

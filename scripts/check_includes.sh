@@ -23,11 +23,12 @@ methods                controls|external|raymoval|raymoval_plus
 methods                |octomap|peopleremover|removert|erasor|dufomap registry
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects .
-eval                   . points dynamicmap|erasor protocol_registry columns|comparison|published
+eval                   . points lattice dynamicmap|erasor protocol_registry columns|comparison|published
+eval/erasor            options|frame maps matching rates scorer .
 benchmark              harness suite result process tables run clean picture report cli cli/shell cli/commands
 benchmark              kernels
 benchmark/picture      canvas charts|maps
-benchmark/result       . removals|checks
+benchmark/result       . removals|checks|speed
 benchmark/run          folder .
 benchmark/tables       text comparison .
 "

@@ -20,6 +20,6 @@ if [[ ! -e $reference/results.json ]]; then
 fi
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-build/release/raymoval run benchmark/suites/quick.json --quiet --out "$out/run" >"$out/log.txt" 2>&1 ||
+build/release/raymoval run benchmark/suites/quick.json --quiet --jobs "$(nproc)" --out "$out/run" >"$out/log.txt" 2>&1 ||
   { cat "$out/log.txt"; exit 1; }
 build/release/raymoval compare "$out/run" "$reference"

@@ -4,13 +4,16 @@
 # which of them no test finds. Needs clang's syntax tree (Debian: python3-clang-14).
 #
 #   scripts/mutate.sh [--room ROOM] [--file FILE ...] [--sample N] [--seed S] [--jobs N]
-#                     [--tests SPEC] [--survivors] [--list]
+#                     [--tests SPEC] [--survivors] [--unexplained] [--list]
 #
 #   --room       eval (default), readers, stores or raymoval
 #   --file       only this file of the room
 #   --sample     only so many mutants, chosen by --seed (default 1); all of them otherwise
 #   --tests      only test cases that Catch2 chooses by this, such as "[averages]"
-#   --survivors  only those that survived in earlier runs, for instance after writing a test
+#   --survivors  only those that no test found in earlier runs, and those not tried yet: after
+#                writing a test, or after a run that was stopped; the score is that of all
+#   --unexplained  not those that tests/mutants/equivalent.md explains, which are tried in vain for
+#                longest; they are taken to survive
 #   --list       only tells the mutants
 #
 # All mutants of a room are compiled into its test programs at once, each behind a switch that is

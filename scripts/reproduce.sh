@@ -11,6 +11,9 @@
 #   RAYMOVAL_DATA=/data/kitti:kitti-05 scripts/reproduce.sh    your own sequence, see
 #                                                    `raymoval list sequences`
 #   RAYMOVAL_OUT=DIR                                 where results go (default: results/run-...)
+#   RAYMOVAL_JOBS=N                                  cells that run at once (default: one for each core,
+#                                                    as memory allows; for SemanticKITTI 1, since its
+#                                                    Table 3 is of times, and each is slower beside others)
 set -euo pipefail
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -109,7 +112,7 @@ fi
 scripts/install_dependencies.sh
 # Files compiled several at a time build sooner. A build folder that is there stays as it is.
 sooner=()
-[[ -z $quick || -e build/release/CMakeCache.txt ]] ||
+[[ -e build/release/CMakeCache.txt ]] ||
   sooner=("-DRAYMOVAL_UNITY=core;datasets;methods;eval;benchmark")
 cmake --preset release "${sooner[@]}"
 cmake --build --preset release --target raymoval_program
@@ -134,6 +137,12 @@ out=results/run-$label
 [[ -z ${RAYMOVAL_OUT:-} ]] || out=$(from_caller "$RAYMOVAL_OUT")
 
 echo "reproduce.sh: running on $data, results go to $out"
+# As many cells at once as there are cores, with 2 GiB of memory for each.
+cores=$(nproc)
+memory_gib=$(awk '/^MemTotal:/ { print int($2 / 1048576) }' /proc/meminfo)
+jobs=$((memory_gib / 2 < cores ? memory_gib / 2 : cores))
+[[ $jobs -ge 1 && $label != semantickitti ]] || jobs=1
+what+=(--jobs "${RAYMOVAL_JOBS:-$jobs}")
 # --overwrite: the folder is for this one result. Cells that are still right are kept all the same.
 if [[ -n $quick ]]; then
   build/release/raymoval run "${what[@]}" --keep-removals --overwrite --out "$out"

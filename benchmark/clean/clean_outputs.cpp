@@ -28,7 +28,7 @@ fs::path plain(const fs::path& path) {
   if (error) {
     throw UnreadableError(path.string() + ": cannot be looked at (" + error.message() + ").");
   }
-  return whole.has_filename() ? whole : whole.parent_path();
+  return without_slash(whole);
 }
 
 void check_cloud_path(const fs::path& path, bool overwrite) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <system_error>
+#include <vector>
 
 #include "core/files/file_kind.h"
 #include "core/files/part_name.h"
@@ -27,12 +28,8 @@ std::set<fs::path> unfinished(const CleanPaths& paths) {
   std::set<fs::path> found;
   for (const fs::path& output : {paths.map, paths.removed, paths.labels}) {
     if (output.empty()) continue;
-    const fs::path whole = fs::absolute(output).lexically_normal();
-    const fs::path named = whole.has_filename() ? whole : whole.parent_path();
-    if (!is_folder(named.parent_path())) continue;
-    for (const fs::path& entry : entries_of(named.parent_path())) {
-      if (name_of_part(entry) == named.filename()) found.insert(entry);
-    }
+    const std::vector<fs::path> parts = parts_of(fs::absolute(output).lexically_normal());
+    found.insert(parts.begin(), parts.end());
   }
   return found;
 }

@@ -32,11 +32,15 @@ struct OrderMessage {
   json parameters;
   int threads = 1;
   bool with_reasons = false;
+  bool loads_ahead = true;
+  std::vector<double> up;  ///< x, y and z.
+  int up_source = 0;
   int progress = 0;
   std::string progress_context;
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OrderMessage, place, name, method, parameters, threads,
-                                   with_reasons, progress, progress_context)
+                                   with_reasons, loads_ahead, up, up_source, progress,
+                                   progress_context)
 
 /// What stands before the masks and reasons of an answer.
 struct AnswerHead {
@@ -106,9 +110,18 @@ class MessageReader {
 
 void write_order(int file, const MethodOrder& order) {
   const ConfiguredMethod& method = order.request.method;
-  MessageWriter(file).put_json(OrderMessage{
-      to_json(order.place), order.request.name, method.address(), to_json(method.configuration),
-      order.threads, order.with_reasons, static_cast<int>(order.progress), order.progress_context});
+  const Eigen::Vector3d& up = order.up.direction;
+  MessageWriter(file).put_json(OrderMessage{to_json(order.place),
+                                            order.request.name,
+                                            method.address(),
+                                            to_json(method.configuration),
+                                            order.threads,
+                                            order.with_reasons,
+                                            order.loads_ahead,
+                                            {up.x(), up.y(), up.z()},
+                                            static_cast<int>(order.up.source),
+                                            static_cast<int>(order.progress),
+                                            order.progress_context});
 }
 
 MethodOrder read_order(int file, const MethodRegistry& registry) {
@@ -119,12 +132,14 @@ MethodOrder read_order(int file, const MethodRegistry& registry) {
     const ParameterSpec& spec = find_parameter(entry.name, entry.parameters, key);
     set_parameter(request.method.configuration, key, checked_value(entry.name, spec, value));
   }
-  return {place_from(message.place),
-          std::move(request),
-          message.threads,
-          message.with_reasons,
-          static_cast<ProgressStyle>(message.progress),
-          message.progress_context};
+  MethodOrder order{place_from(message.place), std::move(request), message.threads};
+  order.with_reasons = message.with_reasons;
+  order.loads_ahead = message.loads_ahead;
+  order.up = {{message.up.at(0), message.up.at(1), message.up.at(2)},
+              static_cast<UpDirection::Source>(message.up_source)};
+  order.progress = static_cast<ProgressStyle>(message.progress);
+  order.progress_context = message.progress_context;
+  return order;
 }
 
 void write_answer(int file, const MethodAnswer& answer) {

@@ -15,6 +15,9 @@ struct MethodOrder {
   MethodRequest request;  ///< The child needs its name, method and parameters only.
   int threads = 1;
   bool with_reasons = false;  ///< Whether the method is asked for its reasons.
+  bool loads_ahead = true;    ///< See `MethodTask`.
+  /// Which way is up there, which takes reading scans to find out.
+  UpDirection up = {};
   ProgressStyle progress = ProgressStyle::kQuiet;
   std::string progress_context = {};
 };

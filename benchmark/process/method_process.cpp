@@ -6,12 +6,15 @@
 
 #include <csignal>
 #include <cstdio>
+#include <memory>
+#include <utility>
 
 #include "benchmark/process/method_messages.h"
 #include "core/files/descriptor_io.h"
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "datasets/open_sequence.h"
+#include "datasets/world_axes/gravity.h"
 #include "methods/external/external.h"
 
 namespace raymoval {
@@ -77,7 +80,8 @@ MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& pla
                               const ChildLimits& limits) {
   const Descriptor order_file = memory_file("order");
   const Descriptor answer_file = memory_file("answer");
-  MethodOrder order{place, *task.request, task.threads, task.with_reasons};
+  MethodOrder order{
+      place, *task.request, task.threads, task.with_reasons, task.loads_ahead, task.sequence->up()};
   if (task.progress != nullptr) {
     order.progress = task.progress->style();
     order.progress_context = task.progress->context();
@@ -123,10 +127,12 @@ void serve_method(const MethodRegistry& registry) {
   MethodAnswer answer;
   try {
     // The parent compares what is loaded here with what it has checked itself.
-    const WatchedSequence data = watched(open_sequence(order.place.path, order.place.options,
-                                                       {order.threads, &progress, nullptr, false}));
-    answer = run_method(
-        {&data.sequence, &order.request, order.threads, &progress, nullptr, order.with_reasons});
+    Sequence sequence = open_sequence(order.place.path, order.place.options,
+                                      {order.threads, &progress, nullptr, false});
+    if (sequence.up_choice) sequence.up_choice = std::make_shared<const UpChoice>(order.up);
+    const WatchedSequence data = watched(std::move(sequence));
+    answer = run_method({&data.sequence, &order.request, order.threads, &progress, nullptr,
+                         order.with_reasons, order.loads_ahead});
     answer.loaded = data.loaded();
   } catch (const Error& error) {
     answer.status = CellStatus::kBadData;

@@ -12,7 +12,9 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
+#include "core/parallel.h"
 #include "core/scan/local_frame.h"
+#include "datasets/reading/loading_ahead.h"
 #include "methods/controls/controls.h"
 
 namespace raymoval {
@@ -72,7 +74,9 @@ void answer_task(const MethodTask& task, MethodAnswer& answer) {
   const auto remover = make_remover(task.request->method, *task.sequence);
   // The one frame that methods see; masks go by index, so nothing has to be turned back.
   const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
-  const TimedSource scans(local);
+  std::optional<LoadingAhead> ahead;
+  if (task.loads_ahead && hardware_threads() > 1) ahead.emplace(local);
+  const TimedSource scans(ahead ? static_cast<const ScanSource&>(*ahead) : local);
   CheckedSink sink(task.request->name, scans);
   StageTimes times;
   RunContext context;

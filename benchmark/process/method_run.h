@@ -23,6 +23,8 @@ struct MethodTask {
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
   bool with_reasons = false;  ///< Whether the method is asked why.
+  /// Whether scans are loaded before the method asks for them, if the machine has a second core.
+  bool loads_ahead = true;
 };
 
 /// What came of it. There are `masks` and `measured` only if `status` is kOk.

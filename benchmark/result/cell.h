@@ -88,6 +88,9 @@ struct Measurement {
   /// Mean seconds per scan of each run, in a run with repeats; the other values are those of the
   /// run of median time. Empty without repeats.
   std::vector<double> repeats = {};
+  /// So many cells ran at once on the machine, which makes each of them slower. No value: the
+  /// method ran alone.
+  std::optional<int> side_by_side = std::nullopt;
 };
 
 /// The result of one sequence with one method and one set of parameters, scored by every protocol

@@ -150,6 +150,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<Measurement> measu
   visitor.field("stages", measured.stages);
   visitor.nullable("peak_memory_mib", measured.peak_memory_mib);
   visitor.optional("repeats", measured.repeats);
+  visitor.optional("side_by_side", measured.side_by_side);
 }
 
 template <class Visitor>

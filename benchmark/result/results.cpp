@@ -87,6 +87,7 @@ void add_times(const Cell& cell, RunResults& results) {
   times.seconds += cell.measured->total_seconds;
   times.load_seconds += cell.measured->load_seconds;
   times.threads = std::max(times.threads, cell.measured->threads);
+  times.side_by_side = std::max(times.side_by_side, cell.measured->side_by_side.value_or(1));
   if (!cell.measured->repeats.empty()) {
     times.repeats = static_cast<int>(cell.measured->repeats.size());
   }

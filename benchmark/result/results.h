@@ -42,8 +42,9 @@ struct MethodTimes {
   double seconds = 0.0;                                ///< Without waiting for scans.
   double load_seconds = 0.0;                           ///< Waiting for scans.
   std::vector<std::pair<std::string, double>> stages;  ///< Seconds, summed over threads.
-  int repeats = 1;  ///< So many runs were made; the times are those of the median one.
-  int threads = 1;  ///< Of the run that had most; what they do at once adds up in `stages`.
+  int repeats = 1;       ///< So many runs were made; the times are those of the median one.
+  int threads = 1;       ///< Of the run that had most; what they do at once adds up in `stages`.
+  int side_by_side = 1;  ///< The most cells that ran at once with one of these.
 };
 
 /// A cell without a result.

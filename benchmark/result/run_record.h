@@ -57,6 +57,8 @@ struct MachineRecord {
   int cores = 0;
   std::optional<std::int64_t> memory_gib = std::nullopt;
   int threads = 0;  ///< That the run used.
+  /// Cells that ran at once, each with these threads. No value: one after the other.
+  std::optional<int> jobs = std::nullopt;
 };
 
 /// What run.json holds: the suite as resolved, its cells, build and machine.

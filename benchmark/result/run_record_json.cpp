@@ -48,6 +48,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<MachineRecord> mac
   visitor.field("cores", machine.cores);
   visitor.nullable("memory_gib", machine.memory_gib);
   visitor.field("threads", machine.threads);
+  visitor.optional("jobs", machine.jobs);
 }
 
 /// Where the sequences were found, a list beside theirs.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <new>
 
 #include "benchmark/process/checked_sink.h"
@@ -41,14 +42,15 @@ void check_cancelled(const CellTask& task) {
 }
 
 void score_all(const CellTask& task, const MaskStore& masks, Cell& cell) {
-  for (std::size_t i = 0; i < task.scored->protocol_count(); ++i) {
-    check_cancelled(task);
-    ProtocolResult result = task.scored->score(i, masks);
+  check_cancelled(task);
+  SequenceScores scores = task.scored->score(masks, task.cancel);
+  for (std::size_t i = 0; i < scores.protocols.size(); ++i) {
+    ProtocolResult& result = scores.protocols[i];
     cell.scores.push_back({protocol_record(*task.scored, i), std::move(result.counts),
                            std::move(result.rates), std::move(result.warnings),
                            std::move(result.intervals)});
   }
-  cell.columns = ColumnRecord{kColumnsVersion, task.scored->columns(masks)};
+  cell.columns = ColumnRecord{kColumnsVersion, std::move(scores.columns)};
 }
 
 void write_cell_removals(const CellTask& task, const MethodAnswer& answer) {
@@ -77,9 +79,34 @@ void fill_cell(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
   score_all(task, answer.masks, cell);
 }
 
+/// What a control answers is known from the labels, so no process is started and no scan is read
+/// for it. It is scored like any other answer.
+MethodAnswer answer_of_control(const CellTask& task, KnownAnswer known) {
+  const auto started = std::chrono::steady_clock::now();
+  const MaskStore& moving = task.scored->moving_points();
+  MethodAnswer answer;
+  answer.masks = MaskStore(moving.size());
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const bool by_label = known == KnownAnswer::kMovingPointsRemoved;
+    const bool all = known == KnownAnswer::kEverythingRemoved;
+    answer.masks.set(i, by_label ? moving.get(i) : Mask(moving.point_count(i), all ? 1 : 0));
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+  answer.measured.total_seconds = elapsed.count();
+  answer.measured.mean_seconds = elapsed.count() / static_cast<double>(moving.size());
+  return answer;
+}
+
 MethodAnswer answer_of_method(const CellTask& task) {
-  const MethodTask method{&task.scored->sequence(), task.request, task.scored->threads(),
-                          task.scored->progress(),  task.cancel,  !task.removals.empty()};
+  const auto known = known_answer(task.request->method.entry->name);
+  if (known && task.place != nullptr) return answer_of_control(task, *known);
+  const MethodTask method{&task.scored->sequence(),
+                          task.request,
+                          task.scored->threads(),
+                          task.scored->progress(),
+                          task.cancel,
+                          !task.removals.empty(),
+                          task.is_alone};
   return task.place == nullptr ? run_method(method)
                                : run_method_apart(method, *task.place, task.limits);
 }

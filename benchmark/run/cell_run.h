@@ -22,6 +22,7 @@ struct CellTask {
   /// Where a process of its own opens the sequence. If it is null, the method runs in this process.
   const SequenceRequest* place = nullptr;
   ChildLimits limits;
+  bool is_alone = true;  ///< Whether no other cell runs meanwhile, so that a core may be idle.
 };
 
 /// What the cell's key is made from. @throws DataError if the data cannot be read

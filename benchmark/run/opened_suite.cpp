@@ -66,7 +66,15 @@ OpenedSuite::OpenedSuite(const Suite& suite, const RunOptions& options)
     : suite_(suite),
       options_(options),
       store_(options.out),
-      threads_(suite.threads > 0 ? suite.threads : hardware_threads()) {
+      threads_(options.jobs > 1    ? 1
+               : suite.threads > 0 ? suite.threads
+                                   : hardware_threads()) {
+  if (options.jobs > 1 && suite.threads > 1) {
+    throw UsageError(fmt::format(
+        "--jobs {} gives each cell one thread, but {} threads are asked for; leave --threads (or "
+        "\"threads\" of the suite) or --jobs out.",
+        options.jobs, suite.threads));
+  }
   for (const ProtocolRequest& request : suite.protocols) {
     (void)make_protocol(request.protocol, request.options);  // Bad options show before the work.
   }
@@ -101,7 +109,9 @@ ScoredSequence OpenedSuite::take_sequence(std::size_t sequence) {
     kept.reset();
     return scored;
   }
-  return {sequences_[sequence], suite_.protocols, threads_, options_.progress};
+  // Cells that run at once have one live line, which tells of all of them.
+  Progress* progress = options_.jobs > 1 ? nullptr : options_.progress;
+  return {sequences_[sequence], suite_.protocols, threads_, progress};
 }
 
 void OpenedSuite::give_back(std::size_t sequence, ScoredSequence scored) {
@@ -138,7 +148,8 @@ void OpenedSuite::say(const std::string& line) const {
 
 JoinedFolder join_folder(OpenedSuite& suite) {
   const std::filesystem::path& out = suite.options().out;
-  const RunRecord asked = run_record(suite.suite(), suite.sequences(), suite.threads());
+  const RunRecord asked =
+      run_record(suite.suite(), suite.sequences(), suite.threads(), suite.options().jobs);
   if (suite.options().overwrite) return {asked, {}};
   const std::optional<RunRecord> present = present_record(out);
   if (!present) return {asked, {}};

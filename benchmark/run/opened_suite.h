@@ -29,6 +29,7 @@ class OpenedSuite {
   [[nodiscard]] const Suite& suite() const { return suite_; }
   [[nodiscard]] const RunOptions& options() const { return options_; }
   [[nodiscard]] const CellStore& store() const { return store_; }
+  /// Threads of each method; one if several cells run at once.
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] const std::vector<Sequence>& sequences() const { return sequences_; }
 

@@ -18,6 +18,8 @@ struct RunOptions {
   /// Whether each method runs in a child process, with the suite's limits. The child is this very
   /// program, which has to know `kMethodCommand` (benchmark/process/method_process.h).
   bool isolate = false;
+  /// So many cells run at once, each with one thread. Their times are marked as taken side by side.
+  int jobs = 1;
   CellSelection selection = {};
   bool collect = false;  ///< Whether nothing is run, and results are made of the cells there are.
   /// Whether results of another suite or on other data give way; else the run is refused.

@@ -49,7 +49,7 @@ RunSummary run_suite(const Suite& suite, const RunOptions& options) {
   write_run_record(options.out / "run.json", folder.record);
   for (const std::string& line : folder.earlier.lines()) opened.say(line);
   SequenceRuns runs(opened, folder);
-  for (std::size_t i = 0; i < opened.sequences().size(); ++i) runs.run(i);
+  runs.run();
   runs.check_any_readable();
   RunSummary summary = runs.summary();
   summary.earlier = folder.earlier.kept.size();

@@ -6,6 +6,8 @@
 
 #include "benchmark/process/method_run.h"
 #include "core/files/files.h"
+#include "eval/points/labelled_voxels.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -30,6 +32,26 @@ void check_has_what_is_needed(const Protocol& protocol, const EvaluationInput& i
     throw DataError("sequence '" + sequence + "': " + error.what());
   }
 }
+
+/// Notes which points move when their labels are read.
+class NotedLabels : public LabelSource {
+ public:
+  NotedLabels(std::shared_ptr<const LabelSource> source, const LabelRule& rule, MaskStore& moving)
+      : source_(std::move(source)), classes_(rule), moving_(moving) {}
+  [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override {
+    std::vector<std::uint32_t> words = source_->labels(scan);
+    Mask mask(words.size());
+    std::transform(words.begin(), words.end(), mask.begin(),
+                   [&](std::uint32_t word) { return std::uint8_t{classes_.moving(word)}; });
+    moving_.set(scan.index, mask);
+    return words;
+  }
+
+ private:
+  std::shared_ptr<const LabelSource> source_;
+  LabelClasses classes_;
+  MaskStore& moving_;
+};
 
 ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
   check_is_listed(result, protocol_entry(protocol.name()));
@@ -56,7 +78,10 @@ ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequ
 
 const std::string& ScoredSequence::data_fingerprint() {
   if (!fingerprint_.empty()) return fingerprint_;
-  fingerprint_ = fingerprint(sequence(), threads_);
+  Sequence read = sequence();
+  moving_points_ = MaskStore(read.scans->size());
+  read.labels = std::make_shared<NotedLabels>(read.labels, read.label_rule, moving_points_);
+  fingerprint_ = fingerprint(read, threads_);
   loaded_ = watched_.loaded();
   const bool calibrated =
       std::any_of(protocols_.begin(), protocols_.end(),
@@ -69,6 +94,11 @@ const std::string& ScoredSequence::data_fingerprint() {
     fingerprint_ = hasher.digest();
   }
   return fingerprint_;
+}
+
+const MaskStore& ScoredSequence::moving_points() {
+  (void)data_fingerprint();
+  return moving_points_;
 }
 
 std::string ScoredSequence::data_change(const LoadedData* loaded) {
@@ -94,18 +124,45 @@ std::vector<ColumnValue> ScoredSequence::columns(const MaskStore& masks) const {
   return column_values(tally_removals(input(), masks));
 }
 
-const Scorer& ScoredSequence::scorer(std::size_t i) {
-  OpenedProtocol& opened = protocols_[i];
-  if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
-  return *opened.scorer;
+void ScoredSequence::open_protocols() {
+  const auto open = [&](OpenedProtocol& opened) {
+    if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
+  };
+  // Of several threads that need all of them, each first opens those that no other one does.
+  for (OpenedProtocol& opened : protocols_) {
+    const std::unique_lock lock(*opened.making, std::try_to_lock);
+    if (lock.owns_lock()) open(opened);
+  }
+  for (OpenedProtocol& opened : protocols_) {
+    const std::lock_guard lock(*opened.making);
+    open(opened);
+  }
 }
 
-ProtocolResult ScoredSequence::score(std::size_t i, const MaskStore& masks) {
-  return checked(scorer(i).score(masks), protocol(i));
+SequenceScores ScoredSequence::score(const MaskStore& masks, const std::atomic<bool>* cancel) {
+  open_protocols();
+  EvaluationInput scored = input();
+  scored.cancel = cancel;
+  RemovalCount removals(scored);
+  std::vector<ScanVisitor*> visitors = {&removals};
+  std::vector<std::unique_ptr<Scoring>> scorings;
+  for (const OpenedProtocol& opened : protocols_) {
+    scorings.push_back(opened.scorer->start());
+    visitors.push_back(scorings.back().get());
+  }
+  run_passes(scored, masks, visitors);
+  SequenceScores scores;
+  for (std::size_t i = 0; i < protocols_.size(); ++i) {
+    scores.protocols.push_back(checked(scorings[i]->result(), protocol(i)));
+    scorings[i].reset();
+  }
+  scores.columns = column_values(removals.tally());
+  return scores;
 }
 
 ProtocolResult ScoredSequence::score_cloud(std::size_t i, const CloudEstimate& cloud) {
-  return checked(scorer(i).score_cloud(cloud), protocol(i));
+  open_protocols();
+  return checked(protocols_[i].scorer->score_cloud(cloud), protocol(i));
 }
 
 const MaskStore& ScoredSequence::cloud_masks(const CloudEstimate& cloud) const {

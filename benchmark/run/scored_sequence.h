@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,15 @@
 
 namespace raymoval {
 
+/// What an answer scores on a sequence.
+struct SequenceScores {
+  std::vector<ProtocolResult> protocols;  ///< In the order of the sequence's protocols.
+  std::vector<ColumnValue> columns;       ///< By class, range and height.
+};
+
 /// An opened sequence with the protocols that score on it. What a protocol derives from scans and
-/// labels is built when first needed, then shared by all methods.
+/// labels is built when first needed, then shared by all methods. Once the fingerprint is known,
+/// cells may be scored on several threads at once.
 class ScoredSequence {
  public:
   /// @throws DataError if the sequence has no labels, ConfigurationError for bad options
@@ -34,13 +43,24 @@ class ScoredSequence {
   /// Hash of all that methods and protocols read; computed once. @throws DataError
   const std::string& data_fingerprint();
 
+  /// The masks of an answer that removes exactly the moving points, from the reading that made the
+  /// fingerprint. Their sizes are those of the scans. @throws DataError as `data_fingerprint`
+  [[nodiscard]] const MaskStore& moving_points();
+
   /// What of the data was not the same whenever it was read, by this object or by a method in a
   /// process of its own; empty: nothing.
   /// @param loaded by the method; null: it ran in this process
   [[nodiscard]] std::string data_change(const LoadedData* loaded);
 
-  /// Scores `masks` by protocol `i`. @throws DataError if there is nothing to score against.
-  ProtocolResult score(std::size_t i, const MaskStore& masks);
+  /// Builds what protocols derive from scans and labels, where that was not done yet. Afterwards
+  /// several threads may score at a time.
+  /// @throws DataError if there is nothing to score against
+  void open_protocols();
+
+  /// Scores `masks` by all protocols and by columns. All of them read a scan together.
+  /// @param cancel ends the scoring when it is set; null: nothing does
+  /// @throws DataError, MethodError as the protocols; Cancelled
+  SequenceScores score(const MaskStore& masks, const std::atomic<bool>* cancel = nullptr);
 
   /// Scores a cleaned cloud by protocol `i`.
   ProtocolResult score_cloud(std::size_t i, const CloudEstimate& cloud);
@@ -56,9 +76,10 @@ class ScoredSequence {
     std::string name;
     std::unique_ptr<Protocol> protocol;
     std::unique_ptr<Scorer> scorer;  ///< Null until it is first needed.
+    /// Held while it is made, for cells that run at once.
+    std::unique_ptr<std::mutex> making = std::make_unique<std::mutex>();
   };
   [[nodiscard]] EvaluationInput input() const;
-  const Scorer& scorer(std::size_t i);
 
   WatchedSequence watched_;
   /// The scans as protocols get them: from `lattice_origin`.
@@ -66,6 +87,7 @@ class ScoredSequence {
   int threads_;
   Progress* progress_;
   std::string fingerprint_;
+  MaskStore moving_points_;
   LoadedData loaded_;  ///< What the fingerprint is of.
   std::vector<OpenedProtocol> protocols_;
 };

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/run_record_json.h"
+#include "benchmark/run/side_by_side.h"
 #include "core/process/proc_files.h"
 #include "core/terminal_colour.h"
+#include "core/text.h"
 #include "datasets/reading/left_out.h"
 
 namespace raymoval {
@@ -18,13 +21,14 @@ namespace {
 constexpr double kSecondsPerScan = 30.0;
 constexpr double kLeastSeconds = 600.0;
 
-ChildLimits limits_for(const Suite& suite, std::size_t scans) {
+/// @param jobs how many cells share the machine
+ChildLimits limits_for(const Suite& suite, std::size_t scans, int jobs) {
   ChildLimits limits;
   limits.seconds = suite.time_limit_s > 0.0
                        ? suite.time_limit_s
                        : std::max(kLeastSeconds, kSecondsPerScan * static_cast<double>(scans));
   limits.memory_mib =
-      suite.memory_limit_mib > 0.0 ? suite.memory_limit_mib : usual_memory_limit_mib();
+      suite.memory_limit_mib > 0.0 ? suite.memory_limit_mib : usual_memory_limit_mib() / jobs;
   return limits;
 }
 
@@ -45,6 +49,45 @@ void check_cancelled(const RunOptions& options) {
 SequenceRuns::SequenceRuns(OpenedSuite& suite, JoinedFolder& folder)
     : suite_(suite), folder_(folder), lines_(cell_lines(suite)), finished_(suite.cells().size()) {}
 
+void SequenceRuns::run() {
+  if (is_side_by_side()) return run_all_side_by_side();
+  for (std::size_t i = 0; i < suite_.sequences().size(); ++i) run(i);
+}
+
+void SequenceRuns::run_all_side_by_side() {
+  const std::size_t methods = suite_.suite().methods.size();
+  std::vector<SharedSequence> shared(suite_.sequences().size());
+  for (SharedSequence& one : shared) one.cells_left = methods;
+  Progress* progress = suite_.options().progress;
+  if (progress != nullptr) progress->begin("cells", finished_.size());
+  run_side_by_side(suite_.options().jobs, finished_.size(), [&](std::size_t place) {
+    const CellIndex index{place / methods, place % methods};
+    run_job(shared[index.sequence], index);
+    if (progress != nullptr) progress->advance();
+  });
+  if (progress != nullptr) progress->end();
+}
+
+void SequenceRuns::run_job(SharedSequence& shared, CellIndex index) {
+  if (const std::shared_ptr<ScoredSequence> scored = open_shared(shared, index.sequence)) {
+    run_cell(*scored, index);
+    for (int round = 2; round <= suite_.suite().repeats; ++round) repeat(*scored, index, round);
+  }
+  const std::lock_guard lock(shared.mutex);
+  if (--shared.cells_left == 0) shared.scored.reset();
+}
+
+std::shared_ptr<ScoredSequence> SequenceRuns::open_shared(SharedSequence& shared,
+                                                          std::size_t sequence) {
+  const std::lock_guard lock(shared.mutex);
+  if (std::exchange(shared.is_opened, true) || !suite_.is_needed(sequence)) return shared.scored;
+  auto scored = std::make_shared<ScoredSequence>(suite_.take_sequence(sequence));
+  if (!read_data(*scored, sequence)) return nullptr;
+  describe(sequence);
+  shared.scored = std::move(scored);
+  return shared.scored;
+}
+
 void SequenceRuns::run(std::size_t sequence) {
   if (!suite_.is_needed(sequence)) return;
   ScoredSequence scored = suite_.take_sequence(sequence);
@@ -62,14 +105,18 @@ void SequenceRuns::run(std::size_t sequence) {
 
 bool SequenceRuns::read_data(ScoredSequence& scored, std::size_t sequence) {
   try {
-    const bool changed =
-        set_fingerprint(folder_.record, scored.sequence().name, scored.data_fingerprint());
+    const std::string& fingerprint = scored.data_fingerprint();
+    const std::lock_guard lock(mutex_);
+    const bool changed = set_fingerprint(folder_.record, scored.sequence().name, fingerprint);
     if (changed && !suite_.is_alone()) {
       write_run_record(suite_.options().out / "run.json", folder_.record);
     }
     return true;
   } catch (const DataError& error) {
-    if (unreadable_++ == 0) first_unreadable_ = error.what();
+    {
+      const std::lock_guard lock(mutex_);
+      if (unreadable_++ == 0) first_unreadable_ = error.what();
+    }
     fail_all(sequence, error.what());
     return false;
   }
@@ -99,10 +146,11 @@ void SequenceRuns::describe(std::size_t number) const {
 CellTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const {
   const RunOptions& options = suite_.options();
   CellTask task{&scored, &suite_.method(index), {}, options.cancel, nullptr, {}};
+  task.is_alone = !is_side_by_side();
   if (options.keep_removals) task.removals = suite_.store().new_removals(suite_.name(index));
   if (options.isolate) {
     task.place = &suite_.suite().sequences[index.sequence];
-    task.limits = limits_for(suite_.suite(), scored.sequence().scans->size());
+    task.limits = limits_for(suite_.suite(), scored.sequence().scans->size(), options.jobs);
   }
   return task;
 }
@@ -116,7 +164,6 @@ void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
   const bool to_run = selected && !suite_.options().collect;
   if (stored.state == StoredCell::State::kFresh ||
       (!to_run && stored.state == StoredCell::State::kFailed)) {
-    ++summary_.reused;
     finish(index, std::move(*stored.cell), true);
   } else if (to_run) {
     suite_.store().prepare(suite_.name(index));
@@ -127,6 +174,7 @@ void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
     show_running(index, "");
     const CellTask task = task_for(scored, index);
     Cell cell = execute_cell(task);
+    mark_times(cell.measured);
     suite_.store().keep(cell, task.removals);
     finish(index, std::move(cell), false);
   }
@@ -153,12 +201,14 @@ std::optional<RepeatRecord> SequenceRuns::run_again(ScoredSequence& scored, Cell
   check_cancelled(suite_.options());
   show_running(index, fmt::format(", repeat {}", round));
   const MethodAnswer answer = repeat_cell(task_for(scored, index));
+  std::optional<Measurement> measured = answer.measured;
+  mark_times(measured);
   if (answer.status != CellStatus::kOk) {
     fail_repeat(index, round, answer.status, answer.reason);
     return std::nullopt;
   }
   const std::string& key = finished_[suite_.place(index)].cell->key;
-  const RepeatRecord repeat{key, round, mask_digest(answer.masks), answer.measured};
+  const RepeatRecord repeat{key, round, mask_digest(answer.masks), *measured};
   suite_.store().keep_repeat(suite_.name(index), repeat);
   return repeat;
 }
@@ -170,30 +220,48 @@ void SequenceRuns::fail_repeat(CellIndex index, int round, CellStatus status,
   cell.reason = fmt::format("repeat {}: {}", round, reason);
   cell.scores.clear();
   suite_.store().keep(cell);
+  const std::lock_guard lock(mutex_);
   summary_.failures.push_back(cell.title() + ": " + cell.reason);
 }
 
 /// Shows on the live line what is running.
-void SequenceRuns::show_running(CellIndex index, const std::string& round) const {
+void SequenceRuns::show_running(CellIndex index, const std::string& round) {
   Progress* progress = suite_.options().progress;
   if (progress == nullptr) return;
   const CellName& cell = suite_.name(index);
+  const std::lock_guard lock(mutex_);
+  if (is_side_by_side()) {
+    running_.insert(cell.title());
+    return progress->set_context(join({running_.begin(), running_.end()}));
+  }
   progress->set_context(fmt::format("[{}/{}] {} on {}{}", summary_.cells + (round.empty() ? 1 : 0),
                                     finished_.size(), cell.name, cell.sequence, round));
 }
 
 void SequenceRuns::finish(CellIndex index, Cell cell, bool was_there) {
+  const std::lock_guard lock(mutex_);
   ++summary_.cells;
+  if (was_there) ++summary_.reused;
   std::string line = lines_.line(summary_.cells, cell, was_there);
   if (!cell.ok()) {
     line = coloured(line, TerminalColour::kBad, stderr);
     summary_.failures.push_back(cell.title() + ": " + cell.reason);
   }
   finished_[suite_.place(index)].cell = std::move(cell);
-  if (suite_.options().progress == nullptr) return;
-  suite_.options().progress->end();
-  suite_.options().progress->set_context("");
+  Progress* progress = suite_.options().progress;
+  if (progress == nullptr) return;
+  if (is_side_by_side()) {
+    running_.erase(suite_.name(index).title());
+    progress->set_context(join({running_.begin(), running_.end()}));
+  } else {
+    progress->end();
+    progress->set_context("");
+  }
   suite_.say(line);
+}
+
+void SequenceRuns::mark_times(std::optional<Measurement>& measured) const {
+  if (measured && is_side_by_side()) measured->side_by_side = suite_.options().jobs;
 }
 
 void SequenceRuns::check_any_readable() const {

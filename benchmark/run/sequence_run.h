@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,14 +21,18 @@ struct FinishedCell {
   std::vector<Measurement> repeats = {};
 };
 
-/// Runs the cells of a suite, sequence after sequence, and puts them into the run folder.
+/// Runs the cells of a suite, sequence after sequence, and puts them into the run folder. With
+/// `RunOptions::jobs` several run at once: a job that is free takes the next cell, also of the next
+/// sequence.
 class SequenceRuns {
  public:
   /// Both have to live as long as this object.
   SequenceRuns(OpenedSuite& suite, JoinedFolder& folder);
 
-  /// Runs those cells of a sequence that are not there yet. @throws Cancelled; DataError if results
-  /// cannot be written
+  /// Runs those cells that are not there yet. @throws Cancelled; DataError if results cannot be
+  /// written
+  void run();
+  /// The same for one sequence, one cell after the other.
   void run(std::size_t sequence);
 
   /// What came of the cells, in the order of `OpenedSuite::cells`.
@@ -36,22 +43,38 @@ class SequenceRuns {
   void check_any_readable() const;
 
  private:
+  /// A sequence that jobs share. It is opened by the first that needs it, and goes with the last.
+  struct SharedSequence {
+    std::mutex mutex;
+    bool is_opened = false;
+    std::shared_ptr<ScoredSequence> scored;  ///< Null if it is not needed or cannot be read.
+    std::size_t cells_left = 0;
+  };
+  [[nodiscard]] bool is_side_by_side() const { return suite_.options().jobs > 1; }
+  void run_all_side_by_side();
+  void run_job(SharedSequence& shared, CellIndex index);
+  /// @return null if there is nothing to do
+  std::shared_ptr<ScoredSequence> open_shared(SharedSequence& shared, std::size_t sequence);
   /// Puts the fingerprint into run.json. @return false if the data cannot be read
   bool read_data(ScoredSequence& scored, std::size_t sequence);
   void fail_all(std::size_t sequence, const std::string& reason);
   void describe(std::size_t sequence) const;
   void run_cell(ScoredSequence& scored, CellIndex index);
+  /// Marks times that were taken while other cells ran.
+  void mark_times(std::optional<Measurement>& measured) const;
   void repeat(ScoredSequence& scored, CellIndex index, int round);
   std::optional<RepeatRecord> run_again(ScoredSequence& scored, CellIndex index, int round);
   void fail_repeat(CellIndex index, int round, CellStatus status, const std::string& reason);
   [[nodiscard]] CellTask task_for(ScoredSequence& scored, CellIndex index) const;
-  void show_running(CellIndex index, const std::string& round) const;
+  void show_running(CellIndex index, const std::string& round);
   void finish(CellIndex index, Cell cell, bool was_there);
 
   OpenedSuite& suite_;
   JoinedFolder& folder_;
   CellLines lines_;
-  std::vector<FinishedCell> finished_;
+  std::mutex mutex_;  ///< Of what jobs share: all below, run.json, and what is shown.
+  std::set<std::string> running_;
+  std::vector<FinishedCell> finished_;  ///< Each place belongs to the job that has the cell.
   RunSummary summary_;
   std::size_t unreadable_ = 0;
   std::string first_unreadable_;

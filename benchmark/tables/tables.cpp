@@ -32,6 +32,11 @@ TextTable failure_table(const RunResults& results) {
   return table;
 }
 
+std::string side_by_side_note(int cells) {
+  return "Up to " + std::to_string(cells) +
+         " cells ran at once (--jobs), each with one thread: each is slower than alone.";
+}
+
 /// Time and memory of every method, the least marked.
 std::vector<TextTable> cost_tables(const RunResults& results) {
   TextTable table{"Time of each method", "method", {{"", {kTimeHeading, "peak MiB"}}}, {}, {}};
@@ -47,6 +52,11 @@ std::vector<TextTable> cost_tables(const RunResults& results) {
   if (table.rows.size() < 2) return {};
   for (const std::size_t place : {0U, 1U}) mark_best(column_cells(table, place), false);
   table.notes.push_back("Over all scans, without reading them; the most memory on any sequence.");
+  int side_by_side = 1;
+  for (const MethodTimes& times : results.times) {
+    side_by_side = std::max(side_by_side, times.side_by_side);
+  }
+  if (side_by_side > 1) table.notes.push_back(side_by_side_note(side_by_side));
   return {table};
 }
 
@@ -79,6 +89,7 @@ TextTable stage_table(const MethodTimes& times) {
                           " threads: a stage that runs on several at once is summed over them" +
                           (overlap ? ", and shares are of the sum of all stages." : "."));
   }
+  if (times.side_by_side > 1) table.notes.push_back(side_by_side_note(times.side_by_side));
   if (times.repeats > 1) {
     table.notes.push_back("The median of " + std::to_string(times.repeats) + " runs.");
   }

@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
                         "answers.");
 }
 
-/// `path` without a slash at its end, which would follow a link.
-fs::path without_slash(const fs::path& path) {
-  return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
-}
-
 /// A path that leads nowhere because of a link is damaged and not absent.
 void check_no_link_to_nothing(const fs::path& path) {
   for (fs::path at = without_slash(path); !at.empty(); at = at.parent_path()) {
@@ -127,6 +122,15 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
     }
   }
   return folders;
+}
+
+fs::path without_slash(const fs::path& path) {
+  return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
+}
+
+fs::path folder_of(const fs::path& path) {
+  const fs::path named = without_slash(path);
+  return named.has_parent_path() ? named.parent_path() : fs::path(".");
 }
 
 void remove_if_there(const fs::path& path) {

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/error.h"
@@ -50,6 +52,25 @@ std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folde
 
 /// The folders among them; links to nothing are left out. @throws DataError
 std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder);
+
+/// The folder in which `path` stands. A slash at the end of `path` does not count.
+std::filesystem::path folder_of(const std::filesystem::path& path);
+
+/// `path` without a slash at its end, which would follow a link and hide its last name.
+std::filesystem::path without_slash(const std::filesystem::path& path);
+
+/// What `read` gives; nothing if what it reads is absent or damaged, so that it must do without.
+/// @throws UnreadableError, which says neither
+template <class Read>
+std::optional<std::invoke_result_t<Read>> if_whole(Read&& read) {
+  try {
+    return read();
+  } catch (const UnreadableError&) {
+    throw;
+  } catch (const DataError&) {
+    return std::nullopt;
+  }
+}
 
 /// Removes a file or an empty folder, links not followed, if there is one. @throws DataError if it
 /// stays

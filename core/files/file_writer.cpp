@@ -38,7 +38,7 @@ void keep_owner_and_rights(int file, const struct stat& before) {
 Part part_like(const std::filesystem::path& target) {
   struct stat before {};
   const bool is_there = ::lstat(target.c_str(), &before) == 0;
-  if (!is_there && errno != ENOENT && errno != ENOTDIR) return {};
+  if (!is_there && !means_absent(errno)) return {};
   const bool replaces = is_there && S_ISREG(before.st_mode);
   Part part = new_part_file(target, replaces ? 0600 : 0666);
   if (part.held.valid() && replaces) keep_owner_and_rights(part.held.get(), before);
@@ -117,10 +117,9 @@ void FileWriter::commit_with(Replacements& together) {
 }
 
 std::filesystem::path output_target(const std::filesystem::path& named) {
-  std::error_code error;
-  const auto status = std::filesystem::symlink_status(named, error);
-  if (status.type() != std::filesystem::file_type::symlink) return named;
+  if (!is_link(named)) return named;
   const std::string where = named.string() + ": is a link to ";
+  std::error_code error;
   std::filesystem::path target = std::filesystem::canonical(named, error);
   if (error) {
     std::error_code ignored;
@@ -134,10 +133,6 @@ std::filesystem::path output_target(const std::filesystem::path& named) {
 
 void sync_folder(const std::filesystem::path& folder) {
   sync_names(opened_folder(folder), folder);
-}
-
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
 }  // namespace raymoval

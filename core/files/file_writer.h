@@ -53,7 +53,4 @@ std::filesystem::path output_target(const std::filesystem::path& named);
 /// the disk fails
 void sync_folder(const std::filesystem::path& folder);
 
-/// The folder in which `path` stands.
-std::filesystem::path folder_of(const std::filesystem::path& path);
-
 }  // namespace raymoval

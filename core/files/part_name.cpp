@@ -17,7 +17,8 @@
 #include <system_error>
 #include <vector>
 
-#include "core/files/files.h"
+#include "core/error.h"
+#include "core/files/file_kind.h"
 
 namespace raymoval {
 namespace {
@@ -37,8 +38,10 @@ constexpr std::size_t kTail = kMark.size() + kAllDigits + kEnd.size();
 const std::string& running_kernel() {
   static const std::string digits = [] {
     std::ifstream boot("/proc/sys/kernel/random/boot_id");
-    std::string text;
-    return std::getline(boot, text) ? content_hash(text).substr(0, kKernelDigits) : "";
+    std::string text;  // "1be0a73c-5f0c-...", made at random
+    std::getline(boot, text);
+    const bool known = text.find_first_not_of(kDigits) == kKernelDigits;
+    return known ? text.substr(0, kKernelDigits) : "";
   }();
   return digits;
 }
@@ -81,26 +84,40 @@ void discard(Part& part) {
   errno = reason;
 }
 
+/// Nothing of a folder that cannot be listed: what was left there stays.
+std::vector<fs::path> entries_or_none(const fs::path& folder) {
+  try {
+    return entries_of(folder);
+  } catch (const DataError&) {
+    return {};
+  }
+}
+
+/// The part names that stand in a folder.
+std::vector<fs::path> parts_in(const fs::path& folder) {
+  std::vector<fs::path> parts = entries_or_none(folder);
+  std::erase_if(parts, [](const fs::path& entry) { return !is_part_name(entry); });
+  return parts;
+}
+
 /// The part names that stood in a folder when this process first asked.
 const std::vector<fs::path>& earlier_parts(const fs::path& folder) {
   static std::mutex mutex;
   static std::map<fs::path, std::vector<fs::path>> known;
   const std::lock_guard lock(mutex);
   const auto [place, is_new] = known.try_emplace(folder);
-  if (!is_new) return place->second;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
-       entry.increment(error)) {
-    if (is_part_name(entry->path())) place->second.push_back(entry->path());
-  }
+  if (is_new) place->second = parts_in(folder);
   return place->second;
 }
 
-void remove_abandoned_parts_of(const fs::path& target) {
-  const fs::path named = target.has_filename() ? target : target.parent_path();
-  const fs::path folder = named.has_parent_path() ? named.parent_path() : fs::path(".");
-  for (const fs::path& part : earlier_parts(folder)) {
-    if (name_of_part(part) == named.filename()) remove_abandoned_part(part);
+bool is_part_of(const fs::path& part, const fs::path& target) {
+  return name_of_part(part) == without_slash(target).filename();
+}
+
+/// Removes what dead processes left of `target` before this process first asked.
+void remove_earlier_parts(const fs::path& target) {
+  for (const fs::path& part : earlier_parts(folder_of(target))) {
+    if (is_part_of(part, target)) remove_abandoned_part(part);
   }
 }
 
@@ -108,7 +125,7 @@ void remove_abandoned_parts_of(const fs::path& target) {
 
 std::filesystem::path new_part_name(const std::filesystem::path& path) {
   std::random_device random;  // From the system: not from time or process number.
-  std::string name = (path.has_filename() ? path : path.parent_path()).string();
+  std::string name = without_slash(path).string();
   name += kMark;
   name += running_kernel().empty() ? std::string(kKernelDigits, '0') : running_kernel();
   for (std::size_t i = 0; i < kRandomDigits; ++i) name += kDigits[random() & 15U];
@@ -126,9 +143,15 @@ bool is_part_name(const std::filesystem::path& path) {
   return !digits_of(path).empty();
 }
 
+std::vector<std::filesystem::path> parts_of(const std::filesystem::path& target) {
+  std::vector<fs::path> parts = parts_in(folder_of(target));
+  std::erase_if(parts, [&](const fs::path& part) { return !is_part_of(part, target); });
+  return parts;
+}
+
 Part new_part_file(const std::filesystem::path& target, mode_t mode) {
   constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
-  remove_abandoned_parts_of(target);
+  remove_earlier_parts(target);
   while (true) {
     Part part{new_part_name(target)};
     part.held = Descriptor(::open(part.place.c_str(), kFlags, mode));
@@ -140,7 +163,7 @@ Part new_part_file(const std::filesystem::path& target, mode_t mode) {
 }
 
 Part new_part_folder(const std::filesystem::path& target, mode_t mode) {
-  remove_abandoned_parts_of(target);
+  remove_earlier_parts(target);
   while (true) {
     Part part{new_part_name(target)};
     if (::mkdir(part.place.c_str(), mode) != 0) return part;

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <vector>
 
 #include "core/files/descriptor.h"
 
@@ -21,6 +22,9 @@ bool is_part_name(const std::filesystem::path& path);
 
 /// "table.md" of table.md.raymoval-1be0a73c5f0c9a7be1d24836.part; empty if it has another form.
 std::filesystem::path name_of_part(const std::filesystem::path& path);
+
+/// The parts of `target` that stand beside it now; none if its folder cannot be listed.
+std::vector<std::filesystem::path> parts_of(const std::filesystem::path& target);
 
 /// A new file or folder under a part name. A lock on it lives as long as `held`, so that others can
 /// tell what is being made from what a dead process left (see `take_abandoned_part`).

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
 
 namespace raymoval {

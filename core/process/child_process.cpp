@@ -31,14 +31,18 @@ constexpr int kTickMs = 20;
 /// What the files below a folder take on the disk. Files come and go meanwhile: what cannot be
 /// looked at does not count.
 double folder_size_mib(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  constexpr auto kSkip = fs::directory_options::skip_permission_denied;
   double mib = 0.0;
-  std::error_code error;
-  for (std::filesystem::recursive_directory_iterator entry(
-           folder, std::filesystem::directory_options::skip_permission_denied, error);
-       !error && entry != std::filesystem::recursive_directory_iterator(); entry.increment(error)) {
-    struct stat status {};
-    if (::lstat(entry->path().c_str(), &status) != 0) continue;
-    mib += static_cast<double>(status.st_blocks) / 2048.0;
+  // The forms that take an error_code end the program if they have no memory.
+  try {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kSkip)) {
+      struct stat status {};
+      if (::lstat(entry.path().c_str(), &status) != 0) continue;
+      mib += static_cast<double>(status.st_blocks) / 2048.0;
+    }
+  } catch (const fs::filesystem_error&) {
+    // A folder went away; the next look sees what is left.
   }
   return mib;
 }

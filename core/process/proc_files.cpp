@@ -19,10 +19,13 @@ namespace fs = std::filesystem;
 /// at.
 std::vector<std::string> names_now(const fs::path& folder) {
   std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
-       entry.increment(error)) {
-    names.push_back(entry->path().filename().string());
+  // The forms that take an error_code end the program if they have no memory.
+  try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      names.push_back(entry.path().filename().string());
+    }
+  } catch (const fs::filesystem_error&) {
+    // Its process ended; the names so far are those that were seen.
   }
   return names;
 }

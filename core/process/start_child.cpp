@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -35,7 +36,8 @@ struct Pipe {
 
 /// A word that no other process has in its environment.
 std::string new_mark() {
-  return fmt::format("{}-{}", ::getpid(),
+  static std::atomic<unsigned> count = 0;  // Two threads may start a child at the same moment.
+  return fmt::format("{}-{}-{}", ::getpid(), ++count,
                      std::chrono::steady_clock::now().time_since_epoch().count());
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/clouds/cloud_file.h"
 
-#include <pcl/io/lzf.h>
+#include <liblzf/lzf.h>
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,9 @@
 #include "datasets/clouds/cloud_header.h"
 #include "datasets/clouds/poses.h"
 
-// Of PCL only the LZF decoder is used. Its readers trust counts in a header (a damaged file ends
-// the program), read garbage in ASCII files as zero, and report on the console.
+// PCL's own readers are not used. They trust counts in a header (a damaged file ends the program),
+// read garbage in ASCII files as zero, and report on the console; and the library loads VTK, which
+// takes longer to start than this program. What it compresses is LZF.
 
 namespace raymoval {
 namespace {
@@ -152,8 +153,8 @@ std::string decompress(std::string_view body, std::uint64_t expected_bytes,
   std::string data;
   const bool plausible = unpacked <= std::uint64_t{packed} * kMostGain;
   if (plausible) data.resize(unpacked);
-  if (unpacked > 0 && (!plausible || pcl::lzfDecompress(body.data() + sizeof sizes, packed,
-                                                        data.data(), unpacked) != unpacked)) {
+  if (unpacked > 0 && (!plausible || ::lzf_decompress(body.data() + sizeof sizes, packed,
+                                                      data.data(), unpacked) != unpacked)) {
     throw DataError(path.string() + ": the compressed block is damaged (LZF decoding fails). " +
                     "Copy the file again, or leave it out with --frames.");
   }

@@ -44,6 +44,8 @@ GravityEvidence estimate_gravity(const ScanSource& scans);
 class UpChoice {
  public:
   explicit UpChoice(const std::optional<Eigen::Vector3d>& given);
+  /// What is known already, so that nothing is estimated.
+  explicit UpChoice(const UpDirection& known) : up_(known) {}
   /// Thread-safe. @throws DataError if a scan cannot be read
   const UpDirection& get(const ScanSource& scans) const;
 

@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "eval/points/checked_scan.h"
-#include "eval/points/labelled_voxels.h"
-#include "eval/points/scan_loops.h"
+#include "eval/checked_scan.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -32,10 +31,11 @@ void count(const Eigen::Vector3d& point, bool removed, ClassTally& tally) {
 }
 
 RemovalTally tally_scan(const EvaluationInput& input, const LabelClasses& classes,
-                        const MaskStore& masks, std::size_t index) {
+                        const CheckedScan& loaded) {
   constexpr double kCrop = kMinimumHorizontalRange * kMinimumHorizontalRange;
-  const CheckedScan loaded = load_checked(input, &masks, index);
   RemovalTally tally;
+  ClassTally* of_class = nullptr;  // Of the last point counted: neighbours often share it.
+  std::uint16_t id = 0;
   for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
     const Eigen::Vector3d point = loaded.scan.points[i].cast<double>();
     const LabelClass label_class = classes.of(loaded.labels[i]);
@@ -43,9 +43,12 @@ RemovalTally tally_scan(const EvaluationInput& input, const LabelClasses& classe
         point.head<2>().squaredNorm() < kCrop) {
       continue;
     }
-    ClassTally& of_class = tally.classes[semantic_id(loaded.labels[i])];
-    of_class.moving = label_class == LabelClass::kMoving;
-    count(point, loaded.removed(i), of_class);
+    if (of_class == nullptr || id != semantic_id(loaded.labels[i])) {
+      id = semantic_id(loaded.labels[i]);
+      of_class = &tally.classes[id];
+      of_class->moving = label_class == LabelClass::kMoving;
+    }
+    count(point, loaded.removed(i), *of_class);
   }
   return tally;
 }
@@ -81,17 +84,30 @@ std::string height_band_name(std::size_t band) {
   return band_name(kHeightEdges, band);
 }
 
-RemovalTally tally_removals(const EvaluationInput& input, const MaskStore& masks) {
+RemovalCount::RemovalCount(const EvaluationInput& input)
+    : input_(input), classes_(input.label_rule) {
   check_input(input, "columns");
-  check_mask_count(input, masks);
-  const LabelClasses classes(input.label_rule);
-  std::vector<RemovalTally> scans(input.scans->size());
-  for_each_scan(input, "points by class",
-                [&](std::size_t i) { scans[i] = tally_scan(input, classes, masks, i); });
-  RemovalTally all;
-  all.label_rule = input.label_rule;
-  for (const RemovalTally& scan : scans) add(scan, all);
-  return all;
+  all_.label_rule = input.label_rule;
+}
+
+bool RemovalCount::begin_pass(std::size_t slots) {
+  const bool is_first = slots_.empty();
+  slots_.resize(slots);
+  return is_first;
+}
+
+void RemovalCount::read(const CheckedScan& scan, std::size_t slot) {
+  slots_[slot] = tally_scan(input_, classes_, scan);
+}
+
+void RemovalCount::take(std::size_t slot) {
+  add(slots_[slot], all_);
+}
+
+RemovalTally tally_removals(const EvaluationInput& input, const MaskStore& masks) {
+  RemovalCount counted(input);
+  run_passes(input, masks, {&counted});
+  return counted.tally();
 }
 
 }  // namespace raymoval

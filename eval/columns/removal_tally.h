@@ -7,8 +7,10 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/scan/mask_store.h"
+#include "eval/points/labelled_voxels.h"
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -55,8 +57,25 @@ struct RemovalTally {
 };
 
 /// Counts the points that the `erasor` protocol evaluates by default (in range, not ignored, not
-/// cropped), by index.
-/// @throws MethodError, DataError as `load_checked`
+/// cropped), by index, in one pass.
+class RemovalCount : public ScanVisitor {
+ public:
+  /// @param input must outlive this object. @throws DataError if it has no labels
+  explicit RemovalCount(const EvaluationInput& input);
+
+  bool begin_pass(std::size_t slots) override;
+  void read(const CheckedScan& scan, std::size_t slot) override;
+  void take(std::size_t slot) override;
+  [[nodiscard]] const RemovalTally& tally() const { return all_; }
+
+ private:
+  const EvaluationInput& input_;
+  LabelClasses classes_;
+  std::vector<RemovalTally> slots_;
+  RemovalTally all_;
+};
+
+/// The counts of one answer. @throws MethodError, DataError as `run_passes`
 RemovalTally tally_removals(const EvaluationInput& input, const MaskStore& masks);
 
 }  // namespace raymoval

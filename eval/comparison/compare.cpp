@@ -82,6 +82,7 @@ class Comparer {
       if (find_cell(reference, cell) != nullptr) continue;
       add_cell_line(Change::kMoved, cell, cell, "not in the reference, not compared");
     }
+    if (!not_alike_.empty()) result_.times.push_back("not compared: " + not_alike_);
     if (!result_.times.empty() && run.machine != reference.machine) {
       result_.times.push_back("the times are of different machines: " + run.machine +
                               "; the reference: " + reference.machine);
@@ -220,26 +221,32 @@ class Comparer {
 
   void compare_time(const ComparedCell& run, const ComparedCell& reference) {
     if (run.control || timeless_) return;
-    TimeChange time{run.sequence, run.name, reference.seconds_per_scan, run.seconds_per_scan,
-                    Change::kSame};
+    TimeChange time{run.sequence,         run.name,      reference.seconds_per_scan,
+                    run.seconds_per_scan, Change::kSame, reference.side_by_side,
+                    run.side_by_side};
     const bool both = time.before && time.after && *time.before > 0.0;
-    if (!both && !options_.time_band) return;
-    if (!both) {
+    const bool comparable = both && time.taken_alike();
+    if (both && !comparable) not_alike_ = side_by_side_text(time);
+    if (!comparable && !options_.time_band) return;
+    if (!comparable) {
       time.change = Change::kIncomparable;
     } else if (options_.time_band && time.ratio() > *options_.time_band) {
       time.change = Change::kWorse;
     }
     const std::string text = change_text(time);
-    if (both) result_.times.push_back(title(run) + ": " + text);
+    if (comparable) result_.times.push_back(title(run) + ": " + text);
     result_.time_changes.push_back(time);
     if (time.change == Change::kSame) return;
     add_line(time.change, {run.sequence, run.name, "", {}, {}, {}, {}, {}},
-             both ? text + ", more than " + number_text(*options_.time_band) + " times" : text);
+             time.change == Change::kWorse
+                 ? text + ", more than " + number_text(*options_.time_band) + " times"
+                 : text);
   }
 
   const ComparisonOptions& options_;
   Comparison result_;
   bool timeless_ = false;  ///< The reference has no time at all.
+  std::string not_alike_;  ///< Why times of some cells are not compared.
   bool parameters_differ_ =
       false;                   ///< At least one cell is not comparable for its parameters only.
   bool more_differs_ = false;  ///< At least one cell is not comparable for another reason.

@@ -35,6 +35,7 @@ struct ComparedCell {
   std::string method_version;
   std::vector<ComparedScore> scores;
   std::optional<double> seconds_per_scan;
+  int side_by_side = 1;  ///< So many cells ran at once when it was timed.
 };
 
 /// All cells of a run, or of a reference.
@@ -98,8 +99,13 @@ struct TimeChange {
   std::string sequence;
   std::string name;
   std::optional<double> before, after;  ///< Seconds per scan.
-  /// kWorse: it is beyond the time band; kIncomparable: there is a band and one side has no time.
+  /// kWorse: it is beyond the time band; kIncomparable: there is a band, and one side has no time
+  /// or the two were not taken alike.
   Change change = Change::kSame;
+  int before_side_by_side = 1, after_side_by_side = 1;  ///< Cells that ran at once.
+
+  /// Whether as many cells ran at once on both sides. Else nothing follows from the ratio.
+  [[nodiscard]] bool taken_alike() const { return before_side_by_side == after_side_by_side; }
 
   /// How many times slower the run is; only where both sides have a time.
   [[nodiscard]] double ratio() const { return *after / *before; }
@@ -151,6 +157,8 @@ std::string comparison_text(const Comparison& comparison);
 std::string change_text(const RateChange& rate);
 /// "removed_points 5000 -> 4999 (-1)", "count x is missing".
 std::string change_text(const CountChange& count);
+/// "times were not taken alike: with 2 cells at once (run --jobs), the reference with 1".
+std::string side_by_side_text(const TimeChange& time);
 /// "1.59 times the reference (29.0 ms per scan, was 18.3)".
 std::string change_text(const TimeChange& time);
 

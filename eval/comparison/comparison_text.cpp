@@ -78,6 +78,12 @@ std::vector<CommonLine> lines_in_common(const std::vector<ComparisonLine>& lines
 
 }  // namespace
 
+std::string side_by_side_text(const TimeChange& time) {
+  return "times were not taken alike: with " + std::to_string(time.after_side_by_side) +
+         " cells at once (run --jobs), the reference with " +
+         std::to_string(time.before_side_by_side);
+}
+
 std::string change_text(const RateChange& rate) {
   std::string text = rate.name + " " + value_words(rate.before) + " -> " + value_words(rate.after);
   if (!rate.before || !rate.after) return text;
@@ -99,6 +105,9 @@ std::string change_text(const CountChange& count) {
 }
 
 std::string change_text(const TimeChange& time) {
+  if (time.before && time.after && !time.taken_alike()) {
+    return side_by_side_text(time) + "; leave --time-band out";
+  }
   if (time.change == Change::kIncomparable) return "no time on both sides; leave --time-band out";
   return fixed_text(time.ratio(), 2) + " times the reference (" + fixed_text(*time.after * 1e3, 1) +
          " ms per scan, was " + fixed_text(*time.before * 1e3, 1) + ")";

@@ -21,52 +21,66 @@ std::vector<Rate> rates_of(const std::vector<std::int64_t>& counts) {
   return accuracy_rates(counts[0], counts[1], counts[2], counts[3], "point");
 }
 
+ProtocolResult result_of(const std::vector<ScanPresence>& scans) {
+  ScanPresence all;
+  for (const ScanPresence& scan : scans) all += scan;
+  ProtocolResult result;
+  result.protocol = "dynamicmap";
+  result.counts = {{"static_points", all.points.static_points},
+                   {"dynamic_points", all.points.dynamic_points},
+                   {"present_static_points", all.present_static},
+                   {"removed_dynamic_points", all.removed_dynamic},
+                   {"kept_static_points", all.kept_static},
+                   {"flagged_dynamic_points", all.flagged_dynamic},
+                   {"ego_points", all.points.ego},
+                   {"out_of_range_points", all.points.out_of_range},
+                   {"ignored_points", all.points.ignored}};
+  result.rates = rates_of(counts_of(all));
+  std::vector<std::vector<std::int64_t>> by_scan;
+  for (const ScanPresence& scan : scans) by_scan.push_back(counts_of(scan));
+  result.intervals = bootstrap(by_scan, rates_of);
+  if (all.kept_static == 0 && all.flagged_dynamic == all.points.dynamic_points) {
+    result.warnings.push_back("the estimate is empty: every evaluated point is removed");
+  }
+  return result;
+}
+
+class DynamicMapScoring : public Scoring {
+ public:
+  explicit DynamicMapScoring(const PresenceCount::Input& input) : presence_(input) {}
+
+  bool begin_pass(std::size_t slots) override { return presence_.begin_pass(slots); }
+  void read(const CheckedScan& scan, std::size_t slot) override { presence_.read(scan, slot); }
+  void take(std::size_t slot) override { presence_.take(slot); }
+  ProtocolResult result() override { return result_of(presence_.finish()); }
+
+ private:
+  PresenceCount presence_;
+};
+
 class DynamicMapScorer : public Scorer {
  public:
-  DynamicMapScorer(const EvaluationInput& input, const Options& options)
-      : input_(input),
+  DynamicMapScorer(const EvaluationInput& evaluated, const Options& options)
+      : Scorer(evaluated),
         options_(options),
-        truth_(input_, options_.maximum_range, options_.ego_range) {
-    (void)truth_.count("ground truth points");  // Throws if there is nothing to score against.
-  }
+        truth_(input(), options_.maximum_range, options_.ego_range),
+        grid_(options_.distance),
+        blocks_(truth_blocks(truth_, grid_)) {}
 
-  [[nodiscard]] ProtocolResult score(const MaskStore& masks) const override {
-    check_mask_count(input_, masks);
-    return result_of(measure_presence(truth_, masks, options_));
+  [[nodiscard]] std::unique_ptr<Scoring> start() const override {
+    return std::make_unique<DynamicMapScoring>(
+        PresenceCount::Input{truth_, options_, grid_, blocks_});
   }
 
   [[nodiscard]] ProtocolResult score_cloud(const CloudEstimate& cloud) const override {
-    return result_of(presence_by_index(truth_, cloud.masks(input_, options_.distance)));
+    return result_of(presence_by_index(truth_, cloud.masks(input(), options_.distance)));
   }
 
  private:
-  [[nodiscard]] static ProtocolResult result_of(const std::vector<ScanPresence>& scans) {
-    ScanPresence all;
-    for (const ScanPresence& scan : scans) all += scan;
-    ProtocolResult result;
-    result.protocol = "dynamicmap";
-    result.counts = {{"static_points", all.points.static_points},
-                     {"dynamic_points", all.points.dynamic_points},
-                     {"present_static_points", all.present_static},
-                     {"removed_dynamic_points", all.removed_dynamic},
-                     {"kept_static_points", all.kept_static},
-                     {"flagged_dynamic_points", all.flagged_dynamic},
-                     {"ego_points", all.points.ego},
-                     {"out_of_range_points", all.points.out_of_range},
-                     {"ignored_points", all.points.ignored}};
-    result.rates = rates_of(counts_of(all));
-    std::vector<std::vector<std::int64_t>> by_scan;
-    for (const ScanPresence& scan : scans) by_scan.push_back(counts_of(scan));
-    result.intervals = bootstrap(by_scan, rates_of);
-    if (all.kept_static == 0 && all.flagged_dynamic == all.points.dynamic_points) {
-      result.warnings.push_back("the estimate is empty: every evaluated point is removed");
-    }
-    return result;
-  }
-
-  EvaluationInput input_;
   Options options_;
   TruthPoints truth_;
+  FineGrid grid_;
+  TruthBlocks blocks_;
 };
 
 }  // namespace

@@ -2,17 +2,14 @@
 #include "eval/dynamicmap/presence.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/parallel.h"
-#include "core/scan/voxel_key.h"
-#include "eval/points/nearby_points.h"
-#include "eval/points/scan_loops.h"
+#include "eval/dynamicmap/undecided_points.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval::dynamicmap {
 namespace {
-
-/// The smallest edge of the cells that say which kept points have to stay in memory.
-constexpr double kSmallestEdge = 0.2;
 
 Eigen::Vector3d placed(const Scan& scan, std::size_t point) {
   return scan.T_world_sensor * scan.points[point].cast<double>();
@@ -20,11 +17,10 @@ Eigen::Vector3d placed(const Scan& scan, std::size_t point) {
 
 /// What the masks say of a scan themselves; calls `visit(scan, point, kind, removed)` on the way.
 template <class Visit>
-ScanPresence count_by_index(const TruthPoints& truth, const MaskStore& masks, std::size_t index,
-                            Visit&& visit) {
+ScanPresence count_by_index(const TruthPoints& truth, const CheckedScan& loaded, Visit&& visit) {
   ScanPresence counts;
   counts.points =
-      truth.read(index, &masks, [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
+      truth.visit_scan(loaded, [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
         if (kind == Kind::kStatic && !removed) ++counts.kept_static;
         if (kind == Kind::kDynamic && removed) ++counts.flagged_dynamic;
         visit(scan, p, kind, removed);
@@ -34,128 +30,14 @@ ScanPresence count_by_index(const TruthPoints& truth, const MaskStore& masks, st
   return counts;
 }
 
-/// Flagged points of the truth, scan after scan.
-struct FlaggedPoints {
-  std::vector<Eigen::Vector3d> points;  ///< World frame.
-  std::vector<std::uint8_t> moving;
-  std::vector<std::size_t> first = {0};  ///< Where the points of each scan begin, and the end.
-};
-
-/// Cells with flagged points in or beside them. A point in another cell is near no flagged point.
-class CellsAround {
- public:
-  CellsAround(const std::vector<Eigen::Vector3d>& points, double distance)
-      : inverse_edge_(1.0 / std::max(2.0 * distance, kSmallestEdge)) {
-    VoxelSet own;
-    for (const Eigen::Vector3d& point : points) own.insert(key_of(point));
-    for (const VoxelKey key : own) add_neighbours(voxel_index(key));
+/// A flagged point that is there all the same.
+void add_present(ScanPresence& counts, bool moving) {
+  if (moving) {
+    --counts.removed_dynamic;
+  } else {
+    ++counts.present_static;
   }
-
-  [[nodiscard]] bool contains(const Eigen::Vector3d& point) const {
-    return !cells_.empty() && cells_.contains(key_of(point));
-  }
-
- private:
-  [[nodiscard]] VoxelKey key_of(const Eigen::Vector3d& point) const {
-    return voxel_key(voxel_index(point, inverse_edge_));
-  }
-  void add_neighbours(const VoxelIndex& cell) {
-    for (int z = -1; z <= 1; ++z) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int x = -1; x <= 1; ++x) {
-          cells_.insert(voxel_key(cell.x() + x, cell.y() + y, cell.z() + z));
-        }
-      }
-    }
-  }
-
-  double inverse_edge_;
-  VoxelSet cells_;
-};
-
-class Measurement {
- public:
-  Measurement(const TruthPoints& truth, const MaskStore& masks, const Options& options)
-      : truth_(truth), masks_(masks), options_(options), scans_(truth.input().scans->size()) {}
-
-  std::vector<ScanPresence> run() {
-    const FlaggedPoints flagged = collect_flagged();
-    const std::vector<Eigen::Vector3d> kept =
-        collect_kept(CellsAround(flagged.points, options_.distance));
-    const NearbyPoints<Eigen::Vector3d> near(kept, options_.distance);
-    parallel_for(truth_.input().threads, scans_.size(), 1, [&](std::size_t scan) {
-      for (std::size_t i = flagged.first[scan]; i < flagged.first[scan + 1]; ++i) {
-        if (near.has_near(flagged.points[i])) add_present(scans_[scan], flagged.moving[i] != 0);
-      }
-    });
-    return std::move(scans_);
-  }
-
- private:
-  /// Counts what the masks say themselves, and collects what has to be searched for.
-  FlaggedPoints collect_flagged() {
-    struct Part {
-      std::vector<Eigen::Vector3d> points;
-      std::vector<std::uint8_t> moving;
-    };
-    FlaggedPoints all;
-    const auto read = [&](std::size_t scan_index) {
-      Part part;
-      ScanPresence& counts = scans_[scan_index];
-      counts = count_by_index(truth_, masks_, scan_index,
-                              [&](const Scan& scan, std::size_t p, Kind kind, bool removed) {
-                                if (!removed || !is_truth(kind)) return;
-                                part.points.push_back(placed(scan, p));
-                                part.moving.push_back(kind == Kind::kDynamic ? 1 : 0);
-                              });
-      return part;
-    };
-    in_scan_order<Part>(truth_.input(), "points that are gone", read, [&](const Part& part) {
-      all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-      all.moving.insert(all.moving.end(), part.moving.begin(), part.moving.end());
-      all.first.push_back(all.points.size());
-    });
-    return all;
-  }
-
-  /// Points of the estimate that may be near a flagged one.
-  std::vector<Eigen::Vector3d> collect_kept(const CellsAround& cells) {
-    using Part = std::vector<Eigen::Vector3d>;
-    Part all;
-    const auto read = [&](std::size_t scan_index) {
-      Part part;
-      (void)truth_.read(scan_index, &masks_,
-                        [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
-                          if (!in_estimate(kind, removed)) return;
-                          const Eigen::Vector3d point = placed(scan, p);
-                          if (cells.contains(point)) part.push_back(point);
-                        });
-      return part;
-    };
-    in_scan_order<Part>(truth_.input(), "points near those gone", read,
-                        [&](const Part& part) { all.insert(all.end(), part.begin(), part.end()); });
-    return all;
-  }
-
-  /// Whether a point stands in the map that is scored; its label is not looked at.
-  [[nodiscard]] bool in_estimate(Kind kind, bool removed) const {
-    return !removed && (is_truth(kind) || options_.ignored_in_estimate);
-  }
-
-  /// A flagged point that is there all the same.
-  static void add_present(ScanPresence& counts, bool moving) {
-    if (moving) {
-      --counts.removed_dynamic;
-    } else {
-      ++counts.present_static;
-    }
-  }
-
-  const TruthPoints& truth_;
-  const MaskStore& masks_;
-  const Options& options_;
-  std::vector<ScanPresence> scans_;
-};
+}
 
 }  // namespace
 
@@ -171,14 +53,229 @@ ScanPresence& ScanPresence::operator+=(const ScanPresence& other) {
 std::vector<ScanPresence> presence_by_index(const TruthPoints& truth, const MaskStore& masks) {
   std::vector<ScanPresence> scans(truth.input().scans->size());
   parallel_for(truth.input().threads, scans.size(), 1, [&](std::size_t i) {
-    scans[i] = count_by_index(truth, masks, i, [](const Scan&, std::size_t, Kind, bool) {});
+    scans[i] = count_by_index(truth, load_checked(truth.input(), &masks, i),
+                              [](const Scan&, std::size_t, Kind, bool) {});
   });
   return scans;
 }
 
-std::vector<ScanPresence> measure_presence(const TruthPoints& truth, const MaskStore& masks,
-                                           const Options& options) {
-  return Measurement(truth, masks, options).run();
+TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid) {
+  struct Part {
+    CellSet blocks;
+    PointCounts points;
+  };
+  std::vector<Part> slots(usual_slots(truth.input()));
+  Part all;
+  TruthBlocks result;
+  in_scan_order(
+      truth.input(), "ground truth points", slots.size(),
+      [&](std::size_t index, std::size_t slot) {
+        Part& part = slots[slot];
+        part.blocks.clear();
+        CellInserter blocks(part.blocks);
+        part.points = truth.visit_scan(load_checked(truth.input(), nullptr, index),
+                                       [&](std::size_t p, const Scan& scan, Kind, bool) {
+                                         blocks.insert(grid.block_of(placed(scan, p)));
+                                       });
+      },
+      [&](std::size_t slot) {
+        all.blocks.insert(slots[slot].blocks);
+        all.points += slots[slot].points;
+        result.points.push_back(slots[slot].points);
+      });
+  check_not_empty(all.points);
+  result.blocks = CellLattice(all.blocks);
+  return result;
+}
+
+class PresenceCount::State {
+ public:
+  State(const Input& input, std::size_t room)
+      : input_(input),
+        scans_(input.truth.input().scans->size()),
+        kept_(blocks().size()),
+        flagged_(blocks().size()),
+        undecided_({input.options.distance, input.grid, blocks(), flagged_}, room) {}
+
+  bool begin_pass(std::size_t slots) {
+    slots_.resize(slots);
+    switch (++pass_) {
+      case kCount:
+        has_flagged_.assign(blocks().size(), 0);
+        return true;
+      case kMark:
+        if (!any_flagged_ || !any_kept_) return false;  // All are present, or all are gone.
+        is_near_flagged_ = with_blocks_beside(
+            blocks(), [&](CellLattice::Number block) { return has_flagged_[block] != 0; });
+        has_flagged_ = {};
+        return true;
+      case kCollect:
+        is_near_flagged_ = {};
+        if (input_.grid.same_cell_is_near()) flagged_.subtract(kept_);
+        undecided_.begin();
+        return true;
+      default:
+        search();
+        return undecided_.begin_next();
+    }
+  }
+
+  void read(const CheckedScan& scan, std::size_t slot) {
+    Part& part = slots_[slot];
+    part.scan = static_cast<std::uint32_t>(scan.scan.index);
+    if (pass_ == kCount) {
+      count(scan, part);
+    } else if (pass_ == kMark) {
+      mark(scan, part);
+    } else {
+      collect(scan, part);
+    }
+  }
+
+  void take(std::size_t slot) {
+    Part& part = slots_[slot];
+    if (pass_ == kCount) {
+      scans_[part.scan] = part.counts;
+      any_flagged_ = any_flagged_ || part.any_flagged;
+      any_kept_ = any_kept_ || part.any_kept;
+    } else if (pass_ >= kCollect) {
+      if (pass_ == kCollect) scans_[part.scan] += part.counts;
+      undecided_.add(part.found);
+    }
+  }
+
+  std::vector<ScanPresence> finish() { return std::move(scans_); }
+
+ private:
+  /// What the passes do; those behind the last one collect, too.
+  enum Pass { kCount = 1, kMark, kCollect };
+  struct Part {
+    std::uint32_t scan = 0;
+    ScanPresence counts;
+    bool any_flagged = false, any_kept = false;
+    UndecidedPoints::Found found;
+  };
+
+  [[nodiscard]] const CellLattice& blocks() const { return input_.blocks.blocks; }
+
+  /// The block of a point. All points of the truth have one.
+  [[nodiscard]] CellLattice::Number block_at(const Eigen::Vector3d& point, const Part& part,
+                                             CellLattice::Cursor& cursor) const {
+    const CellLattice::Number block = blocks().find(input_.grid.block_of(point), cursor);
+    if (block == CellLattice::kNone) throw_changed(input_.truth.input(), part.scan);
+    return block;
+  }
+
+  /// Counts what the mask says itself, and finds the blocks of flagged points.
+  void count(const CheckedScan& loaded, Part& part) {
+    ScanPresence& counts = part.counts;
+    counts = {};
+    counts.points = input_.blocks.points[part.scan];
+    counts.kept_static = counts.points.static_points;
+    std::int64_t kept = counts.points.static_points + counts.points.dynamic_points;
+    if (input_.options.ignored_in_estimate) kept += counts.points.ignored;
+    part.any_flagged = false;
+    CellLattice::Cursor cursor;
+    input_.truth.visit_flagged(loaded, [&](std::size_t p, const Scan& scan, Kind kind) {
+      if (in_estimate(kind, false)) --kept;
+      if (!is_truth(kind)) return;
+      part.any_flagged = true;
+      if (kind == Kind::kStatic) --counts.kept_static;
+      if (kind == Kind::kDynamic) ++counts.flagged_dynamic;
+      const std::atomic_ref<std::uint8_t> flag(
+          has_flagged_[block_at(placed(scan, p), part, cursor)]);
+      flag.store(1, std::memory_order_relaxed);
+    });
+    counts.present_static = counts.kept_static;
+    counts.removed_dynamic = counts.flagged_dynamic;
+    part.any_kept = kept > 0;
+  }
+
+  /// Marks the cells of flagged points, and those of kept ones where flagged ones may be near.
+  void mark(const CheckedScan& loaded, const Part& part) {
+    CellLattice::Cursor cursor;
+    visit_both(loaded, [&](const Eigen::Vector3d& point, Kind, bool is_kept) {
+      const CellLattice::Number block = block_at(point, part, cursor);
+      if (is_near_flagged_[block] == 0) return;
+      (is_kept ? kept_ : flagged_).set(block, input_.grid.cell_of(point));
+    });
+  }
+
+  /// Counts the flagged points that the marks decide on, and collects the others and what may be
+  /// near them.
+  void collect(const CheckedScan& loaded, Part& part) {
+    part.counts = {};
+    part.found = {};
+    CellLattice::Cursor cursor, around;
+    visit_both(loaded, [&](const Eigen::Vector3d& point, Kind kind, bool is_kept) {
+      const CellLattice::Number block = block_at(point, part, cursor);
+      if (!undecided_.may_matter(block, is_kept)) return;
+      const FineCell cell = input_.grid.cell_of(point);
+      if (is_kept) {
+        if (undecided_.is_wanted(cell, around)) part.found.kept.push_back(point);
+        return;
+      }
+      const bool moving = kind == Kind::kDynamic;
+      if (input_.grid.same_cell_is_near() && kept_.is_set(block, cell)) {
+        add_present(part.counts, moving);
+      } else if (undecided_.has_turn(block) &&
+                 kept_.any_near(cell, blocks(), around, 0, CellLattice::kNone)) {
+        part.found.flagged.push_back({point, block, part.scan, moving});
+      }
+    });
+  }
+
+  /// Calls `visit(point, kind, is_kept)` for the points of the estimate and for flagged ones.
+  template <class Visit>
+  void visit_both(const CheckedScan& loaded, Visit&& visit) const {
+    (void)input_.truth.visit_scan(loaded,
+                                  [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
+                                    const bool is_kept = in_estimate(kind, removed);
+                                    if (is_kept || (removed && is_truth(kind)))
+                                      visit(placed(scan, p), kind, is_kept);
+                                  });
+  }
+
+  /// Whether a point stands in the map that is scored; its label is not looked at.
+  [[nodiscard]] bool in_estimate(Kind kind, bool removed) const {
+    return !removed && (is_truth(kind) || input_.options.ignored_in_estimate);
+  }
+
+  void search() {
+    undecided_.search(input_.truth.input().threads, [&](const UndecidedPoints::Flagged& point) {
+      add_present(scans_[point.scan], point.moving);
+    });
+  }
+
+  Input input_;
+  int pass_ = 0;
+  std::vector<Part> slots_;
+  std::vector<ScanPresence> scans_;
+  bool any_flagged_ = false, any_kept_ = false;
+  std::vector<std::uint8_t> has_flagged_, is_near_flagged_;  ///< By block.
+  FineBits kept_;
+  FineBits flagged_;  ///< When points are collected, those on which `kept_` has not decided.
+  UndecidedPoints undecided_;
+};
+
+PresenceCount::PresenceCount(const Input& input, std::size_t room)
+    : state_(std::make_unique<State>(input, room)) {}
+PresenceCount::~PresenceCount() = default;
+
+bool PresenceCount::begin_pass(std::size_t slots) {
+  return state_->begin_pass(slots);
+}
+
+void PresenceCount::read(const CheckedScan& scan, std::size_t slot) {
+  state_->read(scan, slot);
+}
+
+void PresenceCount::take(std::size_t slot) {
+  state_->take(slot);
+}
+
+std::vector<ScanPresence> PresenceCount::finish() {
+  return state_->finish();
 }
 
 }  // namespace raymoval::dynamicmap

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "eval/dynamicmap/fine_cells.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/truth_points.h"
+#include "eval/lattice/cell_lattice.h"
 
 namespace raymoval::dynamicmap {
 
@@ -20,17 +23,54 @@ struct ScanPresence {
   ScanPresence& operator+=(const ScanPresence& other);
 };
 
+/// What does not depend on masks.
+struct TruthBlocks {
+  CellLattice blocks;               ///< Those with points that are in range.
+  std::vector<PointCounts> points;  ///< Of each scan.
+};
+
+/// @throws DataError if no point at all is left to score against, or one lies beyond the lattice
+TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid);
+
 /// Counts for each scan how many of its points are kept, and how many have a kept point of any scan
 /// (the point itself included) at `options.distance` metres or less.
 ///
-/// A kept point is its own partner, so partners are searched for flagged points only. These points
-/// and the kept ones around them stay in memory, all others are read and forgotten. The time grows
-/// with n log n for n points, however often a place was seen.
-/// @throws MethodError, DataError as `load_checked`; DataError beyond the lattice
-std::vector<ScanPresence> measure_presence(const TruthPoints& truth, const MaskStore& masks,
-                                           const Options& options);
+/// A kept point is its own partner, so partners are searched for flagged points only. The first
+/// pass finds the blocks that have any. The second one marks the fine cells of flagged points, and
+/// of kept ones in these blocks and those beside them. That decides on most flagged points: one
+/// that shares its cell with a kept point is present, one without a kept point two cells around is
+/// gone. The third pass counts these and collects the others, with the kept points around them, and
+/// these are searched. Where they are too many for the room that the number of blocks gives them,
+/// only those of the first blocks stay, and another pass collects those of the next ones. So memory
+/// is bounded by the map: at most 130 bytes a block for the marks, where points were flagged, and
+/// 72 for the points, but room for these is never less than 64 MiB.
+class PresenceCount : public ScanVisitor {
+ public:
+  struct Input {
+    const TruthPoints& truth;
+    const Options& options;
+    const FineGrid& grid;
+    const TruthBlocks& blocks;  ///< Of the truth.
+  };
+
+  /// All parts of the input outlive this object.
+  /// @param room bytes for the points that are searched; 0: as many as the blocks allow
+  explicit PresenceCount(const Input& input, std::size_t room = 0);
+  ~PresenceCount() override;
+
+  bool begin_pass(std::size_t slots) override;
+  void read(const CheckedScan& scan, std::size_t slot) override;
+  void take(std::size_t slot) override;
+  /// Called once, after the last pass.
+  [[nodiscard]] std::vector<ScanPresence> finish();
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
 
 /// The same counts for masks that already say which points are present.
+/// @throws MethodError, DataError as `load_checked`
 std::vector<ScanPresence> presence_by_index(const TruthPoints& truth, const MaskStore& masks);
 
 }  // namespace raymoval::dynamicmap

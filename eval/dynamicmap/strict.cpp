@@ -11,7 +11,7 @@
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/truth_points.h"
 #include "eval/points/cloud_masks.h"
-#include "eval/points/scan_loops.h"
+#include "eval/scan_passes.h"
 
 namespace raymoval {
 namespace {
@@ -23,34 +23,55 @@ constexpr std::uint8_t kDynamic = 2;
 
 class StrictScorer : public Scorer {
  public:
-  StrictScorer(const EvaluationInput& input, const StrictOptions& options)
-      : input_(input),
+  StrictScorer(const EvaluationInput& evaluated, const StrictOptions& options)
+      : Scorer(evaluated),
         voxel_size_(options.voxel_size),
-        points_(input_, options.maximum_range, options.ego_range) {
+        points_(input(), options.maximum_range, options.ego_range) {
     for (const PointCounts& scan : points_.count("ground truth points")) point_counts_ += scan;
     using Part = std::vector<std::pair<VoxelKey, bool>>;  // Cell, and whether the point moves.
-    const auto read = [&](std::size_t i) {
-      Part part;
-      (void)points_.read(i, nullptr, [&](std::size_t p, const Scan& scan, Kind kind, bool) {
-        if (is_truth(kind)) part.emplace_back(key_of(scan, p), kind == Kind::kDynamic);
-      });
-      return part;
+    std::vector<Part> slots(usual_slots(input()));
+    const auto read = [&](std::size_t scan, std::size_t slot) {
+      Part& part = slots[slot];
+      part.clear();
+      (void)points_.visit_scan(load_checked(input(), nullptr, scan),
+                               [&](std::size_t p, const Scan& loaded, Kind kind, bool) {
+                                 if (!is_truth(kind)) return;
+                                 part.emplace_back(key_of(loaded, p), kind == Kind::kDynamic);
+                               });
     };
-    in_scan_order<Part>(input_, "ground truth cells", read, [&](const Part& part) {
-      for (const auto& [key, moving] : part) add_cell(key, moving);
+    in_scan_order(input(), "ground truth cells", slots.size(), read, [&](std::size_t slot) {
+      for (const auto& [key, moving] : slots[slot]) add_cell(key, moving);
     });
   }
 
-  [[nodiscard]] ProtocolResult score(const MaskStore& masks) const override {
-    check_mask_count(input_, masks);
-    return result_of(kept_cells(masks));
+  [[nodiscard]] std::unique_ptr<Scoring> start() const override {
+    return std::make_unique<StrictScoring>(*this);
   }
 
   [[nodiscard]] ProtocolResult score_cloud(const CloudEstimate& cloud) const override {
-    return score(cloud.masks(input_, kCloudDistance));
+    return score(cloud.masks(input(), kCloudDistance));
   }
 
  private:
+  class StrictScoring : public Scoring {
+   public:
+    explicit StrictScoring(const StrictScorer& scorer)
+        : scorer_(scorer), kept_(scorer.classes_.size(), 0) {}
+
+    bool begin_pass(std::size_t /*slots*/) override { return ++pass_ == 1; }
+    void read(const CheckedScan& scan, std::size_t /*slot*/) override {
+      scorer_.add_kept(scan, kept_);
+    }
+    void take(std::size_t /*slot*/) override {}
+    ProtocolResult result() override { return scorer_.result_of(kept_); }
+
+   private:
+    const StrictScorer& scorer_;
+    int pass_ = 0;
+    std::vector<std::uint8_t>
+        kept_;  ///< For each cell of the truth the classes of its kept points.
+  };
+
   [[nodiscard]] VoxelKey key_of(const Scan& scan, std::size_t point) const {
     const Eigen::Vector3d world = scan.T_world_sensor * scan.points[point].cast<double>();
     return voxel_key(voxel_index(world, 1.0 / voxel_size_));
@@ -68,19 +89,15 @@ class StrictScorer : public Scorer {
     classes_[cell->second] |= moving ? kDynamic : kStatic;
   }
 
-  /// For each cell of the truth the classes of its kept points.
-  [[nodiscard]] std::vector<std::uint8_t> kept_cells(const MaskStore& masks) const {
-    std::vector<std::uint8_t> kept(classes_.size(), 0);
-    for_each_scan(input_, "kept cells", [&](std::size_t i) {
-      const auto visit = [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
-        if (removed || !is_truth(kind)) return;
-        std::uint8_t& cell = kept[positions_.at(key_of(scan, p))];
-        std::atomic_ref<std::uint8_t>(cell).fetch_or(kind == Kind::kDynamic ? kDynamic : kStatic,
-                                                     std::memory_order_relaxed);
-      };
-      (void)points_.read(i, &masks, visit);
+  /// Adds the classes of a scan's kept points to their cells. Several threads may call it at a
+  /// time.
+  void add_kept(const CheckedScan& loaded, std::vector<std::uint8_t>& kept) const {
+    (void)points_.visit_scan(loaded, [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
+      if (removed || !is_truth(kind)) return;
+      std::uint8_t& cell = kept[positions_.at(key_of(scan, p))];
+      std::atomic_ref<std::uint8_t>(cell).fetch_or(kind == Kind::kDynamic ? kDynamic : kStatic,
+                                                   std::memory_order_relaxed);
     });
-    return kept;
   }
 
   [[nodiscard]] ProtocolResult result_of(const std::vector<std::uint8_t>& kept) const {
@@ -111,7 +128,6 @@ class StrictScorer : public Scorer {
     return result;
   }
 
-  EvaluationInput input_;
   double voxel_size_;
   TruthPoints points_;
   PointCounts point_counts_;

@@ -17,6 +17,14 @@ PointCounts& PointCounts::operator+=(const PointCounts& other) {
   return *this;
 }
 
+void check_not_empty(const PointCounts& points) {
+  if (points.static_points + points.dynamic_points > 0) return;
+  throw DataError("nothing to score against: " + std::to_string(points.out_of_range) +
+                  " points are out of range and " + std::to_string(points.ignored) +
+                  " have ignored labels; expected at least one that is left. Check range_m, "
+                  "maximum_range and the label rule.");
+}
+
 TruthPoints::TruthPoints(const EvaluationInput& input, double maximum_range, double ego_range)
     : input_(input),
       classes_(input.label_rule),
@@ -50,15 +58,13 @@ Kind TruthPoints::kind_of(const Eigen::Vector3f& point, std::uint32_t word,
 std::vector<PointCounts> TruthPoints::count(const std::string& task) const {
   std::vector<PointCounts> counts(input_.scans->size());
   for_each_scan(input_, task, [&](std::size_t i) {
-    counts[i] = read(i, nullptr, [](std::size_t, const Scan&, Kind, bool) {});
+    counts[i] =
+        visit_scan(load_checked(input_, nullptr, i), [](std::size_t, const Scan&, Kind, bool) {});
   });
   PointCounts all;
   for (const PointCounts& scan : counts) all += scan;
-  if (all.static_points + all.dynamic_points > 0) return counts;
-  throw DataError("nothing to score against: " + std::to_string(all.out_of_range) +
-                  " points are out of range and " + std::to_string(all.ignored) +
-                  " have ignored labels; expected at least one that is left. Check range_m, "
-                  "maximum_range and the label rule.");
+  check_not_empty(all);
+  return counts;
 }
 
 }  // namespace raymoval::dynamicmap

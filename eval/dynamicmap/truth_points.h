@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/points/checked_scan.h"
+#include "eval/checked_scan.h"
 #include "eval/points/labelled_voxels.h"
 
 namespace raymoval::dynamicmap {
@@ -22,6 +22,9 @@ struct PointCounts {
   PointCounts& operator+=(const PointCounts& other);
 };
 
+/// @throws DataError unless a static or a dynamic point is left to score against
+void check_not_empty(const PointCounts& points);
+
 /// What a point is to the protocol. An ignored point has no class, but it may stand in a map.
 enum class Kind { kOutOfRange, kIgnored, kStatic, kDynamic };
 
@@ -34,17 +37,26 @@ class TruthPoints {
  public:
   TruthPoints(const EvaluationInput& input, double maximum_range, double ego_range);
 
-  /// Loads scan `index` and calls `visit(i, scan, kind, removed)` for each point i in range.
-  /// @throws MethodError, DataError as `load_checked`
+  /// Calls `visit(i, scan, kind, removed)` for each point i of a scan that is in range.
   template <class Visit>
-  PointCounts read(std::size_t index, const MaskStore* masks, Visit&& visit) const {
-    const CheckedScan loaded = load_checked(input_, masks, index);
+  PointCounts visit_scan(const CheckedScan& loaded, Visit&& visit) const {
     PointCounts counts;
     for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
       const Kind kind = kind_of(loaded.scan.points[i], loaded.labels[i], counts);
       if (kind != Kind::kOutOfRange) visit(i, loaded.scan, kind, loaded.removed(i));
     }
     return counts;
+  }
+
+  /// Calls `visit(i, scan, kind)` for each flagged point i of a scan that is in range.
+  template <class Visit>
+  void visit_flagged(const CheckedScan& loaded, Visit&& visit) const {
+    PointCounts counts;
+    for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
+      if (!loaded.removed(i)) continue;
+      const Kind kind = kind_of(loaded.scan.points[i], loaded.labels[i], counts);
+      if (kind != Kind::kOutOfRange) visit(i, loaded.scan, kind);
+    }
   }
 
   /// The counts of each scan. Progress is shown as `task`.

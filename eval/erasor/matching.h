@@ -2,25 +2,41 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include "eval/erasor/maps/map_voxels.h"
+#include "eval/erasor/maps/truth_map.h"
 #include "eval/erasor/options.h"
-#include "eval/points/labelled_voxels.h"
 
 namespace raymoval::erasor {
-
-inline constexpr std::uint32_t kNoPartner = std::numeric_limits<std::uint32_t>::max();
 
 /// Squared distance below which voxels match: half the diagonal of a voxel, squared, which is
 /// 3 s^2 / 4 (0.03 m^2 for 0.2 m). The comparison is strict.
 double matching_bound(double voxel_size);
 
-/// Finds for each voxel of `from` its partner in `to`, or `kNoPartner`. By radius the partner is
-/// the nearest voxel if its squared distance is below `matching_bound`; of several at the same
-/// distance it is the one with the lowest index. By cell it is the voxel of the same cell.
-std::vector<std::uint32_t> find_partners(const LabelledVoxels& from, const LabelledVoxels& to,
-                                         double voxel_size, MatchingOption matching, int threads);
+/// The partner of a voxel in a map: the nearest voxel if its squared distance is below
+/// `matching_bound`; of several at the same distance it is the one with the lowest key.
+/// @param cell in which the voxel is
+/// @param mean of the voxel
+/// @return its number; `CellLattice::kNone` without a partner
+CellLattice::Number find_partner(VoxelKey cell, const Eigen::Vector3d& mean, const MapVoxels& map,
+                                 double voxel_size, CellLattice::Cursor& cursor);
+
+/// For each cell of the truth what the partner of its voxel is, by the options' matching.
+std::vector<VoxelKind> partner_kinds(const MapVoxels& truth, const MapVoxels& estimate,
+                                     const Options& options, int threads);
+
+/// How the estimate lies in the truth, looked at the other way round.
+struct Overlap {
+  std::int64_t voxels = 0;           ///< Of the estimate.
+  std::int64_t without_partner = 0;  ///< In the truth, by radius.
+  std::int64_t near = 0;             ///< With a partner at most half an edge away.
+
+  Overlap& operator+=(const Overlap& other);
+};
+
+Overlap overlap_of(const MapVoxels& estimate, const MapVoxels& truth, const Options& options,
+                   int threads);
 
 /// The counts that the rates follow from (S, D, Ps and Rd).
 struct MatchCounts {
@@ -32,21 +48,23 @@ struct MatchCounts {
   bool operator==(const MatchCounts&) const = default;
 };
 
+/// How voxels are counted.
+struct CountingRule {
+  LabelRuleOption label_rule = LabelRuleOption::kBoth;
+  bool ignore_0_1 = false;
+  bool trucks_move = true;
+};
+
 /// Counts the voxels of the truth by their class and their partners. With the label rule "both" a
 /// static voxel is preserved if its partner is static, and a moving one remains if its partner
 /// moves. With "geometry" any partner will do.
-/// @param partners of each truth voxel in the estimate
-MatchCounts count_matches(const LabelledVoxels& truth, const LabelledVoxels& estimate,
-                          const std::vector<std::uint32_t>& partners, const LabelClasses& classes,
-                          const Options& options);
+/// @param partners kind of each truth voxel's partner
+MatchCounts count_matches(const TruthMap& truth, const std::vector<VoxelKind>& partners,
+                          const CountingRule& rule);
 
-/// The same counts for each scan.
-/// @param scan_of_voxel scan to which each voxel of the truth belongs, below `scans`
-std::vector<MatchCounts> count_matches_by_scan(const LabelledVoxels& truth,
-                                               const LabelledVoxels& estimate,
-                                               const std::vector<std::uint32_t>& partners,
-                                               const std::vector<std::uint32_t>& scan_of_voxel,
-                                               std::size_t scans, const LabelClasses& classes,
-                                               const Options& options);
+/// The same counts for each scan. @param scans how many there are
+std::vector<MatchCounts> count_matches_by_scan(const TruthMap& truth,
+                                               const std::vector<VoxelKind>& partners,
+                                               std::size_t scans, const CountingRule& rule);
 
 }  // namespace raymoval::erasor

@@ -8,37 +8,15 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "eval/erasor/accumulate.h"
+#include "eval/erasor/maps/accumulate.h"
+#include "eval/erasor/maps/estimate_map.h"
 #include "eval/erasor/matching.h"
 #include "eval/erasor/rates.h"
-#include "eval/points/checked_scan.h"
 #include "eval/points/cloud_masks.h"
 #include "eval/points/nearest_labels.h"
 
 namespace raymoval::erasor {
 namespace {
-
-/// How the estimate lies in the truth, looked at the other way round.
-struct Overlap {
-  std::int64_t without_partner = 0;
-  std::int64_t near = 0;  ///< Voxels with a truth voxel within half an edge.
-};
-
-Overlap overlap_of(const LabelledVoxels& estimate, const LabelledVoxels& truth,
-                   const Options& options, int threads) {
-  const std::vector<std::uint32_t> partners =
-      find_partners(estimate, truth, options.voxel_size, MatchingOption::kRadius, threads);
-  Overlap overlap;
-  for (std::size_t i = 0; i < partners.size(); ++i) {
-    if (partners[i] == kNoPartner) {
-      ++overlap.without_partner;
-      continue;
-    }
-    const auto offset = truth.cloud.points[partners[i]] - estimate.cloud.points[i];
-    if (offset.norm() <= 0.5 * options.voxel_size) ++overlap.near;
-  }
-  return overlap;
-}
 
 [[noreturn]] void throw_empty_truth(const PointCounts& points) {
   throw DataError(fmt::format(
@@ -52,28 +30,19 @@ Overlap overlap_of(const LabelledVoxels& estimate, const LabelledVoxels& truth,
 
 class ErasorScorer : public Scorer {
  public:
-  ErasorScorer(const EvaluationInput& input, const Options& options)
-      : input_(input), options_(options), classes_(effective_rule(input.label_rule, options)) {
-    DenseMap dense = accumulate(input_, options_, classes_, nullptr, "ground truth map");
-    truth_ = voxelise(dense.cloud, options_.voxel_size, classes_, input_.threads);
-    if (truth_.size() == 0) throw_empty_truth(dense.points);
-    truth_.mixed_label_ties += dense.mixed_label_ties;
-    truth_points_ = dense.points;
-    for (const std::uint32_t point : truth_.label_points) {
-      scan_of_voxel_.push_back(dense.scan_of(point));
-    }
+  ErasorScorer(const EvaluationInput& evaluated, const Options& options)
+      : Scorer(evaluated),
+        options_(options),
+        classes_(effective_rule(evaluated.label_rule, options)),
+        truth_(rules()) {
+    if (truth_.voxels() == 0) throw_empty_truth(truth_.points());
     if (options_.label_mode == LabelMode::kNearest) {
-      dense_ = std::make_unique<NearestLabels>(std::move(dense.cloud));
+      dense_ = std::make_unique<NearestLabels>(dense_map(rules(), "points for labels"));
     }
   }
 
-  [[nodiscard]] ProtocolResult score(const MaskStore& masks) const override {
-    check_mask_count(input_, masks);
-    const DenseMap dense = accumulate(input_, options_, classes_, &masks, "estimated map");
-    LabelledVoxels map = voxelise(dense.cloud, options_.voxel_size, classes_, input_.threads);
-    map.mixed_label_ties += dense.mixed_label_ties;
-    if (dense_) map.cloud.labels = dense_->labels_of(map.cloud.points, input_.threads);
-    return result_of(map, dense.points);
+  [[nodiscard]] std::unique_ptr<Scoring> start() const override {
+    return std::make_unique<ErasorScoring>(*this);
   }
 
   [[nodiscard]] ProtocolResult score_cloud(const CloudEstimate& cloud) const override {
@@ -84,27 +53,60 @@ class ErasorScorer : public Scorer {
       throw UsageError(
           "a cloud stands in the frame of the sequence's poses: expected frame = sequence.");
     }
-    ProtocolResult result = result_of(cloud_map(cloud.points()), truth_points_);
+    ProtocolResult result =
+        result_of(ListedVoxels(cloud_map(cloud.points()), classes_), truth_.points(), 0);
     std::erase_if(result.counts, [](const auto& count) { return count.first == "removed_points"; });
     result.counts.emplace_back("cloud_points", static_cast<std::int64_t>(cloud.points().size()));
     return result;
   }
 
  private:
+  class ErasorScoring : public Scoring {
+   public:
+    explicit ErasorScoring(const ErasorScorer& scorer)
+        : scorer_(scorer), map_(scorer.rules(), scorer.truth_) {}
+
+    bool begin_pass(std::size_t slots) override { return map_.begin_pass(slots); }
+    void read(const CheckedScan& scan, std::size_t slot) override { map_.read(scan, slot); }
+    void take(std::size_t slot) override { map_.take(slot); }
+    ProtocolResult result() override {
+      const std::int64_t ties = map_.mixed_label_ties();
+      if (!scorer_.dense_) return scorer_.result_of(map_, map_.points(), ties);
+      return scorer_.result_of(scorer_.relabelled(map_), map_.points(), ties);
+    }
+
+   private:
+    const ErasorScorer& scorer_;
+    EstimateMap map_;
+  };
+
+  [[nodiscard]] MapRules rules() const { return {input(), options_, classes_}; }
+
+  /// A map whose labels are taken again from the nearest point of the dense map.
+  [[nodiscard]] ListedVoxels relabelled(const EstimateMap& map) const {
+    LabelledVoxels voxels;
+    map.cells().for_each([&](CellLattice::Number number, VoxelKey cell) {
+      if (!is_voxel(map.mean(number))) return;
+      voxels.keys.push_back(cell);
+      voxels.cloud.points.push_back(map.mean(number));
+    });
+    voxels.cloud.labels = dense_->labels_of(voxels.cloud.points, input().threads);
+    return {voxels, classes_};
+  }
+
   /// The voxelised cloud, each voxel with the label of its nearest point in the dense map. Points
   /// of ignored labels stand in that map too, and what lies nearest to one is ignored likewise.
   [[nodiscard]] LabelledVoxels cloud_map(const std::vector<Eigen::Vector3f>& points) const {
     LabelledCloud cloud;
     for (const Eigen::Vector3f& point : points) cloud.points.push_back(point.cast<double>());
     cloud.labels.resize(points.size());
-    const LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes_, input_.threads);
+    const LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes_, input().threads);
     if (all.size() == 0) return all;
-    EvaluationInput whole = input_;
+    EvaluationInput whole = input();
     whole.label_rule.ignored.clear();
     const LabelClasses whole_classes(effective_rule(whole.label_rule, options_));
-    const NearestLabels dense(
-        accumulate(whole, options_, whole_classes, nullptr, "points for labels").cloud);
-    const std::vector<std::uint32_t> labels = dense.labels_of(all.cloud.points, input_.threads);
+    const NearestLabels dense(dense_map({whole, options_, whole_classes}, "points for labels"));
+    const std::vector<std::uint32_t> labels = dense.labels_of(all.cloud.points, input().threads);
     LabelledVoxels map;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (classes_.of(labels[i]) == LabelClass::kIgnored) continue;
@@ -116,33 +118,32 @@ class ErasorScorer : public Scorer {
   }
 
   /// @param points what became of the points that the estimate was made of
-  [[nodiscard]] ProtocolResult result_of(const LabelledVoxels& estimate,
-                                         const PointCounts& points) const {
-    const std::vector<std::uint32_t> partners =
-        find_partners(truth_, estimate, options_.voxel_size, options_.matching, input_.threads);
-    const Overlap overlap = overlap_of(estimate, truth_, options_, input_.threads);
+  /// @param ties mixed-label ties of the estimate
+  [[nodiscard]] ProtocolResult result_of(const MapVoxels& estimate, const PointCounts& points,
+                                         std::int64_t ties) const {
+    const std::vector<VoxelKind> partners =
+        partner_kinds(truth_, estimate, options_, input().threads);
+    const Overlap overlap = overlap_of(estimate, truth_, options_, input().threads);
+    const CountingRule rule{options_.label_rule, options_.ignore_0_1, true};
     ProtocolResult result;
     result.protocol = "erasor";
-    add_matches(count_matches(truth_, estimate, partners, classes_, options_), "", result);
-    add_map_counts(estimate, overlap, points, result);
-    add_no_truck(estimate, partners, result);
-    result.intervals = intervals_of(count_matches_by_scan(
-        truth_, estimate, partners, scan_of_voxel_, input_.scans->size(), classes_, options_));
-    add_warnings(estimate, overlap, result);
+    add_matches(count_matches(truth_, partners, rule), "", result);
+    add_map_counts(overlap, points, ties, result);
+    add_no_truck(partners, rule, result);
+    result.intervals =
+        intervals_of(count_matches_by_scan(truth_, partners, input().scans->size(), rule));
+    add_warnings(overlap, result);
     return result;
   }
 
-  void add_map_counts(const LabelledVoxels& estimate, const Overlap& overlap,
-                      const PointCounts& points, ProtocolResult& result) const {
-    const auto unlabelled =
-        std::count_if(truth_.cloud.labels.begin(), truth_.cloud.labels.end(),
-                      [](std::uint32_t word) { return semantic_id(word) <= 1; });
+  void add_map_counts(const Overlap& overlap, const PointCounts& points, std::int64_t ties,
+                      ProtocolResult& result) const {
     result.counts.insert(result.counts.end(),
-                         {{"estimate_voxels", static_cast<std::int64_t>(estimate.size())},
+                         {{"estimate_voxels", overlap.voxels},
                           {"estimate_voxels_without_partner", overlap.without_partner},
-                          {"mixed_label_ties", truth_.mixed_label_ties},
-                          {"estimate_mixed_label_ties", estimate.mixed_label_ties},
-                          {"unlabelled_voxels", unlabelled},
+                          {"mixed_label_ties", truth_.mixed_label_ties()},
+                          {"estimate_mixed_label_ties", ties},
+                          {"unlabelled_voxels", truth_.unlabelled_voxels()},
                           {"evaluated_points", points.evaluated},
                           {"removed_points", points.removed},
                           {"out_of_range_points", points.out_of_range},
@@ -152,22 +153,17 @@ class ErasorScorer : public Scorer {
 
   /// The same voxels with trucks counted as static. Labels travel by point and not by class, so
   /// the maps and the partners stay as they are.
-  void add_no_truck(const LabelledVoxels& estimate, const std::vector<std::uint32_t>& partners,
+  void add_no_truck(const std::vector<VoxelKind>& partners, CountingRule rule,
                     ProtocolResult& result) const {
-    Options without = options_;
-    without.truck_is_moving = false;
-    const LabelRule with_trucks = effective_rule(input_.label_rule, options_);
-    const LabelRule without_trucks = effective_rule(input_.label_rule, without);
-    if (truth_points_.trucks == 0 || with_trucks.moving == without_trucks.moving) return;
-    add_matches(count_matches(truth_, estimate, partners, LabelClasses(without_trucks), without),
-                kNoTruck, result);
+    if (truth_.points().trucks == 0 || !classes_.moving(kMovingTruck)) return;
+    rule.trucks_move = false;
+    add_matches(count_matches(truth_, partners, rule), kNoTruck, result);
   }
 
-  void add_warnings(const LabelledVoxels& estimate, const Overlap& overlap,
-                    ProtocolResult& result) const {
-    if (estimate.size() == 0) {
+  void add_warnings(const Overlap& overlap, ProtocolResult& result) const {
+    if (overlap.voxels == 0) {
       result.warnings.push_back("the estimate is empty: the method removed every evaluated point");
-    } else if (2 * overlap.near < static_cast<std::int64_t>(estimate.size())) {
+    } else if (2 * overlap.near < overlap.voxels) {
       result.warnings.push_back(
           "more than half of the estimate's voxels lie over " +
           number_text(0.5 * options_.voxel_size) +
@@ -175,13 +171,9 @@ class ErasorScorer : public Scorer {
     }
   }
 
-  EvaluationInput input_;
   Options options_;
   LabelClasses classes_;
-  LabelledVoxels truth_;
-  PointCounts truth_points_;
-  /// For each voxel of the truth the scan whose point gave it its label.
-  std::vector<std::uint32_t> scan_of_voxel_;
+  TruthMap truth_;
   /// The dense map, searchable; it is only kept if the estimate's labels are taken from it.
   std::unique_ptr<NearestLabels> dense_;
 };

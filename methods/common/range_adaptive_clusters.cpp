@@ -2,6 +2,7 @@
 #include "methods/common/range_adaptive_clusters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -25,8 +26,9 @@ template <class Scalar>
 struct Column {
   int x, y;
   std::uint32_t first, last;
-  Scalar reach;        ///< The longest reach of its cells, in cell edges.
-  std::uint32_t root;  ///< The root that all of its cells have, or `kMixed`.
+  Scalar reach;              ///< The longest reach of its cells, in cell edges.
+  std::uint32_t root;        ///< The root that all of its cells have, or `kMixed`.
+  std::uint32_t same_until;  ///< Up to before this column, those of the row have the same root.
 };
 constexpr std::uint32_t kMixed = 0xFFFFFFFFU;
 
@@ -69,20 +71,18 @@ class Clustering {
 
   /// Makes cells, columns and rows, in order of y, x and z.
   void sort_into_cells() {
-    std::vector<std::pair<VoxelKey, std::uint32_t>> keys;  // Key and number of each cell.
-    const std::vector<std::uint32_t> cell_of = numbered_cells(keys);
-    std::sort(keys.begin(), keys.end());
-    // Points of a cell stay in order.
-    std::vector<std::uint32_t> rank(keys.size()), next(keys.size() + 1, 0);
-    for (std::uint32_t c = 0; c < keys.size(); ++c) rank[keys[c].second] = c;
-    for (const std::uint32_t cell : cell_of) ++next[rank[cell] + 1];
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    order_.resize(points_.size());
-    const std::vector<std::uint32_t> first = next;
-    for (std::uint32_t i = 0; i < order_.size(); ++i) order_[next[rank[cell_of[i]]]++] = i;
-    for (std::size_t c = 0; c < keys.size(); ++c) {
-      begin_cell(keys[c].first, first[c]);
-      for (std::uint32_t i = first[c]; i < first[c + 1]; ++i) add_to_cell(order_[i], cells_.back());
+    std::vector<Run> runs = runs_in_cells();
+    const VoxelKey corner = low_corner(runs);
+    for (Run& run : runs) run.key -= corner;  // Keys then differ in few digits.
+    sort_by_key(runs);
+    order_.reserve(points_.size());
+    placed_.reserve(points_.size());
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const Run& run = runs[r];
+      if (r == 0 || run.key != runs[r - 1].key) begin_cell(run.key + corner, run.first);
+      for (std::uint32_t point = run.first; point < run.last; ++point) {
+        add_to_cell(point, cells_.back());
+      }
     }
     for (Column<Scalar>& column : columns_) {
       for (std::uint32_t c = column.first; c < column.last; ++c) {
@@ -92,44 +92,85 @@ class Clustering {
     rows_.push_back(static_cast<std::uint32_t>(columns_.size()));
   }
 
-  /// The cell of each point, cells numbered as they are found.
-  std::vector<std::uint32_t> numbered_cells(
-      std::vector<std::pair<VoxelKey, std::uint32_t>>& keys) const {
+  /// The points from `first` to before `last` follow each other and lie in the same cell.
+  struct Run {
+    VoxelKey key;
+    std::uint32_t first, last;
+  };
+
+  /// The runs of all points in their order. Keys that are sorted run up a column.
+  std::vector<Run> runs_in_cells() const {
     const double scale = 1.0 / edge_;
-    VoxelMap<std::uint32_t> numbers;
-    numbers.reserve(points_.size() / 2);
-    std::vector<std::uint32_t> cell_of(points_.size());
-    VoxelKey last = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const VoxelIndex cell = voxel_index(points_[i].template cast<double>(), scale);
-      const VoxelKey key = voxel_key(cell.z(), cell.x(), cell.y());  // Sorted keys run up a column.
-      if (i > 0 && key == last) {
-        cell_of[i] = cell_of[i - 1];
-        continue;
-      }
-      last = key;
-      const auto [found, fresh] = numbers.emplace(key, static_cast<std::uint32_t>(keys.size()));
-      if (fresh) keys.emplace_back(key, found->second);
-      cell_of[i] = found->second;
+    std::vector<Run> runs;
+    runs.reserve(points_.size() / 2);
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+      const VoxelIndex cell = cell_at(points_[i].template cast<double>() * scale);
+      const VoxelKey key = voxel_key(cell.z(), cell.x(), cell.y());
+      if (runs.empty() || runs.back().key != key) runs.push_back({key, i, i});
+      runs.back().last = i + 1;
     }
-    return cell_of;
+    return runs;
   }
 
-  void begin_cell(VoxelKey key, std::uint32_t first) {
+  /// The least of each of the three numbers in the keys of runs, as a key.
+  static VoxelKey low_corner(const std::vector<Run>& runs) {
+    constexpr VoxelKey kField = (VoxelKey{1} << kVoxelBits) - 1;
+    VoxelKey corner = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const VoxelKey field = kField << (axis * kVoxelBits);
+      VoxelKey least = field;
+      for (const Run& run : runs) least = std::min(least, run.key & field);
+      corner |= least;
+    }
+    return corner;
+  }
+
+  /// `voxel_index` without a call of a library for each coordinate.
+  static VoxelIndex cell_at(const Eigen::Vector3d& in_cells) {
+    if (!(in_cells.cwiseAbs().maxCoeff() < kVoxelLimit)) return voxel_index(in_cells, 1.0);
+    const auto floor_of = [](double value) {
+      const int whole = static_cast<int>(value);
+      return whole - (value < whole ? 1 : 0);
+    };
+    return {floor_of(in_cells.x()), floor_of(in_cells.y()), floor_of(in_cells.z())};
+  }
+
+  /// Sorts runs by their keys, and those of a key by their points: digit by digit from the lowest,
+  /// of which only those are looked at in which keys differ.
+  static void sort_by_key(std::vector<Run>& runs) {
+    constexpr int kDigitBits = 8;
+    constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+    VoxelKey differing = 0;
+    for (const Run& run : runs) differing |= run.key ^ runs.front().key;
+    std::vector<Run> sorted(runs.size());
+    for (int shift = 0; shift < 64; shift += kDigitBits) {
+      const auto digit_of = [&](VoxelKey key) { return key >> shift & (kDigits - 1); };
+      if (digit_of(differing) == 0) continue;
+      std::array<std::uint32_t, kDigits + 1> next{};
+      for (const Run& run : runs) ++next[digit_of(run.key) + 1];
+      std::partial_sum(next.begin(), next.end(), next.begin());
+      for (const Run& run : runs) sorted[next[digit_of(run.key)]++] = run;
+      runs.swap(sorted);
+    }
+  }
+
+  void begin_cell(VoxelKey key, std::uint32_t point) {
     const VoxelIndex turned = voxel_index(key);
     const int x = turned.y(), y = turned.z();
     const auto number = static_cast<std::uint32_t>(cells_.size());
     const bool new_row = columns_.empty() || columns_.back().y != y;
     if (new_row) rows_.push_back(static_cast<std::uint32_t>(columns_.size()));
     if (new_row || columns_.back().x != x)
-      columns_.push_back({x, y, number, number, Scalar(0), kMixed});
+      columns_.push_back({x, y, number, number, Scalar(0), kMixed, 0});
     columns_.back().last = number + 1;
-    const std::uint32_t point = order_[first];
+    const auto first = static_cast<std::uint32_t>(order_.size());
     cells_.push_back(
         {turned.x(), first, first, points_[point].array(), points_[point].array(), ranges_[point]});
   }
 
-  void add_to_cell(std::uint32_t point, Cell<Scalar>& cell) const {
+  void add_to_cell(std::uint32_t point, Cell<Scalar>& cell) {
+    order_.push_back(point);
+    placed_.push_back({points_[point], ranges_[point]});
     ++cell.last;
     cell.low = cell.low.min(points_[point].array());
     cell.high = cell.high.max(points_[point].array());
@@ -160,29 +201,50 @@ class Clustering {
         if (sets.root(c) != column.root) column.root = kMixed;
       }
     }
+    for (std::size_t c = columns_.size(); c-- > 0;) {
+      const bool goes_on = c + 1 < columns_.size() && columns_[c + 1].y == columns_[c].y &&
+                           columns_[c + 1].root == columns_[c].root;
+      columns_[c].same_until =
+          goes_on ? columns_[c + 1].same_until : static_cast<std::uint32_t>(c + 1);
+    }
   }
 
   /// Joins every pair of columns of two rows once.
   void join_rows(std::size_t row, std::size_t other, Pass pass, DisjointSets& sets) const {
-    const auto begin = columns_.begin() + rows_[other], end = columns_.begin() + rows_[other + 1];
+    const std::uint32_t end = rows_[other + 1];
+    std::uint32_t begin = rows_[other];  // The first column that is not too far to the left.
     for (std::uint32_t c = rows_[row]; c < rows_[row + 1]; ++c) {
       const Column<Scalar>& column = columns_[c];
       // The reach is that of the nearer point of a pair, so at most this column's own.
       const auto gap = [](int cells) { return static_cast<Scalar>(std::max(cells - 1, 0)); };
-      const Scalar across = gap(begin->y - column.y);
+      const Scalar across = gap(columns_[rows_[other]].y - column.y);
       const Scalar left = column.reach * column.reach - across * across;
       if (left < 0) continue;
       const int aside = pass == Pass::kBeside ? 1 : static_cast<int>(std::sqrt(left)) + 2;
-      auto near = std::lower_bound(begin, end, column.x - aside,
-                                   [](const Column<Scalar>& at, int x) { return at.x < x; });
-      if (other == row) near = columns_.begin() + c;
-      for (; near != end && near->x <= column.x + aside; ++near) {
-        if (pass == Pass::kInReach && column.root == near->root && column.root != kMixed) continue;
-        const Scalar along = gap(std::abs(near->x - column.x));
+      begin = first_from(begin, end, column.x - aside);
+      for (std::uint32_t n = other == row ? c : begin; n < end; ++n) {
+        const Column<Scalar>& near = columns_[n];
+        if (near.x > column.x + aside) break;
+        if (pass == Pass::kInReach && column.root == near.root && column.root != kMixed) {
+          n = near.same_until - 1;
+          continue;
+        }
+        const Scalar along = gap(std::abs(near.x - column.x));
         const int reach = pass == Pass::kBeside ? 1 : static_cast<int>(column.reach) + 1;
-        if (along * along <= left) join_columns(column, *near, reach, sets);
+        if (along * along <= left) join_columns(column, near, reach, sets);
       }
     }
+  }
+
+  /// The first column of a row at `x` or to the right of it. It is looked for on both sides of
+  /// `guess`, from which it is never far.
+  [[nodiscard]] std::uint32_t first_from(std::uint32_t guess, std::uint32_t end, int x) const {
+    while (guess < end && columns_[guess].x < x) ++guess;
+    while (guess > 0 && columns_[guess - 1].y == columns_[end - 1].y &&
+           columns_[guess - 1].x >= x) {
+      --guess;
+    }
+    return guess;
   }
 
   /// Joins cells at most `reach` cells above or below each other.
@@ -204,11 +266,11 @@ class Clustering {
     const Array apart = (a.low - b.high).max(b.low - a.high).max(Scalar(0));
     if (apart.matrix().squaredNorm() > widest * widest) return false;
     for (std::uint32_t i = a.first; i < a.last; ++i) {
-      const std::uint32_t p = order_[i];
+      const Placed& p = placed_[i];
       for (std::uint32_t j = b.first; j < b.last; ++j) {
-        const std::uint32_t q = order_[j];
-        const Scalar near_enough = reach_at(std::min(ranges_[p], ranges_[q]));
-        if ((points_[p] - points_[q]).squaredNorm() <= near_enough * near_enough) return true;
+        const Placed& q = placed_[j];
+        const Scalar near_enough = reach_at(std::min(p.range, q.range));
+        if ((p.point - q.point).squaredNorm() <= near_enough * near_enough) return true;
       }
     }
     return false;
@@ -233,7 +295,13 @@ class Clustering {
   const std::vector<Vector>& points_;
   const std::vector<Scalar>& ranges_;
   Scalar gap_, growth_, edge_;
-  std::vector<std::uint32_t> order_;
+  /// A point and its range.
+  struct Placed {
+    Vector point;
+    Scalar range;
+  };
+  std::vector<std::uint32_t> order_;  ///< The points in order of cells, ...
+  std::vector<Placed> placed_;        ///< ... and what they are.
   std::vector<Cell<Scalar>> cells_;
   std::vector<Column<Scalar>> columns_;
   std::vector<std::uint32_t> rows_;  ///< First column of each row, and the end.

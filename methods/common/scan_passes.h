@@ -98,42 +98,57 @@ inline std::size_t scans_in_a_batch(const ScanSource& scans, const RunContext& c
   return std::min(static_cast<std::size_t>(std::clamp(context.threads, 1, 64)), scans.size());
 }
 
-/// One pass in batches: loads as many scans at a time as there are threads and calls
-/// `visit_batch(std::span<Scan>)`. The time of a batch, without loading, is booked to its scans in
-/// equal parts.
-template <class VisitBatch>
-void for_scan_batches(const char* what, const ScanSource& scans, const RunContext& context,
-                      VisitBatch&& visit_batch) {
-  context.begin_pass(what, scans.size());
+/// One pass in batches: loads as many of the selected scans at a time as there are threads and
+/// calls `visit_batch(std::span<Scan>)`. The time of a batch, without loading, is booked to its
+/// scans in equal parts.
+/// @param selection a `ScanSelection`, or a vector of scans' numbers
+template <class Selection, class VisitBatch>
+void for_scan_batches(const char* what, const ScanSource& scans, const Selection& selection,
+                      const RunContext& context, VisitBatch&& visit_batch) {
+  context.begin_pass(what, selection.size());
   std::vector<Scan> batch(scans_in_a_batch(scans, context));
-  for (std::size_t first = 0; first < scans.size(); first += batch.size()) {
-    const std::size_t count = std::min(batch.size(), scans.size() - first);
+  for (std::size_t first = 0; first < selection.size(); first += batch.size()) {
+    const std::size_t count = std::min(batch.size(), selection.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
       context.check_cancelled();
-      batch[i] = scans.load(first + i);
+      batch[i] = scans.load(selection[first + i]);
     }
     const auto started = std::chrono::steady_clock::now();
     visit_batch(std::span(batch).first(count));
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
     for (std::size_t i = 0; i < count; ++i) {
       if (context.times != nullptr) {
-        context.times->add_scan(first + i, wall.count() / static_cast<double>(count));
+        context.times->add_scan(selection[first + i], wall.count() / static_cast<double>(count));
       }
       context.advance();
     }
   }
 }
 
+/// The same with all scans, first to last.
+template <class VisitBatch>
+void for_scan_batches(const char* what, const ScanSource& scans, const RunContext& context,
+                      VisitBatch&& visit_batch) {
+  for_scan_batches(what, scans, all_scans(scans), context, visit_batch);
+}
+
 /// One pass in batches of visits that do not depend on each other: `visit(Scan&)`, each on one of
 /// the threads. With several threads the time is also booked to `stage`, since what goes on side by
 /// side within a visit cannot be told apart.
-template <class Visit>
+template <class Selection, class Visit>
 void for_scans_at_once(const char* what, const char* stage, const ScanSource& scans,
-                       const RunContext& context, Visit&& visit) {
-  for_scan_batches(what, scans, context, [&](std::span<Scan> batch) {
+                       const Selection& selection, const RunContext& context, Visit&& visit) {
+  for_scan_batches(what, scans, selection, context, [&](std::span<Scan> batch) {
     const StageScope timed(context.threads > 1 ? context.times : nullptr, stage);
     parallel_for(context.threads, batch.size(), 1, [&](std::size_t i) { visit(batch[i]); });
   });
+}
+
+/// The same with all scans, first to last.
+template <class Visit>
+void for_scans_at_once(const char* what, const char* stage, const ScanSource& scans,
+                       const RunContext& context, Visit&& visit) {
+  for_scans_at_once(what, stage, scans, all_scans(scans), context, visit);
 }
 
 }  // namespace raymoval

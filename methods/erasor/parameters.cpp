@@ -6,7 +6,6 @@ namespace {
 
 using Table = ParameterTable<Parameters>;
 using P = Parameters;
-constexpr const char* kOurs = "not in the public code";
 
 void add_map(Table& table) {
   table

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
 
@@ -100,18 +101,22 @@ void check_space(double used_bytes, const Manifest& manifest) {
   throw MethodError(fmt::format("{}/{}: {}", kAnswerFolder, file, what));
 }
 
+/// What the program left in the folder for answers, in order of name.
+std::vector<fs::path> answer_entries(const fs::path& folder) {
+  try {
+    return entries_of(folder);
+  } catch (const UnreadableError&) {
+    throw MethodError(std::string(kAnswerFolder) +
+                      ": cannot be read; the program must leave this folder where it was made");
+  }
+}
+
 /// Checks that each scan has a label file and each label file a scan.
 void check_answer_files(const fs::path& folder, std::size_t scans) {
   std::vector<std::string> found;
-  std::error_code error;
-  for (auto item = fs::directory_iterator(folder, error);
-       !error && item != fs::directory_iterator(); item.increment(error)) {
-    if (item->path().extension() == ".label") found.push_back(item->path().filename().string());
+  for (const fs::path& entry : answer_entries(folder)) {
+    if (entry.extension() == ".label") found.push_back(entry.filename().string());
   }
-  if (error) {
-    throw MethodError(std::string(kAnswerFolder) + ": cannot be read (" + error.message() + ")");
-  }
-  std::sort(found.begin(), found.end());
   const std::string count =
       fmt::format("expected {} files, one per scan ({} to {}), found {}", scans,
                   scan_file_name(0, ".label"), scan_file_name(scans - 1, ".label"), found.size());

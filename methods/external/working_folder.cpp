@@ -55,12 +55,11 @@ WorkingFolder::~WorkingFolder() {
 }  // namespace external_method
 
 void remove_abandoned_working_folders() {
-  namespace fs = std::filesystem;
   std::error_code error;
-  const fs::path root = fs::temp_directory_path(error);
-  for (fs::directory_iterator entry(root, error); !error && entry != fs::directory_iterator();
-       entry.increment(error)) {
-    if (name_of_part(entry->path()) == external_method::kName) remove_abandoned_part(entry->path());
+  const std::filesystem::path root = std::filesystem::temp_directory_path(error);
+  if (error) return;
+  for (const std::filesystem::path& part : parts_of(root / external_method::kName)) {
+    remove_abandoned_part(part);
   }
 }
 

@@ -36,10 +36,10 @@ std::vector<std::uint8_t> reasons_for(const Mask& candidates, const Mask& dynami
 Mask candidates_of(ScanAgainstMap& test, Scan scan, StaticMap& map, MapSource source,
                    const RunContext& context) {
   if (source != MapSource::kPrior) return test.find_off_map(std::move(scan), map, context);
-  test.project_scan(std::move(scan), context);    // eqs 1-3, 10
-  test.cast_first_hits(map.occupied(), context);  // eqs 4-7
-  test.find_references(map, context);             // eqs 8-9
-  return test.find_candidates(context);           // eq. 11
+  test.project_scan(std::move(scan), context);          // eqs 1-3, 10
+  test.cast_first_hits(map.occupied(), context);        // eqs 4-7
+  test.find_references(map, context, Tests::kForward);  // eqs 8-9
+  return test.find_candidates(context);                 // eq. 11
 }
 
 }  // namespace
@@ -66,8 +66,9 @@ void answer_from_map(StaticMap& map, const Parameters& parameters, const ScanSou
       }
       sink.accept(index, dynamic);
       if (context.reasons == nullptr) return;
-      context.reasons->accept(index,
-                              reasons_for(candidates, dynamic, test.known().states, by_erasure));
+      context.reasons->accept(
+          index, reasons_for(candidates, dynamic, test.voxels().of_points(test.known().states),
+                             by_erasure));
     });
   };
   for_scans_at_once("raymoval, answers", "answer and validation", scans, context, answer_scan);

@@ -2,6 +2,7 @@
 #include "methods/raymoval/consistency.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -39,7 +40,7 @@ double grazing_distance(double vertical, double height, double limit) {
 }
 
 std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
-                                           const std::vector<float>& nearest_return,
+                                           const BinWindow& neighbourhood,
                                            const FirstHitImage& first_hit,
                                            const std::vector<float>& map_reference,
                                            const RangeMargin& margin, int threads) {
@@ -47,19 +48,25 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
   constexpr double kRounding = 1e-3;  // Of the quick test in float, generously.
   const std::size_t bins = scan.minimum_range.size();
   std::vector<std::vector<SeenThrough>> parts((bins + kGrain - 1) / kGrain);
-  const auto check = [&](std::size_t bin, std::vector<SeenThrough>& found) {
+  const auto check = [&](std::size_t bin, float nearest, std::vector<SeenThrough>& found) {
     if (scan.minimum_range[bin] == kNoRange || first_hit.range[bin] == kNoRange) return;
+    if (nearest == kernels::kUnknown) {
+      nearest = windowed_minimum(scan.minimum_range, neighbourhood, static_cast<int>(bin));
+    }
     const double reference = map_reference[bin];
-    const double seen_to = nearest_return[bin];
+    const double seen_to = nearest;
     if (seen_to - reference > margin.at(reference) &&
         seen_to - first_hit.range[bin] > margin.tau0) {
-      found.push_back({static_cast<int>(bin), nearest_return[bin]});
+      found.push_back({static_cast<int>(bin), nearest});
     }
   };
   const kernels::Kernels kernel = kernels::best_kernels();
   kernels::SuspectSearch search;
   search.own = scan.minimum_range.data();
-  search.nearest = nearest_return.data();
+  search.columns = neighbourhood.grid.azimuth_bins;
+  search.rows = neighbourhood.grid.elevation_bins;
+  search.azimuth_radius = neighbourhood.azimuth_radius;
+  search.elevation_radius = neighbourhood.elevation_radius;
   search.first_hit = first_hit.range.data();
   search.reference = map_reference.data();
   search.tau0 = static_cast<float>(margin.tau0 - kRounding);
@@ -67,12 +74,15 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
   parallel_chunks(threads, bins, kGrain, [&](std::size_t begin, std::size_t end) {
     auto& found = parts[begin / kGrain];
     std::size_t bin = begin;
+    std::array<float, 16> nearest;
     for (; bin + 16 <= end; bin += 16) {
-      for (std::uint32_t left = kernel.suspects(search, bin); left != 0; left &= left - 1) {
-        check(bin + static_cast<std::size_t>(std::countr_zero(left)), found);
+      std::uint32_t left = kernel.suspects(search, bin, nearest.data());
+      for (; left != 0; left &= left - 1) {
+        const auto at = static_cast<std::size_t>(std::countr_zero(left));
+        check(bin + at, nearest[at], found);
       }
     }
-    for (; bin < end; ++bin) check(bin, found);
+    for (; bin < end; ++bin) check(bin, kernels::kUnknown, found);
   });
   std::vector<SeenThrough> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());

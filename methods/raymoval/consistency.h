@@ -6,6 +6,7 @@
 #include "core/scan/sensor_model.h"
 #include "methods/raymoval/kernels/angular_grid.h"
 #include "methods/raymoval/kernels/first_hit.h"
+#include "methods/raymoval/map_reference.h"
 
 namespace raymoval::raymoval_method {
 
@@ -38,9 +39,9 @@ struct SeenThrough {
 /// nearest return of the bin's neighbourhood lies beyond the map reference by more than the margin
 /// at the map's range, and beyond the bin's own first hit by more than the margin's constant part.
 /// Only bins with a return of their own.
-/// @param nearest_return smallest range of the scan in each bin's neighbourhood
+/// @param neighbourhood of each bin
 std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
-                                           const std::vector<float>& nearest_return,
+                                           const BinWindow& neighbourhood,
                                            const FirstHitImage& first_hit,
                                            const std::vector<float>& map_reference,
                                            const RangeMargin& margin, int threads);

@@ -47,11 +47,10 @@ Evidence EvidenceFinder::find(const ScanAgainstMap& scan, const OccupancyMap& ma
 std::vector<VoxelIndex> EvidenceFinder::voxels_seen_through(const ScanAgainstMap& scan,
                                                             const OccupancyMap& map, int threads) {
   std::vector<VoxelIndex> voxels;
-  windowed_minimum(scan.projected().minimum_range, scan.grid(), parameters_.erase_azimuth_window,
-                   erase_rows_, threads, nearest_return_);
+  const BinWindow neighbourhood{scan.grid(), parameters_.erase_azimuth_window, erase_rows_};
   const FirstHitImage& image = scan.first_hit();
   for (const SeenThrough& through :
-       find_seen_through(scan.projected(), nearest_return_, image, scan.erase_reference(),
+       find_seen_through(scan.projected(), neighbourhood, image, scan.erase_reference(),
                          {parameters_.erase_tau0, parameters_.erase_tau1}, threads)) {
     const float first_hit = image.range[static_cast<std::size_t>(through.bin)];
     const bool along_surface = through.nearest_return - first_hit <
@@ -94,7 +93,7 @@ void EvidenceFinder::drop_own_voxels(const ScanAgainstMap& scan, const Occupancy
       open = number == 0 ? nullptr : &own[number - 1];
     }
     if (open == nullptr) continue;
-    const VoxelIndex& voxel = scan.voxels()[k];
+    const VoxelIndex& voxel = scan.voxels().voxels[k];
     open->add(voxel.x(), voxel.y(), voxel.z());
   }
   std::erase_if(voxels, [&](const VoxelIndex& voxel) {

@@ -57,24 +57,26 @@ std::vector<float> windowed_percentile(const std::vector<float>& values, const A
 
 void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
                           const AngularGrid& grid, int radius,
-                          const std::array<double, 2>& quantiles, int threads,
+                          const std::array<std::optional<double>, 2>& quantiles, int threads,
                           WindowPercentiles& percentiles) {
   const kernels::Kernels kernel = kernels::best_kernels();
+  const std::array<std::vector<float>*, 2> results = {&percentiles.first, &percentiles.second};
   if (radius != 1 || grid.azimuth_bins < kernel.row_lanes) {
-    percentiles.first = windowed_percentile(values, grid, radius, quantiles[0], threads);
-    percentiles.second = windowed_percentile(values, grid, radius, quantiles[1], threads);
+    for (std::size_t q = 0; q < 2; ++q) {
+      if (!quantiles[q]) continue;
+      *results[q] = windowed_percentile(values, grid, radius, *quantiles[q], threads);
+    }
     return;
   }
-  percentiles.first.resize(values.size());
-  percentiles.second.resize(values.size());
+  for (std::vector<float>* result : results) result->resize(values.size());
   const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
   const auto rows = static_cast<std::size_t>(grid.elevation_bins);
   const std::vector<float> beyond(columns, kNoRange);
   kernels::WindowRow shared;
   shared.columns = grid.azimuth_bins;
   for (std::size_t q = 0; q < 2; ++q) {
-    for (int count = 1; count <= 9; ++count) {
-      shared.ranks[q][static_cast<std::size_t>(count)] = percentile_rank(count, quantiles[q]);
+    for (int count = 1; quantiles[q] && count <= 9; ++count) {
+      shared.ranks[q][static_cast<std::size_t>(count)] = percentile_rank(count, *quantiles[q]);
     }
   }
   parallel_chunks(threads, rows, 16, [&](std::size_t begin, std::size_t end) {
@@ -86,34 +88,31 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
       job.values = {row == 0 ? beyond.data() : here - columns, here,
                     row + 1 == rows ? beyond.data() : here + columns};
       job.wanted = wanted.data() + row * columns;
-      job.results = {percentiles.first.data() + row * columns,
-                     percentiles.second.data() + row * columns};
+      for (std::size_t q = 0; q < 2; ++q) {
+        job.results[q] = quantiles[q] ? results[q]->data() + row * columns : nullptr;
+      }
       kernel.percentiles(job);
     }
   });
 }
 
-namespace {
-
-/// The same for grids that are too narrow for vectors.
-void slow_windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
-                           int azimuth_radius, int elevation_radius, std::vector<float>& minimum) {
-  for (int bin = 0; bin < grid.size(); ++bin) {
-    float& smallest = minimum[static_cast<std::size_t>(bin)];
-    smallest = kNoRange;
-    for_window(values, grid, grid.azimuth_of(bin), grid.elevation_of(bin), azimuth_radius,
-               elevation_radius, [&](float value) { smallest = std::min(smallest, value); });
-  }
+float windowed_minimum(const std::vector<float>& values, const BinWindow& window, int bin) {
+  float smallest = kNoRange;
+  for_window(values, window.grid, window.grid.azimuth_of(bin), window.grid.elevation_of(bin),
+             window.azimuth_radius, window.elevation_radius,
+             [&](float value) { smallest = std::min(smallest, value); });
+  return smallest;
 }
-
-}  // namespace
 
 void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
                       int elevation_radius, int threads, std::vector<float>& minimum) {
   const kernels::Kernels kernel = kernels::best_kernels();
   minimum.resize(values.size());
   if (grid.azimuth_bins < kernel.row_lanes + azimuth_radius) {
-    slow_windowed_minimum(values, grid, azimuth_radius, elevation_radius, minimum);
+    for (int bin = 0; bin < grid.size(); ++bin) {
+      minimum[static_cast<std::size_t>(bin)] =
+          windowed_minimum(values, {grid, azimuth_radius, elevation_radius}, bin);
+    }
     return;
   }
   kernels::WindowMinimum shared;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "methods/raymoval/kernels/angular_grid.h"
@@ -20,7 +21,7 @@ float percentile_of_sorted(const float* sorted, int count, double quantile);
 std::vector<float> windowed_percentile(const std::vector<float>& values, const AngularGrid& grid,
                                        int radius, double quantile, int threads);
 
-/// Two percentiles of the same windows.
+/// Two percentiles of the same windows; one that was not asked for means nothing.
 struct WindowPercentiles {
   std::vector<float> first, second;
 };
@@ -30,12 +31,21 @@ struct WindowPercentiles {
 /// @param percentiles replaced; their memory is used again
 void windowed_percentiles(const std::vector<float>& values, const std::vector<float>& wanted,
                           const AngularGrid& grid, int radius,
-                          const std::array<double, 2>& quantiles, int threads,
+                          const std::array<std::optional<double>, 2>& quantiles, int threads,
                           WindowPercentiles& percentiles);
 
 /// The smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
 /// @param minimum replaced; its memory is used again
 void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
                       int elevation_radius, int threads, std::vector<float>& minimum);
+
+/// The bins around a bin of a grid.
+struct BinWindow {
+  AngularGrid grid;
+  int azimuth_radius = 0, elevation_radius = 0;  ///< Columns and rows, to either side.
+};
+
+/// The smallest value in the window around one bin.
+float windowed_minimum(const std::vector<float>& values, const BinWindow& window, int bin);
 
 }  // namespace raymoval::raymoval_method

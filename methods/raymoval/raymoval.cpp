@@ -3,9 +3,11 @@
 // Equation numbers are the order of the numbered equations there.
 #include "methods/raymoval/raymoval.h"
 
-#include "core/parallel.h"
+#include <utility>
+
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
+#include "methods/common/side_by_side.h"
 #include "methods/raymoval/answers.h"
 #include "methods/raymoval/erase_evidence.h"
 #include "methods/raymoval/scan_against_map.h"
@@ -39,10 +41,10 @@ class RaymovalRun {
     if (parameters_.map_source == MapSource::kGrowing) {
       pass_over([this](Scan scan) { process(std::move(scan)); });
     } else {
-      for_each_scan("raymoval, naive map", scans_, context_,
-                    [this](const Scan& scan) { integrate_all(scan); });
+      collect_all_points();
       pass_over([this](Scan scan) { erase_seen_through(std::move(scan)); });
     }
+    update_map(context_);
     return map_;
   }
 
@@ -50,25 +52,41 @@ class RaymovalRun {
   /// Section 3 for one scan and a map that grows.
   /// @return 1 for each point that is dynamic
   Mask process(Scan scan) {
-    test_.project_scan(std::move(scan), context_);            // eqs 1-3, 10
+    project(std::move(scan));                                 // eqs 1-3, 10
     test_.cast_first_hits(map_.occupied(), context_);         // eqs 4-7
     test_.find_references(map_, context_);                    // eqs 8-9
     const Mask candidates = test_.find_candidates(context_);  // eq. 11
     Mask dynamic;                                             // eqs 12-15
     Evidence evidence;                                        // the erase cases of Fig. 1
-    side_by_side([&](StageTimes* times) { dynamic = validate(candidates, times); },
-                 [&](StageTimes* times) { evidence = find_evidence(times); });
-    erase(evidence);
-    integrate(dynamic);
+    side_by_side(
+        context_, "validation and erase",
+        [&](const RunContext& context) { dynamic = validate(candidates, context.times); },
+        [&](const RunContext& context) { evidence = find_evidence(context); });
+    left_over_ = {std::move(evidence), dynamic};
     return dynamic;
   }
 
   /// The part of section 3 that erases what a scan sees through.
   void erase_seen_through(Scan scan) {
-    test_.project_scan(std::move(scan), context_);     // eqs 1-3, 10
-    test_.cast_first_hits(map_.occupied(), context_);  // eqs 4-7
-    test_.find_references(map_, context_);             // eqs 8-9
-    erase(find_evidence(context_.times));
+    project(std::move(scan));                              // eqs 1-3, 10
+    test_.cast_first_hits(map_.occupied(), context_);      // eqs 4-7
+    test_.find_references(map_, context_, Tests::kErase);  // eqs 8-9
+    left_over_ = {find_evidence(context_), {}};
+  }
+
+  /// Projects a scan, and beside it brings the map up to date with the scan before, whose answer
+  /// did not have to wait for that.
+  void project(Scan scan) {
+    const Pose pose = scan.T_world_sensor;
+    side_by_side(
+        context_, "binning and integration",
+        [&](const RunContext& context) {
+          update_map(context);
+          const StageScope timed(context.times, "raycasting");
+          test_.prepare_cast(map_.occupied(), pose, context);
+        },
+        [&](const RunContext& context) { test_.project_next(std::move(scan), context); });
+    test_.take_next();
   }
 
   Mask validate(const Mask& candidates, StageTimes* times) const {
@@ -76,40 +94,42 @@ class RaymovalRun {
     return test_.validate(candidates, map_.occupied());
   }
 
-  Evidence find_evidence(StageTimes* times) {
-    return evidence_finder_.find(test_, map_.occupied(), context_.threads, times);
+  Evidence find_evidence(const RunContext& context) {
+    return evidence_finder_.find(test_, map_.occupied(), context.threads, context.times);
   }
 
-  void erase(const Evidence& evidence) {
-    for (const VoxelIndex& voxel : evidence.seen_through) map_.erase(voxel);
-    for (const VoxelIndex& voxel : evidence.without_return) map_.erase(voxel);
+  /// Takes out of the map what the scan at hand saw through, and adds its points that are not
+  /// dynamic.
+  void update_map(const RunContext& context) {
+    {
+      const StageScope timed(context.times, "integration");
+      const LeftOver left_over = std::exchange(left_over_, {});
+      for (const VoxelIndex& voxel : left_over.evidence.seen_through) map_.erase(voxel);
+      for (const VoxelIndex& voxel : left_over.evidence.without_return) map_.erase(voxel);
+      if (!left_over.dynamic.empty()) {
+        map_.integrate(test_.voxels().voxels, test_.known(),
+                       runs_within(test_.voxels(), left_over.dynamic));
+      }
+    }
+    const StageScope timed(context.times, "raycasting");
+    map_.occupied().update_boxes(context.threads);
   }
 
-  /// Adds the points of the scan at hand that are not dynamic.
-  void integrate(const Mask& dynamic) {
-    const StageScope timed(context_.times, "integration");
-    map_.integrate(test_.voxels(), test_.known(), dynamic);
-  }
-
-  /// Adds all points of a scan.
-  void integrate_all(const Scan& scan) {
-    const StageScope timed(context_.times, "integration");
-    find_voxels(scan, map_.occupied().inverse_voxel_size(), context_.threads, voxels_);
-    VoxelLookup known;
-    map_.look_up(voxels_, context_.threads, known);
-    map_.integrate(voxels_, known, Mask(voxels_.size(), 0));
-  }
-
-  /// Takes two steps that only read the map. With several threads one is taken beside the other,
-  /// and they are timed as one stage.
-  template <class ValidateStep, class EvidenceStep>
-  void side_by_side(ValidateStep&& validate_step, EvidenceStep&& evidence_step) {
-    const bool together = context_.threads > 1;
-    const StageScope timed(together ? context_.times : nullptr, "validation and erase");
-    StageTimes* times = together ? nullptr : context_.times;
-    parallel_for(context_.threads, 2, 1, [&](std::size_t step) {
-      step == 0 ? validate_step(times) : evidence_step(times);
+  /// Makes the naive map: each scan is added to it beside the search for the next one's voxels.
+  void collect_all_points() {
+    VoxelRuns at_hand, next;
+    const auto integrate = [&](const RunContext& context) {
+      const StageScope timed(context.times, "integration");
+      map_.integrate(at_hand.voxels);
+    };
+    for_each_scan("raymoval, naive map", scans_, context_, [&](const Scan& scan) {
+      side_by_side(context_, "integration", integrate, [&](const RunContext& context) {
+        const StageScope timed(context.times, "binning");
+        find_voxels(scan, map_.occupied().inverse_voxel_size(), context.threads, next);
+      });
+      std::swap(at_hand, next);
     });
+    integrate(context_);
   }
 
   /// Visits the scans from the first to the last, and back if a backward pass is asked for.
@@ -126,7 +146,12 @@ class RaymovalRun {
   StaticMap map_;
   ScanAgainstMap test_;
   EvidenceFinder evidence_finder_;
-  std::vector<VoxelIndex> voxels_;  ///< Of the scan at hand, while the naive map is collected.
+  /// What the scan at hand says about the map, until the map has taken it in.
+  struct LeftOver {
+    Evidence evidence;
+    Mask dynamic;  ///< Empty if no points are to be added.
+  };
+  LeftOver left_over_;
 };
 
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,

@@ -44,26 +44,33 @@ ScanAgainstMap::ScanAgainstMap(const Parameters& parameters, const SensorModel& 
       grid_(grid_for(sensor, parameters)),
       caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {
   known_.remembers = true;
+  for (ScanInGrid* scan : {&at_hand_, &next_}) scan->wanted.ask_for_all(grid_);  // For no_return.
 }
 
-void ScanAgainstMap::project_scan(Scan scan, const RunContext& context) {
+void ScanAgainstMap::project_next(Scan scan, const RunContext& context) {
   const StageScope timed(context.times, "binning");
-  scan_ = std::move(scan);
-  find_voxels(scan_, 1.0 / parameters_.voxel_size, context.threads, voxels_);
-  project(scan_, grid_, parameters_.minimum_range, context.threads, projected_);
+  next_.scan = std::move(scan);
+  find_voxels(next_.scan, 1.0 / parameters_.voxel_size, context.threads, next_.voxels);
+  project(next_.scan, grid_, parameters_.minimum_range, context.threads, next_.projected);
+  if (!parameters_.no_return) {
+    // Eq. 8 is asked for where the scan has a return.
+    next_.wanted.ask_around(next_.projected.minimum_range, grid_, parameters_.neighbourhood);
+  }
 }
 
 void ScanAgainstMap::cast_first_hits(OccupancyMap& map, const RunContext& context) {
   const StageScope timed(context.times, "raycasting");
-  caster_.cast(map, scan_.T_world_sensor, context.threads, first_hit_);
+  caster_.cast(map, at_hand_.scan.T_world_sensor, at_hand_.wanted, context.threads, first_hit_);
 }
 
-void ScanAgainstMap::find_references(const StaticMap& map, const RunContext& context) {
+void ScanAgainstMap::find_references(const StaticMap& map, const RunContext& context, Tests tests) {
   const StageScope timed(context.times, "classification");
-  windowed_percentiles(first_hit_.range, projected_.minimum_range, grid_, parameters_.neighbourhood,
-                       {parameters_.percentile, parameters_.erase_percentile}, context.threads,
-                       references_);
-  map.look_up(voxels_, context.threads, known_);
+  std::array<std::optional<double>, 2> quantiles;
+  if (tests != Tests::kErase && parameters_.forward_test) quantiles[0] = parameters_.percentile;
+  if (tests != Tests::kForward && parameters_.erase) quantiles[1] = parameters_.erase_percentile;
+  windowed_percentiles(first_hit_.range, at_hand_.projected.minimum_range, grid_,
+                       parameters_.neighbourhood, quantiles, context.threads, references_);
+  map.look_up(at_hand_.voxels.voxels, context.threads, known_);
 }
 
 bool ScanAgainstMap::erased_points_are_candidates() const {
@@ -76,27 +83,31 @@ Mask ScanAgainstMap::find_candidates(const RunContext& context) const {
   const StageScope timed(context.times, "classification");
   Mask candidates;
   if (parameters_.forward_test) {
-    candidates = check_consistency(projected_, references_.first,
+    candidates = check_consistency(at_hand_.projected, references_.first,
                                    {parameters_.tau0, parameters_.tau1}, context.threads);
   } else {
-    candidates.assign(scan_.size(), 0);
+    candidates.assign(at_hand_.scan.size(), 0);
   }
   if (!erased_points_are_candidates()) return candidates;
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    candidates[k] |= known_.states[k] == VoxelState::kErased ? 1 : 0;
+  for (std::size_t run = 0; run < at_hand_.voxels.size(); ++run) {
+    if (known_.states[run] != VoxelState::kErased) continue;
+    std::fill(candidates.begin() + at_hand_.voxels.first[run],
+              candidates.begin() + at_hand_.voxels.first[run + 1], std::uint8_t{1});
   }
   return candidates;
 }
 
 Mask ScanAgainstMap::find_off_map(Scan scan, const StaticMap& map, const RunContext& context) {
   const StageScope timed(context.times, "answer");
-  scan_ = std::move(scan);
-  find_voxels(scan_, 1.0 / parameters_.voxel_size, context.threads, voxels_);
-  map.look_up(voxels_, context.threads, known_);
-  Mask off(voxels_.size());
-  std::transform(known_.states.begin(), known_.states.end(), off.begin(), [](VoxelState state) {
-    return static_cast<std::uint8_t>(state == VoxelState::kOccupied ? 0 : 1);
-  });
+  at_hand_.scan = std::move(scan);
+  find_voxels(at_hand_.scan, 1.0 / parameters_.voxel_size, context.threads, at_hand_.voxels);
+  map.look_up(at_hand_.voxels.voxels, context.threads, known_);
+  Mask off(at_hand_.scan.size(), 0);
+  for (std::size_t run = 0; run < at_hand_.voxels.size(); ++run) {
+    if (known_.states[run] == VoxelState::kOccupied) continue;
+    std::fill(off.begin() + at_hand_.voxels.first[run],
+              off.begin() + at_hand_.voxels.first[run + 1], std::uint8_t{1});
+  }
   return off;
 }
 
@@ -104,13 +115,14 @@ Mask ScanAgainstMap::validate(const Mask& candidates, const OccupancyMap& static
   if (!parameters_.validate) return candidates;
   std::vector<std::size_t> chosen;
   ScanPoints points;
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    if (candidates[k] == 0) continue;
+  for_each_set(candidates, [&](std::size_t k) {
+    const Eigen::Vector3d world =
+        at_hand_.scan.T_world_sensor * at_hand_.scan.points[k].cast<double>();
     chosen.push_back(k);
-    points.position.push_back(scan_.T_world_sensor * scan_.points[k].cast<double>());
-    points.voxel.push_back(voxels_[k]);
-    points.range.push_back(scan_.points[k].norm());
-  }
+    points.position.push_back(world);
+    points.voxel.push_back(static_map.voxel_of(world));
+    points.range.push_back(at_hand_.scan.points[k].norm());
+  });
   const Mask valid = validate_candidates(points, static_map, parameters_);
   Mask dynamic(candidates.size(), 0);
   for (std::size_t i = 0; i < chosen.size(); ++i) dynamic[chosen[i]] = valid[i];

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/scan/sensor_model.h"
 #include "methods/raymoval/kernels/angular_grid.h"
 #include "methods/raymoval/kernels/first_hit.h"
+#include "methods/raymoval/kernels/voxel_runs.h"
 #include "methods/raymoval/map_reference.h"
 #include "methods/raymoval/parameters.h"
 #include "methods/raymoval/static_map.h"
@@ -16,6 +18,13 @@ namespace raymoval::raymoval_method {
 /// The grid of directions that `parameters` ask for with this sensor (eq. 2).
 AngularGrid grid_for(const SensorModel& sensor, const Parameters& parameters);
 
+/// The tests that ask for a map reference.
+enum class Tests {
+  kBoth,
+  kForward,  ///< Eq. 11: the scan stands in front of the map.
+  kErase,    ///< The scan sees through the map.
+};
+
 /// One scan against a map: the steps of section 3 in their order, each of which needs those before
 /// it. It keeps its memory from scan to scan; each thread at work needs one of its own.
 /// @note all scans must be compared with one and the same map, which may change between them
@@ -25,11 +34,25 @@ class ScanAgainstMap {
   ScanAgainstMap(const Parameters& parameters, const SensorModel& sensor);
 
   /// Eqs 1-3 and 10. It also finds the voxel of each point.
-  void project_scan(Scan scan, const RunContext& context);
+  void project_scan(Scan scan, const RunContext& context) {
+    project_next(std::move(scan), context);
+    take_next();
+  }
+  /// The same for the scan to come. What is known of the scan at hand stays as it is until
+  /// `take_next`.
+  void project_next(Scan scan, const RunContext& context);
+  /// Makes the scan projected last the one at hand.
+  void take_next() { std::swap(at_hand_, next_); }
+  /// Does the part of the next `cast_first_hits` that asks for the scan's pose only. The map must
+  /// not change in between.
+  void prepare_cast(OccupancyMap& map, const Pose& T_world_sensor, const RunContext& context) {
+    caster_.prepare(map, T_world_sensor, context.threads);
+  }
   /// Eqs 4-7. It changes nothing of a map whose boxes are up to date.
   void cast_first_hits(OccupancyMap& map, const RunContext& context);
-  /// Eqs 8-9 for both tests, where the scan has a return. It also looks the points' voxels up.
-  void find_references(const StaticMap& map, const RunContext& context);
+  /// Eqs 8-9 where the scan has a return, for the tests to come. It also looks the points' voxels
+  /// up.
+  void find_references(const StaticMap& map, const RunContext& context, Tests tests = Tests::kBoth);
   /// Eq. 11, and the erase cases of Fig. 1: points in voxels that a scan saw through.
   [[nodiscard]] Mask find_candidates(const RunContext& context) const;
   /// Takes a scan and finds its points whose voxel is not in the map.
@@ -37,27 +60,32 @@ class ScanAgainstMap {
   /// Eqs 12-15. It gives back the candidates themselves if they are not to be validated.
   [[nodiscard]] Mask validate(const Mask& candidates, const OccupancyMap& static_map) const;
 
-  [[nodiscard]] const Scan& scan() const { return scan_; }
+  [[nodiscard]] const Scan& scan() const { return at_hand_.scan; }
   [[nodiscard]] const AngularGrid& grid() const { return grid_; }
-  [[nodiscard]] const ProjectedScan& projected() const { return projected_; }
+  [[nodiscard]] const ProjectedScan& projected() const { return at_hand_.projected; }
   [[nodiscard]] const FirstHitImage& first_hit() const { return first_hit_; }
   /// d_map of the erase test.
   [[nodiscard]] const std::vector<float>& erase_reference() const { return references_.second; }
-  /// The voxel of each point in the world lattice.
-  [[nodiscard]] const std::vector<VoxelIndex>& voxels() const { return voxels_; }
-  /// What the map knew of each point's voxel when it was looked up.
+  /// The voxels of the points in the world lattice.
+  [[nodiscard]] const VoxelRuns& voxels() const { return at_hand_.voxels; }
+  /// What the map knew of the voxel of each run of points when it was looked up.
   [[nodiscard]] const VoxelLookup& known() const { return known_; }
 
  private:
+  /// What is known of a scan without the map.
+  struct ScanInGrid {
+    Scan scan;
+    VoxelRuns voxels;
+    ProjectedScan projected;
+    WantedBins wanted;  ///< Where the steps below look at first hits.
+  };
   /// Whether what was seen through says something about the points that lie there.
   [[nodiscard]] bool erased_points_are_candidates() const;
 
   const Parameters& parameters_;
   AngularGrid grid_;
   FirstHitCaster caster_;
-  Scan scan_;
-  std::vector<VoxelIndex> voxels_;
-  ProjectedScan projected_;
+  ScanInGrid at_hand_, next_;
   FirstHitImage first_hit_;
   WindowPercentiles references_;
   VoxelLookup known_;

@@ -2,6 +2,7 @@
 #include "methods/raymoval/static_map.h"
 
 #include "core/parallel.h"
+#include "hwy/cache_control.h"
 
 namespace raymoval::raymoval_method {
 
@@ -21,41 +22,48 @@ void StaticMap::look_up(const std::vector<VoxelIndex>& voxels, int threads,
                         VoxelLookup& found) const {
   found.slots.resize(voxels.size());
   found.states.resize(voxels.size());
-  static constexpr Brick kNothing;
-  constexpr std::size_t kGrain = 8192, kKnownBricks = 4096;
+  constexpr std::size_t kGrain = 4096, kPiece = 256, kKnownBricks = 4096;
   const std::size_t parts = (voxels.size() + kGrain - 1) / kGrain;
-  if (found.remembers && found.bricks.size() < parts) {
-    found.bricks.resize(parts, std::vector<VoxelLookup::KnownBrick>(kKnownBricks));
+  const std::size_t tables = threads <= 1 ? std::min<std::size_t>(parts, 1) : parts;
+  if (found.remembers && found.bricks.size() < tables) {
+    found.bricks.resize(tables, std::vector<VoxelLookup::KnownBrick>(kKnownBricks));
   }
   parallel_chunks(threads, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     const auto find_slot = [&](const Eigen::Vector3i& brick) {
-      return found.remembers ? find_known(brick, found.bricks[begin / kGrain])
+      return found.remembers ? find_known(brick, found.bricks[threads <= 1 ? 0 : begin / kGrain])
                              : occupied_.find_slot(brick);
     };
-    Eigen::Vector3i last = OccupancyMap::brick_of(voxels[begin]);
-    Slot slot = find_slot(last);
-    const Brick* occupied = nullptr;
-    const Brick* erased = nullptr;
-    const auto open_brick = [&] {
-      occupied = slot == OccupancyMap::kNoBrick ? &kNothing : &occupied_.brick(slot);
-      erased = erased_in(slot);
-      if (erased == nullptr) erased = &kNothing;
-    };
-    open_brick();
-    for (std::size_t k = begin; k < end; ++k) {
-      const VoxelIndex& voxel = voxels[k];
-      const Eigen::Vector3i brick = OccupancyMap::brick_of(voxel);
-      if (brick != last) {
-        last = brick;
-        slot = find_slot(brick);
-        open_brick();
-      }
-      found.slots[k] = slot;
-      const int is_occupied = occupied->contains(voxel.x(), voxel.y(), voxel.z()) ? 1 : 0;
-      const int is_erased = erased->contains(voxel.x(), voxel.y(), voxel.z()) ? 2 : 0;
-      found.states[k] = static_cast<VoxelState>(is_occupied | is_erased);  // Never both.
+    // The bricks of some voxels are on their way to the processor before they are looked into.
+    for (std::size_t piece = begin; piece < end; piece += kPiece) {
+      const std::size_t last = std::min(piece + kPiece, end);
+      find_slots(voxels, piece, last, find_slot, found.slots);
+      for (std::size_t k = piece; k < last; ++k) found.states[k] = state(found.slots[k], voxels[k]);
     }
   });
+}
+
+template <class FindSlot>
+void StaticMap::find_slots(const std::vector<VoxelIndex>& voxels, std::size_t begin,
+                           std::size_t end, FindSlot&& find_slot, std::vector<Slot>& slots) const {
+  Eigen::Vector3i last = OccupancyMap::brick_of(voxels[begin]);
+  last.x() += 1;  // Not the first one's.
+  Slot slot = OccupancyMap::kNoBrick;
+  for (std::size_t k = begin; k < end; ++k) {
+    const Eigen::Vector3i brick = OccupancyMap::brick_of(voxels[k]);
+    if (brick != last) {
+      last = brick;
+      slot = find_slot(brick);
+      if (slot != OccupancyMap::kNoBrick) hwy::Prefetch(&occupied_.brick(slot));
+      if (slot < erased_of_.size()) hwy::Prefetch(&erased_of_[slot]);
+    }
+    slots[k] = slot;
+  }
+}
+
+VoxelState StaticMap::state(Slot slot, const VoxelIndex& voxel) const {
+  if (slot == OccupancyMap::kNoBrick) return VoxelState::kEmpty;
+  if (occupied_.brick(slot).contains(voxel.x(), voxel.y(), voxel.z())) return VoxelState::kOccupied;
+  return was_erased(slot, voxel) ? VoxelState::kErased : VoxelState::kEmpty;
 }
 
 void StaticMap::integrate(Slot slot, const VoxelIndex& voxel) {
@@ -87,6 +95,19 @@ void StaticMap::integrate(const std::vector<VoxelIndex>& voxels, const VoxelLook
       slot = last_slot;
     }
     integrate(slot, voxels[k]);
+  }
+}
+
+void StaticMap::integrate(const std::vector<VoxelIndex>& voxels) {
+  Eigen::Vector3i last = Eigen::Vector3i::Zero();
+  Slot slot = OccupancyMap::kNoBrick;
+  for (const VoxelIndex& voxel : voxels) {
+    const Eigen::Vector3i brick = OccupancyMap::brick_of(voxel);
+    if (slot == OccupancyMap::kNoBrick || brick != last) {
+      last = brick;
+      slot = occupied_.make_brick(brick);
+    }
+    integrate(slot, voxel);
   }
 }
 

@@ -62,6 +62,8 @@ class StaticMap {
   /// @param found what `look_up` gave for them; voxels may have been erased since
   void integrate(const std::vector<VoxelIndex>& voxels, const VoxelLookup& found,
                  const Mask& dynamic);
+  /// Adds all of them, known or not. Quick where neighbours follow each other.
+  void integrate(const std::vector<VoxelIndex>& voxels);
   /// Removes a voxel that a scan saw through.
   void erase(const VoxelIndex& voxel);
 
@@ -69,6 +71,10 @@ class StaticMap {
   /// `find_slot` with the help of a table of bricks found before.
   [[nodiscard]] Slot find_known(const Eigen::Vector3i& brick,
                                 std::vector<VoxelLookup::KnownBrick>& table) const;
+  template <class FindSlot>
+  void find_slots(const std::vector<VoxelIndex>& voxels, std::size_t begin, std::size_t end,
+                  FindSlot&& find_slot, std::vector<Slot>& slots) const;
+  [[nodiscard]] VoxelState state(Slot slot, const VoxelIndex& voxel) const;
   static constexpr std::uint32_t kNothingErased = ~std::uint32_t{0};
 
   /// Erased voxels of a brick (`slot` may be kNoBrick); null if it has none.

@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import planting
+import rooms
 import source_text
 import syntax
 
@@ -60,8 +61,9 @@ class ReleaseBuild:
 class MutatedBuild:
     """A folder with the planted files of a room, their objects and the linked test programs."""
 
-    def __init__(self, release, folder, jobs):
+    def __init__(self, release, folder, jobs, headers_seen_by=()):
         self.release, self.folder, self.jobs = release, folder, jobs
+        self.headers_seen_by = headers_seen_by
         self.sources, self.objects = folder / "source", folder / "objects"
         self.cache = folder.parent / "syntax"
         self.planted = {}  # Name of a file -> Planted.
@@ -145,8 +147,13 @@ class MutatedBuild:
         places = {str(self.release.root / name) for name in self.planted}
         return sorted(o for o in (tests | product)
                       if o in self.release.dependencies and
-                      (self.release.dependencies[o] & places or
-                       str(self.release.units[o][0]) in places))
+                      (str(self.release.units[o][0]) in places or
+                       self.release.dependencies[o] & places and self._sees_headers(o)))
+
+    def _sees_headers(self, name):
+        source = self.release.units[name][0]
+        return not self.headers_seen_by or source.is_relative_to(self.release.root) and \
+            rooms.fits(str(source.relative_to(self.release.root)), self.headers_seen_by)
 
     def compile(self, names):
         """Compiles these objects, and takes out mutants that do not compile."""
@@ -202,4 +209,8 @@ class MutatedBuild:
         command = command[:first] + f" {product}" + command[first:]
         command = re.sub(rf" -o {program} ", f" -o {target} ", command)
         subprocess.run(["sh", "-c", command], cwd=self.release.folder, check=True)
+        # Programs look for the suites and published tables that come with them beside themselves.
+        shared = self.folder / "share"
+        if not shared.is_symlink():
+            shared.symlink_to(self.release.folder / "share")
         return target

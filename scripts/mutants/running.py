@@ -30,7 +30,9 @@ def run(program, names, environment, seconds):
     """Runs test cases up to the first failure. Returns "passed", "failed", "time" or a signal."""
     limits = ["prlimit", f"--cpu={int(seconds) + 1}:{int(seconds) + 2}", f"--as={_MEMORY}",
               "--core=0"]
-    with tempfile.TemporaryDirectory(prefix="raymoval-mutant-") as place:
+    # What a test's processes still write while the folder is removed is no matter.
+    with tempfile.TemporaryDirectory(prefix="raymoval-mutant-",
+                                     ignore_cleanup_errors=True) as place:
         child = subprocess.Popen(
             limits + [str(program), ",".join(map(_spec, names)), "--abort"],
             env={**os.environ, **environment, "TMPDIR": place}, cwd=place,
@@ -94,9 +96,13 @@ def judge(programs, number):
 
 
 def judge_all(programs, numbers, jobs, told):
-    """Judges mutants, `jobs` at a time; calls `told(number, answer)` in order."""
+    """Judges mutants, `jobs` at a time; calls `told(number, answer)` as soon as one is known."""
     began = time.monotonic()
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for number, answer in zip(numbers, pool.map(lambda n: judge(programs, n), numbers)):
-            told(number, answer)
+    pool = concurrent.futures.ThreadPoolExecutor(jobs)
+    try:
+        judged = {pool.submit(judge, programs, number): number for number in numbers}
+        for answer in concurrent.futures.as_completed(judged):
+            told(judged[answer], answer.result())
+    finally:
+        pool.shutdown(cancel_futures=True)  # Where it is stopped, the others are not waited for.
     return time.monotonic() - began

@@ -72,7 +72,7 @@ class Walker:
 
     def _add(self, kind, start, end, function, texts, told=None):
         source = self.source
-        if source.has_directive(start, end):
+        if start >= end or source.has_directive(start, end):
             return
         old = source.one_line(start, end)
         changes = []
@@ -205,7 +205,10 @@ class Walker:
                 return  # Text that is put together.
             children = sorted(cursor.get_children(), key=lambda c: c.extent.start.offset)
             if len(children) == 3:
-                self._binary([children[0], children[2]], start, end, function)
+                # Where the compiler exchanges both sides (`"a" == text` asks `text == "a"`), the
+                # call itself begins behind its end.
+                self._binary([children[0], children[2]], children[0].extent.start.offset,
+                             children[2].extent.end.offset, function)
             return
         found = re.search(r"\b" + re.escape(name) + r"(?=(?:<[^()]*>)?\()",
                           source.plain[start:end]) if name else None

@@ -127,6 +127,35 @@ TEST_CASE("Temporary names are new each time and have a form of their own") {
   }
 }
 
+TEST_CASE("A path has a last name and a folder, with a slash at its end or without") {
+  CHECK(without_slash("a/b/") == "a/b");
+  CHECK(without_slash("a/b") == "a/b");
+  CHECK(without_slash("/") == "/");
+  CHECK(folder_of("a/b") == "a");
+  CHECK(folder_of("a/b/") == "a");
+  CHECK(folder_of("b") == ".");
+  CHECK(folder_of("b/") == ".");
+  CHECK(folder_of("/b") == "/");
+}
+
+TEST_CASE("What is absent or damaged may be done without, but not what cannot be read") {
+  CHECK(if_whole([] { return 7; }) == 7);
+  CHECK(if_whole([]() -> int { throw DataError("damaged"); }) == std::nullopt);
+  CHECK_THROWS_AS(if_whole([]() -> int { throw UnreadableError("no rights"); }), UnreadableError);
+  CHECK_THROWS_AS(if_whole([]() -> int { throw InternalError("a fault"); }), InternalError);
+}
+
+TEST_CASE("The parts of a file are those of its own name") {
+  const TemporaryFolder folder;
+  const fs::path part = new_part_name(folder.path() / "map.pcd");
+  const fs::path other = new_part_name(folder.path() / "other.pcd");
+  for (const fs::path& path : {part, other, folder.path() / "map.pcd"}) write_atomically(path, "x");
+  CHECK(parts_of(folder.path() / "map.pcd") == std::vector{part});
+  CHECK(parts_of(folder.path() / "map.pcd/") == std::vector{part});
+  CHECK(parts_of(folder.path() / "none.pcd").empty());
+  CHECK(parts_of(folder.path() / "nowhere/map.pcd").empty());
+}
+
 TEST_CASE("What a dead process left of a file goes when that file is made again") {
   const TemporaryFolder folder;
   const fs::path target = folder / "map.pcd", other = folder / "other.pcd";

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/scan/label_rule.h"
 #include "core/scan/mask_store.h"
+#include "core/scan/packed_mask.h"
 #include "core/scan/range_limits.h"
 #include "core/scan/scan_source.h"
 
@@ -48,6 +49,19 @@ TEST_CASE("A mask set again replaces the first") {
   store.set(0, {0, 1, 0});
   CHECK(store.get(0) == Mask{0, 1, 0});
   CHECK(store.removed_count() == 1);
+}
+
+TEST_CASE("A packed mask has eight points in a byte, the first in its lowest bit") {
+  const Mask ten = {1, 0, 0, 0, 0, 0, 0, 1, 0, 1};
+  CHECK(packed_mask(ten) == "\x81\x02");
+  CHECK(unpacked_mask("\x81\x02", 10) == ten);
+  CHECK(packed_mask({}).empty());
+  CHECK(unpacked_mask("", 0).empty());
+  CHECK(packed_mask({0}) == std::string(1, '\0'));
+  CHECK(packed_mask(Mask(8, 1)) == "\xff");
+  CHECK(packed_mask(Mask(9, 1)) == "\xff\x01");
+  CHECK(unpacked_mask("\xff\x01", 9) == Mask(9, 1));
+  CHECK(packed_mask({0, 2, 255}) == "\x06");  // Any value but 0 is removed.
 }
 
 TEST_CASE("The semantic id is the lower half of a label word") {

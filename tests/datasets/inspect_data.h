@@ -84,22 +84,31 @@ struct EditedSequence : ScanSource, LabelSource {
   }
 };
 
-/// The beams of an HDL-64E at every third azimuth: what a check needs to see, in a third of the
-/// time.
-inline const std::string& sparse_hdl64e() {
+/// A sensor that is shipped, with another step between its azimuths: what a check needs to see, in
+/// a part of the time.
+inline std::string sensor_with_step(const std::string& sensor, const std::string& step_deg) {
   static const TemporaryFolder folder;
-  static const std::string path = [] {
-    std::string text = simulated_sensor_text("hdl64e");
-    const std::string step = "\"azimuth_step_deg\": 0.1728";
-    REQUIRE(text.find(step) != std::string::npos);
-    text.replace(text.find(step), step.size(), "\"azimuth_step_deg\": 0.5184");
-    return folder.write("sparse.json", text).string();
-  }();
+  std::string text = simulated_sensor_text(sensor);
+  const std::string key = "\"azimuth_step_deg\": ";
+  const std::size_t at = text.find(key);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, text.find(',', at) - at, key + step_deg);
+  return folder.write(sensor + ".json", text).string();
+}
+
+inline const std::string& sparse_hdl64e() {
+  static const std::string path = sensor_with_step("hdl64e", "1.0368");  // Every sixth.
+  return path;
+}
+
+inline const std::string& sparse_vlp16() {
+  static const std::string path = sensor_with_step("vlp16", "0.4");  // Every second.
   return path;
 }
 
 /// A winding street of the suburb, which a car drives along at 6 m/s.
-inline SimulationOptions suburb(const std::string& sensor = "vlp16", std::size_t scans = 16) {
+inline SimulationOptions suburb(const std::string& sensor = sparse_vlp16(),
+                                std::size_t scans = 16) {
   SimulationOptions options;
   options.scene = "suburb";
   options.sensor = sensor;

@@ -97,7 +97,7 @@ TEST_CASE("the scenes are silent", "[inspect]") {
     SimulationOptions options;
     options.scene = scene;
     options.scans = 12;
-    if (options.scene != "excavator") options.sensor = "vlp16";
+    if (options.scene != "excavator") options.sensor = sparse_vlp16();
     INFO(scene);
     const InspectionReport report = EditedSequence(options).inspected();
     INFO(text_of(report));
@@ -264,7 +264,7 @@ TEST_CASE("duplicated scans are named", "[inspect]") {
 }
 
 TEST_CASE("scans left out show in the motion", "[inspect]") {
-  EditedSequence drive(suburb("vlp16", 19));
+  EditedSequence drive(suburb(sparse_vlp16(), 19));
   drive.scans.erase(drive.scans.begin() + 6, drive.scans.begin() + 9);
   drive.words.erase(drive.words.begin() + 6, drive.words.begin() + 9);
   for (std::size_t i = 0; i < drive.size(); ++i) drive.scans[i].index = i;
@@ -322,7 +322,7 @@ TEST_CASE("skewed scans of more than one revolution are named", "[inspect]") {
 }
 
 TEST_CASE("a sensor that is named by mistake is named", "[inspect]") {
-  EditedSequence drive = good_drive();  // Of a VLP-16.
+  EditedSequence drive(suburb("vlp16", 12));
   for (const char* name : {"hdl64e", "hdl32e", "os1-128"}) {
     INFO(name);
     drive.model = sensor_model_named(name);

@@ -85,11 +85,11 @@ TEST_CASE("a scan without a return and infinite points are damage", "[no-returns
   const TemporaryFolder empty, infinite;
   write_scan(empty, {kNan, 0, 0, 0, 0, 0, 0, 0});
   const Sequence none = open_sequence(empty.text(), {});
-  check_says(message_of<DataError>([&] { none.scans->load(0); }),
+  check_says(message_of<DataError>([&] { (void)none.scans->load(0); }),
              {"000000.bin", "none of its 2 points is a return", "--frames"});
   write_scan(infinite, {kInfinity, 0, 0, 0, 1, 0, 0, 0});
   const Sequence damaged = open_sequence(infinite.text(), {});
-  check_says(message_of<DataError>([&] { damaged.scans->load(0); }),
+  check_says(message_of<DataError>([&] { (void)damaged.scans->load(0); }),
              {"1 of 2 points are infinite", "write NaN"});
 }
 

@@ -183,7 +183,7 @@ TEST_CASE("labels have to fit their scan", "[semantickitti]") {
   write_sequence(folder, "", 2);
   folder.write("labels/000001.label", words({1, 2, 3}));
   const Sequence sequence = open_sequence(folder.text(), {});
-  const auto read = [&] { sequence.labels->labels(sequence.scans->load(1)); };
+  const auto read = [&] { (void)sequence.labels->labels(sequence.scans->load(1)); };
   check_says(message_of<DataError>(read), {"000001.label", "3 labels", "000001.bin", "2 points"});
   folder.write("labels/000001.label", words({1, 2}) + "x");
   check_says(message_of<DataError>(read), {"9 bytes"});
@@ -203,7 +203,7 @@ TEST_CASE("a truncated or empty scan is named", "[semantickitti]") {
   check_says(open_error(folder.text()), {"000001.bin", "40 bytes", "after point 2"});
   folder.write("velodyne/000001.bin", "");
   const Sequence sequence = open_sequence(folder.text(), {});
-  check_says(message_of<DataError>([&] { sequence.scans->load(1); }),
+  check_says(message_of<DataError>([&] { (void)sequence.scans->load(1); }),
              {"000001.bin", "holds no point"});
 }
 
@@ -236,7 +236,7 @@ TEST_CASE("points without coordinates are left out and keep labels in step", "[s
   }
   values[4 * 9] = 1.0F / 0.0F;  // A third: 1.5 %.
   folder.write("velodyne/000000.bin", floats(values));
-  check_says(message_of<DataError>([&] { sequence.scans->load(0); }),
+  check_says(message_of<DataError>([&] { (void)sequence.scans->load(0); }),
              {"000000.bin", "3 of 200 points are infinite", "1 %"});
 }
 

@@ -2,9 +2,10 @@
 #include "eval/bootstrap.h"
 
 #include <catch2/catch.hpp>
+#include <map>
 #include <numeric>
 
-#include "eval/erasor/accumulate.h"
+#include "eval/erasor/maps/truth_map.h"
 #include "eval/erasor/matching.h"
 #include "tests/eval/memory_sequence.h"
 #include "tests/eval/random_sequence.h"
@@ -86,18 +87,20 @@ TEST_CASE("voxels belong to the scan that gave them their label", "[bootstrap][w
   const MemorySequence sequence = worked_example();
   const LabelClasses classes{LabelRule{}};
   const erasor::Options options;
-  const auto dense = erasor::accumulate(sequence.input(), options, classes, nullptr, "truth");
-  const LabelledVoxels truth = voxelise(dense.cloud, 0.2, classes, 1);
+  const EvaluationInput input = sequence.input();
+  const erasor::MapRules rules{input, options, classes};
+  const erasor::TruthMap truth(rules);
+  std::map<VoxelKey, std::uint32_t> scan_of_cell;
+  truth.cells().for_each([&](CellLattice::Number number, VoxelKey cell) {
+    if (erasor::is_voxel(truth.mean(number))) scan_of_cell[cell] = truth.scan(number);
+  });
   std::vector<std::uint32_t> scans;
-  for (const std::uint32_t point : truth.label_points) scans.push_back(dense.scan_of(point));
+  for (const auto& [cell, scan] : scan_of_cell) scans.push_back(scan);
   // In the order of the keys. (25, 0, 0) holds a point of either scan at equal distances: the first
   // one. (59, 0, 0) and (60, 0, 0) are of the second scan.
   CHECK(scans == std::vector<std::uint32_t>{0, 0, 1, 1, 0, 0, 0});
-  const auto kept = erasor::accumulate(sequence.input(), options, classes, nullptr, "all");
-  const LabelledVoxels all = voxelise(kept.cloud, 0.2, classes, 1);
-  const auto partners = erasor::find_partners(truth, all, 0.2, erasor::MatchingOption::kRadius, 1);
-  const auto by_scan =
-      erasor::count_matches_by_scan(truth, all, partners, scans, 2, classes, options);
+  const auto partners = erasor::partner_kinds(truth, truth, options, 1);
+  const auto by_scan = erasor::count_matches_by_scan(truth, partners, 2, {});
   CHECK(by_scan[0] == erasor::MatchCounts{3, 2, 3, 2});
   CHECK(by_scan[1] == erasor::MatchCounts{1, 1, 1, 1});
 }

@@ -39,6 +39,26 @@ TEST_CASE("cells are sorted by key and keep the order of their points", "[cell_s
   }
 }
 
+TEST_CASE("cells of a long, a wide and a high box are sorted by key", "[cell_sort]") {
+  // Enough points for counting by digits, and extents that need 2, 7 and 12 bits.
+  for (const VoxelIndex& extent :
+       {VoxelIndex(3, 100, 4000), VoxelIndex(100, 4000, 3), VoxelIndex(4000, 3, 100)}) {
+    std::mt19937 random(5);
+    std::vector<CellPoint> points;
+    for (std::uint32_t i = 0; i < 5000; ++i) {
+      const auto below = [&](int end) { return static_cast<int>(random() % unsigned(end + 1)); };
+      points.push_back({voxel_key(below(extent.x()), below(extent.y()), below(extent.z())), i});
+    }
+    std::vector<VoxelKey> expected;
+    for (const CellPoint& point : points) expected.push_back(point.key);
+    std::sort(expected.begin(), expected.end());
+    sort_by_cell(points);
+    std::vector<VoxelKey> sorted;
+    for (const CellPoint& point : points) sorted.push_back(point.key);
+    CHECK(sorted == expected);
+  }
+}
+
 TEST_CASE("nothing to sort is no error", "[cell_sort]") {
   std::vector<CellPoint> none;
   sort_by_cell(none);

@@ -89,6 +89,8 @@ TEST_CASE("a shifted cloud loses the static map, and is warned of", "[cloud][edg
   const MemorySequence sequence = worked_example();
   const Points cloud = shifted(kept_points(sequence, sequence.oracle_masks()), {0.0f, 0.0f, 1.73f});
   const ProtocolResult voxels = score_cloud("erasor", sequence.input(), cloud);
+  CHECK(voxels.count("cloud_points") == static_cast<std::int64_t>(cloud.size()));
+  CHECK_THROWS_AS(voxels.count("removed_points"), InternalError);  // Nobody knows which.
   CHECK(voxels.rate("PR") == 0.0);
   CHECK(voxels.rate("F1") == 0.0);
   REQUIRE(voxels.warnings.size() == 1);

@@ -157,6 +157,11 @@ TEST_CASE("Other data, parameters or protocols are not comparable, and it is sai
   run = kReference;
   run.scores[0].identity["option voxel_size"] = "0.1";
   CHECK_THAT(reason(run), Contains("option voxel_size"));
+  run.scores[0].identity.erase("option voxel_size");
+  CHECK_THAT(reason(run), Contains("erasor: option voxel_size is missing, the reference has 0.2"));
+  run = kReference;
+  run.scores[0].identity["option new"] = "1";
+  CHECK_THAT(reason(run), Contains("erasor: option new is 1, the reference has none"));
   run = kReference;
   run.scores.clear();
   CHECK_THAT(reason(run), Contains("erasor: not scored in the run"));
@@ -256,6 +261,14 @@ TEST_CASE("Across parameters rates are judged, and it is told which parameters d
   CHECK(better.better.size() == 1);
 }
 
+TEST_CASE("What is worse does not hide that only parameters keep cells from being compared") {
+  ResultSet run{{with_tau0(kReference, "0.4"), cell_with(989, 20, "other:v")}, {}};
+  const ResultSet reference{{kReference, cell_with(990, 20, "other:v")}, {}};
+  CHECK(compare_results(run, reference, {}).parameters_only);
+  run.cells[1].identity["data fingerprint"] = "xyz";
+  CHECK_FALSE(compare_results(run, reference, {}).parameters_only);
+}
+
 TEST_CASE("Across parameters a cell that does not differ in them is judged by its counts") {
   CHECK(compared(cell_with(989, 10), kReference, across_parameters()).verdict() ==
         ExitCode::kWorse);
@@ -348,4 +361,26 @@ TEST_CASE("Times of another machine are said to be that") {
   CHECK(compare_results(here, here, {}).times.size() == 1);
   CHECK_THAT(compare_results(here, there, {}).times.at(1),
              Contains("this processor") && Contains("another"));
+}
+
+TEST_CASE("Times of cells that ran at once are compared only with those of as many at once") {
+  ComparedCell beside = kReference;
+  beside.side_by_side = 2;
+  beside.seconds_per_scan = 0.9;  // Nine times the reference's.
+  const Comparison shown = compared(beside, kReference);
+  CHECK(shown.verdict() == ExitCode::kDone);
+  REQUIRE(shown.times.size() == 1);
+  CHECK_THAT(shown.times[0], Contains("not compared") && Contains("2 cells at once") &&
+                                 Contains("the reference with 1"));
+  ComparisonOptions judging;
+  judging.time_band = 3.0;
+  const Comparison asked = compared(beside, kReference, judging);
+  CHECK(asked.verdict() == ExitCode::kCannotDo);
+  CHECK_THAT(asked.incomparable.at(0), Contains("not taken alike") && Contains("--time-band"));
+  CHECK(compared(kReference, beside, judging).verdict() == ExitCode::kCannotDo);
+  ComparedCell also_beside = kReference;
+  also_beside.side_by_side = 2;
+  CHECK(compared(beside, also_beside, judging).verdict() == ExitCode::kWorse);
+  beside.seconds_per_scan = 0.2;
+  CHECK(compared(beside, also_beside, judging).verdict() == ExitCode::kDone);
 }

@@ -85,6 +85,28 @@ TEST_CASE("Up to six names are told, of seven the first five and how many more")
   CHECK(line(7) == "Not comparable:\n  s / a, b, c, d, e and 2 more: missing in the run");
 }
 
+TEST_CASE("Sentences are put together if all but the sequence or the method is the same") {
+  const auto told = [](const std::vector<ComparisonLine>& lines) {
+    Comparison comparison;
+    comparison.lines = lines;
+    const std::string text = comparison_text(comparison);
+    return text.substr(0, text.find("0 of 0 cells"));
+  };
+  const auto line = [](const char* sequence, const char* name, const char* protocol,
+                       const char* text) {
+    return ComparisonLine{Change::kWorse, sequence, name, protocol, text};
+  };
+  CHECK(told({line("s", "a", "erasor", "x"), line("t", "a", "erasor", "x")}) ==
+        "Worse:\n  s, t / a, erasor: x\n");
+  CHECK(told({line("s", "a", "erasor", "x"), line("t", "a", "erasor", "y"),
+              line("u", "a", "dynamicmap", "x"), line("v", "b", "erasor", "x")}) ==
+        "Worse:\n  s / a, erasor: x\n  t / a, erasor: y\n  u / a, dynamicmap: x\n"
+        "  v / b, erasor: x\n");
+  // Twice the same is told once.
+  CHECK(told({line("s", "a", "erasor", "x"), line("s", "a", "erasor", "x")}) ==
+        "Worse:\n  s / a, erasor: x\n");
+}
+
 TEST_CASE("A fall beyond its tolerance is told with what was allowed") {
   const ComparedCell reference = cell_of("a", 99.0, 990), run = cell_of("a", 98.5, 985);
   CHECK_THAT(compared_one(run, reference, {{{"PR", 0.25}}, {}}).worse.at(0),

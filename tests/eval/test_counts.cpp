@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "eval/columns/removal_tally.h"
-#include "eval/erasor/accumulate.h"
 #include "eval/erasor/frame.h"
 #include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"
@@ -216,15 +215,6 @@ TEST_CASE("a voxel of the truth beyond the last one of the estimate has no partn
   CHECK(result.count("remaining_dynamic") == 1);
 }
 
-TEST_CASE("a point of the dense map belongs to the scan that ends behind it", "[counts]") {
-  erasor::DenseMap dense;
-  dense.scan_ends = {2, 2, 5};  // Points 0 and 1 of scan 0, none of scan 1, 2 to 4 of scan 2.
-  const std::vector<std::uint32_t> expected = {0, 0, 2, 2, 2};
-  for (std::uint32_t point = 0; point < expected.size(); ++point) {
-    CHECK(dense.scan_of(point) == expected[point]);
-  }
-}
-
 TEST_CASE("unlabelled voxels are left out of PR only where they stand", "[counts]") {
   const Settings leave_out = {{"ignore_0_1", true}};
   const std::vector<LabelledScan> scans = {
@@ -320,8 +310,8 @@ TEST_CASE("each pass over the scans is told with its number of scans", "[counts]
   std::string text(4096, '\0');
   text.resize(std::fread(text.data(), 1, text.size(), told));
   std::fclose(told);
-  for (const char* task : {"ground truth map: 0 of 3", "estimated map: 0 of 3",
-                           "ground truth points: 0 of 3", "points that are gone: 0 of 3"}) {
+  for (const char* task : {"ground truth map: 0 of 3", "ground truth points: 0 of 3",
+                           "scoring: 0 of 3", "scoring, pass 3: 0 of 3"}) {
     CHECK_THAT(text, Catch::Contains(task));
   }
   CHECK_THAT(text, Catch::EndsWith("\r\x1b[K"));  // The last line is cleared.

@@ -121,6 +121,24 @@ TEST_CASE("a point at exactly the distance is present, one beyond is gone", "[dy
   CHECK(score_scan(scan, {{"distance", 0.0}}).count("present_static_points") == 1);
 }
 
+TEST_CASE("a distance of metres reaches as far as it says", "[dynamicmap]") {
+  LabelledScan scan;
+  scan.add(8.0f, 0.0f, 0.0f, 40);
+  scan.add(10.9375f, 0.0f, 0.0f, 40, true);
+  scan.add(8.0f, -3.0f, 0.0f, 40, true);
+  scan.add(8.0f, 3.0625f, 0.0f, 40, true);
+  CHECK(score_scan(scan, {{"distance", 3.0}}).count("present_static_points") == 3);
+}
+
+TEST_CASE("without any distance a removed point is present where a kept one stands",
+          "[dynamicmap]") {
+  LabelledScan scan;
+  scan.add(8.0f, 0.0f, 0.0f, 40);
+  scan.add(8.0f, 0.0f, 0.0f, 40, true);
+  scan.add(8.0f, 1.0f, 0.0f, 40, true);
+  CHECK(score_scan(scan, {{"distance", 0.0}}).count("present_static_points") == 2);
+}
+
 TEST_CASE("labels of the estimate are not read", "[dynamicmap]") {
   // The road is kept 3 cm under a removed wheel; a removed wall has a kept car beside it. By index
   // and by cells of 1 m all is as the masks say.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"
 
 namespace raymoval::test {
@@ -142,6 +143,14 @@ TEST_CASE("a mask that does not fit its scan is the method's error", "[erasor][e
   CHECK_THAT(message, Contains("5 values") && Contains("3 points") && Contains("frame 0"));
   CHECK_THROWS_AS(score_erasor(sequence.input(), MaskStore(1)), MethodError);
   CHECK_THROWS_AS(score_erasor(sequence.input(), MaskStore(2)), MethodError);
+  // A scan without points has a mask without values, and not none.
+  const MemorySequence with_empty({row_of({{40, false}, {252, true}}), LabelledScan{}});
+  MaskStore masks(2);
+  masks.set(0, {0, 1});
+  CHECK_THAT(message_of<MethodError>([&] { score_erasor(with_empty.input(), masks); }),
+             Contains("scan 1 (frame 1) has no mask"));
+  masks.set(1, {});
+  CHECK(score_erasor(with_empty.input(), masks).rate("RR") == 100.0);
 }
 
 TEST_CASE("labels that do not fit their scan are a data error", "[erasor][edge]") {
@@ -349,19 +358,52 @@ class MovedSequence : public MemorySequence {
 };
 
 TEST_CASE("an estimate beside its truth gives a warning", "[erasor][edge]") {
-  // The truth comes from the same scan, moved by 0.15 m: every voxel has a partner (0.15 < 0.173)
-  // and none is as near as half an edge, 0.1 m.
-  MovedSequence sequence({row_of({{40, false}, {40, false}, {252, false}})});
-  for (const double shift : {0.05, 0.15, 0.30}) {
+  // The cloud is the truth, moved by 0.15 m: every voxel has a partner (0.15 < 0.173) and none is
+  // as near as half an edge, 0.1 m.
+  const MemorySequence sequence({row_of({{40, false}, {40, false}, {252, false}})});
+  const auto scorer = erasor_protocol({{"label_mode", std::string("nearest")}, {"lift", 0.0}})
+                          ->open(sequence.input());
+  for (const float shift : {0.05f, 0.15f, 0.30f}) {
     CAPTURE(shift);
-    sequence.shift = shift;
-    const auto scorer = erasor_protocol()->open(sequence.input());
-    sequence.shift = 0.0;
-    const ProtocolResult result = scorer->score(sequence.masks());
-    CHECK(result.warnings.size() == (shift > 0.1 ? 1 : 0));
-    CHECK(result.count("estimate_voxels_without_partner") == (shift > 0.2 ? 3 : 0));
-    CHECK(result.rate("PR") == (shift > 0.2 ? 0.0 : 100.0));
+    std::vector<Eigen::Vector3f> cloud = sequence.scans().front().points;
+    for (Eigen::Vector3f& point : cloud) point.y() += shift;
+    const ProtocolResult result = scorer->score_cloud(CloudEstimate(cloud));
+    CHECK(result.warnings.size() == (shift > 0.1f ? 1 : 0));
+    CHECK(result.count("estimate_voxels_without_partner") == (shift > 0.2f ? 3 : 0));
+    CHECK(result.rate("PR") == (shift > 0.2f ? 0.0 : 100.0));
   }
+}
+
+TEST_CASE("scans that change after a protocol was opened are bad data", "[erasor][edge]") {
+  MovedSequence sequence({row_of({{40, false}, {40, true}, {252, false}})});
+  for (const char* protocol : {"erasor", "dynamicmap"}) {
+    sequence.shift = 0.0;
+    const auto scorer = protocol_with(protocol)->open(sequence.input());
+    CHECK_NOTHROW(scorer->score(sequence.masks()));
+    sequence.shift = 0.45;
+    CHECK_THAT(message_of<DataError>([&] { (void)scorer->score(sequence.masks()); }),
+               Contains("changed"));
+  }
+}
+
+TEST_CASE("a voxel at exactly half an edge is near, and the warning says how far that is",
+          "[erasor][edge]") {
+  // Voxels of 0.5 m, so that half an edge and the shift are the same number, without rounding.
+  LabelledScan scan;
+  for (const float x : {5.125F, 7.125F, 9.125F}) scan.add(x, 0.125F, -1.625F, 40);
+  const MemorySequence sequence({scan});
+  const auto scorer =
+      protocol_with("erasor",
+                    {{"voxel_size", 0.5}, {"label_mode", std::string("nearest")}, {"lift", 0.0}})
+          ->open(sequence.input());
+  const auto warnings = [&](float shift) {
+    std::vector<Eigen::Vector3f> cloud = sequence.scans().front().points;
+    for (Eigen::Vector3f& point : cloud) point.y() += shift;
+    return scorer->score_cloud(CloudEstimate(cloud)).warnings;
+  };
+  CHECK(warnings(0.25F).empty());
+  REQUIRE(warnings(0.375F).size() == 1);
+  CHECK_THAT(warnings(0.375F)[0], Contains("lie over 0.25 m from the ground truth"));
 }
 
 TEST_CASE("options come back as given, unknown ones are refused", "[erasor][edge]") {

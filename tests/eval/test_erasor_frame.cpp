@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "eval/erasor/accumulate.h"
 #include "eval/erasor/frame.h"
+#include "eval/erasor/maps/accumulate.h"
 #include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"
 
@@ -74,14 +74,14 @@ TEST_CASE("points are lifted along the sensor's axis before they are placed", "[
   erasor::Options options;
   options.frame = erasor::FrameOption::kErasor;
   const LabelClasses classes(input.label_rule);
-  const auto dense = erasor::accumulate(input, options, classes, nullptr, "");
+  const LabelledCloud dense = erasor::dense_map({input, options, classes}, "");
   const Pose pose = erasor::erasor_pose(some_pose(), calibration_of_00());
-  REQUIRE(dense.cloud.size() == 4);
+  REQUIRE(dense.size() == 4);
   for (const float x : {10.0f, 12.0f, 14.0f, 16.0f}) {
     const Eigen::Vector3d expected = pose * Eigen::Vector3d(x, 0.0, 1.73);
-    CHECK(std::any_of(
-        dense.cloud.points.begin(), dense.cloud.points.end(),
-        [&](const Eigen::Vector3d& point) { return (point - expected).norm() < 1e-9; }));
+    CHECK(std::any_of(dense.points.begin(), dense.points.end(), [&](const Eigen::Vector3d& point) {
+      return (point - expected).norm() < 1e-9;
+    }));
   }
 }
 

@@ -8,19 +8,20 @@ namespace raymoval::erasor {
 namespace {
 
 /// One voxel with the centroid `point` of a lattice of 0.25 m.
-LabelledVoxels voxel_at(const Eigen::Vector3d& point) {
+ListedVoxels voxel_at(const Eigen::Vector3d& point) {
   LabelledVoxels voxels;
   voxels.keys = {voxel_key(voxel_index(point, 4.0))};
   voxels.cloud.points = {point};
   voxels.cloud.labels = {40};
-  return voxels;
+  return {voxels, LabelClasses(LabelRule{})};
 }
 
 bool match(const Eigen::Vector3d& offset) {
   const Eigen::Vector3d at(1.0625, -2.0, 0.125);
-  const auto partners =
-      find_partners(voxel_at(at), voxel_at(at + offset), 0.25, MatchingOption::kRadius, 1);
-  return partners == std::vector<std::uint32_t>{0};
+  Options options;
+  options.voxel_size = 0.25;
+  const auto partners = partner_kinds(voxel_at(at), voxel_at(at + offset), options, 1);
+  return partners == std::vector<VoxelKind>{VoxelKind::kStatic};
 }
 
 }  // namespace

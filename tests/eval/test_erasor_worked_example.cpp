@@ -3,7 +3,7 @@
 // near; 7 voxels of truth, 4 static and 3 moving.
 #include <catch2/catch.hpp>
 
-#include "eval/erasor/accumulate.h"
+#include "eval/erasor/maps/accumulate.h"
 #include "tests/eval/memory_sequence.h"
 #include "tests/eval/worked_example.h"
 
@@ -56,10 +56,11 @@ TEST_CASE("the worked example's truth has the cells, centroids and labels as wri
           "[erasor][worked]") {
   const MemorySequence sequence = worked_example();
   const LabelClasses classes{LabelRule{}};
-  const erasor::DenseMap dense =
-      erasor::accumulate(sequence.input(), erasor::Options{}, classes, nullptr, "test");
-  CHECK(dense.cloud.size() == 8);
-  const LabelledVoxels truth = voxelise(dense.cloud, 0.2, classes, 1);
+  const EvaluationInput input = sequence.input();
+  const erasor::Options options;
+  const LabelledCloud dense = erasor::dense_map({input, options, classes}, "test");
+  CHECK(dense.size() == 8);
+  const LabelledVoxels truth = voxelise(dense, 0.2, classes, 1);
   struct Voxel {
     VoxelIndex cell;
     Eigen::Vector3d centroid;

@@ -165,6 +165,11 @@ TEST_CASE("a protocol that reads a calibration says which option wants it", "[re
   CHECK_FALSE(protocol_with("dynamicmap")->reads_calibration());
   CHECK_THROWS_WITH(protocol->check(sequence.input()),
                     Catch::Contains("(lift = 0.5, frame = erasor)"));
+  const Settings first = {{"frame", std::string("erasor")}, {"voxel_size", 0.3}};
+  CHECK_THROWS_WITH(protocol_with("erasor", first)->check(sequence.input()),
+                    Catch::Contains("(voxel_size = 0.3, frame = erasor)"));
+  CHECK(protocol->version() == protocol_entry("erasor").version);
+  CHECK_FALSE(protocol->version().empty());
   EvaluationInput calibrated = sequence.input();
   calibrated.T_camera_lidar = Pose::Identity();
   CHECK_NOTHROW(protocol->check(calibrated));

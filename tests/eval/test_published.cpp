@@ -195,6 +195,42 @@ TEST_CASE("each printed number stands beside what follows from the others", "[pu
   }
 }
 
+TEST_CASE("a row says its stage and who reports it", "[published]") {
+  const PublishedTable table = load_published_table(write_file(
+      R"({"table":"t","source":"s","protocol":"p","units":{"PR":"percent"},
+          "rows":[{"method":"m","stage":"online","reported_by":"others","poses":"own","PR":1}]})"));
+  CHECK(table.rows.at(0).stage == "online");
+  CHECK(table.rows.at(0).reported_by == "others");
+  CHECK(table.rows.at(0).poses == "own");
+}
+
+TEST_CASE("half of what a rate follows from says nothing, and a missing number adds nothing",
+          "[published]") {
+  const PublishedTable table = load_published_table(write_file(
+      R"({"table":"t","source":"s","protocol":"p","units":{"SA":"%","AA":"%","PR":"percent"},
+          "rows":[{"method":"m","sequence":"a","SA":90,"AA":61},
+                  {"method":"m","sequence":"b","PR":5}],
+          "totals_printed":[{"method":"m","PR":4}]})"));
+  const std::vector<ArithmeticCheck> checks = check_arithmetic(table);
+  REQUIRE(checks.size() == 1);
+  CHECK(checks[0].rule == "sum");
+  CHECK(checks[0].recomputed == 5.0);
+}
+
+TEST_CASE("a key that no table has is refused wherever it stands", "[published]") {
+  const std::string rows = R"("rows":[{"method":"m","PR":1}])";
+  const std::string head = R"({"table":"t","source":"s","protocol":"p",)";
+  for (const std::string& end :
+       {R"("units":{"PR":"percent"},"misprint":[],)" + rows + "}",
+        R"("units":{"PR":"percent","misprint":"1"},)" + rows + "}",
+        R"("units":{"PR":"percent"},"misprints":[{"method":"m","metric":"PR","printed":1,)"
+        R"("recomputed":2,"misprint":3}],)" +
+            rows + "}"}) {
+    CHECK_THROWS_WITH(load_published_table(write_file(head + end)),
+                      Catch::Contains("unknown key 'misprint'"));
+  }
+}
+
 TEST_CASE("a malformed table is refused with the place", "[published]") {
   const std::string head =
       R"({"table":"t","source":"s","protocol":"p","units":{"PR":"percent"},"rows":)";

@@ -3,48 +3,73 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "eval/points/checked_scan.h"
+#include "eval/checked_scan.h"
 #include "eval/points/labelled_voxels.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval::test {
 
 /// Counts points by index. All of its rates are fractions of mistakes, so lower is better.
-class ToyScorer : public Scorer {
+class ToyScoring : public Scoring {
  public:
-  explicit ToyScorer(const EvaluationInput& input) : input_(input) {}
+  explicit ToyScoring(const LabelRule& rule) : classes_(rule) {}
 
-  [[nodiscard]] ProtocolResult score(const MaskStore& masks) const override {
-    check_mask_count(input_, masks);
-    const LabelClasses classes(input_.label_rule);
-    std::int64_t moving = 0, still = 0, left = 0, lost = 0;
-    for (std::size_t i = 0; i < input_.scans->size(); ++i) {
-      const CheckedScan loaded = load_checked(input_, &masks, i);
-      for (std::size_t p = 0; p < loaded.labels.size(); ++p) {
-        const bool moves = classes.moving(loaded.labels[p]);
-        ++(moves ? moving : still);
-        if (moves != loaded.removed(p)) ++(moves ? left : lost);
-      }
+  bool begin_pass(std::size_t slots) override {
+    const bool is_first = slots_.empty();
+    slots_.resize(slots);
+    return is_first;
+  }
+  void read(const CheckedScan& scan, std::size_t slot) override {
+    Counts counts;
+    for (std::size_t p = 0; p < scan.labels.size(); ++p) {
+      const bool moves = classes_.moving(scan.labels[p]);
+      ++(moves ? counts.moving : counts.still);
+      if (moves != scan.removed(p)) ++(moves ? counts.left : counts.lost);
     }
+    slots_[slot] = counts;
+  }
+  void take(std::size_t slot) override {
+    all_.moving += slots_[slot].moving;
+    all_.still += slots_[slot].still;
+    all_.left += slots_[slot].left;
+    all_.lost += slots_[slot].lost;
+  }
+  ProtocolResult result() override {
     ProtocolResult result;
     result.protocol = "toy";
-    result.counts = {
-        {"toy_moving", moving}, {"toy_static", still}, {"toy_left", left}, {"toy_lost", lost}};
+    result.counts = {{"toy_moving", all_.moving},
+                     {"toy_static", all_.still},
+                     {"toy_left", all_.left},
+                     {"toy_lost", all_.lost}};
     const auto add = [&](const char* name, std::int64_t part, std::int64_t whole) {
       Rate rate = percent_rate(name, part, whole, "there is no such point");
       if (rate.value) *rate.value /= 100.0;
       result.rates.push_back(rate);
     };
-    add("lost", lost, still);
-    add("left", left, moving);
-    add("mistakes", left + lost, moving + still);
-    add("lost_of_all", lost, moving + still);
+    add("lost", all_.lost, all_.still);
+    add("left", all_.left, all_.moving);
+    add("mistakes", all_.left + all_.lost, all_.moving + all_.still);
+    add("lost_of_all", all_.lost, all_.moving + all_.still);
     return result;
   }
 
  private:
-  EvaluationInput input_;
+  struct Counts {
+    std::int64_t moving = 0, still = 0, left = 0, lost = 0;
+  };
+  LabelClasses classes_;
+  std::vector<Counts> slots_;
+  Counts all_;
+};
+
+class ToyScorer : public Scorer {
+ public:
+  using Scorer::Scorer;
+  [[nodiscard]] std::unique_ptr<Scoring> start() const override {
+    return std::make_unique<ToyScoring>(input().label_rule);
+  }
 };
 
 inline ProtocolEntry toy_protocol_entry() {

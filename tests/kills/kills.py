@@ -4,7 +4,7 @@
 
 Usage: kills.py PROGRAM COUNT SEED
 
-Each of COUNT times a command is started (`run` from the start and resumed, `clean` with and without
+Each of COUNT times a command is started (`run` from the start, resumed, and with two jobs, `clean` with and without
 outputs to replace, `simulate`, and `run` on a scene that is not in the cache yet), and after a
 random share of the time that it takes a signal is sent (INT, TERM, HUP or KILL) to the program, to
 one of its descendants, or to all of them. SEED decides all of this; what the program is just doing
@@ -226,6 +226,7 @@ def jobs_in(place):
     return [
         Job(place, "run", run, ["out"]),
         Job(place, "resumed", run, ["out"], begun),
+        Job(place, "beside", [*run, "--jobs", "2"], ["out"]),
         Job(place, "clean", [*clean, "--method", place.method], cleaned),
         Job(place, "replace", [*clean, "--method", "raymoval:online"], cleaned, other),
         Job(place, "simulate", ["simulate", "suburb", "--scans", "2", "--sensor", "vlp16", "--quiet",

@@ -31,7 +31,7 @@ std::vector<ConfiguredMethod> all_methods() {
 
 // Where the world's origin lies and which way its axes point is nobody's business: what a method
 // answers may depend on it only through the lattice of its voxels.
-TEST_CASE("whole voxels and quarter turns change no verdict") {
+TEST_CASE("whole voxels and quarter turns change no verdict", "[every-method]") {
   const toy::World world = toy::street(8);
   for (const ConfiguredMethod& method : all_methods()) {
     INFO(method.full_name());

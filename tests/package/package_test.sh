@@ -35,7 +35,7 @@ holds "its architecture" test "$(field Architecture)" = "$(dpkg --print-architec
 holds "it says what it is" test -n "$(field Description)"
 holds "its maintainer is who was configured" test "$(field Maintainer)" = \
   "$(sed -n 's/^RAYMOVAL_PACKAGE_CONTACT:STRING=//p' "$build/CMakeCache.txt")"
-for library in libc6 libstdc++6 libtbb12 libembree3-3 libxxhash0 liboctomap1.9 libpcl-io1.13 \
+for library in libc6 libstdc++6 libtbb12 libembree3-3 libxxhash0 liboctomap1.9 liblzf1 \
   libpcl-common1.13 libpcl-sample-consensus1.13; do
   holds "it depends on $library" grep -qxF "$library" <(names_in Depends)
 done

@@ -3,7 +3,9 @@
 
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
+#include "benchmark/result/speed/speed_comparison.h"
 #include "benchmark/tables/comparison/comparison_files.h"
+#include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/terminal_colour.h"
@@ -15,7 +17,7 @@ namespace {
 struct CompareFlags {
   std::string run, reference, time_band, format = "text", output;
   std::vector<std::string> tolerances, across;
-  bool update = false, with_times = false;
+  bool update = false, with_times = false, speed = false;
 };
 
 /// `--across parameters,version`, or each on its own.
@@ -116,13 +118,39 @@ ExitCode judged(const Comparison& comparison, const ComparisonOptions& options) 
   return ExitCode::kDone;
 }
 
+/// What `compare --speed` was given: a file, or the folder of scripts/benchmark.sh.
+std::filesystem::path speed_file(const std::string& given) {
+  const std::filesystem::path path(given);
+  return is_folder(path) ? path / "speed.json" : path;
+}
+
+/// Whole cells' times of two machines or versions.
+ExitCode compare_speeds(const CompareFlags& flags) {
+  if (flags.update || flags.with_times || !flags.tolerances.empty() || !flags.across.empty() ||
+      !flags.output.empty() || flags.format != "text") {
+    throw UsageError("--speed compares times only: of the other options it goes with --time-band.");
+  }
+  const double band = options_of(flags).time_band.value_or(kSpeedBand);
+  const SpeedComparison comparison = compare_speed(read_speed(speed_file(flags.run)),
+                                                   read_speed(speed_file(flags.reference)), band);
+  print(coloured_verdicts(speed_text(comparison)));
+  if (comparison.verdict() == ExitCode::kCannotDo) {
+    throw UsageError("the times are not comparable, see above.");
+  }
+  if (comparison.verdict() == ExitCode::kWorse) {
+    throw Error("the run is slower than the reference, see above.", ExitCode::kWorse);
+  }
+  return ExitCode::kDone;
+}
+
 ExitCode compare(const CompareFlags& flags) {
   if (flags.run.empty() || flags.reference.empty()) {
     throw UsageError("two results are needed: expected `raymoval compare RUN REFERENCE`.");
   }
-  if (flags.with_times && !flags.update) {
+  if (flags.with_times && !flags.update && !flags.speed) {
     throw UsageError("--with-times goes with --update: it keeps the times in the new reference.");
   }
+  if (flags.speed) return compare_speeds(flags);
   if (flags.update) return update(flags);
   const ComparisonSubject subject{flags.run, flags.reference, options_of(flags)};
   (void)comparison_in(flags.format, {}, subject);  // A wrong format shows before the work.
@@ -156,7 +184,11 @@ Command add_compare_command(CommandParser& program) {
   options.add(
       "--time-band", "FACTOR", flags->time_band,
       "A method that is slower than the reference by more than this factor is worse (default: "
-      "times are shown and not compared)");
+      "times are shown and not compared; with --speed 1.3)");
+  options.add_flag(
+      "--speed", flags->speed,
+      "Compare two speed.json of scripts/benchmark.sh, or their folders: times of whole "
+      "cells, relative to a fixed kernel of the same run");
   options.add("--format", "FORMAT", flags->format, "text, md, junit or json (default: text)");
   options.add("-o,--output", "FILE", flags->output,
               "Write the comparison to this file, and print it as text");
@@ -175,13 +207,16 @@ Command add_compare_command(CommandParser& program) {
       "protocol has no rate with one). The output says what differs.\n"
       "--format junit is XML for a CI server: a test suite for each sequence, and a test case for\n"
       "each method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
+      "Times of cells that ran at once (run --jobs) are only compared with those of as many at "
+      "once.\n"
       "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\nExamples:\n"
       "  raymoval run quick --out out/quick\n"
       "  raymoval compare out/quick results/reference/street\n"
       "  raymoval compare out/new out/old --tolerance F1=0.002 --time-band 3\n"
       "  raymoval compare out/new out/old --across parameters --tolerance F1=0.01\n"
       "  raymoval compare out/new out/old --format junit -o compare.xml\n"
-      "  raymoval compare out/new reference --update --with-times");
+      "  raymoval compare out/new reference --update --with-times\n"
+      "  raymoval compare --speed out/kernels/speed.json old/speed.json --time-band 1.5");
   return {options.name(), [flags] { return compare(*flags); }};
 }
 

@@ -52,13 +52,7 @@ bool with_points(const ReportFlags& flags) {
 
 /// The papers' rows. If they are not shipped, the report is made without them.
 std::vector<OutsideColumn> papers() {
-  try {
-    return published_columns();
-  } catch (const UnreadableError&) {
-    throw;
-  } catch (const DataError&) {
-    return {};
-  }
+  return if_whole(published_columns).value_or(std::vector<OutsideColumn>());
 }
 
 std::string size_text(std::size_t bytes) {

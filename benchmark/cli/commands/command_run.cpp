@@ -19,7 +19,7 @@ namespace {
 
 struct RunFlags {
   SuiteFlags what;
-  std::string out, shard, cell;
+  std::string out, shard, cell, jobs;
   std::vector<std::string> only;
   bool keep_removals = false;
   bool explain = false;
@@ -55,6 +55,14 @@ CellSelection selection_of(const RunFlags& flags) {
   return selection;
 }
 
+/// How many cells run at once; 1 if the user does not say it.
+int parse_jobs(const std::string& text) {
+  if (text.empty()) return 1;
+  const auto jobs = parse_number<int>(text);
+  if (jobs && *jobs >= 1 && *jobs <= 1024) return *jobs;
+  throw UsageError("--jobs " + text + ": expected a whole number from 1 to 1024.");
+}
+
 /// What a user may not ask for at once.
 void check_flags(const RunFlags& flags) {
   if (flags.out.empty()) {
@@ -63,6 +71,12 @@ void check_flags(const RunFlags& flags) {
   const bool selects = !flags.only.empty() || !flags.shard.empty();
   if (!flags.cell.empty() && (selects || flags.collect || flags.explain)) {
     throw UsageError("--cell goes without --only, --shard, --collect and --explain.");
+  }
+  if (parse_jobs(flags.jobs) > 1 && flags.in_process) {
+    throw UsageError("--jobs runs each method in a process of its own: leave --in-process out.");
+  }
+  if (parse_jobs(flags.jobs) > 1 && !flags.cell.empty()) {
+    throw UsageError("--cell runs one cell: leave --jobs out.");
   }
   if (flags.collect && selects) {
     throw UsageError("--collect gathers all cells: leave out --only and --shard.");
@@ -132,6 +146,7 @@ ExitCode run(const RunFlags& flags) {
   options.selection = selection_of(flags);
   options.collect = flags.collect;
   options.overwrite = flags.overwrite;
+  options.jobs = parse_jobs(flags.jobs);
   if (flags.explain) return explain(suite, options);
   const auto summary = run_asked(flags, suite, options);
   if (!summary) return ExitCode::kWorse;
@@ -153,6 +168,9 @@ void add_options(CommandOptions& options, RunFlags& flags) {
   options.add(
       "--cell", "CELL", flags.cell,
       "Run one cell, given by its key (see `raymoval plan`) or as SEQUENCE/NAME; make no tables");
+  options.add("--jobs", "N", flags.jobs,
+              "Run N cells at once, each with one thread, to be done sooner (default: 1). Their "
+              "times are marked, since each is slower than alone");
   options.add_flag("--collect", flags.collect,
                    "Run nothing; make the tables of the cells that are there");
   options.add_flag("--explain", flags.explain,
@@ -177,6 +195,11 @@ Command add_run_command(CommandParser& program) {
       "process of\nits own: one that crashes or exceeds a limit is a failed cell, and the rest "
       "goes on. So is one whose data or program changes during the run. The folder\nof --out is "
       "marked with .raymoval-run; nothing in it is deleted but a run's own files.\n\n"
+      "With --jobs N cells run at once, each with one thread and, unless --memory-limit says "
+      "otherwise,\nan Nth of the memory. All results are the same but times. cell.json and "
+      "run.json "
+      "say that N ran at once,\nand `raymoval compare` does not judge such times against others. "
+      "To measure time, leave --jobs out.\n\n"
       "The results in one folder belong together. Cells that are there already are kept, and new "
       "methods\nor sequences are added to the tables. If a method has other parameters or another "
       "version than\nbefore, the cells asked for are run again, and its other cells are left out "
@@ -197,6 +220,7 @@ Command add_run_command(CommandParser& program) {
       "  raymoval run data/05 --method all --method octomap:all --out out/all\n"
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval run simulated --out out/simulated --explain\n"
+      "  raymoval run simulated --out out/soon --jobs 2\n"
       "  raymoval run simulated --out out/part2 --shard 2/3\n"
       "  raymoval run suite.json --out out/suite --threads 2 --only 'town/raymoval:*'");
   return {options.name(), [flags] { return run(*flags); }};

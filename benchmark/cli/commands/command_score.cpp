@@ -44,10 +44,12 @@ void score_predictions(ScoredSequence& scored, const std::string& folder, Progre
     progress.advance();
     if (cancelled) throw Cancelled();
   });
-  for (const ProtocolRecord& protocol : protocol_records(scored)) {
-    record.protocols.push_back({protocol, scored.score(record.protocols.size(), masks)});
+  SequenceScores scores = scored.score(masks, &cancelled);
+  const std::vector<ProtocolRecord> protocols = protocol_records(scored);
+  for (std::size_t i = 0; i < protocols.size(); ++i) {
+    record.protocols.push_back({protocols[i], std::move(scores.protocols[i])});
   }
-  record.columns = {kColumnsVersion, scored.columns(masks)};
+  record.columns = {kColumnsVersion, std::move(scores.columns)};
 }
 
 std::vector<ProtocolResult> score_cloud(ScoredSequence& scored, const CloudEstimate& cloud) {

@@ -29,16 +29,21 @@ ComparedCell compared_cell(const Cell& cell) {
   compared.method_version = cell.method.version;
   compared.identity = comparison_facts(cell);
   for (const Score& score : cell.scores) compared.scores.push_back(compared_score(score));
-  if (cell.measured) compared.seconds_per_scan = cell.measured->mean_seconds;
+  if (cell.measured) {
+    compared.seconds_per_scan = cell.measured->mean_seconds;
+    compared.side_by_side = cell.measured->side_by_side.value_or(1);
+  }
   return compared;
 }
 
 /// "AMD EPYC 7B13, 8 cores, 4 threads used"; empty if the file does not say it.
 std::string machine_text(const std::optional<MachineRecord>& machine) {
   if (!machine) return "";
-  return fmt::format("{}, {} cores, {} threads used",
-                     machine->processor.empty() ? "an unknown processor" : machine->processor,
-                     machine->cores, machine->threads);
+  return fmt::format(
+      "{}, {} cores, {} threads used{}",
+      machine->processor.empty() ? "an unknown processor" : machine->processor, machine->cores,
+      machine->threads,
+      machine->jobs ? fmt::format(" by each of {} cells at once", *machine->jobs) : "");
 }
 
 }  // namespace

@@ -26,13 +26,8 @@ path repeat_file(const path& folder, int number) {
 /// Whether the kept removals are those that the cell was scored by.
 bool has_removals(const path& folder, const Cell& cell, const ScanSource& scans) {
   if (!cell.masks) return false;
-  try {
-    return mask_digest(read_removals(folder / kRemovals, scans, [] {})) == cell.masks->digest;
-  } catch (const UnreadableError&) {
-    throw;
-  } catch (const DataError&) {
-    return false;
-  }
+  const auto kept = if_whole([&] { return read_removals(folder / kRemovals, scans, [] {}); });
+  return kept && mask_digest(*kept) == cell.masks->digest;
 }
 
 /// Why a result file is not used.
@@ -103,15 +98,9 @@ StoredCell CellStore::find(const CellName& name, const CellIdentity& wanted,
 
 std::optional<RepeatRecord> CellStore::find_repeat(const CellName& cell, int number,
                                                    const std::string& key) const {
-  try {
-    RepeatRecord repeat = read_repeat(repeat_file(folder(cell), number));
-    if (repeat.key == key) return repeat;
-  } catch (const UnreadableError&) {
-    throw;
-  } catch (const DataError&) {
-    // It is not there, or damaged: the method is run once more.
-  }
-  return std::nullopt;
+  auto repeat = if_whole([&] { return read_repeat(repeat_file(folder(cell), number)); });
+  // If it is not there, or damaged, the method is run once more.
+  return repeat && repeat->key == key ? std::move(repeat) : std::nullopt;
 }
 
 void CellStore::prepare(const CellName& cell) const {

@@ -260,6 +260,11 @@ void merge_repeats(Cell& cell, const std::vector<Measurement>& further) {
                    [](const auto& a, const auto& b) { return a.total_seconds < b.total_seconds; });
   cell.measured = runs[(runs.size() - 1) / 2];
   cell.measured->repeats = std::move(means);
+  for (const Measurement& run : runs) {
+    if (!run.side_by_side) continue;
+    cell.measured->side_by_side =
+        std::max(*run.side_by_side, cell.measured->side_by_side.value_or(0));
+  }
 }
 
 }  // namespace raymoval

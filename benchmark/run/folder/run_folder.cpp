@@ -43,14 +43,9 @@ bool is_part_of_earlier_version(const path& name) {
 
 bool is_lock(const path& entry) {
   if (entry.filename() != kLockFile || !is_file(entry)) return false;
-  try {
-    const std::string start = read_piece(entry, 0, 8);
-    return start.empty() || start == "process ";
-  } catch (const UnreadableError&) {
-    throw;
-  } catch (const DataError&) {
-    return false;  // Its holder took it away.
-  }
+  const auto start = if_whole([&] { return read_piece(entry, 0, 8); });
+  if (!start) return false;  // Its holder took it away.
+  return start->empty() || *start == "process ";
 }
 
 /// A folder that holds folders only.
@@ -115,7 +110,8 @@ void sweep_run_folder(const path& out) {
   }
 }
 
-RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads) {
+RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads,
+                     int jobs) {
   RunRecord run{suite.name};
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     run.sequences.push_back({sequences[i].record(), absolute_place(suite.sequences[i])});
@@ -134,6 +130,7 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
   run.cells = run.all_cells();
   run.build = build_record();
   run.machine = machine_record(threads);
+  if (jobs > 1) run.machine->jobs = jobs;
   return run;
 }
 

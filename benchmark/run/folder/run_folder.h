@@ -27,7 +27,9 @@ void sweep_run_folder(const std::filesystem::path& out);
 
 /// What run.json says of a run: the suite as resolved, its cells, build and machine, and the places
 /// where its sequences are. `merged_run_record` adds what else the folder holds.
-RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads);
+/// @param jobs how many cells run at once
+RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences, int threads,
+                     int jobs = 1);
 
 /// Writes results.csv, table.md, table.tex and, last, results.json. @throws DataError
 void write_result_files(const std::filesystem::path& out, const ResultsRecord& results);

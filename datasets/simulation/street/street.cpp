@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <utility>
 
@@ -47,8 +50,9 @@ double box_range(const Vector3d& origin, const Vector3d& direction, const Vector
     const double b = (max[axis] - origin[axis]) / direction[axis];
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
+    if (enter > leave) return kNothing;
   }
-  return enter <= leave && enter > 0.0 ? enter : kNothing;
+  return enter > 0.0 ? enter : kNothing;
 }
 
 struct Return {
@@ -150,7 +154,9 @@ class StreetScans : public ScanSource, public LabelSource {
     scan.name.insert(0, 6 - std::min<std::size_t>(6, scan.name.size()), '0');
     scan.time_s = scene_.time(frame);
     scan.T_world_sensor = pose(index);
-    for (const Return& hit : scene_.cast(frame)) scan.points.push_back(hit.point);
+    const auto returns = returns_of(frame);
+    scan.points.reserve(returns->size());
+    for (const Return& hit : *returns) scan.points.push_back(hit.point);
     scan.stored_point_count = scan.points.size();
     return scan;
   }
@@ -163,7 +169,9 @@ class StreetScans : public ScanSource, public LabelSource {
   }
   [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override {
     std::vector<std::uint32_t> words;
-    for (const Return& hit : scene_.cast(frames_.at(scan.index))) words.push_back(hit.label);
+    const auto returns = returns_of(frames_.at(scan.index));
+    words.reserve(returns->size());
+    for (const Return& hit : *returns) words.push_back(hit.label);
     if (words.size() != scan.stored_point_count) {
       throw InternalError("scan " + scan.name + " is not one of this street");
     }
@@ -171,10 +179,34 @@ class StreetScans : public ScanSource, public LabelSource {
   }
 
  private:
+  using Returns = std::shared_ptr<const std::vector<Return>>;
+
+  /// What the sensor sees in a frame. Casting takes longer than all else that is done with so small
+  /// a scene, so the frames cast last are kept: at most 64, of 16 MiB.
+  [[nodiscard]] Returns returns_of(std::size_t frame) const {
+    constexpr std::size_t kMost = 64;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = kept_.find(frame);
+      if (found != kept_.end()) return found->second;
+    }
+    auto returns = std::make_shared<const std::vector<Return>>(scene_.cast(frame));
+    const std::lock_guard lock(mutex_);
+    if (kept_.emplace(frame, returns).second) order_.push_back(frame);
+    if (order_.size() > kMost) {
+      kept_.erase(order_.front());
+      order_.pop_front();
+    }
+    return returns;
+  }
+
   StreetScene scene_;
   std::vector<std::size_t> frames_;
   SensorModel ideal_;
   std::unique_ptr<SensorChoice> choice_;  ///< Where the user asks for another sensor.
+  mutable std::mutex mutex_;              ///< Of the two below.
+  mutable std::map<std::size_t, Returns> kept_;
+  mutable std::deque<std::size_t> order_;  ///< The frames in `kept_`, those cast first in front.
 };
 
 void check_parameters(const StreetParameters& p) {

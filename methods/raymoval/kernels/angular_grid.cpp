@@ -73,22 +73,6 @@ std::int32_t bin_of_point(const Eigen::Vector3f& point, const AngularGrid& grid,
   return grid.bin_of(at.azimuth, at.elevation).value_or(kernels::kNoBin);
 }
 
-/// Calls `vectors(begin, middle)` for whole vectors of points and `single(k)` for the rest.
-template <class Vectors, class Single>
-void for_points(int threads, std::size_t count, std::size_t lanes, Vectors&& vectors,
-                Single&& single) {
-  parallel_chunks(threads, count, kPointGrain, [&](std::size_t begin, std::size_t end) {
-    const std::size_t middle = begin + (end - begin) / lanes * lanes;
-    if (middle > begin) vectors(begin, middle);
-    for (std::size_t k = middle; k < end; ++k) single(k);
-  });
-}
-
-const float* coordinates(const Scan& scan) {
-  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-  return scan.points.empty() ? nullptr : scan.points.front().data();
-}
-
 }  // namespace
 
 void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
@@ -97,7 +81,8 @@ void project(const Scan& scan, const AngularGrid& grid, double minimum_range, in
   projected.range.resize(scan.size());
   projected.bin.resize(scan.size());
   kernels::Projection job;
-  job.points = coordinates(scan);
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  job.points = scan.points.empty() ? nullptr : scan.points.front().data();
   job.minimum_range = minimum_range;
   job.elevation_min = grid.elevation_min;
   job.azimuth_bins_per_radian = 1.0 / grid.azimuth_step();
@@ -110,48 +95,24 @@ void project(const Scan& scan, const AngularGrid& grid, double minimum_range, in
     job.range[k] = static_cast<float>(scan.points[k].cast<double>().norm());
     job.bin[k] = bin_of_point(scan.points[k], grid, minimum_range);
   };
-  const auto vectors = [&](std::size_t begin, std::size_t end) {
-    kernel.project(job, begin, end);
-    for (std::size_t k = begin; k < end; ++k) {
-      if (job.bin[k] == kernels::kCloseCall) single(k);
+  parallel_chunks(threads, scan.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t kPiece = 64;  // Few of them have a close call.
+    const std::size_t middle = begin + (end - begin) / kernel.lanes * kernel.lanes;
+    for (std::size_t from = begin; from < middle; from += kPiece) {
+      const std::size_t to = std::min(from + kPiece, middle);
+      if (!kernel.project(job, from, to)) continue;
+      for (std::size_t k = from; k < to; ++k) {
+        if (job.bin[k] == kernels::kCloseCall) single(k);
+      }
     }
-  };
-  for_points(threads, scan.size(), kernel.lanes, vectors, single);
+    for (std::size_t k = middle; k < end; ++k) single(k);
+  });
   projected.minimum_range.assign(static_cast<std::size_t>(grid.size()), kNoRange);
   for (std::size_t k = 0; k < scan.size(); ++k) {
     if (job.bin[k] < 0) continue;
     float& nearest = projected.minimum_range[static_cast<std::size_t>(job.bin[k])];
     nearest = std::min(nearest, job.range[k]);
   }
-}
-
-void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
-                 std::vector<VoxelIndex>& voxels) {
-  static_assert(sizeof(VoxelIndex) == 3 * sizeof(std::int32_t));
-  const kernels::Kernels kernel = kernels::best_kernels();
-  voxels.resize(scan.size());
-  kernels::Voxelisation job;
-  job.points = coordinates(scan);
-  for (int row = 0; row < 3; ++row) {
-    const auto at = static_cast<std::size_t>(row);
-    job.translation[at] = scan.T_world_sensor.translation()[row];
-    for (int column = 0; column < 3; ++column) {
-      job.rotation[3 * at + static_cast<std::size_t>(column)] =
-          scan.T_world_sensor.linear()(row, column);
-    }
-  }
-  job.inverse_voxel_size = inverse_voxel_size;
-  job.limit = kVoxelLimit;
-  job.voxels = voxels.empty() ? nullptr : voxels.front().data();
-  const auto single = [&](std::size_t k) {
-    voxels[k] =
-        voxel_index(scan.T_world_sensor * scan.points[k].cast<double>(), inverse_voxel_size);
-  };
-  const auto vectors = [&](std::size_t begin, std::size_t end) {
-    if (kernel.voxelise(job, begin, end)) return;
-    for (std::size_t k = begin; k < end; ++k) single(k);  // One of them is beyond the lattice.
-  };
-  for_points(threads, scan.size(), kernel.lanes, vectors, single);
 }
 
 }  // namespace raymoval::raymoval_method

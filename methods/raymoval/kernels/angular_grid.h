@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/scan/scan.h"
-#include "core/scan/voxel_key.h"
 
 namespace raymoval::raymoval_method {
 
@@ -72,10 +71,6 @@ struct ProjectedScan {
 /// @param projected replaced; its memory is used again
 void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
              ProjectedScan& projected);
-
-/// Finds the voxel of each point in the world lattice. @throws DataError as `voxel_index`
-void find_voxels(const Scan& scan, double inverse_voxel_size, int threads,
-                 std::vector<VoxelIndex>& voxels);
 
 /// The column of a full circle that `i` means, which may lie up to one turn outside.
 inline int wrap_azimuth(int i, int azimuth_bins) {

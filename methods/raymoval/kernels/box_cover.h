@@ -50,21 +50,19 @@ struct BrickBox {
 /// Boxes that together hold each occupied voxel of `brick` and no empty one; they may overlap. A
 /// ray meets the boxes first where it meets the voxels first, and there are about five times fewer
 /// of them. Greedy: from the lowest voxel that is in no box yet, the voxel and the run of voxels
-/// above and below it are grown over occupied voxels in either order of axes, and the one that
-/// covers most of what is not covered yet is kept.
+/// above and below it are grown over occupied voxels in either order of axes, and the box that
+/// covers more of what is not covered yet is kept.
 /// @param boxes replaced
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes);
 
-/// What happened to a brick since its cover was made.
-enum class Change : std::uint8_t {
-  kGrown,   ///< Voxels were added.
-  kShrunk,  ///< Voxels were removed; others may have been added.
-};
+/// Mends a cover after voxels were added: appends boxes for `added`, voxels of `brick` that are in
+/// no box yet. It has fewer boxes to choose from than a new cover, is several times faster, and
+/// gives a few boxes more.
+void cover_added(const Brick& brick, const Brick& added, std::vector<BrickBox>& boxes);
 
-/// Mends a cover after voxels were added and removed: boxes that hold an empty voxel are dropped,
-/// and what is then in no box is covered as above. It has fewer boxes to choose from than a new
-/// cover, is several times faster, and gives a few boxes more.
-void mend_cover(const Brick& brick, Change change, std::vector<BrickBox>& boxes);
+/// The same after voxels were removed, and perhaps others added: boxes that hold an empty voxel are
+/// dropped first.
+void mend_cover(const Brick& brick, std::vector<BrickBox>& boxes);
 
 /// The smallest box that holds all occupied voxels of a brick that has one.
 BrickBox tight_box(const Brick& brick);

@@ -24,11 +24,23 @@ namespace raymoval::raymoval_method::sweep {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// One column's directions and ranges; kept small enough for the nearest cache.
+/// One column's directions and ranges; kept small enough for the nearest cache. Only rows that are
+/// asked for are in it: its lines. They are padded to whole groups with the last one, which are
+/// never open.
 struct Column {
   F inverse_a, inverse_b;  ///< 1 / the column's horizontal direction, along the two level axes.
-  std::array<const float*, 3> inverse;  ///< 1 / direction of each row.
-  float* depth;
+  std::array<const float*, 3> inverse;  ///< 1 / direction of each line.
+  float* depth;                         ///< The range of each line.
+  const std::int32_t* row;              ///< The row of each line, ascending.
+  std::size_t lines;
+  const std::uint64_t* wanted;  ///< The rows asked for, see `WantedBins`.
+  const std::uint32_t* before;  ///< Lines before each word of `wanted`.
+
+  /// How many lines lie below a row.
+  [[nodiscard]] std::size_t lines_below(std::size_t at) const {
+    const std::uint64_t rest = wanted[at / 64] & ~(~std::uint64_t{0} << at % 64);
+    return before[at / 64] + static_cast<std::size_t>(std::popcount(rest));
+  }
 };
 
 float away_from_zero(double value) {
@@ -36,43 +48,78 @@ float away_from_zero(double value) {
   return static_cast<float>(std::abs(value) < kTiny ? (value < 0.0 ? -kTiny : kTiny) : value);
 }
 
+/// Lists the rows of column `i` that are asked for.
+void list_lines(const Frame& frame, int i, Scratch& scratch, Column& column) {
+  const hn::RebindToSigned<Floats> d;
+  const std::size_t lanes = hn::Lanes(d);
+  column.wanted = frame.wanted->column(i);
+  std::int32_t* row = scratch.row.data();
+  std::size_t count = 0;
+  for (std::size_t word = 0; word < frame.wanted->words_a_column(); ++word) {
+    scratch.before[word] = static_cast<std::uint32_t>(count);
+    for (std::size_t bit = 0; bit < 64; bit += lanes) {
+      const std::uint64_t left = column.wanted[word] >> bit;
+      if (left == 0) break;
+      const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&left));
+      const auto rows = hn::Iota(d, static_cast<std::int32_t>(64 * word + bit));
+      hn::StoreU(hn::Compress(rows, mask), d, row + count);
+      count += hn::CountTrue(d, mask);
+    }
+  }
+  const std::size_t padded = (count + kGroup - 1) / kGroup * kGroup;
+  if (count > 0) std::fill(row + count, row + padded, row[count - 1]);
+  column.row = row;
+  column.before = scratch.before.data();
+  column.lines = count;
+}
+
 /// Eqs 4-6 for column `i`: in double, so that nearly level rays keep their exact inclination.
-Column start_column(const Frame& frame, int i, Scratch& scratch, float* depth) {
+Column start_column(const Frame& frame, int i, Scratch& scratch) {
   const GridTables& grid = *frame.grid;
   const hn::CappedTag<double, kGroup / 2> wide;
   const hn::Rebind<float, decltype(wide)> narrow;
+  const hn::Rebind<std::int32_t, decltype(wide)> short_row;
+  const hn::RebindToSigned<decltype(wide)> long_row;
   const Floats d;
-  const auto rows = static_cast<std::size_t>(grid.padded_rows);
+  Column column;
+  list_lines(frame, i, scratch, column);
+  const std::size_t padded = (column.lines + kGroup - 1) / kGroup * kGroup;
   const double cosine = grid.azimuth_cosine[static_cast<std::size_t>(i)];
   const double sine = grid.azimuth_sine[static_cast<std::size_t>(i)];
-  Column column;
-  column.depth = depth;
   std::array<double, 3> level;
+  std::array<float*, 3> out;
   for (std::size_t k = 0; k < 3; ++k) {
     level[k] = cosine * frame.x_axis[k] + sine * frame.y_axis[k];
-    float* out = scratch.directions.data() + k * rows;
-    column.inverse[k] = out;
-    const auto a = hn::Set(wide, level[k]), b = hn::Set(wide, frame.up[k]);
-    for (std::size_t j = 0; j < rows; j += hn::Lanes(wide)) {
-      const auto part = hn::Mul(hn::LoadU(wide, grid.elevation_cosine.data() + j), a);
-      const auto rest = hn::Mul(hn::LoadU(wide, grid.elevation_sine.data() + j), b);
-      hn::Store(hn::DemoteTo(narrow, hn::Add(part, rest)), narrow, out + j);
+    column.inverse[k] = out[k] =
+        scratch.directions.data() + k * static_cast<std::size_t>(grid.padded_rows);
+  }
+  for (std::size_t j = 0; j < padded; j += hn::Lanes(wide)) {
+    const auto row = hn::PromoteTo(long_row, hn::Load(short_row, column.row + j));
+    const auto flat = hn::GatherIndex(wide, grid.elevation_cosine.data(), row);
+    const auto steep = hn::GatherIndex(wide, grid.elevation_sine.data(), row);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto part = hn::Mul(flat, hn::Set(wide, level[k]));
+      const auto rest = hn::Mul(steep, hn::Set(wide, frame.up[k]));
+      hn::Store(hn::DemoteTo(narrow, hn::Add(part, rest)), narrow, out[k] + j);
     }
-    const F tiny = number(1e-12);
-    for (std::size_t j = 0; j < rows; j += hn::Lanes(d)) {
-      const F value = hn::Load(d, out + j);
+  }
+  const F tiny = number(1e-12);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t j = 0; j < padded; j += hn::Lanes(d)) {
+      const F value = hn::Load(d, out[k] + j);
       const F safe = hn::IfThenElse(hn::Lt(hn::Abs(value), tiny), hn::CopySign(tiny, value), value);
-      hn::Store(hn::Div(number(1.0), safe), d, out + j);
+      hn::Store(hn::Div(number(1.0), safe), d, out[k] + j);
     }
   }
   column.inverse_a =
       number(1.0 / away_from_zero(level[static_cast<std::size_t>(frame.level_axes[0])]));
   column.inverse_b =
       number(1.0 / away_from_zero(level[static_cast<std::size_t>(frame.level_axes[1])]));
+  column.depth = scratch.depth.data();
   const float farthest =
       std::nextafter(frame.maximum_range, std::numeric_limits<float>::infinity());
-  std::fill(depth, depth + grid.rows, farthest);
-  std::fill(depth + grid.rows, depth + grid.padded_rows, -1.0F);  // Never open.
+  std::fill(column.depth, column.depth + column.lines, farthest);
+  std::fill(column.depth + column.lines, column.depth + padded, -1.0F);  // Never open.
   return column;
 }
 
@@ -194,8 +241,11 @@ void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& en
   const F nearest = hn::Set(d, entry.nearest);
   const float* boxes = nullptr;
   std::size_t groups = 0;
-  for (std::size_t row = entry.first_row / lanes * lanes; row <= entry.last_row; row += lanes) {
-    F depth = hn::Load(d, column.depth + row);
+  const std::size_t first = column.lines_below(entry.first_row);
+  const std::size_t end = column.lines_below(entry.last_row + std::size_t{1});
+  if (first == end) return;  // None of the rows that see the brick is asked for.
+  for (std::size_t line = first / lanes * lanes; line < end; line += lanes) {
+    F depth = hn::Load(d, column.depth + line);
     if (hn::AllFalse(d, hn::Gt(depth, nearest))) continue;
     if (boxes == nullptr) {
       if (!scratch.expanded[entry.brick].done) expand(frame, entry.brick, scratch);
@@ -209,10 +259,11 @@ void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& en
       // The last group's padding misses.
       scratch.crossing[groups - 1] &= (1U << ((expanded.boxes - 1) % kGroup + 1)) - 1U;
     }
-    const std::size_t last = std::min(row + lanes, static_cast<std::size_t>(frame.grid->rows)) - 1;
-    const float below = frame.grid->tangent_below[row], above = frame.grid->tangent_above[last];
-    const Rays rays{{hn::Load(d, column.inverse[0] + row), hn::Load(d, column.inverse[1] + row),
-                     hn::Load(d, column.inverse[2] + row)}};
+    const auto row_of = [&](std::size_t at) { return static_cast<std::size_t>(column.row[at]); };
+    const float below = frame.grid->tangent_below[row_of(line)];
+    const float above = frame.grid->tangent_above[row_of(line + lanes - 1)];
+    const Rays rays{{hn::Load(d, column.inverse[0] + line), hn::Load(d, column.inverse[1] + line),
+                     hn::Load(d, column.inverse[2] + line)}};
     for (std::size_t g = 0; g < groups; ++g) {
       if (scratch.crossing[g] == 0) continue;
       const float* group = boxes + g * kGroupFloats;
@@ -228,19 +279,16 @@ void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& en
         }
       }
     }
-    hn::Store(depth, d, column.depth + row);
+    hn::Store(depth, d, column.depth + line);
   }
 }
 
-/// Turns columns first .. first + count - 1 into rows of the image.
-void write_rows(const Frame& frame, int first, int count, const float* depth, float* range) {
-  const GridTables& grid = *frame.grid;
-  for (int j = 0; j < grid.rows; ++j) {
-    float* out = range + static_cast<std::ptrdiff_t>(j) * grid.columns + first;
-    for (int i = 0; i < count; ++i) {
-      const float value = depth[i * grid.padded_rows + j];
-      out[i] = value > frame.maximum_range ? std::numeric_limits<float>::infinity() : value;
-    }
+/// Writes column `i` into the image.
+void write_column(const Frame& frame, int i, const Column& column, float* range) {
+  for (std::size_t line = 0; line < column.lines; ++line) {
+    const float value = column.depth[line];
+    range[static_cast<std::ptrdiff_t>(column.row[line]) * frame.grid->columns + i] =
+        value > frame.maximum_range ? std::numeric_limits<float>::infinity() : value;
   }
 }
 
@@ -249,8 +297,10 @@ void prepare_scratch(const Frame& frame, Scratch& scratch) {
   scratch.pieces.require(7 * kMostPieces);
   scratch.bounds.require(2 * kMostPieces);
   scratch.crossing.resize(kMostPieces / kGroup);
+  scratch.row.require(rows + kGroup);  // Vectors are stored beyond what they hold.
+  scratch.before.resize(frame.wanted->words_a_column());
   scratch.directions.require(3 * rows);
-  scratch.depth.require(kGroup * rows);
+  scratch.depth.require(rows);
   scratch.expanded.assign(frame.bricks->count, {});
   scratch.boxes_used = 0;
   scratch.boxes.require(frame.most_groups * kGroupFloats);
@@ -260,23 +310,18 @@ void prepare_scratch(const Frame& frame, Scratch& scratch) {
 void sweep_columns(const Frame& frame, const ColumnLists& lists, int begin, int end,
                    Scratch& scratch, float* range) {
   if (scratch.frame != frame.number) prepare_scratch(frame, scratch);
-  constexpr int kBlock = static_cast<int>(kGroup);
-  for (int first = begin; first < end; first += kBlock) {
-    const int count = std::min(kBlock, end - first);
-    for (int i = 0; i < count; ++i) {
-      const auto at = static_cast<std::size_t>(first + i - lists.begin);
-      const Column column = start_column(frame, first + i, scratch,
-                                         scratch.depth.data() + i * frame.grid->padded_rows);
-      for (std::uint32_t e = lists.starts[at]; e < lists.starts[at + 1]; ++e) {
-        const ColumnEntry& entry = lists.entries[e];
-        if (reaches_minimum(frame, entry.nearest)) {
-          sweep_brick<true>(frame, column, entry, scratch);
-        } else {
-          sweep_brick<false>(frame, column, entry, scratch);
-        }
+  for (int i = begin; i < end; ++i) {
+    const auto at = static_cast<std::size_t>(i - lists.begin);
+    const Column column = start_column(frame, i, scratch);
+    for (std::uint32_t e = lists.starts[at]; e < lists.starts[at + 1]; ++e) {
+      const ColumnEntry& entry = lists.entries[e];
+      if (reaches_minimum(frame, entry.nearest)) {
+        sweep_brick<true>(frame, column, entry, scratch);
+      } else {
+        sweep_brick<false>(frame, column, entry, scratch);
       }
     }
-    write_rows(frame, first, count, scratch.depth.data(), range);
+    write_column(frame, i, column, range);
   }
 }
 

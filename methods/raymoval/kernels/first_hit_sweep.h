@@ -7,15 +7,17 @@
 
 #include "core/simd/simd.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
+#include "methods/raymoval/kernels/wanted_bins.h"
 
 namespace raymoval::raymoval_method::sweep {
 
 /// Boxes are expanded in groups of this many, whatever the vector width.
 inline constexpr std::size_t kGroup = 16;
 
-/// The tables that depend on the grid of directions only. Rows are padded to a multiple of kGroup.
+/// The tables that depend on the grid of directions only.
 struct GridTables {
-  int columns = 0, rows = 0, padded_rows = 0;
+  int columns = 0, rows = 0;
+  int padded_rows = 0;  ///< Rows rounded up to a multiple of kGroup.
   float elevation_min = 0.0F, inverse_elevation_step = 0.0F, inverse_azimuth_step = 0.0F;
   std::vector<double> azimuth_cosine, azimuth_sine;      ///< At the columns' centres.
   std::vector<double> elevation_cosine, elevation_sine;  ///< At the rows' centres.
@@ -42,6 +44,7 @@ struct BrickList {
 struct Frame {
   const OccupancyMap* map = nullptr;
   const GridTables* grid = nullptr;
+  const WantedBins* wanted = nullptr;
   BrickList* bricks = nullptr;
   std::vector<std::uint32_t>* order = nullptr;  ///< The bricks that are seen, the nearest first.
   /// World coordinates of the sensor's axes.
@@ -84,8 +87,11 @@ struct Scratch {
   AlignedArray<float> pieces;  ///< Boxes of one brick, cut at the sensor's planes.
   AlignedArray<float> bounds;  ///< The bounds of one brick's boxes in one column.
   std::vector<std::uint32_t> crossing;
-  AlignedArray<float> directions;  ///< Inverse directions of one column.
-  AlignedArray<float> depth;       ///< Ranges of kGroup columns.
+  // One column's lines, which are its rows that are asked for.
+  AlignedArray<std::int32_t> row;     ///< The row of each line.
+  std::vector<std::uint32_t> before;  ///< Lines before each word of the column's wanted bins.
+  AlignedArray<float> directions;     ///< Inverse directions.
+  AlignedArray<float> depth;          ///< Ranges.
 };
 
 /// The kernels of one instruction set.
@@ -96,7 +102,7 @@ struct Kernels {
   /// Fills the lists of the columns begin .. end - 1.
   void (*list_columns)(const Frame& frame, int begin, int end, ColumnLists& lists);
   /// First hits of columns begin .. end - 1, which are all in `lists`, into `range` (row by row,
-  /// all columns).
+  /// all columns), where they are wanted.
   void (*sweep_columns)(const Frame& frame, const ColumnLists& lists, int begin, int end,
                         Scratch& scratch, float* range);
 };

@@ -23,7 +23,7 @@ OccupancyMap::Slot OccupancyMap::make_brick(const Eigen::Vector3i& brick) {
   if (is_new_tile) tiles_.emplace_back();
   std::vector<BrickHead>& heads = tiles_[tile_at->second];
   bricks_.emplace_back();
-  is_changed_.push_back(0);
+  changes_.push_back(Change::kNone);
   Cover& cover = covers_.emplace_back();
   cover.tile = tile_at->second;
   cover.head = static_cast<std::uint32_t>(heads.size());
@@ -39,9 +39,9 @@ bool OccupancyMap::erase(const VoxelIndex& voxel) {
   std::uint64_t& word = word_of(slot, voxel);
   const std::uint64_t bit = Brick::bit(voxel.y(), voxel.z());
   if ((word & bit) == 0) return false;
+  mark_changed(slot, Change::kShrunk);
   word &= ~bit;
   --size_;
-  mark_changed(slot, Change::kShrunk);
   return true;
 }
 
@@ -65,52 +65,88 @@ bool OccupancyMap::contains_near(const VoxelIndex& voxel, int dilation) const {
 
 void OccupancyMap::update_boxes(int threads) {
   if (changed_.empty()) return;  // Nothing is written: several threads may read the map.
-  constexpr std::size_t kGrain = 32;
-  // Covers are found in parallel and stored in the order of change: the same for any threads.
-  struct Part {
-    std::vector<BrickBox> boxes;
-    std::vector<std::size_t> ends;
-    std::vector<bool> is_fresh;
-  };
-  std::vector<Part> parts((changed_.size() + kGrain - 1) / kGrain);
-  parallel_chunks(threads, changed_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Part& part = parts[begin / kGrain];
-    std::vector<BrickBox> cover;
-    for (std::size_t i = begin; i < end; ++i) {
-      part.is_fresh.push_back(cover_again(changed_[i], cover));
-      part.boxes.insert(part.boxes.end(), cover.begin(), cover.end());
-      part.ends.push_back(part.boxes.size());
+  // Covers are found in parallel and stored in the order of change: the same for any threads. So
+  // many bricks at a time, that what is held meanwhile does not grow with the map.
+  constexpr std::size_t kGrain = 32, kBatch = 256 * kGrain;
+  for (std::size_t first = 0; first < changed_.size(); first += kBatch) {
+    const auto batch =
+        std::span(changed_).subspan(first, std::min(kBatch, changed_.size() - first));
+    std::vector<NewBoxes> new_boxes((batch.size() + kGrain - 1) / kGrain);
+    parallel_chunks(threads, batch.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      find_boxes(batch.subspan(begin, end - begin), new_boxes[begin / kGrain]);
+    });
+    for (std::size_t begin = 0; begin < batch.size(); begin += kGrain) {
+      store_boxes(batch.subspan(begin, std::min(kGrain, batch.size() - begin)),
+                  new_boxes[begin / kGrain]);
     }
-  });
-  for (std::size_t i = 0; i < changed_.size(); ++i) {
-    const Part& part = parts[i / kGrain];
-    const std::size_t begin = i % kGrain == 0 ? 0 : part.ends[i % kGrain - 1];
-    store_boxes(changed_[i], part.boxes.data() + begin, part.ends[i % kGrain] - begin);
-    if (part.is_fresh[i % kGrain]) covers_[changed_[i]].fresh_count = covers_[changed_[i]].count;
-    is_changed_[changed_[i]] = 0;
   }
   changed_.clear();
+  before_.clear();
 }
 
-bool OccupancyMap::cover_again(Slot slot, std::vector<BrickBox>& boxes) const {
-  const auto present = this->boxes(slot);
-  boxes.assign(present.begin(), present.end());
-  mend_cover(bricks_[slot], is_changed_[slot] == 2 ? Change::kShrunk : Change::kGrown, boxes);
+void OccupancyMap::find_boxes(std::span<const ChangedBrick> changed, NewBoxes& found) const {
+  found.boxes.reserve(4 * changed.size());
+  found.ends.reserve(changed.size());
+  found.kinds.reserve(changed.size());
+  for (const ChangedBrick& brick : changed) {
+    found.kinds.push_back(cover_again(brick, found));
+    found.ends.push_back(found.boxes.size());
+  }
+}
+
+/// Appends the new boxes of a changed brick to `found.boxes`.
+OccupancyMap::NewBoxes::Kind OccupancyMap::cover_again(const ChangedBrick& changed,
+                                                       NewBoxes& found) const {
+  const Brick& brick = bricks_[changed.slot];
+  const auto present = this->boxes(changed.slot);
   // A mended cover gets worse with time.
-  if (boxes.size() <= covers_[slot].fresh_count * 3U / 2U + 2U) return false;
-  cover_with_boxes(bricks_[slot], boxes);
-  return true;
+  const std::size_t most = covers_[changed.slot].fresh_count * 3U / 2U + 2U;
+  const std::size_t begin = found.boxes.size();
+  if (!present.empty() && changes_[changed.slot] == Change::kGrown) {
+    Brick added;
+    for (std::size_t x = 0; x < added.occupied.size(); ++x) {
+      added.occupied[x] = brick.occupied[x] & ~before_[changed.before].occupied[x];
+    }
+    cover_added(brick, added, found.boxes);
+    if (present.size() + found.boxes.size() - begin <= most) return NewBoxes::Kind::kAdded;
+    found.boxes.resize(begin);
+  } else if (!present.empty()) {
+    found.cover.assign(present.begin(), present.end());
+    mend_cover(brick, found.cover);
+    if (found.cover.size() <= most) {
+      found.boxes.insert(found.boxes.end(), found.cover.begin(), found.cover.end());
+      return NewBoxes::Kind::kMended;
+    }
+  }
+  cover_with_boxes(brick, found.cover);
+  found.boxes.insert(found.boxes.end(), found.cover.begin(), found.cover.end());
+  return NewBoxes::Kind::kFresh;
 }
 
-void OccupancyMap::store_boxes(Slot slot, const BrickBox* boxes, std::size_t count) {
+void OccupancyMap::store_boxes(std::span<const ChangedBrick> changed, const NewBoxes& found) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    const Slot slot = changed[i].slot;
+    const std::size_t kept =
+        found.kinds[i] == NewBoxes::Kind::kAdded ? covers_[slot].count : std::size_t{0};
+    store_boxes(slot, kept, std::span(found.boxes).subspan(begin, found.ends[i] - begin));
+    if (found.kinds[i] == NewBoxes::Kind::kFresh) covers_[slot].fresh_count = covers_[slot].count;
+    changes_[slot] = Change::kNone;
+    begin = found.ends[i];
+  }
+}
+
+void OccupancyMap::store_boxes(Slot slot, std::size_t kept, std::span<const BrickBox> boxes) {
   Cover& cover = covers_[slot];
   BrickHead& head = tiles_[cover.tile][cover.head];
+  const std::size_t count = kept + boxes.size();
   head.is_empty = count == 0;
   if (count > 0) head.bounds = tight_box(bricks_[slot]);
   if (count > cover.capacity) {
+    const std::uint32_t before = cover.begin;
     const std::size_t size_class = (count + kBoxGrain - 1) / kBoxGrain;
     if (free_boxes_.size() <= size_class) free_boxes_.resize(size_class + 1);
-    if (cover.capacity > 0) free_boxes_[cover.capacity / kBoxGrain].push_back(cover.begin);
+    if (cover.capacity > 0) free_boxes_[cover.capacity / kBoxGrain].push_back(before);
     cover.capacity = static_cast<std::uint16_t>(size_class * kBoxGrain);
     if (free_boxes_[size_class].empty()) {
       cover.begin = static_cast<std::uint32_t>(boxes_.size());
@@ -119,16 +155,18 @@ void OccupancyMap::store_boxes(Slot slot, const BrickBox* boxes, std::size_t cou
       cover.begin = free_boxes_[size_class].back();
       free_boxes_[size_class].pop_back();
     }
+    std::copy_n(boxes_.begin() + before, kept, boxes_.begin() + cover.begin);
   }
-  std::copy_n(boxes, count, boxes_.begin() + cover.begin);
+  std::copy(boxes.begin(), boxes.end(),
+            boxes_.begin() + cover.begin + static_cast<std::ptrdiff_t>(kept));
   cover.count = static_cast<std::uint16_t>(count);
 }
 
 std::size_t OccupancyMap::memory_bytes() const {
   const auto held = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
   constexpr std::size_t kBucket = 24;  // Of the hash grids: key, value and their book-keeping.
-  std::size_t bytes = held(bricks_) + held(covers_) + held(is_changed_) + held(changed_) +
-                      held(tiles_) + held(boxes_) + held(free_boxes_);
+  std::size_t bytes = held(bricks_) + held(covers_) + held(changes_) + held(changed_) +
+                      held(before_) + held(tiles_) + held(boxes_) + held(free_boxes_);
   for (const auto& tile : tiles_) bytes += held(tile);
   for (const auto& list : free_boxes_) bytes += held(list);
   return bytes + (index_.bucket_count() + tile_index_.bucket_count()) * kBucket;

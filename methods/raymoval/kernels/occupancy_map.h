@@ -71,9 +71,9 @@ class OccupancyMap {
     std::uint64_t& word = word_of(slot, voxel);
     const std::uint64_t bit = Brick::bit(voxel.y(), voxel.z());
     if ((word & bit) != 0) return false;
+    mark_changed(slot, Change::kGrown);
     word |= bit;
     ++size_;
-    mark_changed(slot, Change::kGrown);
     return true;
   }
   /// Removes a voxel. @return whether it was occupied
@@ -104,6 +104,8 @@ class OccupancyMap {
   /// Brings boxes and heads of the bricks changed since the last call up to date; writes nothing if
   /// there are none.
   void update_boxes(int threads);
+  /// Whether voxels were added or removed since then.
+  [[nodiscard]] bool has_changed() const { return !changed_.empty(); }
   /// Boxes that cover the brick's voxels, as of the last `update_boxes`.
   [[nodiscard]] std::span<const BrickBox> boxes(Slot slot) const {
     return {boxes_.data() + covers_[slot].begin, covers_[slot].count};
@@ -137,14 +139,43 @@ class OccupancyMap {
   std::uint64_t& word_of(Slot slot, const VoxelIndex& voxel) {
     return bricks_[slot].occupied[static_cast<std::size_t>(voxel.x() & Brick::kMask)];
   }
+  /// What happened to a brick since its cover was made.
+  enum class Change : std::uint8_t {
+    kNone,
+    kGrown,   ///< Voxels were added.
+    kShrunk,  ///< Voxels were removed; others may have been added.
+  };
+  struct ChangedBrick {
+    Slot slot;
+    std::uint32_t before;  ///< Where `before_` has the voxels of its cover, if it has one.
+  };
+  /// To be called before the brick is changed.
   void mark_changed(Slot slot, Change change) {
-    std::uint8_t& mark = is_changed_[slot];
-    if (mark == 0) changed_.push_back(slot);
-    mark = std::max<std::uint8_t>(mark, change == Change::kShrunk ? 2 : 1);
+    Change& mark = changes_[slot];
+    if (mark == Change::kNone) {
+      changed_.push_back({slot, static_cast<std::uint32_t>(before_.size())});
+      if (covers_[slot].count > 0) before_.push_back(bricks_[slot]);
+    }
+    mark = std::max(mark, change);
   }
-  /// New boxes of a changed brick. @return whether they were found from scratch
-  bool cover_again(Slot slot, std::vector<BrickBox>& boxes) const;
-  void store_boxes(Slot slot, const BrickBox* boxes, std::size_t count);
+
+  /// The boxes found for some of the changed bricks, one brick after the other.
+  struct NewBoxes {
+    enum class Kind : std::uint8_t {
+      kAdded,   ///< They come after those that are there.
+      kMended,  ///< They take the place of those.
+      kFresh,   ///< The same, and they were found from scratch.
+    };
+    std::vector<BrickBox> boxes;
+    std::vector<std::size_t> ends;  ///< Of each brick.
+    std::vector<Kind> kinds;
+    std::vector<BrickBox> cover;  ///< Of the brick at hand.
+  };
+  void find_boxes(std::span<const ChangedBrick> changed, NewBoxes& found) const;
+  NewBoxes::Kind cover_again(const ChangedBrick& changed, NewBoxes& found) const;
+  void store_boxes(std::span<const ChangedBrick> changed, const NewBoxes& found);
+  /// Makes `boxes` those of the brick, after the `kept` first of its present ones.
+  void store_boxes(Slot slot, std::size_t kept, std::span<const BrickBox> boxes);
 
   double voxel_size_;
   double inverse_voxel_size_;
@@ -152,8 +183,9 @@ class OccupancyMap {
   VoxelMap<Slot> index_;
   std::vector<Brick> bricks_;
   std::vector<Cover> covers_;
-  std::vector<std::uint8_t> is_changed_;  ///< 0 = no, 1 = it has grown, 2 = it lost voxels.
-  std::vector<Slot> changed_;
+  std::vector<Change> changes_;        ///< Of each brick.
+  std::vector<ChangedBrick> changed_;  ///< In the order of their first change.
+  std::vector<Brick> before_;
   VoxelMap<std::uint32_t> tile_index_;
   std::vector<std::vector<BrickHead>> tiles_;
   std::vector<BrickBox> boxes_;

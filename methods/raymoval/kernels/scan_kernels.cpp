@@ -11,6 +11,7 @@
 #define HWY_TARGET_INCLUDE "methods/raymoval/kernels/scan_kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 //
+#include "hwy/cache_control.h"
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
 
@@ -44,50 +45,85 @@ HWY_INLINE Points load_points(const float* points) {
   return {hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z)};
 }
 
-HWY_INLINE D atan2_of(D y, D x) {
-  const Doubles d;
-  const D angle = hn::Atan(d, hn::Div(hn::Abs(y), hn::Abs(x)));
-  const D turned = hn::Sub(number(3.14159265358979323846), angle);
+HWY_INLINE F float_number(double value) {
+  return hn::Set(Floats(), static_cast<float>(value));
+}
+
+HWY_INLINE F atan2_of(F y, F x) {
+  const Floats d;
+  const F angle = hn::Atan(d, hn::Div(hn::Abs(y), hn::Abs(x)));
+  const F turned = hn::Sub(float_number(3.14159265358979323846), angle);
   return hn::CopySign(hn::IfThenElse(hn::Lt(x, hn::Zero(d)), turned, angle), y);
 }
 
-/// Number of the bin a coordinate (in bins) lies in, and whether it is too near to its border.
+/// The bin that an angle lies in, found in single precision, and whether that may be the wrong one.
 struct Bin {
-  D number;
-  hn::Mask<Doubles> close_call;
+  F number;
+  hn::Mask<Floats> close_call;
 };
-HWY_INLINE Bin bin_at(D coordinate) {
-  constexpr double kTolerance = 1e-7;
-  const D bin = hn::Floor(coordinate);
-  const D part = hn::Sub(coordinate, bin);
-  return {bin, hn::Not(hn::And(hn::Gt(part, number(kTolerance)),
-                               hn::Lt(part, number(1.0 - kTolerance))))};
+HWY_INLINE Bin bin_at(F angle, double bins_per_radian, int bins) {
+  const Floats d;
+  // Each of the roundings on the way is below 4e-7 of the largest angle, and there are about five.
+  constexpr double kRoundings = 4e-6, kRounding = 2.4e-7;
+  const F tolerance = float_number(kRoundings * bins_per_radian + kRounding * bins);
+  const F coordinate = hn::Mul(angle, float_number(bins_per_radian));
+  const F bin = hn::Floor(coordinate);
+  const F part = hn::Sub(coordinate, bin);
+  const F last = hn::Sub(hn::Set(d, 1.0F), tolerance);
+  // What is not a number is a close call, too.
+  return {bin, hn::Not(hn::And(hn::Gt(part, tolerance), hn::Lt(part, last)))};
 }
 
-void project(const Projection& job, std::size_t begin, std::size_t end) {
+/// The ranges of some points, found in double and rounded once, and by how much each is beyond the
+/// minimum range.
+HWY_INLINE void find_ranges(const Projection& job, const float* x, const float* y, const float* z,
+                            std::size_t lanes, float* range, float* margin) {
   const Doubles d;
-  for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
-    const Points p = load_points(job.points + 3 * k);
-    const D level = hn::Add(hn::Mul(p.x, p.x), hn::Mul(p.y, p.y));
-    const D range =
-        hn::Sqrt(hn::Add(hn::Mul(p.x, p.x), hn::Add(hn::Mul(p.y, p.y), hn::Mul(p.z, p.z))));
-    const D azimuth = hn::Add(atan2_of(p.y, p.x), number(3.14159265358979323846));
-    const D elevation = hn::Atan(d, hn::Div(p.z, hn::Sqrt(level)));
-    const Bin i = bin_at(hn::Mul(azimuth, number(job.azimuth_bins_per_radian)));
-    const Bin j = bin_at(hn::Mul(hn::Sub(elevation, number(job.elevation_min)),
-                                 number(job.elevation_bins_per_radian)));
-    const D margin = hn::Sub(range, number(job.minimum_range));
+  const HalfFloats narrow;
+  for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+    const D a = hn::PromoteTo(d, hn::Load(narrow, x + i));
+    const D b = hn::PromoteTo(d, hn::Load(narrow, y + i));
+    const D c = hn::PromoteTo(d, hn::Load(narrow, z + i));
+    const D exact = hn::Sqrt(hn::Add(hn::Mul(a, a), hn::Add(hn::Mul(b, b), hn::Mul(c, c))));
+    hn::StoreU(hn::DemoteTo(narrow, exact), narrow, range + i);
+    hn::Store(hn::DemoteTo(narrow, hn::Sub(exact, number(job.minimum_range))), narrow, margin + i);
+  }
+}
+
+bool project(const Projection& job, std::size_t begin, std::size_t end) {
+  const Floats d;
+  bool any_close = false;
+  const hn::RebindToSigned<Floats> ints;
+  const std::size_t lanes = hn::Lanes(d);
+  alignas(64) std::array<float, 16> px, py, pz, margins;
+  for (std::size_t k = begin; k < end; k += lanes) {
+    F x, y, z;
+    hn::LoadInterleaved3(d, job.points + 3 * k, x, y, z);
+    hn::Store(x, d, px.data());
+    hn::Store(y, d, py.data());
+    hn::Store(z, d, pz.data());
+    find_ranges(job, px.data(), py.data(), pz.data(), lanes, job.range + k, margins.data());
+    const F level = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+    const F azimuth = hn::Add(atan2_of(y, x), float_number(3.14159265358979323846));
+    const F elevation = hn::Sub(hn::Atan(d, hn::Div(z, level)), float_number(job.elevation_min));
+    const Bin i = bin_at(azimuth, job.azimuth_bins_per_radian, job.azimuth_bins);
+    const Bin j = bin_at(elevation, job.elevation_bins_per_radian, job.elevation_bins);
+    const F margin = hn::Load(d, margins.data());
     const auto close =
-        hn::Or(hn::Or(i.close_call, j.close_call), hn::Lt(hn::Abs(margin), number(1e-7)));
+        hn::Or(hn::Or(i.close_call, j.close_call), hn::Lt(hn::Abs(margin), float_number(1e-7)));
     const auto inside = hn::And(
         hn::Ge(margin, hn::Zero(d)),
-        hn::And(hn::Ge(j.number, hn::Zero(d)), hn::Lt(j.number, number(job.elevation_bins))));
-    const D bin = hn::Add(hn::Mul(j.number, number(job.azimuth_bins)), i.number);
-    const D answer =
-        hn::IfThenElse(close, number(kCloseCall), hn::IfThenElse(inside, bin, number(kNoBin)));
-    hn::StoreU(hn::DemoteTo(HalfFloats(), range), HalfFloats(), job.range + k);
-    hn::StoreU(hn::DemoteTo(HalfInts(), answer), HalfInts(), job.bin + k);
+        hn::And(hn::Ge(j.number, hn::Zero(d)), hn::Lt(j.number, float_number(job.elevation_bins))));
+    const auto bin =
+        hn::Add(hn::Mul(hn::ConvertTo(ints, j.number), hn::Set(ints, job.azimuth_bins)),
+                hn::ConvertTo(ints, i.number));
+    const auto known = hn::IfThenElse(hn::RebindMask(ints, inside), bin, hn::Set(ints, kNoBin));
+    const auto answer =
+        hn::IfThenElse(hn::RebindMask(ints, close), hn::Set(ints, kCloseCall), known);
+    hn::StoreU(answer, ints, job.bin + k);
+    any_close = any_close || !hn::AllFalse(d, close);
   }
+  return any_close;
 }
 
 bool voxelise(const Voxelisation& job, std::size_t begin, std::size_t end) {
@@ -95,40 +131,72 @@ bool voxelise(const Voxelisation& job, std::size_t begin, std::size_t end) {
   auto inside = hn::Eq(hn::Zero(d), hn::Zero(d));
   for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
     const Points p = load_points(job.points + 3 * k);
-    std::array<D, 3> cell;
     for (std::size_t row = 0; row < 3; ++row) {
       const D x = hn::Mul(number(job.rotation[3 * row]), p.x);
       const D y = hn::Mul(number(job.rotation[3 * row + 1]), p.y);
       const D z = hn::Mul(number(job.rotation[3 * row + 2]), p.z);
       const D world = hn::Add(hn::Add(hn::Add(x, y), z), number(job.translation[row]));
-      cell[row] = hn::Floor(hn::Mul(world, number(job.inverse_voxel_size)));
-      inside = hn::And(inside, hn::Le(hn::Abs(cell[row]), number(job.limit)));
+      const D cell = hn::Floor(hn::Mul(world, number(job.inverse_voxel_size)));
+      inside = hn::And(inside, hn::Le(hn::Abs(cell), number(job.limit)));
+      hn::StoreU(hn::DemoteTo(HalfInts(), cell), HalfInts(), job.voxels[row] + k);
     }
-    hn::StoreInterleaved3(hn::DemoteTo(HalfInts(), cell[0]), hn::DemoteTo(HalfInts(), cell[1]),
-                          hn::DemoteTo(HalfInts(), cell[2]), HalfInts(), job.voxels + 3 * k);
   }
   return hn::AllTrue(d, inside);
 }
 
+std::size_t find_runs(const RunSearch& job) {
+  const hn::RebindToSigned<Floats> d;
+  const hn::RebindToUnsigned<Floats> numbers;
+  std::size_t runs = 0;
+  for (std::size_t k = 0; k < job.count; k += hn::Lanes(d)) {
+    std::array<hn::Vec<decltype(d)>, 3> here;
+    auto differs = hn::Zero(d);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      here[axis] = hn::LoadU(d, job.voxels[axis] + k + 1);
+      differs = hn::Or(differs, hn::Xor(here[axis], hn::LoadU(d, job.voxels[axis] + k)));
+    }
+    const auto begins = hn::Ne(differs, hn::Zero(d));
+    hn::StoreInterleaved3(hn::Compress(here[0], begins), hn::Compress(here[1], begins),
+                          hn::Compress(here[2], begins), d, job.run_voxels + 3 * runs);
+    const auto number = hn::Iota(numbers, job.first_point + static_cast<std::uint32_t>(k));
+    hn::StoreU(hn::Compress(number, hn::RebindMask(numbers, begins)), numbers,
+               job.run_first + runs);
+    runs += hn::CountTrue(d, begins);
+  }
+  return runs;
+}
+
+/// Eq. 11 for a few points: the difference in float, the margin in double, as `check_consistency`
+/// says.
+HWY_NOINLINE void check_exactly(const ConsistencyCheck& job, std::size_t begin, std::size_t end) {
+  for (std::size_t k = begin; k < end; ++k) {
+    if (job.bin[k] < 0) continue;
+    const float reference = job.reference[job.bin[k]], range = job.range[k];
+    const bool has_reference = reference < std::numeric_limits<float>::infinity();
+    const double ahead = reference - range, margin = job.tau0 + job.tau1 * double{range};
+    job.dynamic[k] = has_reference && ahead > margin ? 1 : 0;
+  }
+}
+
 void check(const ConsistencyCheck& job, std::size_t begin, std::size_t end) {
-  const Doubles d;
-  const HalfFloats floats;
-  const HalfInts ints;
-  const hn::Rebind<std::uint8_t, HalfInts> bytes;
-  const auto infinite = hn::Set(floats, std::numeric_limits<float>::infinity());
-  for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> ints;
+  const std::size_t lanes = hn::Lanes(d);
+  const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+  // In single precision first, with a margin that is a little too small: few points come near it.
+  constexpr double kLess = 1.0 - 1e-5;
+  constexpr std::size_t kAhead = 96;  // Points whose references are fetched beforehand.
+  const F tau0 = float_number(job.tau0 * kLess), tau1 = float_number(job.tau1 * kLess);
+  std::fill(job.dynamic + begin, job.dynamic + end, std::uint8_t{0});
+  for (std::size_t k = begin; k < end; k += lanes) {
     const auto bin = hn::LoadU(ints, job.bin + k);
-    const auto range = hn::LoadU(floats, job.range + k);
-    const auto reference = hn::GatherIndex(floats, job.reference, hn::Max(bin, hn::Zero(ints)));
-    const auto in_bin = hn::RebindMask(floats, hn::Gt(bin, hn::Set(ints, -1)));
+    const F range = hn::LoadU(d, job.range + k);
+    if (k + kAhead < end) hwy::Prefetch(job.reference + job.bin[k + kAhead]);
+    const F reference = hn::GatherIndex(d, job.reference, hn::Max(bin, hn::Zero(ints)));
+    const auto in_bin = hn::RebindMask(d, hn::Gt(bin, hn::Set(ints, -1)));
+    const auto ahead = hn::Gt(hn::Sub(reference, range), hn::Add(tau0, hn::Mul(tau1, range)));
     const auto has_reference = hn::And(in_bin, hn::Lt(reference, infinite));
-    // The difference in float, the margin in double, as `check_consistency` says.
-    const D ahead = hn::PromoteTo(d, hn::Sub(reference, range));
-    const D margin = hn::Add(number(job.tau0), hn::Mul(number(job.tau1), hn::PromoteTo(d, range)));
-    const auto before = hn::IfThenElseZero(hn::Gt(ahead, margin), number(1.0));
-    const auto dynamic =
-        hn::IfThenElseZero(hn::RebindMask(ints, has_reference), hn::DemoteTo(ints, before));
-    hn::StoreU(hn::DemoteTo(bytes, dynamic), bytes, job.dynamic + k);
+    if (!hn::AllFalse(d, hn::And(ahead, has_reference))) check_exactly(job, k, k + lanes);
   }
 }
 
@@ -174,6 +242,63 @@ HWY_INLINE void sort_nine(std::array<F, 9>& v) {
   for (const auto& [a, b] : kRest) order(v[a], v[b]);
 }
 
+/// The second smallest of nine values of which three times three are sorted: the second smallest of
+/// the three smallest, or a middle one, which is never smaller than its own smallest.
+HWY_INLINE F second_smallest(const std::array<F, 9>& v) {
+  const F low = hn::Min(v[0], v[3]), high = hn::Max(v[0], v[3]);
+  const F middle = hn::Min(v[1], hn::Min(v[4], v[7]));
+  return hn::Min(middle, hn::Min(high, hn::Max(low, v[6])));
+}
+
+HWY_INLINE F second_largest(const std::array<F, 9>& v) {
+  const F low = hn::Min(v[2], v[5]), high = hn::Max(v[2], v[5]);
+  const F middle = hn::Max(v[1], hn::Max(v[4], v[7]));
+  return hn::Max(middle, hn::Max(low, hn::Min(high, v[8])));
+}
+
+/// The value of each window at the rank that its number of finite values has.
+HWY_INLINE F value_at_rank(const std::array<F, 9>& sorted, const std::array<int, 10>& ranks) {
+  const F infinite = hn::Set(Floats(), std::numeric_limits<float>::infinity());
+  const auto value_of = [&](std::size_t count) {
+    return sorted[static_cast<std::size_t>(ranks[count])];
+  };
+  // The infinite ones come last: as many values are finite as the last finite one says.
+  F result = value_of(1);
+  for (std::size_t count = 2; count <= 9; ++count) {
+    result = hn::IfThenElse(hn::Lt(sorted[count - 1], infinite), value_of(count), result);
+  }
+  return result;
+}
+
+/// The percentiles of the windows around columns i .. i + Lanes - 1.
+HWY_INLINE void find_percentiles(const WindowRow& job, int i, hn::Mask<Floats> wanted) {
+  const Floats d;
+  const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+  std::array<F, 9> v;
+  for (int k = 0; k < 9; ++k) {
+    v[static_cast<std::size_t>(k)] =
+        hn::LoadU(d, job.scratch + k % 3 * (job.columns + 2) + i + k / 3);
+  }
+  const F largest = hn::Max(v[2], hn::Max(v[5], v[8]));
+  const bool is_full = hn::AllFalse(d, hn::AndNot(hn::Lt(largest, infinite), wanted));
+  std::array<F, 9> sorted = v;
+  bool is_sorted = false;
+  for (std::size_t q = 0; q < 2; ++q) {
+    if (job.results[q] == nullptr) continue;
+    F result;
+    if (is_full && job.ranks[q][9] == 1) {
+      result = second_smallest(v);
+    } else if (is_full && job.ranks[q][9] == 7) {
+      result = second_largest(v);
+    } else {
+      if (!is_sorted) sort_nine(sorted);
+      is_sorted = true;
+      result = value_at_rank(sorted, job.ranks[q]);
+    }
+    hn::StoreU(result, d, job.results[q] + i);
+  }
+}
+
 void percentiles(const WindowRow& job) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -181,27 +306,11 @@ void percentiles(const WindowRow& job) {
   bool sorted = false;
   for (int next = 0; next < job.columns; next += lanes) {
     const int i = std::min(next, job.columns - lanes);
-    if (hn::AllFalse(d, hn::Lt(hn::LoadU(d, job.wanted + i), infinite))) continue;
+    const auto wanted = hn::Lt(hn::LoadU(d, job.wanted + i), infinite);
+    if (hn::AllFalse(d, wanted)) continue;
     if (!sorted) sort_columns(job);
     sorted = true;
-    std::array<F, 9> v;
-    for (int k = 0; k < 9; ++k) {
-      v[static_cast<std::size_t>(k)] =
-          hn::LoadU(d, job.scratch + k % 3 * (job.columns + 2) + i + k / 3);
-    }
-    sort_nine(v);
-    for (std::size_t q = 0; q < 2; ++q) {
-      const auto& ranks = job.ranks[q];
-      const auto value_of = [&](std::size_t count) {
-        return v[static_cast<std::size_t>(ranks[count])];
-      };
-      // The infinite ones come last: as many values are finite as the last finite one says.
-      F result = value_of(1);
-      for (std::size_t count = 2; count <= 9; ++count) {
-        result = hn::IfThenElse(hn::Lt(v[count - 1], infinite), value_of(count), result);
-      }
-      hn::StoreU(result, d, job.results[q] + i);
-    }
+    find_percentiles(job, i, wanted);
   }
 }
 
@@ -261,37 +370,79 @@ void minimum(const WindowMinimum& job, int first, int skip) {
   }
 }
 
-std::uint32_t suspects(const SuspectSearch& job, std::size_t bin) {
+/// The nearest return around `bin` and the Lanes - 1 bins after it, or kUnknown.
+HWY_INLINE F nearest_around(const SuspectSearch& job, int bin) {
+  const Floats d;
+  const int row = bin / job.columns, column = bin % job.columns;
+  const int last = column + static_cast<int>(hn::Lanes(d)) - 1;
+  if (column < job.azimuth_radius || last + job.azimuth_radius >= job.columns) {
+    return hn::Set(d, kUnknown);
+  }
+  F nearest = hn::LoadU(d, job.own + bin);
+  for (int j = std::max(0, row - job.elevation_radius);
+       j <= std::min(job.rows - 1, row + job.elevation_radius); ++j) {
+    const float* line = job.own + static_cast<std::ptrdiff_t>(j) * job.columns + column;
+    for (int i = -job.azimuth_radius; i <= job.azimuth_radius; ++i) {
+      nearest = hn::Min(nearest, hn::LoadU(d, line + i));
+    }
+  }
+  return nearest;
+}
+
+std::uint32_t suspects(const SuspectSearch& job, std::size_t bin, float* nearest) {
   const Floats d;
   const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
   const F tau0 = hn::Set(d, job.tau0), tau1 = hn::Set(d, job.tau1);
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
     const F own = hn::LoadU(d, job.own + bin + i);
-    const F nearest = hn::LoadU(d, job.nearest + bin + i);
     const F hit = hn::LoadU(d, job.first_hit + bin + i);
     const F reference = hn::LoadU(d, job.reference + bin + i);
-    const F beyond = hn::Sub(nearest, hn::Add(reference, hn::Mul(tau1, reference)));
-    const auto seen = hn::And(hn::Lt(own, infinite), hn::Lt(hit, infinite));
-    const auto far = hn::And(hn::Gt(hn::Sub(nearest, hit), tau0), hn::Gt(beyond, tau0));
+    const F margin = hn::Add(tau0, hn::Mul(tau1, reference));
+    const auto is_beyond = [&](F seen_to) {
+      return hn::And(hn::Gt(hn::Sub(seen_to, hit), tau0),
+                     hn::Gt(hn::Sub(seen_to, reference), margin));
+    };
+    auto seen = hn::And(hn::And(hn::Lt(own, infinite), hn::Lt(hit, infinite)), is_beyond(own));
+    if (hn::AllFalse(d, seen)) continue;
+    const F around = nearest_around(job, static_cast<int>(bin + i));
+    seen = hn::And(seen, hn::Or(hn::Lt(around, hn::Zero(d)), is_beyond(around)));
+    hn::StoreU(around, d, nearest + i);
     std::uint64_t bytes = 0;
-    hn::StoreMaskBits(d, hn::And(seen, far), reinterpret_cast<std::uint8_t*>(&bytes));
+    hn::StoreMaskBits(d, seen, reinterpret_cast<std::uint8_t*>(&bytes));
     bits |= static_cast<std::uint32_t>(bytes) << i;
   }
   return bits;
 }
 
+void finite(const float* values, std::size_t count, std::uint64_t* words) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  std::fill(words, words + (count + 63) / 64, std::uint64_t{0});
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    std::uint64_t bits = 0;
+    hn::StoreMaskBits(d, hn::Lt(hn::LoadU(d, values + i), hn::Set(d, kInfinite)),
+                      reinterpret_cast<std::uint8_t*>(&bits));
+    words[i / 64] |= bits << i % 64;
+  }
+  for (; i < count; ++i) words[i / 64] |= std::uint64_t{values[i] < kInfinite} << i % 64;
+}
+
 }  // namespace
 
 Kernels kernels() {
-  return {hn::Lanes(Doubles()),
+  return {hn::Lanes(Floats()),
           static_cast<int>(hn::Lanes(Floats())),
           &project,
           &voxelise,
+          &find_runs,
           &check,
           &percentiles,
           &minimum,
-          &suspects};
+          &suspects,
+          &finite};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -30,8 +30,20 @@ struct Voxelisation {
   std::array<double, 9> rotation{};  ///< Row by row.
   std::array<double, 3> translation{};
   double inverse_voxel_size = 0.0;
-  double limit = 0.0;              ///< Largest magnitude of an index.
-  std::int32_t* voxels = nullptr;  ///< x y z of each point.
+  double limit = 0.0;                     ///< Largest magnitude of an index.
+  std::array<std::int32_t*, 3> voxels{};  ///< x, y and z of the points.
+};
+
+/// The search for the runs of points that share a voxel.
+struct RunSearch {
+  /// x, y and z of the points, behind that of the point before them. Behind the last point its
+  /// voxel stands again, up to a multiple of `lanes`.
+  std::array<const std::int32_t*, 3> voxels{};
+  std::size_t count = 0;          ///< Points.
+  std::uint32_t first_point = 0;  ///< The number of the first of them.
+  /// The x y z of each run's voxel, and its first point; `lanes` more of each are written over.
+  std::int32_t* run_voxels = nullptr;
+  std::uint32_t* run_first = nullptr;
 };
 
 /// Eq. 11 for points.
@@ -50,8 +62,8 @@ struct WindowRow {
   int columns = 0;
   /// Ranks of two percentiles among 1 .. 9 finite values.
   std::array<std::array<int, 10>, 2> ranks{};
-  std::array<float*, 2> results{};
-  float* scratch = nullptr;  ///< 3 x (columns + 2) numbers.
+  std::array<float*, 2> results{};  ///< Null where a percentile is not asked for.
+  float* scratch = nullptr;         ///< 3 x (columns + 2) numbers.
 };
 
 /// Smallest value of a window around each bin.
@@ -63,11 +75,15 @@ struct WindowMinimum {
   float* scratch = nullptr;  ///< row_lanes x (rows + 2 elevation_radius) numbers, aligned.
 };
 
+/// What is not told: the neighbourhood reaches over the end of a row.
+inline constexpr float kUnknown = -1.0F;
+
 /// The search for bins that may be seen through, from the nearest return of the neighbourhood, the
 /// first hit and the map reference of each bin.
 struct SuspectSearch {
   const float* own = nullptr;  ///< The bin's own return; infinite if it has none.
-  const float* nearest = nullptr;
+  int columns = 0, rows = 0;
+  int azimuth_radius = 0, elevation_radius = 0;  ///< Of the neighbourhood.
   const float* first_hit = nullptr;
   const float* reference = nullptr;
   float tau0 = 0.0F, tau1 = 0.0F;  ///< A little less than the margin's.
@@ -76,10 +92,13 @@ struct SuspectSearch {
 struct Kernels {
   std::size_t lanes;  ///< Points handled at a time.
   int row_lanes;      ///< Bins handled at a time; a row needs at least so many.
-  /// Points begin .. end - 1, a multiple of `lanes`.
-  void (*project)(const Projection& job, std::size_t begin, std::size_t end);
+  /// Points begin .. end - 1, a multiple of `lanes`. @return whether there is a close call among
+  /// them
+  bool (*project)(const Projection& job, std::size_t begin, std::size_t end);
   /// The same. @return false if an index is beyond the limit
   bool (*voxelise)(const Voxelisation& job, std::size_t begin, std::size_t end);
+  /// @return how many runs begin with one of the points
+  std::size_t (*find_runs)(const RunSearch& job);
   /// Points begin .. end - 1, a multiple of `lanes`.
   void (*check)(const ConsistencyCheck& job, std::size_t begin, std::size_t end);
   void (*percentiles)(const WindowRow& job);
@@ -87,8 +106,11 @@ struct Kernels {
   /// them are not written.
   void (*minimum)(const WindowMinimum& job, int first, int skip);
   /// One bit for each of 16 bins from `bin` on. It may be set for a bin too many, never for one too
-  /// few.
-  std::uint32_t (*suspects)(const SuspectSearch& job, std::size_t bin);
+  /// few. Where it is set, `nearest` gets the nearest return of the neighbourhood, or `kUnknown`.
+  std::uint32_t (*suspects)(const SuspectSearch& job, std::size_t bin, float* nearest);
+  /// One bit for each of `count` values, in words of 64: whether it is finite. The last word's
+  /// other bits are 0.
+  void (*finite)(const float* values, std::size_t count, std::uint64_t* words);
 };
 
 /// The kernels of the best instruction set that this processor has.

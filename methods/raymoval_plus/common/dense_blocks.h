@@ -14,13 +14,14 @@ namespace raymoval::raymoval_plus_method {
 /// A grid without bounds. It consists of dense blocks of 2^`kBitsXY` x 2^`kBitsXY` x 2^`kBitsZ`
 /// cells, which are found by a hash. The cells of a new block hold `empty`.
 ///
-/// A `Cursor` remembers the block that was used last. The points of a scan come ring by ring, so
-/// the next one mostly lies in the same block and needs no hash. Each thread has a cursor of its
-/// own.
+/// A `Cursor` remembers the block that was used last, or that there is none. The points of a scan
+/// come ring by ring, so the next one mostly lies in the same block and needs no hash. Each thread
+/// has a cursor of its own, and none is used again once another one has made a block.
 template <class Value, int kBitsXY, int kBitsZ>
 class DenseBlocks {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  static constexpr std::size_t kNoSlot = ~std::size_t{0};
   static constexpr int kSideXY = 1 << kBitsXY, kSideZ = 1 << kBitsZ;
   static constexpr std::size_t kCells = std::size_t{1} << (2 * kBitsXY + kBitsZ);
 
@@ -46,6 +47,19 @@ class DenseBlocks {
     const auto found = numbers_.find(voxel_key(index));
     return found == numbers_.end() ? kNone : found->second;
   }
+  /// Calls `visit(number)` with each block at most `reach` blocks from block `center` along each
+  /// axis, itself included.
+  template <class Visit>
+  void for_blocks_around(std::uint32_t center, int reach, Visit&& visit) const {
+    for (int z = -reach; z <= reach; ++z) {
+      for (int y = -reach; y <= reach; ++y) {
+        for (int x = -reach; x <= reach; ++x) {
+          const std::uint32_t other = block(block_index(center) + VoxelIndex(x, y, z));
+          if (other != kNone) visit(other);
+        }
+      }
+    }
+  }
   [[nodiscard]] std::size_t block_count() const { return indices_.size(); }
   [[nodiscard]] const VoxelIndex& block_index(std::uint32_t number) const {
     return indices_[number];
@@ -54,22 +68,24 @@ class DenseBlocks {
     return values_.data() + number * kCells;
   }
 
+  /// The place of a cell among those of all blocks, or `kNoSlot` where there is no block.
+  [[nodiscard]] std::size_t slot(const VoxelIndex& cell, Cursor& cursor) const {
+    const VoxelKey key = voxel_key(block_of(cell));
+    if (key != cursor.key) cursor = {key, block(block_of(cell))};
+    return cursor.block == kNone ? kNoSlot : cursor.block * kCells + offset(cell);
+  }
+  [[nodiscard]] const Value& at(std::size_t slot) const { return values_[slot]; }
   /// The cell's value, or `empty` where there is no block.
   [[nodiscard]] Value get(const VoxelIndex& cell, Cursor& cursor) const {
-    const VoxelKey key = voxel_key(block_of(cell));
-    if (key != cursor.key) {
-      const auto found = numbers_.find(key);
-      if (found == numbers_.end()) return empty_;
-      cursor = {key, found->second};
-    }
-    return values_[cursor.block * kCells + offset(cell)];
+    const std::size_t found = slot(cell, cursor);
+    return found == kNoSlot ? empty_ : at(found);
   }
   /// The cell, which is made if it does not exist. References that earlier calls returned may then
   /// no longer be valid.
   Value& make(const VoxelIndex& cell, Cursor& cursor) {
     const VoxelIndex index = block_of(cell);
     const VoxelKey key = voxel_key(index);
-    if (key != cursor.key) {
+    if (key != cursor.key || cursor.block == kNone) {
       const auto [found, fresh] = numbers_.emplace(key, static_cast<std::uint32_t>(block_count()));
       if (fresh) {
         indices_.push_back(index);

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/evidence/evidence.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
 #include "core/parallel.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -10,33 +15,73 @@ namespace {
 /// thousands, so that all threads have work. It changes no answer.
 constexpr std::size_t kVoxelsATask = 256;
 
+/// Voxels with more scans that agree are decided on by the formula itself.
+constexpr int kTabulatedScans = 256;
+
+/// The tiles that any of the scans may say something of.
+std::vector<std::uint32_t> tiles_near(std::span<const PosedImage> images, double range,
+                                      const EvidenceMap& map) {
+  std::vector<std::uint32_t> tiles;
+  for (const PosedImage& scan : images) {
+    const auto near = map.tiles_near(scan.T_world_sensor.translation(), range);
+    tiles.insert(tiles.end(), near.begin(), near.end());
+  }
+  std::sort(tiles.begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+  return tiles;
+}
+
+bool is_unseen(const VoxelEvidence& evidence) {
+  return evidence.free_scans == 0 && evidence.agree_scans == 0;
+}
+
 }  // namespace
 
-void add_evidence(const RangeImage& image, const Pose& T_world_sensor, const Parameters& parameters,
-                  const RunContext& context, EvidenceMap& map) {
+void add_evidence(std::span<const PosedImage> images, const Parameters& parameters,
+                  WhenToDecide when, const RunContext& context, EvidenceMap& map) {
   const StageScope timed(context.times, "evidence");
-  const Pose T_sensor_world = T_world_sensor.inverse(Eigen::Isometry);
   map.update_means();
-  const auto tiles = map.tiles_near(T_world_sensor.translation(), parameters.evidence_range_max);
-  // A thread takes one tile at a time, so that one thread decides on all voxels of a block.
+  const auto tiles = tiles_near(images, parameters.evidence_range_max, map);
+  const Decisions decided(parameters);
+  // A thread takes one tile at a time, so that one thread decides on all voxels of a block, and the
+  // tile's voxels stay in its cache from scan to scan.
   parallel_for(context.threads, tiles.size(), 1, [&](std::size_t t) {
-    EvidenceMap::Tile& tile = *tiles[t];
+    EvidenceMap::Tile& tile = map.tile(tiles[t]);
     thread_local std::vector<ObservedPlace> observed;
-    image.observe(tile.places, T_sensor_world * Eigen::Translation3d(tile.origin), observed);
-    for (const ObservedPlace& place : observed) {
-      VoxelEvidence& evidence = tile.evidence[place.place];
-      const bool is_first = evidence.free_scans == 0 && evidence.agree_scans == 0;
-      const Verdict before = decide(evidence, parameters);
-      add_observation(place.observation, place.range, parameters, evidence);
-      const Verdict now = decide(evidence, parameters);
-      // Most observations change no decision, and then the map need not be written.
-      if (is_first || now != before) map.set_decision(tile.voxels[place.place], now);
+    for (const auto& [image, T_world_sensor] : images) {
+      image->observe(tile.places,
+                     T_world_sensor.inverse(Eigen::Isometry) * Eigen::Translation3d(tile.origin),
+                     observed);
+      for (const ObservedPlace& place : observed) {
+        VoxelEvidence& evidence = tile.evidence[place.place];
+        if (when == WhenToDecide::kLater) {
+          add_observation(place.observation, place.range, parameters, evidence);
+          continue;
+        }
+        const bool is_first = is_unseen(evidence);
+        const Verdict before = decided(evidence);
+        add_observation(place.observation, place.range, parameters, evidence);
+        const Verdict now = decided(evidence);
+        // Most observations change no decision, and then the map need not be written.
+        if (is_first || now != before) map.set_decision(tile.voxels[place.place], now);
+      }
     }
   });
 }
 
+void decide_all(bool also_unseen, const Parameters& parameters, const RunContext& context,
+                EvidenceMap& map) {
+  const StageScope timed(context.times, "evidence");
+  const Decisions decided(parameters);
+  for (std::size_t voxel = 0; voxel < map.size(); ++voxel) {
+    const VoxelEvidence& evidence = map.evidence(voxel);
+    if (also_unseen || !is_unseen(evidence)) map.set_decision(voxel, decided(evidence));
+  }
+}
+
 void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& center,
-                                const RunContext& context, EvidenceMap& map) const {
+                                WhenToDecide when, const RunContext& context,
+                                EvidenceMap& map) const {
   const StageScope timed(context.times, "earlier scans");
   const std::size_t fresh = map.size() - first_voxel;
   parallel_chunks(context.threads, fresh, kVoxelsATask, [&](std::size_t begin, std::size_t end) {
@@ -54,18 +99,25 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
       }
     }
   });
+  if (when == WhenToDecide::kLater) return;
+  const Decisions decided(parameters_);
   for (std::size_t voxel = first_voxel; voxel < map.size(); ++voxel) {
-    map.set_decision(voxel, decide(map.evidence(voxel), parameters_));
+    map.set_decision(voxel, decided(map.evidence(voxel)));
   }
 }
 
-void EarlierScans::keep(const RangeImage& image, const Pose& T_world_sensor) {
+void EarlierScans::keep(RangeImage&& image, const Pose& T_world_sensor) {
   const bool is_kept = scans_++ % static_cast<std::size_t>(parameters_.history_step) == 0;
   if (!is_kept || parameters_.history_scans == 0) return;
-  if (kept_.size() == static_cast<std::size_t>(parameters_.history_scans)) {
-    kept_.erase(kept_.begin());
+  const Pose T_sensor_world = T_world_sensor.inverse(Eigen::Isometry);
+  if (kept_.size() < static_cast<std::size_t>(parameters_.history_scans)) {
+    kept_.push_back({std::move(image), T_sensor_world});
+    return;
   }
-  kept_.push_back({image, T_world_sensor.inverse(Eigen::Isometry)});
+  // The memory of the oldest image is that of the next one.
+  std::rotate(kept_.begin(), kept_.begin() + 1, kept_.end());
+  std::swap(kept_.back().image, image);
+  kept_.back().T_sensor_world = T_sensor_world;
 }
 
 void add_observation(Observation observation, float range, const Parameters& parameters,
@@ -91,6 +143,16 @@ Verdict decide(const VoxelEvidence& evidence, const Parameters& parameters) {
                                    evidence.trailing_free >= parameters.run_scans);
   if (came_or_left || evidence.free_scans >= needed) return Verdict::kDynamic;
   return evidence.agree_scans >= parameters.static_agree ? Verdict::kStatic : Verdict::kUndecided;
+}
+
+Decisions::Decisions(const Parameters& parameters)
+    : parameters_(parameters),
+      run_(parameters.run_scans > 0 ? parameters.run_scans : std::numeric_limits<int>::max()),
+      needed_(kTabulatedScans) {
+  for (int agree = 0; agree < kTabulatedScans; ++agree) {
+    const double needed = parameters.free_constant + parameters.free_per_agree * agree;
+    needed_[static_cast<std::size_t>(agree)] = static_cast<int>(std::ceil(needed));
+  }
 }
 
 bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters) {

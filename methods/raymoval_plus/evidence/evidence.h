@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "methods/raymoval_plus/common/parameters.h"
@@ -11,10 +13,23 @@
 
 namespace raymoval::raymoval_plus_method {
 
-/// Step 3: asks a scan's range image about every voxel within its evidence range, and adds what it
-/// says to the voxel's evidence. Step 4: decides on these voxels anew.
-void add_evidence(const RangeImage& image, const Pose& T_world_sensor, const Parameters& parameters,
-                  const RunContext& context, EvidenceMap& map);
+/// The image of a scan and where it was taken.
+struct PosedImage {
+  const RangeImage* image = nullptr;
+  Pose T_world_sensor = Pose::Identity();
+};
+
+/// When step 4 decides on voxels: after each scan, or by `decide_all` at the end.
+enum class WhenToDecide : std::uint8_t { kNow, kLater };
+
+/// Step 3: asks the range images of scans about every voxel within their evidence range, and adds
+/// what they say to the voxel's evidence. Step 4: decides on these voxels anew, if it is to be now.
+/// @param images in order of time
+void add_evidence(std::span<const PosedImage> images, const Parameters& parameters,
+                  WhenToDecide when, const RunContext& context, EvidenceMap& map);
+/// Step 4 for all voxels of which a scan said something, and if `also_unseen` for the others.
+void decide_all(bool also_unseen, const Parameters& parameters, const RunContext& context,
+                EvidenceMap& map);
 
 /// The range images of some earlier scans. Where scans are read only once, a new voxel gets its
 /// evidence from these, from the scan that found it, and from those that follow.
@@ -24,11 +39,11 @@ class EarlierScans {
 
   /// Steps 3 and 4 for the voxels from number `first_voxel` on.
   /// @param center position of the sensor that found them, world frame, metres
-  void add_evidence(std::size_t first_voxel, const Eigen::Vector3d& center,
+  void add_evidence(std::size_t first_voxel, const Eigen::Vector3d& center, WhenToDecide when,
                     const RunContext& context, EvidenceMap& map) const;
   /// Takes the next scan. One of `history_step` scans is kept, and at most the last
-  /// `history_scans`.
-  void keep(const RangeImage& image, const Pose& T_world_sensor);
+  /// `history_scans`. The image that is left is to be filled anew.
+  void keep(RangeImage&& image, const Pose& T_world_sensor);
 
  private:
   struct EarlierScan {
@@ -47,6 +62,27 @@ void add_observation(Observation observation, float range, const Parameters& par
 
 /// Step 4 for one voxel: static, dynamic or undecided.
 Verdict decide(const VoxelEvidence& evidence, const Parameters& parameters);
+
+/// The same for many voxels.
+class Decisions {
+ public:
+  explicit Decisions(const Parameters& parameters);
+
+  [[nodiscard]] Verdict operator()(const VoxelEvidence& evidence) const {
+    if (evidence.agree_scans >= needed_.size()) return decide(evidence, parameters_);
+    if (evidence.leading_free >= run_ || evidence.trailing_free >= run_ ||
+        evidence.free_scans >= needed_[evidence.agree_scans]) {
+      return Verdict::kDynamic;
+    }
+    return evidence.agree_scans >= parameters_.static_agree ? Verdict::kStatic
+                                                            : Verdict::kUndecided;
+  }
+
+ private:
+  Parameters parameters_;
+  int run_;                  ///< Scans in a row that show that something came or left.
+  std::vector<int> needed_;  ///< By scans that agree: the scans that must see through.
+};
 
 /// Whether enough scans agree with a voxel and none saw through it: it was there all the time.
 bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters);

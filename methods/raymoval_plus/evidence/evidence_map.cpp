@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -12,40 +13,40 @@ namespace {
 constexpr double kParts = 256.0;
 /// With more points a sum of offsets could exceed 32 bits. The mean has long settled by then.
 constexpr std::uint32_t kMostPoints = 1U << 24;
+/// So many blocks are compared at a time with what they were.
+constexpr std::uint32_t kComparedBlocks = 256;
 
 }  // namespace
 
-std::uint32_t EvidenceMap::add(const Eigen::Vector3d& point, Blocks::Cursor& cursor) {
-  const VoxelIndex voxel = index_of(point);
-  std::uint32_t& number = blocks_.make(voxel, cursor);
-  if (number == kNone) {
-    number = static_cast<std::uint32_t>(voxels_.size());
-    slots_.push_back(
-        static_cast<std::uint32_t>(cursor.block * Blocks::kCells + Blocks::offset(voxel)));
-    dynamic_.resize(blocks_.block_count(), 0);
-    decisions_.resize(blocks_.block_count() * Blocks::kCells, Verdict::kUndecided);
-    verdicts_.resize(decisions_.size(), Verdict::kUndecided);
-    add_voxel(voxel);
+std::uint32_t EvidenceMap::add(const VoxelIndex& cell, std::uint32_t parts, Adding& adding) {
+  if (adding.voxel == kNone || cell != adding.cell) {
+    std::uint32_t& number = blocks_.make(cell, adding.cursor);
+    if (number == kNone) {
+      number = add_voxel(cell, static_cast<std::uint32_t>(adding.cursor.block * Blocks::kCells +
+                                                          Blocks::offset(cell)));
+    }
+    adding.cell = cell;
+    adding.voxel = number;
+    if (mean_changed_[number] == 0) {
+      mean_changed_[number] = 1;
+      changed_.push_back(number);
+    }
   }
-  Voxel& sums = voxels_[number];
-  if (!sums.mean_changed) {
-    sums.mean_changed = true;
-    changed_.push_back(number);
-  }
+  Sums& sums = sums_[adding.voxel];
   if (sums.count < kMostPoints) {
-    const auto part = [&](int axis) {
-      const double offset = point[axis] * inverse_ - voxel[axis];
-      return static_cast<std::uint32_t>(std::clamp(offset * kParts, 0.0, kParts - 1.0));
-    };
-    sums.x += part(0);
-    sums.y += part(1);
-    sums.z += part(2);
+    sums.x += parts & 0xFFU;
+    sums.y += parts >> 8U & 0xFFU;
+    sums.z += parts >> 16U & 0xFFU;
     ++sums.count;
   }
-  return number;
+  return adding.voxel;
 }
 
-void EvidenceMap::add_voxel(const VoxelIndex& index) {
+std::uint32_t EvidenceMap::add_voxel(const VoxelIndex& index, std::uint32_t slot) {
+  dynamic_.resize(blocks_.block_count(), 0);
+  is_dynamic_.resize(blocks_.block_count(), 0);
+  decisions_.resize(blocks_.block_count() * Blocks::kCells, Verdict::kUndecided);
+  verdicts_.resize(decisions_.size(), Verdict::kUndecided);
   const VoxelIndex at(index.x() >> kTileShift, index.y() >> kTileShift, 0);
   const auto [found, fresh] =
       tile_numbers_.emplace(voxel_key(at), static_cast<std::uint32_t>(tiles_.size()));
@@ -55,19 +56,20 @@ void EvidenceMap::add_voxel(const VoxelIndex& index) {
     tiles_.push_back({{at.x() * side, at.y() * side, index.z() * size_}, {}, {}, {}});
   }
   Tile& tile = tiles_[found->second];
-  Voxel& voxel = voxels_.emplace_back();
-  voxel.index = index;
-  voxel.tile = found->second;
-  voxel.place = static_cast<std::uint32_t>(tile.voxels.size());
-  tile.voxels.push_back(static_cast<std::uint32_t>(voxels_.size() - 1));
+  const auto number = static_cast<std::uint32_t>(voxels_.size());
+  voxels_.push_back({index, slot, found->second, static_cast<std::uint32_t>(tile.voxels.size())});
+  sums_.emplace_back();
+  mean_changed_.push_back(0);
+  tile.voxels.push_back(number);
   tile.places.resize(tile.places.size() + 3);
   tile.evidence.emplace_back();
+  return number;
 }
 
 void EvidenceMap::update_means() {
   for (const std::uint32_t number : changed_) {
-    Voxel& voxel = voxels_[number];
-    voxel.mean_changed = false;
+    mean_changed_[number] = 0;
+    const Voxel& voxel = voxels_[number];
     Tile& tile = tiles_[voxel.tile];
     const Eigen::Vector3f offset = (centroid(number) - tile.origin).cast<float>();
     std::copy_n(offset.data(), 3, tile.places.begin() + 3 * std::ptrdiff_t{voxel.place});
@@ -76,35 +78,83 @@ void EvidenceMap::update_means() {
 }
 
 Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
-  const Voxel& sums = voxels_[voxel];
+  const Sums& sums = sums_[voxel];
   const double scale = 1.0 / (kParts * sums.count), half = 0.5 / kParts;
   const Eigen::Vector3d offset(sums.x * scale + half, sums.y * scale + half, sums.z * scale + half);
-  return (sums.index.cast<double>() + offset) * size_;
+  return (index(voxel).cast<double>() + offset) * size_;
 }
 
-std::vector<EvidenceMap::Tile*> EvidenceMap::tiles_near(const Eigen::Vector3d& center,
-                                                        double range) {
+VoxelIndex EvidenceMap::tile_at(const Eigen::Vector3d& place) const {
+  const double side = (1 << kTileShift) * size_;
+  return {static_cast<int>(std::floor(place.x() / side)),
+          static_cast<int>(std::floor(place.y() / side)), 0};
+}
+
+std::vector<std::uint32_t> EvidenceMap::tiles_near(const Eigen::Vector3d& center,
+                                                   double range) const {
   const double side = (1 << kTileShift) * size_;
   const int reach = static_cast<int>(std::ceil(range / side));
-  const int cx = static_cast<int>(std::floor(center.x() / side));
-  const int cy = static_cast<int>(std::floor(center.y() / side));
-  std::vector<Tile*> near;
-  for (int y = cy - reach; y <= cy + reach; ++y) {
-    for (int x = cx - reach; x <= cx + reach; ++x) {
-      const auto found = tile_numbers_.find(voxel_key(x, y, 0));
-      if (found != tile_numbers_.end()) near.push_back(&tiles_[found->second]);
+  const VoxelIndex middle = tile_at(center);
+  std::vector<std::uint32_t> near;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      // The corners of this square of tiles are farther away, by whole tiles less one at each end.
+      const double apart_x = std::max(std::abs(x) - 1, 0), apart_y = std::max(std::abs(y) - 1, 0);
+      if (std::hypot(apart_x, apart_y) * side > range + size_) continue;
+      const auto found = tile_numbers_.find(voxel_key(middle + VoxelIndex(x, y, 0)));
+      if (found != tile_numbers_.end()) near.push_back(found->second);
     }
   }
+  std::sort(near.begin(), near.end());
   return near;
 }
 
 void EvidenceMap::set_decision(std::size_t voxel, Verdict decision) {
-  Verdict& now = decisions_[slots_[voxel]];
+  Verdict& now = decisions_[slot(voxel)];
   if (now == decision) return;
   std::uint8_t& dynamic = dynamic_[block_of(voxel)];
   if (now == Verdict::kDynamic) --dynamic;
   if (decision == Verdict::kDynamic) ++dynamic;
+  is_dynamic_[block_of(voxel)] = dynamic > 0 ? 1 : 0;
   now = decision;
+}
+
+void EvidenceMap::update_surroundings(int reach) {
+  if (reach != std::exchange(reach_, reach)) {
+    was_dynamic_.clear();
+    dynamic_around_.clear();
+  }
+  const auto known = static_cast<std::uint32_t>(was_dynamic_.size());
+  const auto blocks = static_cast<std::uint32_t>(blocks_.block_count());
+  was_dynamic_.resize(blocks, 0);
+  dynamic_around_.resize(blocks, 0);
+  for (std::uint32_t block = known == 0 ? blocks : known; block < blocks; ++block) {
+    blocks_.for_blocks_around(block, reach, [&](std::uint32_t other) {
+      dynamic_around_[block] =
+          static_cast<std::uint16_t>(dynamic_around_[block] + was_dynamic_[other]);
+    });
+  }
+  // Few blocks change, so that most are compared many at a time.
+  for (std::uint32_t first = 0; first < blocks; first += kComparedBlocks) {
+    const std::uint32_t end = std::min(blocks, first + kComparedBlocks);
+    if (std::equal(is_dynamic_.begin() + first, is_dynamic_.begin() + end,
+                   was_dynamic_.begin() + first)) {
+      continue;
+    }
+    for (std::uint32_t block = first; block < end; ++block) {
+      const int more = is_dynamic_[block] - was_dynamic_[block];
+      if (more == 0) continue;
+      was_dynamic_[block] = is_dynamic_[block];
+      blocks_.for_blocks_around(block, reach, [&](std::uint32_t other) {
+        dynamic_around_[other] = static_cast<std::uint16_t>(dynamic_around_[other] + more);
+      });
+    }
+  }
+}
+
+void EvidenceMap::take_decisions(std::uint32_t block) {
+  std::copy_n(decisions(block), Blocks::kCells,
+              verdicts_.begin() + static_cast<std::ptrdiff_t>(block * Blocks::kCells));
 }
 
 }  // namespace raymoval::raymoval_plus_method

@@ -6,6 +6,7 @@
 
 #include "core/scan/voxel_key.h"
 #include "methods/raymoval_plus/common/dense_blocks.h"
+#include "methods/raymoval_plus/common/scan_cells.h"
 
 namespace raymoval::raymoval_plus_method {
 
@@ -32,16 +33,31 @@ class EvidenceMap {
   explicit EvidenceMap(double voxel_size)
       : size_(voxel_size), inverse_(1.0 / voxel_size), blocks_(kNone) {}
 
-  [[nodiscard]] VoxelIndex index_of(const Eigen::Vector3d& point) const {
-    return voxel_index(point, inverse_);
+  /// Finds the cells of a scan's points, and where the points are in them.
+  void find_cells_of(const Scan& scan, int threads, ScanCells& cells) const {
+    find_cells(scan, Eigen::Vector3d::Constant(inverse_), BesideCells::kParts, threads, cells);
   }
-  /// Adds a world point (metres), and returns the number of its voxel.
-  std::uint32_t add(const Eigen::Vector3d& point, Blocks::Cursor& cursor);
+
+  /// What `add` remembers from one point to the next, which mostly lies in the same voxel or block.
+  struct Adding {
+    Blocks::Cursor cursor;
+    VoxelIndex cell = VoxelIndex::Zero();
+    std::uint32_t voxel = kNone;  ///< That of `cell`, or none yet.
+  };
+  /// Adds a point, and returns the number of its voxel.
+  /// @param parts where the point is in its cell, see `ScanCells`
+  std::uint32_t add(const VoxelIndex& cell, std::uint32_t parts, Adding& adding);
 
   [[nodiscard]] std::size_t size() const { return voxels_.size(); }
-  /// The number of the voxel that holds a world point, or `kNone` if there is none.
-  [[nodiscard]] std::uint32_t find(const Eigen::Vector3d& point, Blocks::Cursor& cursor) const {
-    return blocks_.get(index_of(point), cursor);
+  struct Found {
+    std::uint32_t voxel;  ///< Its number, or `kNone`.
+    Verdict verdict;
+  };
+  /// The voxel of a cell.
+  [[nodiscard]] Found find(const VoxelIndex& cell, Blocks::Cursor& cursor) const {
+    const std::size_t slot = blocks_.slot(cell, cursor);
+    if (slot == Blocks::kNoSlot) return {kNone, Verdict::kUndecided};
+    return {blocks_.at(slot), verdicts_[slot]};
   }
   [[nodiscard]] const VoxelIndex& index(std::size_t voxel) const { return voxels_[voxel].index; }
   /// The mean of the voxel's points so far, world frame, metres.
@@ -56,9 +72,11 @@ class EvidenceMap {
   };
   /// Writes the means of the voxels that points were added to into `Tile::places`.
   void update_means();
-  /// The tiles of which some part may lie within `range` metres of `center`, seen from above. Their
-  /// order is always the same.
-  [[nodiscard]] std::vector<Tile*> tiles_near(const Eigen::Vector3d& center, double range);
+  /// The numbers of the tiles of which some part may lie within `range` metres of `center`, seen
+  /// from above, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> tiles_near(const Eigen::Vector3d& center,
+                                                      double range) const;
+  [[nodiscard]] Tile& tile(std::uint32_t number) { return tiles_[number]; }
 
   [[nodiscard]] const VoxelEvidence& evidence(std::size_t voxel) const {
     return tiles_[voxels_[voxel].tile].evidence[voxels_[voxel].place];
@@ -67,15 +85,15 @@ class EvidenceMap {
     return tiles_[voxels_[voxel].tile].evidence[voxels_[voxel].place];
   }
   /// The decision from the voxel's own evidence. Threads may set voxels of different blocks.
-  [[nodiscard]] Verdict decision(std::size_t voxel) const { return decisions_[slots_[voxel]]; }
+  [[nodiscard]] Verdict decision(std::size_t voxel) const { return decisions_[slot(voxel)]; }
   void set_decision(std::size_t voxel, Verdict decision);
   /// The verdict after its neighbours have voted.
-  [[nodiscard]] Verdict verdict(std::size_t voxel) const { return verdicts_[slots_[voxel]]; }
-  void set_verdict(std::size_t voxel, Verdict verdict) { verdicts_[slots_[voxel]] = verdict; }
+  [[nodiscard]] Verdict verdict(std::size_t voxel) const { return verdicts_[slot(voxel)]; }
+  void set_verdict(std::size_t voxel, Verdict verdict) { verdicts_[slot(voxel)] = verdict; }
 
   [[nodiscard]] const Blocks& blocks() const { return blocks_; }
   [[nodiscard]] std::uint32_t block_of(std::size_t voxel) const {
-    return slots_[voxel] / static_cast<std::uint32_t>(Blocks::kCells);
+    return slot(voxel) / static_cast<std::uint32_t>(Blocks::kCells);
   }
   /// The decisions on a block's cells, in their order. A cell without a voxel is undecided.
   [[nodiscard]] const Verdict* decisions(std::uint32_t block) const {
@@ -83,30 +101,47 @@ class EvidenceMap {
   }
   /// How many voxels of a block are decided to be dynamic.
   [[nodiscard]] int dynamic_in(std::uint32_t block) const { return dynamic_[block]; }
+  /// Finds anew which blocks have a dynamic voxel in a block at most `reach` blocks away.
+  void update_surroundings(int reach);
+  /// Whether that was so at the last `update_surroundings`.
+  [[nodiscard]] bool is_near_dynamic(std::uint32_t block) const {
+    return dynamic_around_[block] > 0;
+  }
+  /// Makes the verdicts on a block's voxels its decisions.
+  void take_decisions(std::uint32_t block);
 
  private:
   /// A tile has 2^6 columns a side: 12.8 m at voxels of 0.2 m, which is little beside the range
   /// that is asked about, so that few voxels beyond it are asked, and enough for one task of a
   /// thread.
   static constexpr int kTileShift = 6;
-  void add_voxel(const VoxelIndex& index);
+  std::uint32_t add_voxel(const VoxelIndex& index, std::uint32_t slot);
+  /// Sums of a voxel's points: offsets from the lower corner, in parts of the edge.
+  struct Sums {
+    std::uint32_t x = 0, y = 0, z = 0, count = 0;
+  };
   struct Voxel {
     VoxelIndex index;
-    /// Sums of the points' offsets from the lower corner, in parts of the edge (`kParts`).
-    std::uint32_t x = 0, y = 0, z = 0, count = 0;
-    bool mean_changed = false;
-    std::uint32_t tile = 0, place = 0;  ///< Where its mean and its evidence are.
+    std::uint32_t slot;         ///< Block and cell, by which decisions and verdicts are stored.
+    std::uint32_t tile, place;  ///< Where its mean and its evidence are.
   };
+  [[nodiscard]] std::uint32_t slot(std::size_t voxel) const { return voxels_[voxel].slot; }
+  [[nodiscard]] VoxelIndex tile_at(const Eigen::Vector3d& place) const;
 
   double size_, inverse_;
   Blocks blocks_;
   std::vector<std::uint8_t> dynamic_;  ///< By block: see `dynamic_in`.
+  /// By block: 1 if a voxel of it is dynamic, and whether it was at the last `update_surroundings`.
+  std::vector<std::uint8_t> is_dynamic_, was_dynamic_;
+  std::vector<std::uint16_t> dynamic_around_;  ///< By block: how many around it were dynamic then.
+  int reach_ = -1;                             ///< Of the last `update_surroundings`.
+  std::vector<Verdict> decisions_, verdicts_;  ///< By slot.
   std::vector<Voxel> voxels_;
-  std::vector<std::uint32_t> slots_;           ///< By voxel: block and cell, ...
-  std::vector<Verdict> decisions_, verdicts_;  ///< ... by which these are stored.
+  std::vector<Sums> sums_;
   VoxelMap<std::uint32_t> tile_numbers_;
   std::vector<Tile> tiles_;
-  std::vector<std::uint32_t> changed_;  ///< Voxels whose mean changed.
+  std::vector<std::uint32_t> changed_;      ///< Voxels whose mean changed, ...
+  std::vector<std::uint8_t> mean_changed_;  ///< ... which this says of each voxel.
 };
 
 }  // namespace raymoval::raymoval_plus_method

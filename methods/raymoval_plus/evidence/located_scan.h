@@ -5,29 +5,43 @@
 #include <vector>
 
 #include "methods/raymoval_plus/common/parameters.h"
+#include "methods/raymoval_plus/common/scan_cells.h"
 #include "methods/raymoval_plus/evidence/evidence_map.h"
 #include "methods/raymoval_plus/terrain/terrain.h"
 #include "methods/remover.h"
 
 namespace raymoval::raymoval_plus_method {
 
-/// A scan and where its points are in the world.
-struct WorldScan {
+/// A scan, and where its points are in the terrain and in the map. The steps fill it one after the
+/// other; it is used again for the next scan, since memory that is new costs time.
+struct LocatedScan {
   Scan scan;
-  std::vector<Eigen::Vector3d> points;  ///< World frame, metres.
-};
-WorldScan to_world(Scan scan, const RunContext& context);
-
-/// A scan whose points were looked up in the terrain and in the map.
-struct LocatedScan : WorldScan {
+  ScanCells in_terrain, in_map;
   std::vector<float> height;         ///< Of each point above the ground, metres, or +infinity.
   std::vector<std::uint32_t> voxel;  ///< Number in the map, or `EvidenceMap::kNone` for ground.
+  std::vector<Verdict> verdict;      ///< Of each point's voxel (steps 4 and 5); ground is static.
+
+  [[nodiscard]] Eigen::Vector3d world(std::size_t point) const {
+    return scan.T_world_sensor * scan.points[point].cast<double>();
+  }
 };
-/// Step 2: adds the points that are not ground to the map.
-LocatedScan add_to_map(WorldScan world, const Terrain& terrain, const Parameters& parameters,
-                       const RunContext& context, EvidenceMap& map);
-/// Looks a scan up in a terrain and a map that are finished.
-LocatedScan locate(WorldScan world, const Terrain& terrain, const EvidenceMap& map,
-                   const Parameters& parameters, const RunContext& context);
+
+/// Finds the points' cells in the terrain, if there is to be one.
+void find_terrain_cells(const Terrain& terrain, const Parameters& parameters,
+                        const RunContext& context, LocatedScan& scan);
+/// Finds the points' heights above the ground and their cells in the map, given their cells in the
+/// terrain.
+void find_heights_and_cells(const Terrain& terrain, const EvidenceMap& map,
+                            const Parameters& parameters, const RunContext& context,
+                            LocatedScan& scan);
+/// Step 2: adds the points that are not ground to the map. Fills `voxel`.
+void add_to_map(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
+                EvidenceMap& map);
+/// Looks the points up in a map that has all of them. Fills `voxel` and `verdict`. A point has no
+/// voxel if it was ground when its scan was added, and is not after the terrain was found anew.
+void look_up(const EvidenceMap& map, const Parameters& parameters, const RunContext& context,
+             LocatedScan& scan);
+/// Fills `verdict`, given `voxel`.
+void look_up_verdicts(const EvidenceMap& map, const RunContext& context, LocatedScan& scan);
 
 }  // namespace raymoval::raymoval_plus_method

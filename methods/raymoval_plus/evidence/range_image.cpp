@@ -42,17 +42,20 @@ constexpr float kWindowsGrow = 1.001F;
 /// Memory for what the kernels say of places; each thread has its own.
 struct SightRoom {
   AlignedArray<float> range;
-  AlignedArray<std::int32_t> column, row;
-  AlignedArray<std::uint32_t> chosen;
+  AlignedArray<std::int32_t> column, row, sighted;
+  AlignedArray<std::uint32_t> place, unsure;
 
-  kernels::Sights room_for(std::size_t places) {
+  kernels::ChosenSights room_for(std::size_t places) {
+    for (AlignedArray<std::int32_t>* const array : {&column, &row, &sighted}) {
+      array->require(places + kernels::kMostLanes);
+    }
     range.require(places + kernels::kMostLanes);
-    column.require(places + kernels::kMostLanes);
-    row.require(places + kernels::kMostLanes);
-    chosen.require(places);
-    return {range.data(), column.data(), row.data()};
+    place.require(places + kernels::kMostLanes);
+    unsure.require(places + kernels::kMostLanes);
+    return {place.data(), sighted.data(), {range.data(), column.data(), row.data()}};
   }
 };
+thread_local SightRoom sight_room;
 
 kernels::SightPlaces in_sensor_frame(const float* places, std::size_t count, const Pose& pose) {
   kernels::SightPlaces job{places, count, {}, {}};
@@ -60,6 +63,10 @@ kernels::SightPlaces in_sensor_frame(const float* places, std::size_t count, con
       pose.linear().cast<float>();
   Eigen::Map<Eigen::Vector3f>(job.translation.data()) = pose.translation().cast<float>();
   return job;
+}
+
+kernels::Sighted sighted_at(const kernels::ChosenSights& chosen, std::size_t i) {
+  return static_cast<kernels::Sighted>(chosen.sighted[i]);
 }
 
 }  // namespace
@@ -93,96 +100,93 @@ void RangeImage::choose_steps(const SensorModel& sensor) {
   // second row, they then do so in all of the image.
   const int most_rows = kMostBins / columns;
   const double rows = std::ceil((high - low) / height - kRounding);
-  rows_ = static_cast<int>(std::clamp(rows, 1.0, static_cast<double>(most_rows)));
+  image_.rows = static_cast<int>(std::clamp(rows, 1.0, static_cast<double>(most_rows)));
   elevation_step_ = static_cast<float>(rows > most_rows ? (high - low) / most_rows : height);
-  stride_ = columns + 2 * kMargin;
+  image_.columns = columns;
+  image_.margin = kMargin;
   grid_ = {1.0F / azimuth_step_, 1.0F / elevation_step_, static_cast<float>(low), columns};
 }
 
-void RangeImage::fill(const Scan& scan, const RunContext& context) {
-  const StageScope timed(context.times, "range image");
-  bins_.assign(row_start(rows_), {kInfinite, -kInfinite});
-  SightRoom sights;
+void RangeImage::fill(const Scan& scan) {
+  fill_bins(scan);
+  for (int r = 0; r < image_.rows; ++r) {
+    float* const bins = bins_.data() + bin(r, -kMargin);
+    std::copy_n(bins + 2 * image_.columns, 2 * kMargin, bins);
+    std::copy_n(bins + 2 * kMargin, 2 * kMargin, bins + 2 * (kMargin + image_.columns));
+  }
+  row_windows_.resize(bins_.size());
+  windows_.resize(bins_.size());
+  kernels_.fill_windows(image_, std::min(parameters_.window_columns, kMargin - 1),
+                        std::min(parameters_.window_rows, image_.rows - 1), bins_.data(),
+                        row_windows_.data(), windows_.data());
+}
+
+void RangeImage::fill_bins(const Scan& scan) {
+  bins_.assign(bin(image_.rows, -kMargin), kInfinite);
+  const kernels::Sights sights = sight_room.room_for(scan.size()).sights;
   kernels_.locate(grid_,
                   in_sensor_frame(scan.points.empty() ? nullptr : scan.points.front().data(),
                                   scan.size(), Pose::Identity()),
-                  sights.room_for(scan.size()));
+                  sights);
+  const auto nearest = static_cast<float>(parameters_.minimum_range);
   for (std::size_t k = 0; k < scan.size(); ++k) {
     const float range = sights.range[k];
     const int r = sights.row[k];
-    if (range < static_cast<float>(parameters_.minimum_range) || r < 0 || r >= rows_) continue;
-    Bin& bin = bins_[row_start(r) + static_cast<std::size_t>(sights.column[k] + kMargin)];
-    bin.nearest = std::min(bin.nearest, range);
-    bin.farthest = std::max(bin.farthest, range);
-  }
-  for (int r = 0; r < rows_; ++r) {
-    Bin* const bins = bins_.data() + row_start(r);
-    std::copy_n(bins + grid_.columns, kMargin, bins);
-    std::copy_n(bins + kMargin, kMargin, bins + kMargin + grid_.columns);
-  }
-  fill_windows();
-}
-
-void RangeImage::fill_windows() {
-  const auto widen = [](Bin& sum, const Bin& bin) {
-    sum.nearest = std::min(sum.nearest, bin.nearest);
-    sum.farthest = std::max(sum.farthest, bin.farthest);
-  };
-  const int wide = std::min(parameters_.window_columns, kMargin - 1);
-  const int high = std::min(parameters_.window_rows, rows_ - 1);
-  row_windows_ = bins_;
-  for (int r = 0; r < rows_; ++r) {
-    Bin* const to = row_windows_.data() + row_start(r);
-    const Bin* const from = bins_.data() + row_start(r);
-    for (int shift = -wide; shift <= wide; ++shift) {
-      if (shift == 0) continue;
-      for (int c = wide; c < stride_ - wide; ++c) widen(to[c], from[c + shift]);
-    }
-  }
-  windows_ = row_windows_;
-  for (int r = 0; r < rows_; ++r) {
-    Bin* const to = windows_.data() + row_start(r);
-    for (int other = std::max(r - high, 0); other <= std::min(r + high, rows_ - 1); ++other) {
-      if (other == r) continue;
-      const Bin* const from = row_windows_.data() + row_start(other);
-      for (int c = 0; c < stride_; ++c) widen(to[c], from[c]);
-    }
+    if (range < nearest || r < 0 || r >= image_.rows) continue;
+    float* const found = bins_.data() + bin(r, sights.column[k]);
+    found[0] = std::min(found[0], range);
+    found[1] = std::min(found[1], -range);
   }
 }
 
 Observation RangeImage::observe(const Eigen::Vector3f& place) const {
-  SightRoom sights;
-  kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights.room_for(1));
+  const kernels::Sights sights = sight_room.room_for(1).sights;
+  kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights);
   return observe_window<true>(sights.range[0], sights.column[0], sights.row[0]);
+}
+
+kernels::SightTest RangeImage::test() const {
+  kernels::SightTest test;
+  test.bins = bins_.data();
+  test.windows = windows_.data();
+  test.row_windows = row_windows_.data();
+  test.wide = parameters_.window_columns;
+  test.high = parameters_.window_rows;
+  test.least_range = kWindowsGrow * half_voxel_ /
+                     std::min(azimuth_step_ * static_cast<float>(parameters_.window_columns + 1),
+                              elevation_step_ * static_cast<float>(parameters_.window_rows + 1));
+  test.agree = agree_;
+  test.occluded = occluded_;
+  test.range_min = static_cast<float>(parameters_.evidence_range_min);
+  test.range_max = static_cast<float>(parameters_.evidence_range_max);
+  return test;
 }
 
 void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_places,
                          std::vector<ObservedPlace>& observed) const {
-  thread_local SightRoom sights;
   const std::size_t count = places.size() / 3;
-  kernels::SightWindows windows;
-  windows.pairs = &windows_.front().nearest;
-  windows.stride = stride_;
-  windows.margin = kMargin;
-  windows.rows = rows_;
-  windows.least_range = kWindowsGrow * half_voxel_ /
-                        std::min(azimuth_step_ * static_cast<float>(parameters_.window_columns + 1),
-                                 elevation_step_ * static_cast<float>(parameters_.window_rows + 1));
-  windows.agree = agree_;
-  windows.range_min = static_cast<float>(parameters_.evidence_range_min);
-  windows.range_max = static_cast<float>(parameters_.evidence_range_max);
-  const kernels::Sights room = sights.room_for(count);
-  const std::size_t chosen =
-      kernels_.choose(grid_, in_sensor_frame(places.data(), count, T_sensor_places), windows, room,
-                      sights.chosen.data());
+  const kernels::ChosenSights chosen = sight_room.room_for(count);
+  const kernels::SightTest test = this->test();
+  const std::size_t chosen_count = kernels_.choose(
+      grid_, in_sensor_frame(places.data(), count, T_sensor_places), image_, test, chosen);
+  std::size_t unsure_count = 0;
+  for (std::size_t i = 0; i < chosen_count; ++i) {
+    sight_room.unsure[unsure_count] = static_cast<std::uint32_t>(i);
+    if (sighted_at(chosen, i) == kernels::Sighted::kUnsure) ++unsure_count;
+  }
+  kernels_.settle(image_, test, sight_room.unsure.data(), unsure_count, chosen);
   observed.clear();
-  for (std::size_t i = 0; i < chosen; ++i) {
-    const std::uint32_t k = sights.chosen[i];
-    const Observation observation =
-        observe_window<false>(sights.range[k], sights.column[k], sights.row[k]);
-    if (observation == Observation::kAgree || observation == Observation::kFree) {
-      observed.push_back({k, observation, sights.range[k]});
+  for (std::size_t i = 0; i < chosen_count; ++i) {
+    const float range = chosen.sights.range[i];
+    const kernels::Sighted sighted = sighted_at(chosen, i);
+    if (sighted == kernels::Sighted::kNothing) continue;
+    Observation observation =
+        sighted == kernels::Sighted::kAgree ? Observation::kAgree : Observation::kFree;
+    if (sighted == kernels::Sighted::kUnsure) {
+      observation = observe_window<false>(range, chosen.sights.column[i], chosen.sights.row[i]);
+      if (observation != Observation::kAgree && observation != Observation::kFree) continue;
     }
+    observed.push_back({chosen.place[i], observation, range});
   }
 }
 
@@ -199,26 +203,25 @@ Observation RangeImage::observe_window(float range, int column, int row) const {
   const float agree = agree_[0] + agree_[1] * range;
   const float beyond = range + occluded_[0] + occluded_[1] * range;
   const float farther = std::max(range + agree, beyond);
-  const std::ptrdiff_t place = kMargin + column;
   bool occluded = false, below = false;
-  for (int r = std::max(row - high, 0); r <= std::min(row + high, rows_ - 1); ++r) {
+  for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
     if (!kEveryBin && wide == parameters_.window_columns) {
       // Few rows have returns at about the place's range. The others say the same as their nearest.
-      const Bin all = row_windows_[row_start(r) + static_cast<std::size_t>(place)];
-      if (all.farthest < range - agree || all.nearest > farther) {
-        occluded |= all.nearest < beyond;
-        below |= all.nearest < kInfinite && r <= row;
+      const float* const all = row_windows_.data() + bin(r, column);
+      if (-all[1] < range - agree || all[0] > farther) {
+        occluded |= all[0] < beyond;
+        below |= all[0] < kInfinite && r <= row;
         continue;
       }
     }
-    const Bin* const bins = bins_.data() + row_start(r) + place;
-    for (int c = -wide; c <= wide; ++c) {
-      if (std::abs(bins[c].nearest - range) <= agree ||
-          std::abs(bins[c].farthest - range) <= agree) {
+    const float* const bins = bins_.data() + bin(r, column - wide);
+    for (int c = 0; c <= 2 * wide; ++c) {
+      const float nearest = bins[2 * c], farthest = -bins[2 * c + 1];
+      if (std::abs(nearest - range) <= agree || std::abs(farthest - range) <= agree) {
         return Observation::kAgree;
       }
-      occluded |= bins[c].nearest < beyond;
-      below |= bins[c].nearest < kInfinite && r <= row;
+      occluded |= nearest < beyond;
+      below |= nearest < kInfinite && r <= row;
     }
   }
   if (occluded) return Observation::kOccluded;

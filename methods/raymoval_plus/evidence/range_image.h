@@ -9,7 +9,6 @@
 #include "core/scan/sensor_model.h"
 #include "methods/raymoval_plus/common/parameters.h"
 #include "methods/raymoval_plus/evidence/sight_kernels.h"
-#include "methods/remover.h"
 
 namespace raymoval::raymoval_plus_method {
 
@@ -31,11 +30,11 @@ class RangeImage {
 
   /// The number of bins. It is at most about four million, whatever the sensor's steps are.
   [[nodiscard]] std::size_t size() const {
-    return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(grid_.columns);
+    return static_cast<std::size_t>(image_.rows) * static_cast<std::size_t>(image_.columns);
   }
 
   /// Replaces the image with that of `scan`.
-  void fill(const Scan& scan, const RunContext& context);
+  void fill(const Scan& scan);
   /// What the scan says of a place of the sensor frame (metres). It **agrees** if any return of the
   /// window lies at the place's range. Else the place is **occluded** if any return is nearer, else
   /// **free** if there is a return at or below it, else **unknown**. So any agreement saves a
@@ -50,19 +49,17 @@ class RangeImage {
                std::vector<ObservedPlace>& observed) const;
 
  private:
-  /// The nearest and the farthest return of some directions, metres; +-infinity without a return.
-  struct Bin {
-    float nearest, farthest;
-  };
   struct Window {
     int wide, high;  ///< Half sizes, bins.
   };
   void choose_steps(const SensorModel& sensor);
-  [[nodiscard]] std::size_t row_start(int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_);
+  /// The place of a bin's two numbers in the arrays of `SightImage`.
+  [[nodiscard]] std::size_t bin(int row, int column) const {
+    return 2 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.stride()) +
+                static_cast<std::size_t>(image_.margin + column));
   }
-  /// Finds the nearest and the farthest return of the least window around each bin.
-  void fill_windows();
+  void fill_bins(const Scan& scan);
+  [[nodiscard]] kernels::SightTest test() const;
   [[nodiscard]] Window window_at(float range) const;
   /// @param row may lie beyond the image
   template <bool kEveryBin>
@@ -72,12 +69,11 @@ class RangeImage {
   kernels::SightKernels kernels_ = kernels::best_sight_kernels();
   kernels::SightGrid grid_;
   float azimuth_step_ = 0.0F, elevation_step_ = 0.0F;  ///< Size of a bin, radians.
-  int rows_ = 0;
-  int stride_ = 0;                         ///< Bins in a row, those of its margins included.
+  kernels::SightImage image_;
   float half_voxel_;                       ///< Metres.
   std::array<float, 2> agree_, occluded_;  ///< Metres at range 0, and for each metre of it.
-  std::vector<Bin> bins_, row_windows_, windows_;  ///< Returns of a bin, of `window_columns` around
-                                                   ///< it, and of `window_rows` of these.
+  /// Returns of each bin, of `window_columns` around it, and of `window_rows` of these.
+  std::vector<float> bins_, row_windows_, windows_;
 };
 
 }  // namespace raymoval::raymoval_plus_method

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
@@ -18,10 +19,8 @@ constexpr std::size_t kBlocksATask = 256;
 /// A sum of votes has the number of dynamic voxels in its upper 16 bits and the number of all
 /// decided voxels in the lower ones. A cube of the largest radius has 17^3 = 4,913 cells, which
 /// fits.
-std::uint32_t vote_of(Verdict decision) {
-  if (decision == Verdict::kUndecided) return 0;
-  return decision == Verdict::kDynamic ? 0x10001U : 1U;
-}
+/// These are the votes of an undecided, a static and a dynamic voxel.
+constexpr std::array<std::uint32_t, 3> kVotes = {0, 1, 0x10001U};
 
 /// The votes in a cube of cells that holds a block and `radius` cells to either side of it.
 class Ballot {
@@ -42,7 +41,9 @@ class Ballot {
         const Verdict* const row =
             decisions + ((z - corner.z() - radius_) * kSide + y - corner.y() - radius_) * kSide;
         std::uint32_t* const votes = votes_.data() + (z * side_ + y) * side_;
-        for (int x = low.x(); x < high.x(); ++x) votes[x] = vote_of(row[x - corner.x() - radius_]);
+        for (int x = low.x(); x < high.x(); ++x) {
+          votes[x] = kVotes[static_cast<std::size_t>(row[x - corner.x() - radius_])];
+        }
       }
     }
   }
@@ -82,21 +83,6 @@ class Ballot {
   std::array<std::uint32_t, EvidenceMap::Blocks::kCells> sums_{};
 };
 
-/// Replaces `around` with the blocks around a block, itself included.
-void find_around(const EvidenceMap& map, std::uint32_t block, int reach,
-                 std::vector<std::uint32_t>& around) {
-  around.clear();
-  const VoxelIndex& center = map.blocks().block_index(block);
-  for (int z = -reach; z <= reach; ++z) {
-    for (int y = -reach; y <= reach; ++y) {
-      for (int x = -reach; x <= reach; ++x) {
-        const std::uint32_t other = map.blocks().block(center + VoxelIndex(x, y, z));
-        if (other != EvidenceMap::kNone) around.push_back(other);
-      }
-    }
-  }
-}
-
 /// Calls `visit(voxel, cell)` for each voxel of a block; `cell` is its place in the block.
 template <class Visit>
 void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
@@ -114,20 +100,17 @@ Verdict verdict_by_votes(Verdict decision, std::uint32_t votes, const Parameters
   return dynamic >= share * decided ? Verdict::kDynamic : Verdict::kStatic;
 }
 
-void vote_in_block(std::uint32_t block, const Parameters& parameters, Ballot& ballot,
-                   std::vector<std::uint32_t>& around, EvidenceMap& map) {
-  find_around(map, block, (parameters.vote_radius + kSide - 1) / kSide, around);
-  if (std::none_of(around.begin(), around.end(),
-                   [&](std::uint32_t other) { return map.dynamic_in(other) > 0; })) {
-    for_voxels(map, block,
-               [&](std::uint32_t v, std::size_t) { map.set_verdict(v, map.decision(v)); });
+void vote_in_block(std::uint32_t block, int reach, const Parameters& parameters, Ballot& ballot,
+                   EvidenceMap& map) {
+  if (!map.is_near_dynamic(block)) {
+    map.take_decisions(block);
     return;
   }
   const VoxelIndex center = map.blocks().block_index(block);
   ballot.clear();
-  for (const std::uint32_t other : around) {
+  map.blocks().for_blocks_around(block, reach, [&](std::uint32_t other) {
     ballot.add((map.blocks().block_index(other) - center) * kSide, map.decisions(other));
-  }
+  });
   ballot.count();
   for_voxels(map, block, [&](std::uint32_t v, std::size_t cell) {
     const Verdict decision = map.decision(v);
@@ -142,14 +125,15 @@ void vote_in_block(std::uint32_t block, const Parameters& parameters, Ballot& ba
 void vote(const std::vector<std::uint32_t>& blocks, const Parameters& parameters,
           const RunContext& context, EvidenceMap& map) {
   const StageScope timed(context.times, "vote");
-  const auto vote_in_blocks = [&](std::size_t begin, std::size_t end) {
-    Ballot ballot(parameters.vote_radius);
-    std::vector<std::uint32_t> around;
-    for (std::size_t i = begin; i < end; ++i) {
-      vote_in_block(blocks[i], parameters, ballot, around, map);
-    }
-  };
-  parallel_chunks(context.threads, blocks.size(), kBlocksATask, vote_in_blocks);
+  const int reach = (parameters.vote_radius + kSide - 1) / kSide;
+  map.update_surroundings(reach);
+  parallel_chunks(context.threads, blocks.size(), kBlocksATask,
+                  [&](std::size_t begin, std::size_t end) {
+                    Ballot ballot(parameters.vote_radius);
+                    for (std::size_t i = begin; i < end; ++i) {
+                      vote_in_block(blocks[i], reach, parameters, ballot, map);
+                    }
+                  });
 }
 
 void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& map) {
@@ -159,14 +143,13 @@ void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& 
 }
 
 std::vector<std::uint32_t> blocks_of(const LocatedScan& scan, const EvidenceMap& map) {
+  std::vector<std::uint8_t> is_found(map.blocks().block_count(), 0);
   std::vector<std::uint32_t> blocks;
   for (const std::uint32_t voxel : scan.voxel) {
     if (voxel == EvidenceMap::kNone) continue;
     const std::uint32_t block = map.block_of(voxel);
-    if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
+    if (std::exchange(is_found[block], std::uint8_t{1}) == 0) blocks.push_back(block);
   }
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   return blocks;
 }
 

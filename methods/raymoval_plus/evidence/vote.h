@@ -16,7 +16,7 @@ void vote(const std::vector<std::uint32_t>& blocks, const Parameters& parameters
 /// Step 5 for the whole map.
 void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& map);
 
-/// The blocks that hold points of a scan, in ascending order.
+/// The blocks that hold points of a scan, in order of their first points.
 std::vector<std::uint32_t> blocks_of(const LocatedScan& scan, const EvidenceMap& map);
 
 }  // namespace raymoval::raymoval_plus_method

@@ -9,13 +9,8 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of step 8; EXPERIMENTS.md has each at half and at double its value.
-/// What is higher than so many metres does not stand on the points near the ground: legs and wheels
-/// end below, tree tops and awnings do not.
-constexpr float kHighest = 1.0F;
-/// Points near the ground follow the dynamic points above them if these are so many times the
-/// others, and the other way round. Between, they stay what their voxels are.
-constexpr int kMajority = 2;
+/// Of each cluster one of so many points is looked at first, to find those that are too wide.
+constexpr std::size_t kFewPoints = 8;
 
 /// The number of scans that agree with a point's voxel; 0 for ground.
 int agreeing_scans(const EvidenceMap& map, std::uint32_t voxel) {
@@ -23,13 +18,15 @@ int agreeing_scans(const EvidenceMap& map, std::uint32_t voxel) {
 }
 
 /// The cluster of each of the `chosen` points of a scan.
-std::vector<int> clusters_of(const Scan& scan, const std::vector<std::size_t>& chosen,
+std::vector<int> clusters_of(const Scan& scan, const std::vector<std::uint32_t>& chosen,
                              const Parameters& parameters) {
-  std::vector<Eigen::Vector3f> points;
-  std::vector<float> ranges;
-  for (const std::size_t k : chosen) {
-    points.push_back(scan.points[k]);
-    ranges.push_back(scan.points[k].norm());
+  thread_local std::vector<Eigen::Vector3f> points;
+  thread_local std::vector<float> ranges;
+  points.resize(chosen.size());
+  ranges.resize(chosen.size());
+  for (std::size_t n = 0; n < chosen.size(); ++n) {
+    points[n] = scan.points[chosen[n]];
+    ranges[n] = points[n].norm();
   }
   return range_adaptive_clusters(points, ranges, static_cast<float>(parameters.cluster_gap),
                                  static_cast<float>(parameters.cluster_growth));
@@ -40,9 +37,10 @@ std::vector<int> clusters_of(const Scan& scan, const std::vector<std::size_t>& c
 template <class Choose>
 std::vector<int> clusters_among(const SegmentedScan& scan, const Parameters& parameters,
                                 Choose&& choose) {
-  std::vector<std::size_t> places, chosen;
+  std::vector<std::size_t> places;
+  std::vector<std::uint32_t> chosen;
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    const std::size_t k = scan.high_points[i];
+    const std::uint32_t k = scan.high_points[i];
     if (!choose(k, scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])])) continue;
     places.push_back(i);
     chosen.push_back(k);
@@ -109,60 +107,59 @@ std::vector<std::uint8_t> spared_groups(const SegmentedScan& scan, const Paramet
   return spared;
 }
 
-/// The numbers of points that stand in a column of voxels, or in one and the eight around it.
-struct Standing {
-  int dynamic = 0, fixed = 0;
-};
-using Columns = VoxelMap<Standing>;
-
-Standing standing_around(const Columns& columns, const VoxelIndex& at) {
-  Standing sum;
-  for (int n = 0; n < 9; ++n) {
-    const auto found = columns.find(voxel_key(at.x() + n % 3 - 1, at.y() + n / 3 - 1, 0));
-    if (found == columns.end()) continue;
-    sum.dynamic += found->second.dynamic;
-    sum.fixed += found->second.fixed;
-  }
-  return sum;
+/// Grows the box of an object.
+void add_to_box(const Eigen::Vector3d& point, ObjectSummary& object) {
+  object.low = object.low.cwiseMin(point);
+  object.high = object.high.cwiseMax(point);
 }
 
-Verdicts verdicts_of_voxels(const LocatedScan& scan, const EvidenceMap& map,
-                            const RunContext& context) {
-  const StageScope timed(context.times, "verdicts");
-  Verdicts verdicts(scan.voxel.size());
-  parallel_for(context.threads, verdicts.size(), kPointsATask, [&](std::size_t k) {
-    // Ground has no voxel. Nor has a point that was ground when its scan was added, and is not
-    // after the terrain was found anew.
-    const std::uint32_t voxel = scan.voxel[k];
-    verdicts[k] = voxel == EvidenceMap::kNone ? Verdict::kStatic : map.verdict(voxel);
-  });
-  return verdicts;
+/// The clusters that may be followed: 1 for each that is neither too small nor, by a few of its
+/// points, too wide. Most points of a scan are of houses and trees, which that leaves out.
+std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
+                                             const Parameters& parameters) {
+  std::vector<ObjectSummary> boxes(scan.clusters.size());
+  for (std::size_t i = 0; i < scan.high_points.size(); i += kFewPoints) {
+    add_to_box(scan.world(scan.high_points[i]),
+               boxes[static_cast<std::size_t>(scan.cluster_of[i])]);
+  }
+  std::vector<std::uint8_t> follow(boxes.size());
+  for (std::size_t c = 0; c < follow.size(); ++c) {
+    const bool too_wide = boxes[c].low.x() <= boxes[c].high.x() &&  // It has any of the points.
+                          boxes[c].width() > parameters.track_width;
+    follow[c] = scan.clusters[c].points >= parameters.track_points && !too_wide ? 1 : 0;
+  }
+  return follow;
 }
 
 }  // namespace
 
-SegmentedScan find_objects(LocatedScan scan, const EvidenceMap& map, const Parameters& parameters,
-                           const RunContext& context) {
-  Verdicts verdicts = verdicts_of_voxels(scan, map, context);
-  SegmentedScan segmented{std::move(scan), std::move(verdicts), {}, {}, {}};
-  if (!parameters.objects) return segmented;
+void find_clusters(const Parameters& parameters, const RunContext& context, SegmentedScan& scan) {
+  scan.high_points.clear();
+  scan.cluster_of.clear();
+  scan.clusters.clear();
+  if (!parameters.objects) return;
   const StageScope timed(context.times, "objects");
   const auto farthest = static_cast<float>(parameters.evidence_range_max);
-  for (std::size_t k = 0; k < segmented.points.size(); ++k) {
-    if (segmented.height[k] < static_cast<float>(parameters.object_height)) continue;
-    if (segmented.scan.points[k].squaredNorm() > farthest * farthest) continue;
-    segmented.high_points.push_back(k);
+  const auto low = static_cast<float>(parameters.object_height);
+  for (std::size_t k = 0; k < scan.scan.size(); ++k) {
+    if (scan.height[k] < low) continue;
+    if (scan.scan.points[k].squaredNorm() > farthest * farthest) continue;
+    scan.high_points.push_back(static_cast<std::uint32_t>(k));
   }
-  segmented.cluster_of = clusters_of(segmented.scan, segmented.high_points, parameters);
-  const auto& number = segmented.cluster_of;
-  segmented.clusters.resize(number.empty() ? 0
-                                           : 1 + *std::max_element(number.begin(), number.end()));
-  count_points(segmented);
-  for (Cluster& cluster : segmented.clusters) {
+  scan.cluster_of = clusters_of(scan.scan, scan.high_points, parameters);
+  const auto& number = scan.cluster_of;
+  scan.clusters.resize(number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end()));
+}
+
+void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
+                     const RunContext& context, SegmentedScan& scan) {
+  if (!parameters.objects) return;
+  const StageScope timed(context.times, "objects");
+  count_points(scan);
+  for (Cluster& cluster : scan.clusters) {
     cluster.is_hardly_dynamic = cluster.dynamic <= parameters.object_static_share * cluster.points;
   }
-  if (parameters.settled_scans > 0) divide_mixed_clusters(map, parameters, segmented);
-  return segmented;
+  if (parameters.settled_scans > 0) divide_mixed_clusters(map, parameters, scan);
 }
 
 std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const EvidenceMap& map,
@@ -171,12 +168,15 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
   if (!parameters.objects || !parameters.tracks) return {};
   const StageScope timed(context.times, "objects");
   std::vector<ObjectSummary> objects(scan.clusters.size());
+  const std::vector<std::uint8_t> follow = clusters_to_follow(scan, parameters);
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    const std::size_t k = scan.high_points[i];
-    ObjectSummary& object = objects[static_cast<std::size_t>(scan.cluster_of[i])];
-    object.low = object.low.cwiseMin(scan.points[k]);
-    object.high = object.high.cwiseMax(scan.points[k]);
-    object.center += scan.points[k];
+    const std::size_t k = scan.high_points[i],
+                      cluster = static_cast<std::size_t>(scan.cluster_of[i]);
+    if (follow[cluster] == 0) continue;
+    ObjectSummary& object = objects[cluster];
+    const Eigen::Vector3d point = scan.world(k);
+    add_to_box(point, object);
+    object.center += point;
     if (scan.verdict[k] != Verdict::kDynamic) {
       object.agree_scans += static_cast<float>(agreeing_scans(map, scan.voxel[k]));
     }
@@ -187,9 +187,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     ObjectSummary& object = objects[c];
     object.points = scan.clusters[c].points;
     object.dynamic = scan.clusters[c].dynamic;
-    if (object.points < parameters.track_points || object.width() > parameters.track_width) {
-      continue;
-    }
+    if (follow[c] == 0 || object.width() > parameters.track_width) continue;
     object.center /= object.points;
     object.range = static_cast<float>((object.center - sensor).norm());
     object.agree_scans /= static_cast<float>(std::max(object.points - object.dynamic, 1));
@@ -216,36 +214,6 @@ Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marke
       verdict[scan.high_points[i]] = Verdict::kDynamic;
     } else if (spared[i] == 0 && cluster.is_hardly_dynamic) {
       verdict[scan.high_points[i]] = Verdict::kStatic;
-    }
-  }
-  return verdict;
-}
-
-Verdicts decide_low_points(const LocatedScan& scan, Verdicts verdict, const Parameters& parameters,
-                           const RunContext& context) {
-  if (!parameters.low_points || !parameters.terrain) return verdict;
-  const StageScope timed(context.times, "low points");
-  const double scale = 1.0 / parameters.voxel_size;
-  const auto low = static_cast<float>(parameters.object_height);
-  Columns columns;
-  for (std::size_t k = 0; k < scan.points.size(); ++k) {
-    if (scan.height[k] < low || scan.height[k] >= kHighest) continue;
-    const VoxelIndex at = voxel_index(scan.points[k], scale);
-    Standing& standing = columns[voxel_key(at.x(), at.y(), 0)];
-    ++(verdict[k] == Verdict::kDynamic ? standing.dynamic : standing.fixed);
-  }
-  VoxelIndex last(0, 0, 0);
-  Standing around = standing_around(columns, last);
-  for (std::size_t k = 0; k < scan.points.size(); ++k) {
-    if (scan.voxel[k] == EvidenceMap::kNone || scan.height[k] >= low) continue;
-    const VoxelIndex at = voxel_index(scan.points[k], scale);
-    // The next point mostly lies in the same column.
-    if (at.x() != last.x() || at.y() != last.y()) around = standing_around(columns, at);
-    last = at;
-    if (around.dynamic > 0 && around.dynamic >= kMajority * around.fixed) {
-      verdict[k] = Verdict::kDynamic;
-    } else if (around.fixed > 0 && around.fixed >= kMajority * around.dynamic) {
-      verdict[k] = Verdict::kStatic;
     }
   }
   return verdict;

@@ -22,17 +22,18 @@ struct Cluster {
   bool is_hardly_dynamic = false;  ///< The cluster, or the one that it is a part of, is.
 };
 
-/// A scan with the verdicts on its points' voxels, and its clusters.
+/// A scan with its clusters.
 struct SegmentedScan : LocatedScan {
-  Verdicts verdict;  ///< Of each point's voxel (steps 4 and 5); ground is static.
-  std::vector<std::size_t> high_points;  ///< The points that were clustered, ascending.
-  std::vector<int> cluster_of;           ///< The cluster of each of these.
+  std::vector<std::uint32_t> high_points;  ///< The points that were clustered, ascending.
+  std::vector<int> cluster_of;             ///< The cluster of each of these.
   std::vector<Cluster> clusters;
 };
 
-/// Step 6: finds the clusters, and divides those that are mixed.
-SegmentedScan find_objects(LocatedScan scan, const EvidenceMap& map, const Parameters& parameters,
-                           const RunContext& context);
+/// Step 6: finds the clusters. The verdicts need not be known yet.
+void find_clusters(const Parameters& parameters, const RunContext& context, SegmentedScan& scan);
+/// Step 6: counts what is dynamic in the clusters, and divides those that are mixed.
+void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
+                     const RunContext& context, SegmentedScan& scan);
 
 /// What step 7 needs of the clusters. Those too small or too wide to be followed are left out.
 std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const EvidenceMap& map,
@@ -45,10 +46,5 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
 /// @param marked numbers of the clusters that a track marked
 Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marked,
                         const Parameters& parameters, const RunContext& context);
-
-/// Step 8: the verdicts after the points near the ground have followed what stands above them.
-/// @param verdict of each point, from the steps before
-Verdicts decide_low_points(const LocatedScan& scan, Verdicts verdict, const Parameters& parameters,
-                           const RunContext& context);
 
 }  // namespace raymoval::raymoval_plus_method

@@ -30,11 +30,6 @@ int scans_between(std::size_t a, std::size_t b) {
   return static_cast<int>(std::abs(static_cast<long>(a) - static_cast<long>(b)));
 }
 
-bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
-  return object.dynamic >= parameters.object_dynamic_share * object.points &&
-         object.dynamic >= parameters.object_points;
-}
-
 int dynamic_objects(const Track& track, const Parameters& parameters) {
   return static_cast<int>(
       std::count_if(track.nodes.begin(), track.nodes.end(),
@@ -102,6 +97,11 @@ bool is_marked(const ObjectSummary& object, const Motion& motion, const Paramete
 }
 
 }  // namespace
+
+bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
+  return object.dynamic >= parameters.object_dynamic_share * object.points &&
+         object.dynamic >= parameters.object_points;
+}
 
 void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& objects) {
   scan_ = scan;

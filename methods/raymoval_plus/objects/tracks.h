@@ -26,6 +26,9 @@ struct ObjectSummary {
   [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
 };
 
+/// Whether an object is mostly dynamic, and has enough dynamic points.
+bool is_dynamic(const ObjectSummary& object, const Parameters& parameters);
+
 /// One object in the scans in which it was found.
 struct Track {
   struct Node {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 
@@ -35,16 +36,23 @@ Terrain::Terrain(const Parameters& parameters)
       counts_(0),
       ground_(-kNoGround) {}
 
-void Terrain::add(const std::vector<Eigen::Vector3d>& points, const RunContext& context) {
+void Terrain::find_cells_of(const Scan& scan, int threads, ScanCells& cells) const {
+  find_cells(scan, {inverse_cell_, inverse_cell_, 1.0 / kStep}, BesideCells::kHeight, threads,
+             cells);
+}
+
+void Terrain::add(const ScanCells& cells, const RunContext& context) {
   const StageScope timed(context.times, "terrain");
   Counts::Cursor cursor;
-  const Eigen::Array3d scale(inverse_cell_, inverse_cell_, 1.0 / kStep);
   std::uint32_t last = Counts::kNone;
-  for (const Eigen::Vector3d& point : points) {
-    const VoxelIndex cell = voxel_index(point.array() * scale, 1.0);
-    ++counts_.make(cell, cursor);
-    if (cursor.block != last) mark_changed(counts_.block_index(cursor.block));
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    ++counts_.make(cells[k], cursor);
+    if (cursor.block == last) continue;
     last = cursor.block;
+    if (has_news_.size() < counts_.block_count()) has_news_.resize(counts_.block_count(), 0);
+    if (std::exchange(has_news_[last], std::uint8_t{1}) == 0) {
+      mark_changed(counts_.block_index(last));
+    }
   }
 }
 
@@ -112,22 +120,30 @@ void Terrain::fill_quantiles(const VoxelIndex& block, int low_z, int high_z, int
 
 Terrain::Window Terrain::without_pits(const Window& ground) const {
   Window kept(ground.size(), kNoGround);
-  const auto drop = static_cast<float>(parameters_.terrain_drop);
+  const auto side = static_cast<std::size_t>(side_);
+  std::vector<float> highest(side);  // A column around may be as high as this.
+  std::vector<int> around(side), not_above(side);
   for (int y = 0; y < side_; ++y) {
-    for (int x = 0; x < side_; ++x) {
-      const float value = ground[static_cast<std::size_t>(y * side_ + x)];
-      if (value == kNoGround) continue;
-      int around = 0, not_above = 0;
-      for (int v = std::max(y - kNeighbours, 0); v <= std::min(y + kNeighbours, side_ - 1); ++v) {
-        const float* const row = ground.data() + static_cast<std::size_t>(v * side_);
-        for (int u = std::max(x - kNeighbours, 0); u <= std::min(x + kNeighbours, side_ - 1); ++u) {
-          around += row[u] < kNoGround ? 1 : 0;
-          not_above += row[u] <= value + drop ? 1 : 0;
+    const float* const values = ground.data() + static_cast<std::size_t>(y) * side;
+    const auto drop = static_cast<float>(parameters_.terrain_drop);
+    std::transform(values, values + side, highest.begin(), [&](float z) { return z + drop; });
+    std::fill(around.begin(), around.end(), 0);
+    std::fill(not_above.begin(), not_above.end(), 0);
+    for (int v = std::max(y - kNeighbours, 0); v <= std::min(y + kNeighbours, side_ - 1); ++v) {
+      for (int aside = -kNeighbours; aside <= kNeighbours; ++aside) {
+        const float* const row = ground.data() + static_cast<std::ptrdiff_t>(v) * side_ + aside;
+        const int end = std::min(side_, side_ - aside);
+        for (int x = std::max(0, -aside); x < end; ++x) {
+          const auto place = static_cast<std::size_t>(x);
+          around[place] += row[x] < kNoGround ? 1 : 0;
+          not_above[place] += row[x] <= highest[place] ? 1 : 0;
         }
       }
+    }
+    for (std::size_t x = 0; x < side; ++x) {
       // The lower quartile of the columns around is at most value + drop.
-      if (around >= kLeastNeighbours && not_above > around / 4) {
-        kept[static_cast<std::size_t>(y * side_ + x)] = value;
+      if (values[x] < kNoGround && around[x] >= kLeastNeighbours && not_above[x] > around[x] / 4) {
+        kept[static_cast<std::size_t>(y) * side + x] = values[x];
       }
     }
   }
@@ -156,6 +172,7 @@ void Terrain::update(const RunContext& context) {
   const StageScope timed(context.times, "terrain");
   std::vector<VoxelKey> tiles(changed_.begin(), changed_.end());
   changed_.clear();
+  std::fill(has_news_.begin(), has_news_.end(), std::uint8_t{0});
   std::sort(tiles.begin(), tiles.end());
   std::vector<Window> found(tiles.size());
   parallel_for(context.threads, tiles.size(), 1, [&](std::size_t i) {
@@ -172,19 +189,16 @@ void Terrain::update(const RunContext& context) {
   }
 }
 
-std::vector<float> Terrain::heights(const std::vector<Eigen::Vector3d>& points,
-                                    const RunContext& context) const {
-  std::vector<float> heights(points.size());
+void Terrain::find_heights(const ScanCells& cells, const RunContext& context,
+                           std::vector<float>& heights) const {
+  heights.resize(cells.size());
   parallel_chunks(
-      context.threads, points.size(), kPointsATask, [&](std::size_t begin, std::size_t end) {
+      context.threads, cells.size(), kPointsATask, [&](std::size_t begin, std::size_t end) {
         Heights::Cursor cursor;
         for (std::size_t k = begin; k < end; ++k) {
-          const VoxelIndex column(static_cast<int>(std::floor(points[k].x() * inverse_cell_)),
-                                  static_cast<int>(std::floor(points[k].y() * inverse_cell_)), 0);
-          heights[k] = static_cast<float>(points[k].z()) - ground_.get(column, cursor);
+          heights[k] = cells.height[k] - ground_.get({cells.x[k], cells.y[k], 0}, cursor);
         }
       });
-  return heights;
 }
 
 }  // namespace raymoval::raymoval_plus_method

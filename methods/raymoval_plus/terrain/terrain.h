@@ -9,13 +9,10 @@
 #include "core/scan/voxel_key.h"
 #include "methods/raymoval_plus/common/dense_blocks.h"
 #include "methods/raymoval_plus/common/parameters.h"
+#include "methods/raymoval_plus/common/scan_cells.h"
 #include "methods/remover.h"
 
 namespace raymoval::raymoval_plus_method {
-
-/// The number of points that one thread takes at a time: enough that starting a task costs little,
-/// and few enough that a scan of 120,000 points makes 15 tasks. It changes no answer.
-inline constexpr std::size_t kPointsATask = 8192;
 
 /// Step 1: the height of the ground below every place that was scanned. It is the low quantile of
 /// all points of a column. Columns that reach far below their neighbours do not count, and from one
@@ -26,14 +23,16 @@ class Terrain {
  public:
   explicit Terrain(const Parameters& parameters);
 
-  /// Counts the points of a scan (world frame, metres). The order of scans does not matter.
-  void add(const std::vector<Eigen::Vector3d>& points, const RunContext& context);
+  /// Finds the terrain's cells of a scan's points: columns, and steps of height.
+  void find_cells_of(const Scan& scan, int threads, ScanCells& cells) const;
+  /// Counts the points of a scan. The order of scans does not matter.
+  void add(const ScanCells& cells, const RunContext& context);
   /// Finds the ground anew wherever points were added since the last call.
   void update(const RunContext& context);
-  /// Heights of world points above the ground, metres. They are +infinity where no ground is known,
-  /// and so everywhere if nothing was added.
-  [[nodiscard]] std::vector<float> heights(const std::vector<Eigen::Vector3d>& points,
-                                           const RunContext& context) const;
+  /// Finds the heights of a scan's points above the ground, metres. They are +infinity where no
+  /// ground is known, and so everywhere if nothing was added.
+  void find_heights(const ScanCells& cells, const RunContext& context,
+                    std::vector<float>& heights) const;
 
  private:
   using Heights = DenseBlocks<float, 6, 0>;         ///< A block is a tile of 64 x 64 columns.
@@ -55,8 +54,9 @@ class Terrain {
   int side_;    ///< Columns in a row of a window.
   Counts counts_;
   VoxelMap<std::pair<int, int>>
-      extents_;       ///< The lowest and the highest block above 4 x 4 columns.
-  VoxelSet changed_;  ///< Tiles whose ground may have changed.
+      extents_;                         ///< The lowest and the highest block above 4 x 4 columns.
+  std::vector<std::uint8_t> has_news_;  ///< Blocks of `counts_` that `changed_` knows of: 1.
+  VoxelSet changed_;                    ///< Tiles whose ground may have changed.
   Heights ground_;
 };
 

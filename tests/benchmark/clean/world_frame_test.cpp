@@ -74,7 +74,7 @@ std::vector<MethodRequest> all_methods() {
 ProtocolResult scored(const Sequence& sequence, const std::string& protocol,
                       const MaskStore& masks) {
   ScoredSequence scored(sequence, {{protocol, protocol, protocol_defaults(protocol)}}, 2, nullptr);
-  return scored.score(0, masks);
+  return scored.score(masks).protocols.front();
 }
 
 }  // namespace

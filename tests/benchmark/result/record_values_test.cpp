@@ -8,6 +8,7 @@
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/files/files.h"
+#include "core/name.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -68,11 +69,31 @@ TEST_CASE("What is found in place of a value is told, if it is short", "[result]
   // 40 characters with the quotes, and one more.
   CHECK_THAT(said_of("/masks/removed", std::string(38, 'x')), Contains("found \"xxx"));
   CHECK_THAT(said_of("/masks/removed", std::string(39, 'x')), Contains("found a long string)"));
+  // Letters beyond ASCII are shown as they are.
+  CHECK_THAT(said_of("/masks/removed", "\xC3\x9F"), Contains("found \"\xC3\x9F\")"));
   CHECK_THAT(said_of("/measured/stages", "x"), Contains("measured.stages: expected a list"));
   CHECK_THAT(said_of("/method/parameters", {1}), Contains("method.parameters: expected an object"));
   CHECK_THAT(said_of("/method/online", 1), Contains("method.online: expected true or false"));
   CHECK_THROWS_WITH(cell_from(7, "cell.json"),
                     Contains("cell.json: not the results of a run (expected an object, found 7)"));
+}
+
+TEST_CASE("What is wrong with a name or a place is told with its field", "[result]") {
+  CHECK(said_of("/method/name", "=1") ==
+        "cell.json: not the results of a run (method.name: the name begins with '='; expected " +
+            std::string(kNameForm) + "). Run `raymoval run` again with the same --out.");
+  ordered_json run = to_json(RunRecord{"quick"});
+  run["suite"]["sequences"].push_back(plain_cell()["data"]);
+  run["places"] = ordered_json::parse(R"([{"path": "town", "frames": "one"}])");
+  CHECK_THROWS_WITH(run_record_from(run, "run.json"),
+                    Contains("run.json: not the results of a run (places[0]: frame range 'one'"));
+  // Two numbers are a list of them.
+  Cell cell = cell_from(plain_cell(), "cell.json");
+  cell.scores = {Score{{"erasor", "erasor", "1", {}}}};
+  cell.scores[0].intervals.emplace().rates = {{"PR", 1.0, 2.0}};
+  ordered_json json = to_json(cell);
+  json["protocols"][0]["intervals"]["rates"]["PR"] = {{"low", 1.0}, {"high", 2.0}};
+  CHECK_THROWS_WITH(cell_from(json, "cell.json"), Contains("rates.PR: expected two numbers"));
 }
 
 TEST_CASE("Parameters keep their types; what is no number any more stays none", "[result]") {

@@ -7,7 +7,9 @@
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
+#include "datasets/layouts.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/small_world.h"
 
@@ -198,14 +200,81 @@ TEST_CASE("A run on data that could not be read is compared by its number of sca
 TEST_CASE("A folder of --data is never taken for a scene of its name") {
   const TwoSequences two;
   fs::rename(two.root / "drive", two.folder.path() / "town");
+  fs::create_directory_symlink("town", two.folder.path() / "town:scans=60");
   const fs::path before = fs::current_path();
   fs::current_path(two.folder.path());
-  std::size_t scans = 0;
-  try {
-    scans = two.scans_of("drive", "town");
-  } catch (const Error& error) {
-    UNSCOPED_INFO(error.what());
+  for (const char* name : {"town", "town:scans=60"}) {
+    std::size_t scans = 0;
+    try {
+      scans = two.scans_of("drive", name);
+    } catch (const Error& error) {
+      UNSCOPED_INFO(error.what());
+    }
+    CHECK(scans == 1);
   }
   fs::current_path(before);
-  CHECK(scans == 1);
+}
+
+TEST_CASE("A colon in --data may be part of a folder's name") {
+  const TwoSequences two;
+  fs::rename(two.root, two.folder.path() / "da:ta");
+  CHECK(two.scans_of("drive", two.folder.path() / "da:ta") == 1);
+}
+
+TEST_CASE("Below --data only folders that are there are tried, and none above it") {
+  const TwoSequences two;
+  const fs::path inner = two.folder.path() / "inner";
+  fs::create_directory(inner);
+  const auto error_of = [&](const std::string& sequence, const fs::path& data) {
+    return test::message_of<DataError>([&] { (void)two.scans_of(sequence, data); });
+  };
+  const std::string nothing = "cannot be opened again: " + inner.string() + ": no known layout";
+  CHECK_THAT(error_of("drive", inner), Contains(nothing));
+  CHECK_THAT(error_of("five", inner), Contains(nothing));  // Whose place is ROOT:05.
+  // A run.json that leads upwards from --data, whose folder is a sequence here.
+  for (const char* part : {"velodyne", "labels", "poses.txt", "calib.txt"}) {
+    fs::rename(two.root / "drive" / part, two.folder.path() / part);
+  }
+  RunRecord run = read_run_record(two.run / "run.json");
+  for (const char* end : {"/..", "/"}) {
+    run.sequences.at(0).place->path = two.root.string() + end;
+    write_run_record(two.run / "run.json", run);
+    CHECK_THAT(error_of("drive", inner), Contains(nothing));
+  }
+}
+
+TEST_CASE("Of a sequence whose frames or scans nobody knows all are opened") {
+  const TwoSequences two;
+  fs::remove(two.run / "run.json");
+  two.change_results([](ResultsRecord& results) { results.run.sequences[0].data.frames.clear(); });
+  CHECK(two.scans_of("drive", two.root) == 1);
+  // Of a name that the run does not have it is not known how many there were.
+  fs::copy(two.root / "drive", two.root / "other", fs::copy_options::recursive);
+  for (const char* part : {"velodyne/00000%.bin", "labels/00000%.label"}) {
+    std::string from = part, to = part;
+    from.replace(from.find('%'), 1, "0");
+    to.replace(to.find('%'), 1, "1");
+    fs::copy(two.root / "other" / from, two.root / "other" / to);
+  }
+  (void)two.folder.write("data/other/poses.txt", test::kIdentityRow + test::kIdentityRow);
+  CHECK(two.scans_of("other", two.root) == 2);
+}
+
+TEST_CASE("A stop and a disk that does not answer are no reason to look elsewhere") {
+  const TwoSequences two;
+  // In the sequence's place there is a layout whose opening is stopped.
+  Layout layout;
+  layout.name = "stopped";
+  layout.expected = "a folder that is called stopped";
+  layout.recognise = [](Layout::Path path) { return fs::path(path).filename() == "stopped"; };
+  layout.open = [](Layout::Path, const SequenceOptions&, const OpenContext&) -> Sequence {
+    throw Cancelled();
+  };
+  static const bool known = (register_layout(layout), true);
+  REQUIRE(known);
+  fs::create_directory(two.folder.path() / "stopped");
+  CHECK_THROWS_AS(two.scans_of("drive", two.folder.path() / "stopped"), Cancelled);
+  fs::remove(two.root / "drive/poses.txt");
+  fs::create_symlink("poses.txt", two.root / "drive/poses.txt");
+  CHECK_THROWS_AS(two.scans_of("drive"), UnreadableError);
 }

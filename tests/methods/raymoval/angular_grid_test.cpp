@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/simd/instruction_set_scope.h"
+#include "methods/raymoval/kernels/voxel_runs.h"
 
 using namespace raymoval;
 using namespace raymoval::raymoval_method;
@@ -102,8 +103,9 @@ TEST_CASE("points on borders of bins and elsewhere go where the formulas say, on
     const InstructionSetScope scope(set);
     ProjectedScan projected;
     project(scan, grid, 2.0, 2, projected);
-    std::vector<VoxelIndex> voxels;
-    find_voxels(scan, 5.0, 2, voxels);
+    VoxelRuns runs;
+    find_voxels(scan, 5.0, 2, runs);
+    const std::vector<VoxelIndex> voxels = runs.of_points(runs.voxels);
     for (std::size_t k = 0; k < scan.size(); ++k) {
       const Spherical at = to_spherical(scan.points[k].cast<double>());
       const auto bin = grid.bin_of(at.azimuth, at.elevation);
@@ -118,6 +120,6 @@ TEST_CASE("a point beyond the lattice is an error") {
   Scan scan;
   scan.points.assign(100, {1, 2, 3});
   scan.points[50].x() = 1e9F;
-  std::vector<VoxelIndex> voxels;
-  CHECK_THROWS_AS(find_voxels(scan, 5.0, 1, voxels), DataError);
+  VoxelRuns runs;
+  CHECK_THROWS_AS(find_voxels(scan, 5.0, 1, runs), DataError);
 }

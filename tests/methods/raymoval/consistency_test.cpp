@@ -61,13 +61,16 @@ TEST_CASE("a bin is seen through if its scan lies beyond the map by the margin a
   ProjectedScan scan;
   FirstHitImage hits;
   // Margin at a map range of 10 m: 0.3 + 0.1 * 10 = 1.3 m.
-  scan.minimum_range = {11.2F, 11.4F, kNoRange, 20.0F, 20.0F, 20.0F};
-  const std::vector<float> nearest = {11.2F, 11.4F, 20.0F, 10.1F, 20.0F, 20.0F};
+  // Six columns and two rows; there is nothing of the map in the second row.
+  const BinWindow above_and_below{{6, 2, 0.0, 0.1}, 0, 1};
+  scan.minimum_range = {11.2F,    11.4F,    kNoRange, 20.0F, 20.0F,    20.0F,  //
+                        kNoRange, kNoRange, 20.0F,    10.1F, kNoRange, kNoRange};
   hits.range = {10, 10, 10, 10, kNoRange, 19.8F};
-  const std::vector<float> reference = {10, 10, 10, 10, 10, 10};
+  hits.range.resize(12, kNoRange);
+  const std::vector<float> reference = {10, 10, 10, 10, 10, 10, 10, 10, 10, 10, 10, 10};
   // Bin 2 has no return of its own, bin 3 a neighbour on the surface, bin 4 no first hit, and the
   // first hit of bin 5 is the surface that the scan sees.
-  const auto found = find_seen_through(scan, nearest, hits, reference, {0.3, 0.1}, 1);
+  const auto found = find_seen_through(scan, above_and_below, hits, reference, {0.3, 0.1}, 1);
   REQUIRE(found.size() == 1);
   CHECK(found[0].bin == 1);
   CHECK(found[0].nearest_return == 11.4F);

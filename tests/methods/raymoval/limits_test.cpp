@@ -136,12 +136,12 @@ TEST_CASE("a bin is seen through beyond the margins and not at them", "[raymoval
   };
   ProjectedScan scan;
   FirstHitImage hits;
-  std::vector<float> nearest, reference;
+  const BinWindow alone{{99, 1, 0.0, 0.1}, 0, 0};
+  std::vector<float> reference;
   std::vector<int> expected;
   for (int bin = 0; bin < 99; ++bin) {
     const Case& at = cases[static_cast<std::size_t>(bin) % cases.size()];
     scan.minimum_range.push_back(bin < 90 ? at.nearest : kNoRange);
-    nearest.push_back(at.nearest);
     hits.range.push_back(at.first_hit);
     reference.push_back(at.reference);
     if (at.through && bin < 90) expected.push_back(bin);
@@ -150,7 +150,7 @@ TEST_CASE("a bin is seen through beyond the margins and not at them", "[raymoval
     const InstructionSetScope scope(set);
     std::vector<int> found;
     for (const SeenThrough& through :
-         find_seen_through(scan, nearest, hits, reference, {1.0, 0.5}, 1)) {
+         find_seen_through(scan, alone, hits, reference, {1.0, 0.5}, 1)) {
       found.push_back(through.bin);
     }
     CHECK(found == expected);
@@ -169,9 +169,10 @@ TEST_CASE("what lies behind the last bin in memory is not looked at", "[raymoval
     scan.minimum_range = shortened(20.0F);
     FirstHitImage hits;
     hits.range = shortened(10.0F);
-    const std::vector<float> nearest = shortened(20.0F), reference = shortened(10.0F);
+    const std::vector<float> reference = shortened(10.0F);
+    const BinWindow alone{{static_cast<int>(bins), 1, 0.0, 0.1}, 0, 0};
     std::vector<int> found, every;
-    for (const SeenThrough& at : find_seen_through(scan, nearest, hits, reference, {1, 0.1}, 1)) {
+    for (const SeenThrough& at : find_seen_through(scan, alone, hits, reference, {1, 0.1}, 1)) {
       found.push_back(at.bin);
     }
     for (std::size_t bin = 0; bin < bins; ++bin) every.push_back(static_cast<int>(bin));

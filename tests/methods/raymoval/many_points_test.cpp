@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "methods/raymoval/consistency.h"
+#include "methods/raymoval/kernels/voxel_runs.h"
 
 using namespace raymoval;
 using namespace raymoval::raymoval_method;
@@ -16,7 +17,7 @@ TEST_CASE("every point and bin is tested, however many there are", "[raymoval]")
     ProjectedScan scan;
     Mask expected(count, 1);
     std::vector<int> through;
-    const std::vector<float> reference(count, 10.0F), nearest(count, 20.0F);
+    const std::vector<float> reference(count, 10.0F);
     for (std::size_t k = 0; k < count; ++k) {
       if (k % 3 == 1) expected[k] = 0;
       scan.range.push_back(expected[k] == 1 ? 5.0F : 9.9F);
@@ -29,7 +30,8 @@ TEST_CASE("every point and bin is tested, however many there are", "[raymoval]")
     INFO(count);
     CHECK(check_consistency(scan, reference, {1.0, 0.1}, 2) == expected);
     std::vector<int> found;
-    for (const SeenThrough& at : find_seen_through(scan, nearest, hits, reference, {1.0, 0.1}, 2)) {
+    const BinWindow alone{{static_cast<int>(count), 1, 0.0, 0.1}, 0, 0};
+    for (const SeenThrough& at : find_seen_through(scan, alone, hits, reference, {1.0, 0.1}, 2)) {
       found.push_back(at.bin);
     }
     CHECK(found == through);
@@ -49,8 +51,9 @@ TEST_CASE("scans of more points than a thread takes are in the bins and voxels o
     }
     ProjectedScan projected;
     project(scan, grid, 4.5, 2, projected);
-    std::vector<VoxelIndex> voxels;
-    find_voxels(scan, 5.0, 2, voxels);
+    VoxelRuns runs;
+    find_voxels(scan, 5.0, 2, runs);
+    const std::vector<VoxelIndex> voxels = runs.of_points(runs.voxels);
     REQUIRE(voxels.size() == count);
     std::vector<float> nearest(static_cast<std::size_t>(grid.size()), kNoRange);
     for (std::size_t k = 0; k < count; ++k) {

@@ -58,11 +58,17 @@ TEST_CASE("a mended cover holds exactly the voxels that are there now") {
     brick.occupied[static_cast<std::size_t>(x)] ^= Brick::bit(y, z);
     if (round % 7 == 0) brick.occupied[static_cast<std::size_t>(y)] |= 0xFFFFULL << (8 * x);
     if (round % 3 != 0) continue;  // Several changes at once.
-    mend_cover(brick, Change::kShrunk, boxes);
+    mend_cover(brick, boxes);
     REQUIRE(union_of(boxes).occupied == brick.occupied);
     // Now it only grows.
+    Brick added;
+    added.occupied[static_cast<std::size_t>(z)] =
+        Brick::bit(x, y) & ~brick.occupied[static_cast<std::size_t>(z)];
     brick.occupied[static_cast<std::size_t>(z)] |= Brick::bit(x, y);
-    mend_cover(brick, Change::kGrown, boxes);
+    const std::vector<BrickBox> before = boxes;
+    cover_added(brick, added, boxes);
+    REQUIRE(std::equal(before.begin(), before.end(), boxes.begin(),
+                       [](BrickBox a, BrickBox b) { return a.packed == b.packed; }));
     REQUIRE(union_of(boxes).occupied == brick.occupied);
   }
 }

@@ -5,6 +5,8 @@
 #include <map>
 #include <random>
 
+#include "tests/methods/raymoval_plus/map_points.h"
+
 using namespace raymoval;
 using namespace raymoval::raymoval_plus_method;
 
@@ -28,23 +30,24 @@ TEST_CASE("blocks hold what was put into their cells, for either sign") {
 }
 
 TEST_CASE("a voxel has the mean of its points, and is found within range of it") {
-  EvidenceMap map(0.2);
-  EvidenceMap::Blocks::Cursor cursor;
+  toy::MapPoints points;
+  EvidenceMap& map = points.map;
   // Two points of one voxel, and one of a voxel 40 m away, some tiles of 12.8 m farther.
-  const auto near = map.add({-0.15, 0.05, 1.05}, cursor);
-  CHECK(map.add({-0.05, 0.15, 1.05}, cursor) == near);
-  const auto far = map.add({40.1, 0.1, 1.1}, cursor);
+  const auto near = points.add({-0.15, 0.05, 1.05});
+  CHECK(points.add({-0.05, 0.15, 1.05}) == near);
+  const auto far = points.add({40.1, 0.1, 1.1});
   CHECK(map.size() == 2);
-  CHECK(map.find({-0.01, 0.01, 1.19}, cursor) == near);
-  CHECK(map.find({0.01, 0.01, 1.19}, cursor) == EvidenceMap::kNone);
+  CHECK(points.find({-0.01, 0.01, 1.19}) == near);
+  CHECK(points.find({0.01, 0.01, 1.19}) == EvidenceMap::kNone);
   CHECK((map.centroid(near) - Eigen::Vector3d(-0.1, 0.1, 1.05)).norm() < 0.001);  // 1/256 of 0.2 m
 
   map.update_means();
   const auto tiles = map.tiles_near({0.0, 0.0, 0.0}, 5.0);
   REQUIRE(tiles.size() == 1);
-  REQUIRE(tiles[0]->voxels == std::vector{near});
-  const Eigen::Vector3f mean = Eigen::Map<const Eigen::Vector3f>(tiles[0]->places.data());
-  CHECK((tiles[0]->origin + mean.cast<double>() - map.centroid(near)).norm() < 1e-5);
+  const EvidenceMap::Tile& tile = map.tile(tiles[0]);
+  REQUIRE(tile.voxels == std::vector{near});
+  const Eigen::Vector3f mean = Eigen::Map<const Eigen::Vector3f>(tile.places.data());
+  CHECK((tile.origin + mean.cast<double>() - map.centroid(near)).norm() < 1e-5);
   CHECK(map.tiles_near({0.0, 0.0, 0.0}, 40.0).size() == 2);
 
   map.set_decision(far, Verdict::kDynamic);

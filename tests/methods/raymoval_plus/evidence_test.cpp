@@ -2,7 +2,9 @@
 #include "methods/raymoval_plus/evidence/evidence.h"
 
 #include <catch2/catch.hpp>
+#include <random>
 
+#include "tests/methods/raymoval_plus/map_points.h"
 #include "tests/methods/toy_world.h"
 
 using namespace raymoval;
@@ -15,7 +17,7 @@ RangeImage image_of_return(float range) {
   Scan scan;
   scan.points.emplace_back(range, 0.02F, 0.02F);
   RangeImage image(toy::Scanner{}.model(), Parameters{});
-  image.fill(scan, RunContext{});
+  image.fill(scan);
   return image;
 }
 
@@ -38,6 +40,24 @@ TEST_CASE("scans that see through are weighed against scans that agree") {
   CHECK(decided(6, 100, 3, 3) == Verdict::kStatic);
 }
 
+TEST_CASE("decisions on many voxels are those of the formula") {
+  std::mt19937 random(9);
+  const auto count = [&](unsigned most) { return static_cast<std::uint16_t>(random() % most); };
+  for (const double constant : {0.0, 1.0, 2.5}) {
+    for (const int run_scans : {0, 4}) {
+      Parameters parameters;
+      parameters.free_constant = constant;
+      parameters.run_scans = run_scans;
+      const Decisions decided(parameters);
+      for (int i = 0; i < 3000; ++i) {
+        const VoxelEvidence evidence{count(i % 2 == 0 ? 10 : 200), count(i % 3 == 0 ? 3 : 600),
+                                     count(6), count(6)};
+        REQUIRE(decided(evidence) == decide(evidence, parameters));
+      }
+    }
+  }
+}
+
 TEST_CASE("runs of scans that see through are counted at either end of a voxel's story") {
   using enum Observation;
   const Parameters parameters;
@@ -54,14 +74,19 @@ TEST_CASE("runs of scans that see through are counted at either end of a voxel's
 
 TEST_CASE("every voxel in range is asked of a scan, and decided on") {
   // Voxels 5, 10 and 15 m ahead, one to the side. The scan has a return at 10 m.
-  EvidenceMap map(0.2);
-  EvidenceMap::Blocks::Cursor cursor;
-  const auto front = map.add({5.02, 0.02, 0.02}, cursor),
-             hit = map.add({10.02, 0.02, 0.02}, cursor);
-  const auto behind = map.add({15.02, 0.02, 0.02}, cursor),
-             aside = map.add({0.0, 9.0, 0.0}, cursor);
+  toy::MapPoints points;
+  EvidenceMap& map = points.map;
+  const auto front = points.add({5.02, 0.02, 0.02}), hit = points.add({10.02, 0.02, 0.02});
+  const auto behind = points.add({15.02, 0.02, 0.02}), aside = points.add({0.0, 9.0, 0.0});
+  const WhenToDecide when = GENERATE(WhenToDecide::kNow, WhenToDecide::kLater);
   for (int scan = 0; scan < 2; ++scan) {
-    add_evidence(image_of_return(10.0F), Pose::Identity(), Parameters{}, RunContext{}, map);
+    const RangeImage image = image_of_return(10.0F);
+    const PosedImage posed{&image, Pose::Identity()};
+    add_evidence(std::span(&posed, 1), Parameters{}, when, RunContext{}, map);
+  }
+  if (when == WhenToDecide::kLater) {
+    CHECK(map.decision(front) == Verdict::kUndecided);
+    decide_all(false, Parameters{}, RunContext{}, map);
   }
   CHECK(map.evidence(front).free_scans == 2);
   CHECK(map.decision(front) == Verdict::kDynamic);
@@ -82,11 +107,10 @@ TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") 
   for (const float range : {5.0F, 5.0F, 10.0F, 5.0F, 10.0F}) {
     earlier.keep(image_of_return(range), Pose::Identity());
   }
-  EvidenceMap map(0.2);
-  EvidenceMap::Blocks::Cursor cursor;
-  const auto known = map.add({5.02, 0.02, 0.02}, cursor),
-             fresh = map.add({5.22, 0.02, 0.02}, cursor);
-  earlier.add_evidence(fresh, {0.0, 0.0, 0.0}, RunContext{}, map);
+  toy::MapPoints points;
+  EvidenceMap& map = points.map;
+  const auto known = points.add({5.02, 0.02, 0.02}), fresh = points.add({5.22, 0.02, 0.02});
+  earlier.add_evidence(fresh, {0.0, 0.0, 0.0}, WhenToDecide::kNow, RunContext{}, map);
   CHECK(map.evidence(fresh).free_scans == 2);
   CHECK(map.evidence(fresh).agree_scans == 0);
   CHECK(map.decision(fresh) == Verdict::kDynamic);

@@ -2,9 +2,15 @@
 #include "methods/raymoval_plus/objects/objects.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <map>
+#include <random>
 
+#include "methods/raymoval_plus/objects/low_points.h"
+#include "methods/raymoval_plus/objects/point_runs.h"
 #include "methods/raymoval_plus/objects/reasons.h"
+#include "tests/methods/raymoval_plus/map_points.h"
 
 using namespace raymoval;
 using namespace raymoval::raymoval_plus_method;
@@ -16,25 +22,31 @@ namespace {
 class Scene {
  public:
   Parameters parameters;
-  EvidenceMap map{0.2};
+  toy::MapPoints in_map;
+  EvidenceMap& map = in_map.map;
   LocatedScan scan;
 
   void add(const Eigen::Vector3d& point, Verdict verdict, int agree_scans = 3) {
-    const std::uint32_t voxel = map.add(point, cursor_);
+    const std::uint32_t voxel = in_map.add(point);
     map.evidence(voxel).agree_scans = static_cast<std::uint16_t>(agree_scans);
     map.set_decision(voxel, verdict);
     map.set_verdict(voxel, verdict);
-    scan.points.push_back(point);
+    scan.in_map.x.push_back(map.index(voxel).x());
+    scan.in_map.y.push_back(map.index(voxel).y());
     scan.scan.points.push_back(point.cast<float>());
     scan.height.push_back(static_cast<float>(point.z()));
     scan.voxel.push_back(voxel);
+    scan.verdict.push_back(verdict);
   }
   /// Points in a column above (x, y), 0.1 m from each other, from `low` metres upward.
   void add_column(double x, double y, double low, int points, Verdict verdict) {
     for (int k = 0; k < points; ++k) add({x, y, low + 0.1 * k}, verdict);
   }
   [[nodiscard]] SegmentedScan segmented() const {
-    return find_objects(scan, map, parameters, RunContext{});
+    SegmentedScan segmented{scan, {}, {}, {}};
+    find_clusters(parameters, RunContext{}, segmented);
+    divide_clusters(map, parameters, RunContext{}, segmented);
+    return segmented;
   }
   /// The number of dynamic points from number `first` to before `end`, after step 6.
   [[nodiscard]] int dynamic(int first, int end, const std::vector<int>& marked = {}) const {
@@ -42,9 +54,6 @@ class Scene {
     return static_cast<int>(
         std::count(verdicts.begin() + first, verdicts.begin() + end, Verdict::kDynamic));
   }
-
- private:
-  EvidenceMap::Blocks::Cursor cursor_;
 };
 
 }  // namespace
@@ -105,7 +114,11 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
   CHECK(objects[0].points == 8);
   CHECK(objects[0].dynamic == 4);
   CHECK(objects[0].agree_scans == 3.0F);
-  CHECK(objects[0].center.isApprox(Eigen::Vector3d(4.15, 3.05, 0.55)));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 8; ++k)
+    sum += scene.scan.scan.points[static_cast<std::size_t>(k)].cast<double>();
+  CHECK(objects[0].center.isApprox(sum / 8.0));
+  CHECK(objects[0].center.isApprox(Eigen::Vector3d(4.15, 3.05, 0.55), 1e-7));  // They are floats.
   CHECK(objects[0].width() == Approx(0.2));
 }
 
@@ -126,14 +139,94 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
       verdicts.push_back(Verdict::kDynamic);
       scene.add({5.05, 0.05, 1.0 + 0.01 * k}, Verdict::kDynamic);
     }
-    const Verdicts decided =
-        decide_low_points(scene.scan, verdicts, scene.parameters, RunContext{});
+    Verdicts decided = verdicts;
+    decide_low_points(scene.scan, scene.parameters, RunContext{}, decided);
     const auto feet = std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic);
     CHECK(feet == (dynamic == 3   ? 0
                    : dynamic == 5 ? 2
                                   : 3));  // With half of it they are as they were.
     CHECK(std::equal(decided.begin() + 3, decided.end(), verdicts.begin() + 3));
   }
+}
+
+namespace {
+
+/// Step 8 with every column counted. 1 for each point that is dynamic afterwards.
+std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before, float low) {
+  std::map<std::pair<int, int>, std::array<int, 2>> standing;  // Fixed and dynamic points.
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (scan.height[k] < low || scan.height[k] >= 1.0F) continue;
+    ++standing[{scan.in_map.x[k], scan.in_map.y[k]}][before[k] == Verdict::kDynamic ? 1 : 0];
+  }
+  std::vector<int> dynamic(before.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    dynamic[k] = before[k] == Verdict::kDynamic ? 1 : 0;
+    if (scan.voxel[k] == EvidenceMap::kNone || scan.height[k] >= low) continue;
+    std::array<int, 2> sum{};
+    for (const auto& [at, points] : standing) {
+      if (std::abs(at.first - scan.in_map.x[k]) > 1) continue;
+      if (std::abs(at.second - scan.in_map.y[k]) > 1) continue;
+      for (std::size_t i = 0; i < 2; ++i) sum[i] += points[i];
+    }
+    if (sum[1] > 0 && sum[1] >= 2 * sum[0]) {
+      dynamic[k] = 1;
+    } else if (sum[0] > 0 && sum[0] >= 2 * sum[1]) {
+      dynamic[k] = 0;
+    }
+  }
+  return dynamic;
+}
+
+}  // namespace
+
+TEST_CASE("low points are those of a count over all columns") {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> place(-3.0, 3.0), height(0.0, 1.3);
+  int changed = 0;
+  for (int round = 0; round < 10; ++round) {
+    Scene scene;
+    Verdicts before;
+    for (int i = 0; i < 600; ++i) {
+      const Eigen::Vector3d at(place(random), place(random), height(random));
+      // Dynamic ones gather on one side.
+      const bool dynamic = at.x() > 2.0 ? random() % 4 > 0 : random() % 20 == 0;
+      before.push_back(dynamic             ? Verdict::kDynamic
+                       : random() % 5 == 0 ? Verdict::kUndecided
+                                           : Verdict::kStatic);
+      scene.add(at, before.back());
+      if (at.z() < 0.07) scene.scan.voxel.back() = EvidenceMap::kNone;
+    }
+    Verdicts decided = before;
+    decide_low_points(scene.scan, scene.parameters, RunContext{}, decided);
+    const std::vector<int> expected =
+        slow_low_points(scene.scan, before, static_cast<float>(scene.parameters.object_height));
+    for (std::size_t k = 0; k < decided.size(); ++k) {
+      REQUIRE((decided[k] == Verdict::kDynamic) == (expected[k] == 1));
+      changed += (before[k] == Verdict::kDynamic) != (expected[k] == 1) ? 1 : 0;
+    }
+  }
+  CHECK(changed > 50);
+}
+
+TEST_CASE("the points of what a track may mark are remembered") {
+  Scene scene;
+  scene.add_column(4.05, 3.05, 0.4, 6, Verdict::kStatic);   // points 0 to 5, few scans agree
+  scene.add_column(9.05, 3.05, 0.4, 6, Verdict::kDynamic);  // dynamic by itself
+  scene.add_column(14.05, 3.05, 0.4, 5, Verdict::kStatic);  // points 12 to 16
+  scene.add_column(4.25, 3.05, 0.4, 4, Verdict::kStatic);   // points 17 to 20, of the first
+  for (int k = 0; k < 6; ++k) scene.add({19.05, 3.05, 0.4 + 0.1 * k}, Verdict::kStatic, 500);
+  const SegmentedScan scan = scene.segmented();
+  const auto objects = summarise_objects(scan, scene.map, scene.parameters, RunContext{});
+  REQUIRE(objects.size() == 4);
+  std::map<int, std::vector<std::uint32_t>> points;  // By cluster.
+  for (const PointRun& run : remembered_points(scan, objects, scene.parameters)) {
+    for (std::uint32_t k = 0; k < run.count; ++k) {
+      points[objects[run.object].cluster].push_back(run.first + k);
+    }
+  }
+  const std::map<int, std::vector<std::uint32_t>> expected{{0, {0, 1, 2, 3, 4, 5, 17, 18, 19, 20}},
+                                                           {2, {12, 13, 14, 15, 16}}};
+  CHECK(points == expected);
 }
 
 TEST_CASE("the reason for a verdict is the step that made it") {

@@ -20,7 +20,7 @@ RangeImage image_of(std::vector<Eigen::Vector3f> points,
   Scan scan;
   scan.points = std::move(points);
   RangeImage image(sensor, Parameters{});
-  image.fill(scan, RunContext{});
+  image.fill(scan);
   return image;
 }
 

@@ -9,8 +9,24 @@ using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
+/// The cells of some points of the world.
+ScanCells cells_of(const Terrain& terrain, const std::vector<Eigen::Vector3d>& points) {
+  Scan scan;
+  for (const Eigen::Vector3d& point : points) scan.points.push_back(point.cast<float>());
+  ScanCells cells;
+  terrain.find_cells_of(scan, 1, cells);
+  return cells;
+}
+
+std::vector<float> heights_of(const Terrain& terrain, const std::vector<Eigen::Vector3d>& points,
+                              int threads = 1) {
+  std::vector<float> heights;
+  terrain.find_heights(cells_of(terrain, points), RunContext{.threads = threads}, heights);
+  return heights;
+}
+
 float height_of(const Terrain& terrain, const Eigen::Vector3d& point) {
-  return terrain.heights({point}, RunContext{})[0];
+  return heights_of(terrain, {point})[0];
 }
 
 }  // namespace
@@ -27,7 +43,7 @@ TEST_CASE("ground is the low quantile, without pits and walls") {
       }
     }
   }
-  terrain.add(points, RunContext{});
+  terrain.add(cells_of(terrain, points), RunContext{});
   terrain.update(RunContext{});
   CHECK(height_of(terrain, {0.1, 0.1, -1.7}) == Approx(0.0).margin(0.05));
   CHECK(height_of(terrain, {2.2, 2.2, 0.3}) == Approx(2.0).margin(0.3));  // in the pit
@@ -44,7 +60,7 @@ TEST_CASE("under a roof the ground rises no more than the slope allows") {
       for (int k = 0; k < 3; ++k) points.emplace_back(0.4 * x + 0.2, 0.4 * y + 0.2, x < 10 ? 0 : 2);
     }
   }
-  terrain.add(points, RunContext{});
+  terrain.add(cells_of(terrain, points), RunContext{});
   terrain.update(RunContext{});
   CHECK(height_of(terrain, {3.8, 0.2, 0.0}) == Approx(0.0).margin(0.05));
   // 0.4 m and 1.2 m beyond the last column of ground it may rise by 0.08 m and 0.24 m; farther away
@@ -65,14 +81,13 @@ TEST_CASE("ground found scan by scan is the ground found at once") {
       const double x = place(random), y = place(random);
       points.emplace_back(x, y, 0.1 * x + rough(random));
     }
-    in_parts.add(points, RunContext{});
+    in_parts.add(cells_of(in_parts, points), RunContext{});
     in_parts.update(RunContext{.threads = 2});
     all.insert(all.end(), points.begin(), points.end());
   }
-  at_once.add(all, RunContext{});
+  at_once.add(cells_of(at_once, all), RunContext{});
   at_once.update(RunContext{});
   std::vector<Eigen::Vector3d> asked;
   for (int i = 0; i < 2000; ++i) asked.emplace_back(place(random), place(random), 0.0);
-  REQUIRE(at_once.heights(asked, RunContext{}) ==
-          in_parts.heights(asked, RunContext{.threads = 2}));
+  REQUIRE(heights_of(at_once, asked) == heights_of(in_parts, asked, 2));
 }

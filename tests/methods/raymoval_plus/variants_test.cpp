@@ -24,6 +24,26 @@ TEST_CASE("raymoval_plus takes the movers off a street and leaves the rest") {
   CHECK(toy::removed_share(world, masks, 2, 0, 15) < 0.1);
 }
 
+TEST_CASE("raymoval_plus answers alike with and without reasons, for any number of threads") {
+  struct NoReasons : ReasonSink {
+    void explain(const std::vector<std::string>& /*sentences*/) override {}
+    void accept(std::size_t /*scan*/, const std::vector<std::uint8_t>& /*codes*/) override {}
+  };
+  const toy::World world = toy::street(14);
+  for (const char* const name : {"offline", "online-map", "online"}) {
+    const MaskStore masks = toy::masks_of(*variant(name).make(), world);
+    for (const int threads : {1, 2, 3}) {
+      toy::Masks others(world.size());
+      NoReasons reasons;
+      RunContext context;
+      context.threads = threads;
+      context.reasons = threads == 2 ? nullptr : &reasons;
+      variant(name).make()->run(world, others, context);
+      CHECK(toy::different_verdicts(masks, others.store, world.size()) == 0);
+    }
+  }
+}
+
 TEST_CASE("raymoval_plus online knows nothing of later scans") {
   const ConfiguredMethod method = variant("online");
   const MaskStore all = toy::masks_of(*method.make(), toy::street(12));

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "tests/methods/raymoval_plus/map_points.h"
+
 using namespace raymoval;
 using namespace raymoval::raymoval_plus_method;
 
@@ -11,19 +13,20 @@ namespace {
 
 /// A row of voxels along x.
 class Row {
+  toy::MapPoints points_;
+
  public:
-  EvidenceMap map{0.2};
+  EvidenceMap& map = points_.map;
 
   std::uint32_t add(int cell, Verdict decision) {
-    const auto voxel = map.add(middle(cell), cursor_);
+    const auto voxel = points_.add(middle(cell));
     map.set_decision(voxel, decision);
     return voxel;
   }
-  Verdict verdict(int cell) { return map.verdict(map.find(middle(cell), cursor_)); }
+  Verdict verdict(int cell) { return map.verdict(points_.find(middle(cell))); }
 
  private:
   static Eigen::Vector3d middle(int cell) { return {0.2 * cell + 0.1, 0.1, 0.1}; }
-  EvidenceMap::Blocks::Cursor cursor_;
 };
 
 }  // namespace
@@ -75,12 +78,12 @@ TEST_CASE("only the blocks of a scan get new verdicts when it arrives") {
 
 TEST_CASE("votes are those of a count over all voxels, whatever the radius") {
   std::mt19937 random(7);
-  EvidenceMap map(0.2);
-  EvidenceMap::Blocks::Cursor cursor;
+  toy::MapPoints points;
+  EvidenceMap& map = points.map;
   std::uniform_int_distribution<int> place(-11, 12), kind(0, 5);
   for (int i = 0; i < 3000; ++i) {
     const Eigen::Vector3d point(place(random), place(random), place(random));
-    const auto voxel = map.add(0.2 * (point + Eigen::Vector3d::Constant(0.5)), cursor);
+    const auto voxel = points.add(0.2 * (point + Eigen::Vector3d::Constant(0.5)));
     const int k = kind(random);
     map.set_decision(voxel, k == 0   ? Verdict::kUndecided
                             : k == 1 ? Verdict::kDynamic

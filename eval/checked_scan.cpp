@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "eval/points/checked_scan.h"
+#include "eval/checked_scan.h"
 
 #include "core/error.h"
 #include "core/text.h"
@@ -42,6 +42,13 @@ CheckedScan load_checked(const EvaluationInput& input, const MaskStore* masks, s
   loaded.labels = checked_labels(*input.labels, loaded.scan, index);
   if (masks != nullptr) loaded.mask = checked_mask(*masks, loaded.scan, index);
   return loaded;
+}
+
+void throw_changed(const EvaluationInput& input, std::size_t index) {
+  throw DataError(
+      "scan " + std::to_string(index) + " (" + input.scans->load(index).name +
+      ") has a point where there was none when the protocol was opened: the data changed "
+      "while it was used. Run again when nothing writes to the data any more.");
 }
 
 void check_mask_count(const EvaluationInput& input, const MaskStore& masks) {

@@ -26,6 +26,9 @@ struct CheckedScan {
 /// @throws DataError if the labels do not fit the scan
 CheckedScan load_checked(const EvaluationInput& input, const MaskStore* masks, std::size_t index);
 
+/// Throws DataError: a scan has a point where there was none when the protocol was opened.
+[[noreturn]] void throw_changed(const EvaluationInput& input, std::size_t index);
+
 /// @throws MethodError unless there is a mask for each scan
 void check_mask_count(const EvaluationInput& input, const MaskStore& masks);
 

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/result/speed/speed_comparison.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace raymoval {
+namespace {
+
+const CellSpeed* find_cell(const SpeedRecord& speed, const std::string& method) {
+  for (const CellSpeed& cell : speed.cells) {
+    if (cell.method == method) return &cell;
+  }
+  return nullptr;
+}
+
+/// A sentence for each condition under which the two were not measured alike.
+std::vector<std::string> unlike(const SpeedRecord& run, const SpeedRecord& reference) {
+  std::vector<std::string> sentences;
+  const auto check = [&](const char* what, const auto& ours, const auto& theirs) {
+    if (ours == theirs) return;
+    sentences.push_back(fmt::format("{} is {}, the reference has {}", what, ours, theirs));
+  };
+  check("the scene", run.scene, reference.scene);
+  check("the number of scans", run.scans, reference.scans);
+  check("the number of threads", run.threads, reference.threads);
+  check("the yardstick", run.yardstick, reference.yardstick);
+  if (reference.cells.empty()) sentences.emplace_back("the reference has no cell");
+  for (const CellSpeed& cell : reference.cells) {
+    if (!(cell.whole.median > 0.0))
+      sentences.push_back(cell.method + ": the reference has no time");
+    if (find_cell(run, cell.method) != nullptr) continue;
+    sentences.push_back(cell.method + " is missing in the run");
+  }
+  return sentences;
+}
+
+void compare_cell(const CellSpeed& run, const CellSpeed& reference, double band,
+                  SpeedComparison& result) {
+  const std::pair<const char*, SpeedFigure CellSpeed::*> parts[] = {
+      {"the whole cell", &CellSpeed::whole},
+      {"loading", &CellSpeed::load},
+      {"the method", &CellSpeed::run},
+      {"scoring", &CellSpeed::score}};
+  std::string line = run.method + ":";
+  for (const auto& [name, part] : parts) {
+    const double after = (run.*part).median, before = (reference.*part).median;
+    const bool judged = before >= kJudgedShare * reference.whole.median;
+    if (!judged) continue;
+    const double ratio = after / before;
+    line += fmt::format("{} {} {:.2f}", line.back() == ':' ? "" : ",", name, ratio);
+    if (!(ratio > band)) continue;
+    result.worse.push_back(fmt::format(
+        "{}: {} takes {:.2f} times the reference ({:.3f} yardsticks, was {:.3f}), more than {:g}",
+        run.method, name, ratio, after, before, band));
+  }
+  result.lines.push_back(line);
+}
+
+}  // namespace
+
+ExitCode SpeedComparison::verdict() const {
+  if (!incomparable.empty()) return ExitCode::kCannotDo;
+  return worse.empty() ? ExitCode::kDone : ExitCode::kWorse;
+}
+
+SpeedComparison compare_speed(const SpeedRecord& run, const SpeedRecord& reference, double band) {
+  SpeedComparison result;
+  result.incomparable = unlike(run, reference);
+  if (!result.incomparable.empty()) return result;
+  for (const CellSpeed& cell : reference.cells) {
+    compare_cell(*find_cell(run, cell.method), cell, band, result);
+  }
+  for (const CellSpeed& cell : run.cells) {
+    if (find_cell(reference, cell.method) != nullptr) continue;
+    result.lines.push_back(cell.method + ": not in the reference, not compared");
+  }
+  return result;
+}
+
+std::string speed_text(const SpeedComparison& comparison) {
+  std::string text;
+  const auto add = [&](const char* heading, const std::vector<std::string>& lines) {
+    if (!lines.empty()) text += std::string(heading) + ":\n";
+    for (const std::string& line : lines) text += "  " + line + "\n";
+  };
+  add("Not comparable", comparison.incomparable);
+  add("Worse", comparison.worse);
+  add("Times the reference, in yardsticks", comparison.lines);
+  const char* const verdicts[] = {"no regression", "worse", "not comparable"};
+  return text + verdicts[static_cast<int>(comparison.verdict())] + ".\n";
+}
+
+}  // namespace raymoval

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+
+#include "eval/lattice/cell_lattice.h"
+
+namespace raymoval::dynamicmap {
+
+/// A place in a block of 8 x 8 x 8 fine cells.
+struct FineCell {
+  VoxelKey block;
+  int x, y, z;  ///< 0 to 7.
+};
+
+/// Cuts the world into blocks of fine cells, an eighth of a block's edge each. An edge of a fine
+/// cell is a little more than half of `distance`, so that points at most so far apart are at most
+/// two fine cells from each other along each axis, whatever rounding does.
+class FineGrid {
+ public:
+  explicit FineGrid(double distance);
+
+  /// @throws DataError beyond the lattice of blocks
+  [[nodiscard]] FineCell cell_of(const Eigen::Vector3d& point) const {
+    const VoxelIndex block = cell_index(point, inverse_edge_);
+    const auto eighth = [&](int axis) {
+      return std::min(7, static_cast<int>((point[axis] * inverse_edge_ - block[axis]) * 8.0));
+    };
+    return {voxel_key(block), eighth(0), eighth(1), eighth(2)};
+  }
+  [[nodiscard]] VoxelKey block_of(const Eigen::Vector3d& point) const {
+    return cell_key(point, inverse_edge_);
+  }
+  /// Whether any two points of a fine cell are at most `distance` apart.
+  [[nodiscard]] bool same_cell_is_near() const { return same_cell_is_near_; }
+
+  static constexpr int kReach = 2;
+
+ private:
+  double inverse_edge_;  ///< Of a block.
+  bool same_cell_is_near_;
+};
+
+/// A bit for each fine cell of the blocks of a lattice, all 0 at first. Memory that is not touched
+/// takes no room: 64 bytes a block in which a bit was set, in whole pages.
+class FineBits {
+ public:
+  using Number = CellLattice::Number;
+
+  explicit FineBits(std::size_t blocks);
+
+  /// Several threads may set bits at a time.
+  void set(Number block, const FineCell& cell) {
+    const std::atomic_ref<std::uint64_t> word(words_[index(block, cell.z)]);
+    const std::uint64_t bit = bit_of(cell);
+    // Most bits are set already, and looking is quicker than setting.
+    if ((word.load(std::memory_order_relaxed) & bit) == 0) {
+      word.fetch_or(bit, std::memory_order_relaxed);
+    }
+  }
+  [[nodiscard]] bool is_set(Number block, const FineCell& cell) const {
+    return (words_[index(block, cell.z)] & bit_of(cell)) != 0;
+  }
+  /// Takes away the bits that `other` has.
+  void subtract(const FineBits& other);
+  /// Whether any bit of the block is set.
+  [[nodiscard]] bool any(Number block) const;
+
+  /// Whether a bit is set at most `FineGrid::kReach` cells away along each axis, in a block of
+  /// `lattice` with a number in [first, end).
+  [[nodiscard]] bool any_near(const FineCell& cell, const CellLattice& lattice,
+                              CellLattice::Cursor& cursor, Number first, Number end) const;
+
+ private:
+  struct Free {
+    void operator()(std::uint64_t* words) const { std::free(words); }
+  };
+  static std::size_t index(Number block, int z) {
+    return std::size_t{block} * 8 + static_cast<std::size_t>(z);
+  }
+  static std::uint64_t bit_of(const FineCell& cell) {
+    return std::uint64_t{1} << (cell.y * 8 + cell.x);
+  }
+  std::size_t blocks_;
+  std::unique_ptr<std::uint64_t[], Free> words_;  ///< Eight layers a block, from below.
+};
+
+}  // namespace raymoval::dynamicmap

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "eval/erasor/maps/accumulate.h"
+#include "eval/lattice/cell_lattice.h"
+#include "eval/lattice/ranked_bits.h"
+
+namespace raymoval::erasor {
+
+/// How near to a cell's wall a mean may be put on the other side by rounding, metres. It is far
+/// more than rounding does anywhere on the lattice.
+inline constexpr double kWallMargin = 1e-6;
+
+/// The cells of a sequence, whatever is removed of it.
+struct MapCells {
+  CellLattice all;  ///< Every cell that can hold a point of the dense map.
+  /// Cells with a point within `kWallMargin` of a wall. Only the means of such cells can lie in
+  /// another cell, by rounding.
+  RankedBits on_walls;
+  /// Cells in which the class of a voxel, or of a point of the dense map, hangs on which points are
+  /// near: those within two cells of a point that moves, or is a truck. A voxel's nearest point is
+  /// never farther than half a diagonal from its mean, and the point from which that one has its
+  /// label is not farther from it again, so none three cells away can give it its label.
+  RankedBits mixed;
+  RankedBits near_mixed;  ///< `mixed` and the cells beside it.
+};
+
+/// Finds the cells of a sequence, in one pass.
+/// @throws DataError beyond the lattice
+MapCells map_cells(const MapRules& rules);
+
+}  // namespace raymoval::erasor

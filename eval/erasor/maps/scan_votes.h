@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "eval/erasor/maps/map_cells.h"
+#include "eval/lattice/cell_means.h"
+#include "eval/lattice/cells_in_reach.h"
+#include "eval/points/labelled_voxels.h"
+
+namespace raymoval::erasor {
+
+/// A point that a scan adds to the dense map, without its label.
+struct DensePoint {
+  VoxelKey from;           ///< Cell of the scan's points of which it is the mean.
+  CellLattice::Number to;  ///< Cell in which it lies; by rounding this may be the next one.
+  Eigen::Vector3d point;
+};
+
+/// The points that a scan adds to the dense map: for each cell the mean of its points. Those that
+/// lie in one cell come in the order of the dense map.
+/// @param points of the scan
+/// @param scan its number, for messages
+std::vector<DensePoint> dense_points(const std::vector<Eigen::Vector3d>& points,
+                                     const MapRules& rules, const MapCells& cells, std::size_t scan,
+                                     CellMeans& means);
+
+/// What a point of the dense map says to a voxel near it.
+struct Offer {
+  std::uint32_t voter;  ///< Number of the voxel among those that vote.
+  std::uint32_t word;   ///< Label of the point.
+  double distance;      ///< From the voxel's mean, metres.
+  bool moves;
+};
+
+/// Offers points of the dense map to the voxels in reach: a voxel's nearest point is never farther
+/// from its mean than half a diagonal.
+/// @param dense points of the dense map
+/// @param voter_of says which voter a cell is, by its number; `CellLattice::kNone`: it has no vote
+/// @param mean_of the mean of a voxel, by its number; not a number if there is none
+template <class VoterOf, class MeanOf>
+void add_offers(const LabelledCloud& dense, const MapRules& rules, const CellLattice& cells,
+                VoterOf&& voter_of, MeanOf&& mean_of, std::vector<Offer>& offers) {
+  const double size = rules.options.voxel_size;
+  const double reach = std::sqrt(0.75) * size + kWallMargin;
+  const double bound = reach * reach;
+  CellLattice::Cursor cursor;
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    const Eigen::Vector3d& point = dense.points[i];
+    const bool moves = rules.classes.moving(dense.labels[i]);
+    visit_cells_in_reach(point, size, bound, [&](VoxelKey cell) {
+      const CellLattice::Number number = cells.find(cell, cursor);
+      if (number == CellLattice::kNone) return;
+      const std::uint32_t voter = voter_of(number);
+      if (voter == CellLattice::kNone) return;
+      const double squared = (point - mean_of(number)).squaredNorm();
+      if (squared <= bound) offers.push_back({voter, dense.labels[i], std::sqrt(squared), moves});
+    });
+  }
+}
+
+}  // namespace raymoval::erasor

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "eval/erasor/maps/map_cells.h"
+#include "eval/erasor/maps/map_voxels.h"
+
+namespace raymoval::erasor {
+
+/// The map of all points of a sequence: what `voxelise` makes of the dense map, bit by bit, without
+/// the dense map. Points are never kept: one pass over the scans finds the cells, the next one adds
+/// up the voxels' means, the last one lets the points of the dense map vote for labels; each makes
+/// the points of the dense map again. Building it takes at most 80 bytes a cell, keeping it 45.
+class TruthMap : public MapVoxels {
+ public:
+  /// @throws DataError as `load_checked`, or beyond the lattice
+  explicit TruthMap(const MapRules& rules);
+
+  [[nodiscard]] const CellLattice& cells() const override { return map_cells_.all; }
+  [[nodiscard]] Eigen::Vector3d mean(Number number) const override { return means_[number]; }
+  [[nodiscard]] VoxelKind kind(Number number) const override { return kinds_[number]; }
+
+  [[nodiscard]] const MapCells& map_cells() const { return map_cells_; }
+  [[nodiscard]] const PointCounts& points() const { return points_; }
+  [[nodiscard]] std::int64_t voxels() const { return voxels_; }
+  /// Voxels labelled 0 or 1.
+  [[nodiscard]] std::int64_t unlabelled_voxels() const { return unlabelled_voxels_; }
+  [[nodiscard]] std::int64_t mixed_label_ties() const { return mixed_label_ties_; }
+  /// The scan whose point gave a voxel its label.
+  [[nodiscard]] std::uint32_t scan(Number number) const { return scans_[number]; }
+
+ private:
+  class Builder;
+
+  MapCells map_cells_;
+  std::vector<Eigen::Vector3d> means_;
+  std::vector<VoxelKind> kinds_;
+  std::vector<std::uint32_t> scans_;
+  PointCounts points_;
+  std::int64_t voxels_ = 0, unlabelled_voxels_ = 0, mixed_label_ties_ = 0;
+};
+
+}  // namespace raymoval::erasor

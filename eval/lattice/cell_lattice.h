@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/scan/voxel_key.h"
+
+namespace raymoval {
+
+// Cells of a lattice stand together in bricks of 4 x 4 x 4, one bit each.
+
+/// The brick of a cell: the key of its lowest cell, every index divided by four.
+constexpr VoxelKey brick_of(VoxelKey cell) {
+  constexpr VoxelKey kAxis = (VoxelKey{1} << (kVoxelBits - 2)) - 1;
+  constexpr VoxelKey kAll = kAxis | kAxis << kVoxelBits | kAxis << (2 * kVoxelBits);
+  return cell >> 2 & kAll;
+}
+
+/// The place of a cell in its brick, 0 to 63.
+constexpr int place_in_brick(VoxelKey cell) {
+  return static_cast<int>((cell & 3) | (cell >> kVoxelBits & 3) << 2 |
+                          (cell >> (2 * kVoxelBits) & 3) << 4);
+}
+
+constexpr VoxelKey cell_at(VoxelKey brick, int place) {
+  const auto of_place = static_cast<VoxelKey>(place);
+  return brick << 2 | (of_place & 3) | (of_place >> 2 & 3) << kVoxelBits |
+         (of_place >> 4 & 3) << (2 * kVoxelBits);
+}
+
+/// The cell of a world point: `voxel_index` without a call for each axis.
+/// @throws DataError beyond the lattice
+inline VoxelIndex cell_index(const Eigen::Vector3d& point, double inverse_size) {
+  const Eigen::Vector3d place = point * inverse_size;
+  const bool is_inside = std::abs(place.x()) < kVoxelLimit && std::abs(place.y()) < kVoxelLimit &&
+                         std::abs(place.z()) < kVoxelLimit;
+  if (!is_inside) return voxel_index(point, inverse_size);
+  const auto floor_of = [](double value) {
+    const int whole = static_cast<int>(value);
+    return whole - (static_cast<double>(whole) > value ? 1 : 0);
+  };
+  return {floor_of(place.x()), floor_of(place.y()), floor_of(place.z())};
+}
+
+inline VoxelKey cell_key(const Eigen::Vector3d& point, double inverse_size) {
+  return voxel_key(cell_index(point, inverse_size));
+}
+
+/// How many bits are set, without a call on processors that have no instruction for it.
+constexpr int bits_set(std::uint64_t word) {
+  word -= word >> 1 & 0x5555555555555555U;
+  word = (word & 0x3333333333333333U) + (word >> 2 & 0x3333333333333333U);
+  word = (word + (word >> 4)) & 0x0F0F0F0F0F0F0F0FU;
+  return static_cast<int>(word * 0x0101010101010101U >> 56);
+}
+
+/// The cell so many steps away. Beyond the lattice's end this is a cell far away.
+constexpr VoxelKey cell_beside(VoxelKey cell, int dx, int dy, int dz) {
+  const auto step = [](int count, int axis) {
+    return static_cast<VoxelKey>(static_cast<std::int64_t>(count)) << (axis * kVoxelBits);
+  };
+  return cell + step(dx, 0) + step(dy, 1) + step(dz, 2);
+}
+
+/// A set of cells that grows.
+class CellSet {
+ public:
+  void insert(VoxelKey cell) { insert(brick_of(cell), std::uint64_t{1} << place_in_brick(cell)); }
+  void insert(const CellSet& other) {
+    for (const auto& [brick, cells] : other.bricks_) insert(brick, cells);
+  }
+  [[nodiscard]] bool contains(VoxelKey cell) const {
+    const auto found = bricks_.find(brick_of(cell));
+    return found != bricks_.end() && (found->second >> place_in_brick(cell) & 1U) != 0;
+  }
+  void clear() { bricks_.clear(); }
+
+  /// Calls `visit(cell)` for each cell, in no particular order.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const auto& [brick, cells] : bricks_) {
+      for (std::uint64_t left = cells; left != 0; left &= left - 1) {
+        visit(cell_at(brick, std::countr_zero(left)));
+      }
+    }
+  }
+
+ private:
+  friend class CellInserter;
+  friend class CellLattice;
+  void insert(VoxelKey brick, std::uint64_t cells) {
+    bricks_.try_emplace(brick, 0).first.value() |= cells;
+  }
+
+  VoxelMap<std::uint64_t> bricks_;
+};
+
+/// Inserts many cells, of which the next one is mostly in the same brick as the last.
+class CellInserter {
+ public:
+  explicit CellInserter(CellSet& set) : set_(set) {}
+  ~CellInserter() { flush(); }
+  CellInserter(const CellInserter&) = delete;
+  CellInserter& operator=(const CellInserter&) = delete;
+
+  void insert(VoxelKey cell) {
+    if (brick_of(cell) != brick_) {
+      flush();
+      brick_ = brick_of(cell);
+    }
+    cells_ |= std::uint64_t{1} << place_in_brick(cell);
+  }
+
+ private:
+  void flush() {
+    if (cells_ != 0) set_.insert(brick_, cells_);
+    cells_ = 0;
+  }
+  CellSet& set_;
+  VoxelKey brick_ = 0;
+  std::uint64_t cells_ = 0;
+};
+
+/// A set of cells that are numbered, from 0. What is close in space has numbers that are close, so
+/// that a table by number is good to the processor's caches. It takes about ten bytes a cell.
+class CellLattice {
+ public:
+  using Number = std::uint32_t;
+  static constexpr Number kNone = std::numeric_limits<Number>::max();
+
+  /// Remembers the brick that was used last. Each thread has one of its own.
+  struct Cursor {
+    VoxelKey brick = ~VoxelKey{0};
+    std::uint32_t position = kNone;
+  };
+
+  CellLattice() = default;
+  /// @throws DataError if there are 2^32 - 1 cells or more
+  explicit CellLattice(const CellSet& cells);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  /// The number of a cell; `kNone` if it is not in the set.
+  [[nodiscard]] Number find(VoxelKey cell, Cursor& cursor) const {
+    const VoxelKey brick = brick_of(cell);
+    if (brick != cursor.brick) {
+      const auto found = positions_.find(brick);
+      cursor = {brick, found == positions_.end() ? kNone : found->second};
+    }
+    if (cursor.position == kNone) return kNone;
+    const Brick& cells = bricks_[cursor.position];
+    const std::uint64_t bit = std::uint64_t{1} << place_in_brick(cell);
+    if ((cells.bits & bit) == 0) return kNone;
+    return cells.first + static_cast<Number>(bits_set(cells.bits & (bit - 1)));
+  }
+
+  [[nodiscard]] bool contains(VoxelKey cell, Cursor& cursor) const {
+    return find(cell, cursor) != kNone;
+  }
+
+  /// Calls `visit(number, cell)` for each cell, in the order of the numbers.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for_each_in(0, bricks(), visit);
+  }
+
+  /// How many bricks the cells stand in, for loops that cut the work by bricks.
+  [[nodiscard]] std::size_t bricks() const { return bricks_.size(); }
+  /// The same as `for_each` for the bricks [begin, end).
+  template <class Visit>
+  void for_each_in(std::size_t begin, std::size_t end, Visit&& visit) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      Number number = bricks_[i].first;
+      for (std::uint64_t left = bricks_[i].bits; left != 0; left &= left - 1) {
+        visit(number++, cell_at(bricks_[i].key, std::countr_zero(left)));
+      }
+    }
+  }
+
+ private:
+  struct Brick {
+    VoxelKey key;
+    std::uint64_t bits;
+    Number first;  ///< Number of its first cell.
+  };
+  std::size_t size_ = 0;
+  std::vector<Brick> bricks_;  ///< Along a Morton curve.
+  VoxelMap<std::uint32_t> positions_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include "eval/points/labelled_voxels.h"
+
+namespace raymoval {
+
+/// The votes of many voxels at a time, for points that come in the order of their index and are not
+/// kept: what `LabelVote` decides, at 32 bytes a voxel.
+///
+/// Of points in order, only one that is nearer than all before it can ever give its label: with any
+/// other one an earlier point is in reach, too. So a voxel remembers the earliest of these that is
+/// still in reach of the nearest. Those that came after it, and are in reach likewise, are nearer
+/// by less than `kLabelTieMargin`; the few voxels that have any remember them apart.
+class LabelVotes {
+ public:
+  struct Label {
+    std::uint32_t word = 0;
+    std::uint32_t scan = 0;
+  };
+
+  explicit LabelVotes(std::size_t voxels) : votes_(voxels) {}
+
+  /// Offers the next point to a voxel. @param distance from the voxel's mean, metres
+  void offer(std::size_t voxel, double distance, const Label& label, bool moves);
+
+  /// The label of the nearest point, or of the first one in reach of it. The voxel was offered one.
+  [[nodiscard]] const Label& label(std::size_t voxel) const { return votes_[voxel].holder.label; }
+  /// Whether a moving and a static point stand at the same distance.
+  [[nodiscard]] bool is_mixed_tie(std::size_t voxel) const;
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+  struct Candidate {
+    double distance = kFar;
+    Label label;
+  };
+  struct Vote {
+    double nearest_static = kFar, nearest_moving = kFar;
+    Candidate holder;
+  };
+
+  std::vector<Vote> votes_;
+  /// Candidates behind the holder, in order: each is nearer than the one before it.
+  std::unordered_map<std::size_t, std::vector<Candidate>> behind_;
+};
+
+}  // namespace raymoval

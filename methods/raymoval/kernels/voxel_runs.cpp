@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval/kernels/voxel_runs.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/parallel.h"
+#include "methods/raymoval/kernels/scan_kernels.h"
+
+namespace raymoval::raymoval_method {
+namespace {
+
+constexpr std::size_t kPart = 8192;   ///< Points of a part.
+constexpr std::size_t kPiece = 1024;  ///< Points whose voxels are held at a time.
+
+kernels::Voxelisation voxelisation_of(const Scan& scan, double inverse_voxel_size) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  static_assert(sizeof(VoxelIndex) == 3 * sizeof(std::int32_t));
+  kernels::Voxelisation job;
+  job.points = scan.points.front().data();
+  for (int row = 0; row < 3; ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    job.translation[at] = scan.T_world_sensor.translation()[row];
+    for (int column = 0; column < 3; ++column) {
+      job.rotation[3 * at + static_cast<std::size_t>(column)] =
+          scan.T_world_sensor.linear()(row, column);
+    }
+  }
+  job.inverse_voxel_size = inverse_voxel_size;
+  job.limit = kVoxelLimit;
+  return job;
+}
+
+/// x, y and z of some points' voxels, behind that of the point before them.
+struct Piece {
+  static constexpr std::size_t kSlack = 16;  ///< What vectors may need beyond the end.
+  std::array<std::array<std::int32_t, 1 + kPiece + kSlack>, 3> at;
+};
+
+/// Finds the voxels of the points begin .. end - 1.
+void find_piece(const Scan& scan, kernels::Voxelisation job, std::size_t begin, std::size_t end,
+                Piece& piece) {
+  const kernels::Kernels kernel = kernels::best_kernels();
+  const std::size_t count = end - begin, whole = count / kernel.lanes * kernel.lanes;
+  job.points += 3 * begin;
+  for (std::size_t axis = 0; axis < 3; ++axis) job.voxels[axis] = piece.at[axis].data() + 1;
+  const bool on_lattice = kernel.voxelise(job, 0, whole);
+  // If one of them is beyond the lattice, its error says where.
+  for (std::size_t k = on_lattice ? whole : 0; k < count; ++k) {
+    const Eigen::Vector3d world = scan.T_world_sensor * scan.points[begin + k].cast<double>();
+    const VoxelIndex voxel = voxel_index(world, job.inverse_voxel_size);
+    for (int axis = 0; axis < 3; ++axis) {
+      job.voxels[static_cast<std::size_t>(axis)][k] = voxel[axis];
+    }
+  }
+  for (std::int32_t* values : job.voxels)
+    std::fill_n(values + count, Piece::kSlack, values[count - 1]);
+}
+
+void find_part(const Scan& scan, const kernels::Voxelisation& job, std::size_t begin,
+               std::size_t end, VoxelRuns::Part& part) {
+  part.voxels.resize(kPart + Piece::kSlack);
+  part.first.resize(kPart + Piece::kSlack);
+  part.count = 0;
+  Piece piece;
+  for (std::size_t from = begin; from < end; from += kPiece) {
+    const std::size_t to = std::min(from + kPiece, end);
+    kernels::RunSearch search;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // The last voxel of the piece before.
+      piece.at[axis][0] = from == begin ? 0 : piece.at[axis][kPiece];
+      search.voxels[axis] = piece.at[axis].data();
+    }
+    find_piece(scan, job, from, to, piece);
+    if (from == begin) piece.at[0][0] = piece.at[0][1] ^ 1;  // The first point begins a run.
+    search.count = to - from;
+    search.first_point = static_cast<std::uint32_t>(from);
+    search.run_voxels = part.voxels.data()->data() + 3 * part.count;
+    search.run_first = part.first.data() + part.count;
+    part.count += kernels::best_kernels().find_runs(search);
+  }
+}
+
+}  // namespace
+
+void find_voxels(const Scan& scan, double inverse_voxel_size, int threads, VoxelRuns& runs) {
+  runs.voxels.clear();
+  runs.first.clear();
+  const std::size_t parts = (scan.size() + kPart - 1) / kPart;
+  if (runs.parts.size() < parts) runs.parts.resize(parts);
+  if (parts > 0) {
+    const kernels::Voxelisation job = voxelisation_of(scan, inverse_voxel_size);
+    parallel_chunks(threads, scan.size(), kPart, [&](std::size_t begin, std::size_t end) {
+      find_part(scan, job, begin, end, runs.parts[begin / kPart]);
+    });
+  }
+  for (std::size_t p = 0; p < parts; ++p) {
+    const VoxelRuns::Part& part = runs.parts[p];
+    const auto count = static_cast<std::ptrdiff_t>(part.count);
+    runs.voxels.insert(runs.voxels.end(), part.voxels.begin(), part.voxels.begin() + count);
+    runs.first.insert(runs.first.end(), part.first.begin(), part.first.begin() + count);
+  }
+  runs.first.push_back(static_cast<std::uint32_t>(scan.size()));
+}
+
+Mask runs_within(const VoxelRuns& runs, const Mask& points) {
+  Mask within(runs.size(), 0);
+  std::size_t run = 0, left = 0;  // Points of the run that were not seen in the mask yet.
+  for_each_set(points, [&](std::size_t k) {
+    if (k >= runs.first[run + 1] || left == 0) {
+      const auto next = std::upper_bound(runs.first.begin(), runs.first.end(), k);
+      run = static_cast<std::size_t>(next - runs.first.begin()) - 1;
+      left = runs.first[run + 1] - runs.first[run];
+    }
+    within[run] = --left == 0 ? 1 : 0;
+  });
+  return within;
+}
+
+}  // namespace raymoval::raymoval_method

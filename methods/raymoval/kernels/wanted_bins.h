@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "methods/raymoval/kernels/angular_grid.h"
+
+namespace raymoval::raymoval_method {
+
+/// The bins of a grid whose first hits are asked for, one bit each, column by column.
+class WantedBins {
+ public:
+  /// Asks for all bins.
+  void ask_for_all(const AngularGrid& grid);
+  /// Asks for the bins within `radius` columns and rows of each bin where `values` is finite. The
+  /// azimuth wraps around.
+  /// @param values one a bin of `grid`
+  void ask_around(const std::vector<float>& values, const AngularGrid& grid, int radius);
+
+  /// The rows asked for in column `i`: bit j % 64 of word j / 64 is row j. There is a bit for the
+  /// row after the last, which is never set.
+  [[nodiscard]] const std::uint64_t* column(int i) const {
+    return columns_.data() + static_cast<std::size_t>(i) * words_;
+  }
+  [[nodiscard]] std::size_t words_a_column() const { return words_; }
+  [[nodiscard]] bool contains(const AngularGrid& grid, int bin) const {
+    const auto row = static_cast<std::size_t>(grid.elevation_of(bin));
+    return (column(grid.azimuth_of(bin))[row / 64] >> row % 64 & 1) != 0;
+  }
+
+ private:
+  void resize(const AngularGrid& grid);
+
+  std::size_t words_ = 0;
+  std::vector<std::uint64_t> columns_;
+  std::vector<std::uint64_t> rows_, widened_;  ///< The same row by row, while they are found.
+};
+
+/// Turns a square of bits: bit b of word a becomes bit a of word b.
+void transpose_bits(std::array<std::uint64_t, 64>& words);
+
+}  // namespace raymoval::raymoval_method

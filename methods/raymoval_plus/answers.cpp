@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/answers.h"
+
+#include <algorithm>
+
+#include "core/scan/mask_store.h"
+#include "methods/common/workspaces.h"
+#include "methods/raymoval_plus/common/prepared_scans.h"
+#include "methods/raymoval_plus/objects/low_points.h"
+#include "methods/raymoval_plus/objects/point_runs.h"
+#include "methods/raymoval_plus/objects/reasons.h"
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+Mask removed_points(const Verdicts& verdicts) {
+  Mask removed(verdicts.size());
+  for (std::size_t k = 0; k < removed.size(); ++k) {
+    removed[k] = verdicts[k] == Verdict::kDynamic ? 1 : 0;
+  }
+  return removed;
+}
+
+/// The answers of a run that has seen all scans. Tracks need the objects of all scans, and may mark
+/// some of them, so that the scans are gone through once, and those with marks once more.
+class Answers {
+ public:
+  Answers(const Terrain& terrain, const EvidenceMap& map, const Parameters& parameters,
+          const ScanSource& scans, RemovalSink& sink, const RunContext& context)
+      : terrain_(terrain),
+        map_(map),
+        parameters_(parameters),
+        scans_(scans),
+        sink_(sink),
+        context_(context),
+        of_scan_(for_one_of_many(context)),
+        unmarked_(scans.size()),
+        objects_(scans.size()),
+        runs_(scans.size()) {}
+
+  void give() {
+    for_scans_at_once("raymoval_plus, objects", "objects", scans_, context_,
+                      [&](Scan& scan) { decide_without_tracks(std::move(scan)); });
+    marked_ = objects_on_tracks(objects_, parameters_, context_);  // 7
+    std::vector<std::size_t> again;  // Scans whose answer changes, or needs its reasons.
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      if (marked_[i].empty() && context_.reasons == nullptr) {
+        sink_.accept(i, unmarked_.get(i));
+      } else {
+        again.push_back(i);
+      }
+    }
+    for_scans_at_once("raymoval_plus, answers", "answers", scans_, again, context_,
+                      [&](Scan& scan) { answer_with_tracks(std::move(scan)); });
+  }
+
+ private:
+  void locate(Scan scan, LocatedScan& located) const {
+    located.scan = std::move(scan);
+    find_terrain_cells(terrain_, parameters_, of_scan_, located);
+    find_heights_and_cells(terrain_, map_, parameters_, of_scan_, located);
+    look_up(map_, parameters_, of_scan_, located);
+  }
+  void segment(Scan scan, SegmentedScan& segmented) const {
+    locate(std::move(scan), segmented);
+    find_clusters(parameters_, of_scan_, segmented);          // 6
+    divide_clusters(map_, parameters_, of_scan_, segmented);  // 6
+  }
+
+  void decide_without_tracks(Scan scan) {
+    const std::size_t index = scan.index;
+    workspaces_.with_one([&](SegmentedScan& segmented) {
+      segment(std::move(scan), segmented);
+      objects_[index] = summarise_objects(segmented, map_, parameters_, of_scan_);
+      runs_[index] = remembered_points(segmented, objects_[index], parameters_);
+      Verdicts verdicts = decide_objects(segmented, {}, parameters_, of_scan_);  // 6
+      decide_low_points(segmented, parameters_, of_scan_, verdicts);             // 8
+      unmarked_.set(index, removed_points(verdicts));
+    });
+  }
+
+  void answer_with_tracks(Scan scan) {
+    const std::size_t index = scan.index;
+    workspaces_.with_one([&](SegmentedScan& segmented) {
+      if (context_.reasons == nullptr && all_are_remembered(index)) {
+        locate(std::move(scan), segmented);
+        Verdicts verdicts = remembered_verdicts(segmented);             // 6, 7
+        decide_low_points(segmented, parameters_, of_scan_, verdicts);  // 8
+        sink_.accept(index, removed_points(verdicts));
+      } else {
+        segment(std::move(scan), segmented);
+        answer(segmented, marked_[index], map_, parameters_, sink_, of_scan_);  // 6 to 8
+      }
+    });
+  }
+
+  [[nodiscard]] bool is_marked(std::size_t scan, const ObjectSummary& object) const {
+    const std::vector<int>& marked = marked_[scan];
+    return std::find(marked.begin(), marked.end(), object.cluster) != marked.end();
+  }
+  /// Whether the points of all objects that tracks marked in a scan are remembered.
+  [[nodiscard]] bool all_are_remembered(std::size_t scan) const {
+    return std::all_of(objects_[scan].begin(), objects_[scan].end(), [&](const auto& object) {
+      return !is_marked(scan, object) || is_remembered(object, parameters_);
+    });
+  }
+  /// The verdicts on a scan's points before step 8: low points are what their voxels are, and the
+  /// others what the answer without tracks says, but for those that tracks mark.
+  [[nodiscard]] Verdicts remembered_verdicts(const LocatedScan& located) const {
+    const std::size_t scan = located.scan.index;
+    Verdicts verdicts = located.verdict;
+    const Mask unmarked = unmarked_.get(scan);
+    for (std::size_t k = 0; k < verdicts.size(); ++k) {
+      if (located.height[k] < static_cast<float>(parameters_.object_height)) continue;
+      verdicts[k] = unmarked[k] != 0 ? Verdict::kDynamic : Verdict::kStatic;
+    }
+    for (const PointRun& run : runs_[scan]) {
+      if (!is_marked(scan, objects_[scan][run.object])) continue;
+      std::fill_n(verdicts.begin() + run.first, run.count, Verdict::kDynamic);
+    }
+    return verdicts;
+  }
+
+  const Terrain& terrain_;
+  const EvidenceMap& map_;
+  const Parameters& parameters_;
+  const ScanSource& scans_;
+  RemovalSink& sink_;
+  const RunContext& context_;
+  RunContext of_scan_;  ///< What the steps of one scan get.
+  Workspaces<SegmentedScan> workspaces_{[] { return std::make_unique<SegmentedScan>(); }};
+  MaskStore unmarked_;                               ///< The answers without tracks.
+  std::vector<std::vector<ObjectSummary>> objects_;  ///< Of each scan, ...
+  std::vector<std::vector<PointRun>> runs_;          ///< ... and where their points are.
+  std::vector<std::vector<int>> marked_;             ///< Clusters of each scan.
+};
+
+}  // namespace
+
+void answer_from_map(const Terrain& terrain, const EvidenceMap& map, const Parameters& parameters,
+                     const ScanSource& scans, RemovalSink& sink, const RunContext& context) {
+  Answers(terrain, map, parameters, scans, sink, context).give();
+}
+
+void answer(const SegmentedScan& scan, const std::vector<int>& marked, const EvidenceMap& map,
+            const Parameters& parameters, RemovalSink& sink, const RunContext& context) {
+  const Verdicts by_objects = decide_objects(scan, marked, parameters, context);  // 6, 7
+  Verdicts decided = by_objects;
+  decide_low_points(scan, parameters, context, decided);  // 8
+  sink.accept(scan.scan.index, removed_points(decided));
+  if (context.reasons == nullptr) return;
+  context.reasons->accept(scan.scan.index, reasons_for(scan, map, by_objects, decided));
+}
+
+}  // namespace raymoval::raymoval_plus_method

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects/low_points.h"
+
+#include <vector>
+
+#include "methods/raymoval_plus/common/dense_blocks.h"
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+// Numbers of step 8; EXPERIMENTS.md has each at half and at double its value.
+/// What is higher than so many metres does not stand on the points near the ground: legs and wheels
+/// end below, tree tops and awnings do not.
+constexpr float kHighest = 1.0F;
+/// Points near the ground follow the dynamic points above them if these are so many times the
+/// others, and the other way round. Between, they stay what their voxels are.
+constexpr int kMajority = 2;
+
+/// What stands in a column of voxels.
+struct Standing {
+  std::uint32_t dynamic = 0, fixed = 0;  ///< Numbers of points.
+  bool is_near_dynamic = false;          ///< Something dynamic stands here or beside it.
+  bool is_asked = false;                 ///< A low point here or beside it wants to know.
+};
+
+/// The low points of one scan and what stands on them. Hardly anything in a scan is dynamic, so
+/// only the columns are counted on which the verdict of a low point can depend.
+class LowPoints {
+ public:
+  LowPoints(const LocatedScan& scan, const Parameters& parameters, Verdicts& verdict)
+      : scan_(scan), low_(static_cast<float>(parameters.object_height)), verdict_(verdict) {}
+
+  void decide() {
+    count_dynamic();
+    find_undecided();
+    if (undecided_.empty()) return;
+    count_fixed();
+    for (const std::size_t k : undecided_) decide(k);
+  }
+
+ private:
+  [[nodiscard]] bool is_standing(std::size_t k) const {
+    return scan_.height[k] >= low_ && scan_.height[k] < kHighest;
+  }
+  [[nodiscard]] bool is_dynamic(std::size_t k) const { return verdict_[k] == Verdict::kDynamic; }
+  [[nodiscard]] VoxelIndex column_of(std::size_t k) const {
+    return {scan_.in_map.x[k], scan_.in_map.y[k], 0};
+  }
+  /// Calls `visit(standing)` with the column of a point and the eight around it.
+  template <class Visit>
+  void for_columns_around(std::size_t k, Visit&& visit) {
+    for (int n = 0; n < 9; ++n) {
+      visit(columns_.make(column_of(k) + VoxelIndex(n % 3 - 1, n / 3 - 1, 0), cursor_));
+    }
+  }
+
+  void count_dynamic() {
+    for (std::size_t k = 0; k < verdict_.size(); ++k) {
+      if (!is_dynamic(k) || !is_standing(k)) continue;
+      if (columns_.make(column_of(k), cursor_).dynamic++ > 0) continue;
+      for_columns_around(k, [](Standing& standing) { standing.is_near_dynamic = true; });
+    }
+  }
+  /// Finds the low points whose verdict what stands above them may change.
+  void find_undecided() {
+    for (std::size_t k = 0; k < verdict_.size(); ++k) {
+      if (!(scan_.height[k] < low_) || scan_.voxel[k] == EvidenceMap::kNone) continue;
+      if (!is_dynamic(k) && !columns_.get(column_of(k), cursor_).is_near_dynamic) continue;
+      undecided_.push_back(k);
+      for_columns_around(k, [](Standing& standing) { standing.is_asked = true; });
+    }
+  }
+  void count_fixed() {
+    for (std::size_t k = 0; k < verdict_.size(); ++k) {
+      if (is_dynamic(k) || !is_standing(k)) continue;
+      if (!columns_.get(column_of(k), cursor_).is_asked) continue;
+      ++columns_.make(column_of(k), cursor_).fixed;
+    }
+  }
+  void decide(std::size_t k) {
+    std::uint32_t dynamic = 0, fixed = 0;
+    for_columns_around(k, [&](const Standing& standing) {
+      dynamic += standing.dynamic;
+      fixed += standing.fixed;
+    });
+    if (dynamic > 0 && dynamic >= kMajority * fixed) {
+      verdict_[k] = Verdict::kDynamic;
+    } else if (fixed > 0 && fixed >= kMajority * dynamic) {
+      verdict_[k] = Verdict::kStatic;
+    }
+  }
+
+  using Columns = DenseBlocks<Standing, 4, 0>;
+  const LocatedScan& scan_;
+  float low_;
+  Verdicts& verdict_;
+  Columns columns_{Standing{}};
+  Columns::Cursor cursor_;
+  std::vector<std::size_t> undecided_;
+};
+
+}  // namespace
+
+void decide_low_points(const LocatedScan& scan, const Parameters& parameters,
+                       const RunContext& context, Verdicts& verdict) {
+  if (!parameters.low_points || !parameters.terrain) return;
+  const StageScope timed(context.times, "low points");
+  LowPoints(scan, parameters, verdict).decide();
+}
+
+}  // namespace raymoval::raymoval_plus_method

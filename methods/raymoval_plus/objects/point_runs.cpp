@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects/point_runs.h"
+
+#include <limits>
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+/// What more scans than this agree with, on average over its points, is not remembered. It changes
+/// no answer, only how it is found.
+constexpr float kMostAgreeing = 20.0F;
+constexpr std::size_t kMostObjects = std::numeric_limits<std::uint16_t>::max();
+
+}  // namespace
+
+bool is_remembered(const ObjectSummary& object, const Parameters& parameters) {
+  return !is_dynamic(object, parameters) && object.agree_scans <= kMostAgreeing;
+}
+
+std::vector<PointRun> remembered_points(const SegmentedScan& scan,
+                                        const std::vector<ObjectSummary>& objects,
+                                        const Parameters& parameters) {
+  constexpr int kNotRemembered = -1;
+  std::vector<int> object_of(scan.clusters.size(), kNotRemembered);
+  for (std::size_t k = 0; k < objects.size() && k < kMostObjects; ++k) {
+    if (!is_remembered(objects[k], parameters)) continue;
+    object_of[static_cast<std::size_t>(objects[k].cluster)] = static_cast<int>(k);
+  }
+  std::vector<PointRun> runs;
+  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
+    const int object = object_of[static_cast<std::size_t>(scan.cluster_of[i])];
+    if (object == kNotRemembered) continue;
+    const std::uint32_t point = scan.high_points[i];
+    const bool goes_on = !runs.empty() && runs.back().object == object &&
+                         runs.back().first + runs.back().count == point &&
+                         runs.back().count < std::numeric_limits<std::uint16_t>::max();
+    if (goes_on) {
+      ++runs.back().count;
+    } else {
+      runs.push_back({point, 1, static_cast<std::uint16_t>(object)});
+    }
+  }
+  runs.shrink_to_fit();
+  return runs;
+}
+
+}  // namespace raymoval::raymoval_plus_method

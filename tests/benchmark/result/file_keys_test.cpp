@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// The keys of every result file, in their order: a file that lacks one, or has one more, is found.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/result/sealed_json.h"
+#include "core/files/files.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using nlohmann::ordered_json;
+
+namespace {
+
+// No value is the one that a record has if nobody says it.
+
+const char* const kData = R"({
+  "name": "town", "layout": "files", "source": "here", "frames": "0:1:1", "scans": 2,
+  "poses": "poses.txt", "sensor": "hdl64e", "sensor_basis": "two scans", "up": "z",
+  "up_source": "given", "scan_period_s": 0.25, "range_m": {"min": 1.5, "max": 50.0},
+  "drop_ego": {"asked": "auto", "left_out": "none"},
+  "label_rule": {"name": "rule", "moving": [252], "ignored": [1]}, "fingerprint": "f"})";
+const char* const kMethod = R"({
+  "name": "comb", "variant": "default", "version": "3", "online": true, "control": true,
+  "parameters": {"size": 0.5}})";
+const char* const kProtocol = R"({
+  "name": "coarse", "protocol": "erasor", "version": "2", "options": {"voxel_size": 0.4}})";
+const char* const kResult = R"({
+  "counts": {"points": 3}, "rates": {"PR": 90.5, "RR": null}, "undefined": {"RR": "nothing moves"},
+  "warnings": ["few points"],
+  "intervals": {"level": 0.9, "replicates": 99, "seed": 7, "block_scans": 4,
+    "rates": {"PR": [80.0, 95.0], "RR": null}, "undefined": {"RR": "nothing moves"}}})";
+const char* const kColumns = R"({
+  "version": "6",
+  "values": {"recall": {"part": 1, "whole": 4, "percent": 25.0},
+             "residue": {"part": 0, "whole": 0, "percent": null, "undefined": "nothing kept"}}})";
+const char* const kMeasured = R"({
+  "threads": 3,
+  "seconds_per_scan": {"mean": 0.5, "median": 0.25, "p90": 0.75, "early": 0.125, "late": 2.5},
+  "seconds_total": 8.5, "seconds_load": 1.25, "stages": [{"name": "cast", "seconds": 0.375}],
+  "peak_memory_mib": 90.5, "repeats": [0.5, 0.625]})";
+const char* const kBuild = R"({
+  "version": "0.9", "commit": "abc", "source_tree": "clean", "compiler": "g++",
+  "build_type": "Release"})";
+const char* const kMachine = R"({
+  "processor": "one", "cores": 4, "memory_gib": 16, "threads": 3})";
+
+ordered_json parsed(const char* text) {
+  return ordered_json::parse(text);
+}
+
+/// `first` with the keys of `second` behind its own.
+ordered_json joined(ordered_json first, const ordered_json& second) {
+  for (const auto& [key, value] : second.items()) first[key] = value;
+  return first;
+}
+
+ordered_json whole_cell() {
+  return {{"schema_version", 1},
+          {"sequence", "town"},
+          {"name", "comb:default"},
+          {"key", "k"},
+          {"status", "timeout"},
+          {"reason", "too slow"},
+          {"output_tail", "the end"},
+          {"method", parsed(kMethod)},
+          {"data", parsed(kData)},
+          {"protocols", ordered_json::array({joined(parsed(kProtocol), parsed(kResult))})},
+          {"columns", parsed(kColumns)},
+          {"masks", {{"digest", "d"}, {"removed", 7}}},
+          {"measured", parsed(kMeasured)}};
+}
+
+ordered_json whole_suite() {
+  const ordered_json bare = parsed(R"({
+    "name": "bare", "layout": "", "source": "", "frames": "", "scans": 0, "poses": "",
+    "sensor": "", "scan_period_s": null, "range_m": {"min": 0.0, "max": null},
+    "label_rule": null})");
+  const ordered_json large = parsed(R"({
+    "name": "large", "method": "comb:default", "version": "3", "parameters": {"size": 0.5},
+    "sweep": {"of": "comb", "values": {"size": 0.5}}})");
+  const ordered_json plain = parsed(R"({
+    "name": "plain", "method": "comb:online", "version": "4", "parameters": {}})");
+  return {{"name", "quick"},
+          {"sequences", ordered_json::array({parsed(kData), bare})},
+          {"methods", ordered_json::array({large, plain})},
+          {"protocols", ordered_json::array({parsed(kProtocol)})},
+          {"controls", false}};
+}
+
+/// What run.json and the part "run" of results.json have in common.
+ordered_json run_part() {
+  return {{"schema_version", 1},
+          {"suite", whole_suite()},
+          {"build", parsed(kBuild)},
+          {"machine", parsed(kMachine)}};
+}
+
+ordered_json whole_run() {
+  const ordered_json place = parsed(R"({
+    "path": "/data/town", "frames": "0:1:1", "poses": "p.txt", "label_rule": "rule.json",
+    "sensor": "hdl64e", "up": "z", "drop_ego": "auto", "name": "town", "range_min": "1.5",
+    "range_max": "50"})");
+  return {{"schema_version", 1},
+          {"suite", whole_suite()},
+          {"cells", parsed(R"([{"sequence": "town", "name": "large"}])")},
+          {"build", parsed(kBuild)},
+          {"machine", parsed(kMachine)},
+          {"places", ordered_json::array({place, nullptr})}};
+}
+
+}  // namespace
+
+TEST_CASE("The keys of run.json are these, with nothing missing and nothing more", "[result]") {
+  const ordered_json whole = whole_run();
+  CHECK(to_json(run_record_from(whole, "run.json")).dump() == whole.dump());
+  CHECK(to_json(RunRecord{}).dump() ==
+        R"({"schema_version":1,"suite":{"name":"","sequences":[],"methods":[],"protocols":[],)"
+        R"("controls":true},"cells":[],"build":null,"machine":null})");
+  RunRecord empty;
+  empty.build.emplace();
+  empty.machine.emplace();
+  CHECK(to_json(empty)["build"].dump() == R"({"version":"","compiler":"","build_type":""})");
+  CHECK(to_json(empty)["machine"].dump() ==
+        R"({"processor":"","cores":0,"memory_gib":null,"threads":0})");
+}
+
+TEST_CASE("The keys of results.json are these, with nothing missing and nothing more", "[result]") {
+  const ordered_json whole = {{"schema_version", 1},
+                              {"run", run_part()},
+                              {"controls", parsed(R"({"checked": false, "problems": ["a"]})")},
+                              {"missing", parsed(R"(["town / plain"])")},
+                              {"cells", ordered_json::array({whole_cell()})}};
+  CHECK(to_json(results_from(whole, "results.json")).dump() == whole.dump());
+  CHECK(to_json(ResultsRecord{}).dump() ==
+        R"({"schema_version":1,"run":{"schema_version":1,"suite":{"name":"","sequences":[],)"
+        R"("methods":[],"protocols":[],"controls":true},"build":null,"machine":null},)"
+        R"("controls":{"checked":true,"problems":[]},"cells":[]})");
+}
+
+TEST_CASE("The keys of cell.json are these, with nothing missing and nothing more", "[result]") {
+  const ordered_json whole = whole_cell();
+  CHECK(to_json(cell_from(whole, "cell.json")).dump() == whole.dump());
+  CHECK(to_json(Cell{}).dump() ==
+        R"({"schema_version":1,"sequence":"","name":"","key":null,"status":"ok","reason":"",)"
+        R"("output_tail":"","method":{"name":"","variant":"","version":"","online":false,)"
+        R"("control":false,"parameters":{}},"data":null,"protocols":[],"columns":null,)"
+        R"("masks":null,"measured":null})");
+  Cell empty;
+  empty.masks.emplace();
+  empty.measured.emplace().stages.emplace_back();
+  CHECK(to_json(empty)["masks"].dump() == R"({"digest":"","removed":0})");
+  CHECK(to_json(empty)["measured"].dump() ==
+        R"({"threads":1,"seconds_per_scan":{"mean":0.0,"median":null,"p90":null,"early":null,)"
+        R"("late":null},"seconds_total":0.0,"seconds_load":0.0,)"
+        R"("stages":[{"name":"","seconds":0.0}],"peak_memory_mib":null})");
+}
+
+TEST_CASE("The keys of timing-2.json are these, with nothing missing and nothing more",
+          "[result]") {
+  const ordered_json whole = {{"schema_version", 1},
+                              {"key", "k"},
+                              {"repeat", 3},
+                              {"digest", "d"},
+                              {"measured", parsed(kMeasured)}};
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "timing-2.json";
+  write_sealed(file, whole);
+  const RepeatRecord repeat = read_repeat(file);
+  CHECK(repeat.number == 3);
+  write_repeat(file, repeat);
+  CHECK(read_sealed(file).dump() == whole.dump());
+  CHECK(RepeatRecord{}.number == 2);  // The first run made the cell.
+}
+
+TEST_CASE("A cell's key is the hash of all that its counts depend on", "[result]") {
+  const Cell cell = cell_from(whole_cell(), "cell.json");
+  const ordered_json versions = {{"version", kColumnsVersion}};
+  ordered_json whole = {{"schema_version", 1},
+                        {"method", parsed(kMethod)},
+                        {"data", parsed(kData)},
+                        {"columns", versions},
+                        {"protocols", ordered_json::array({parsed(kProtocol)})}};
+  CellIdentity identity{cell.method, *cell.data, {cell.scores.at(0).protocol}};
+  CHECK(cell_key(identity) == content_hash(json_text(whole)));
+  identity.protocols.clear();
+  whole.erase("protocols");
+  CHECK(cell_key(identity) == content_hash(json_text(whole)));
+}
+
+TEST_CASE("Parts of a cell have the keys that they have in its file", "[result]") {
+  const Cell cell = cell_from(whole_cell(), "cell.json");
+  CHECK(to_json(*cell.data) == parsed(kData));
+  CHECK(to_json(cell.method) == parsed(kMethod));
+  CHECK(to_json(cell.scores.at(0).protocol) == parsed(kProtocol));
+  CHECK(to_json(*cell.columns) == parsed(kColumns));
+  CHECK(to_json(*cell.measured) == parsed(kMeasured));
+  CHECK(to_json(measurement_from(parsed(kMeasured), "measured")) == parsed(kMeasured));
+  const Score& score = cell.scores.at(0);
+  ProtocolResult result;
+  result.counts = score.counts;
+  result.rates = score.rates;
+  result.warnings = score.warnings;
+  result.intervals = score.intervals;
+  CHECK(to_json(result) == parsed(kResult));
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// What is there and cannot be read is never taken for absent or damaged, which would have it made
+// anew: the error of the system is told.
+#include <sys/resource.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "benchmark/process/checked_sink.h"
+#include "benchmark/result/cell_json.h"
+#include "benchmark/result/removals/removal_files.h"
+#include "benchmark/result/run_record_json.h"
+#include "benchmark/run/folder/folder_content.h"
+#include "benchmark/run/folder/run_folder.h"
+#include "core/files/file_kind.h"
+#include "tests/benchmark/small_world.h"
+
+using namespace raymoval;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const CellName kTown{"town", "comb"};
+
+/// As long as it lives, this process may look at files and cannot open any.
+class NothingOpens {
+ public:
+  NothingOpens() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NothingOpens() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  NothingOpens(const NothingOpens&) = delete;
+  NothingOpens& operator=(const NothingOpens&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+/// Puts a link to itself in the place of a file, which the system refuses to follow.
+void make_unreadable(const fs::path& file) {
+  fs::remove(file);
+  fs::create_symlink(file.filename(), file);
+}
+
+/// A folder with the cell `kTown` and its removals.
+struct Stored {
+  test::TemporaryFolder folder;
+  CellStore store{folder.path()};
+  CellIdentity identity;
+  Cell cell;
+
+  Stored() {
+    identity.method = {"comb", "default", "1", false, false, {}};
+    identity.data = DataRecord{"town", "files"};
+    cell = {kTown.sequence, kTown.name, cell_key(identity)};
+    cell.method = identity.method;
+    cell.data = identity.data;
+    MaskStore masks(2);
+    masks.set(0, {0, 1, 1});
+    masks.set(1, {1});
+    cell.masks = MaskRecord{mask_digest(masks), 3};
+    store.prepare(kTown);
+    const fs::path removals = store.new_removals(kTown);
+    write_removals(removals, test::TwoScans(), masks, [] {});
+    store.keep(cell, removals);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A cell that cannot be read is no missing one, and none to run again") {
+  const Stored stored;
+  const test::TwoScans scans;
+  REQUIRE(stored.store.find(kTown, stored.identity, &scans).state == StoredCell::State::kFresh);
+  {
+    const NothingOpens full;
+    CHECK_THROWS_AS(stored.store.find(kTown, stored.identity, nullptr), UnreadableError);
+  }
+  make_unreadable(stored.store.folder(kTown) / "removals/000007.label");
+  CHECK_THROWS_AS(stored.store.find(kTown, stored.identity, &scans), UnreadableError);
+  CHECK(stored.store.find(kTown, stored.identity, nullptr).state == StoredCell::State::kFresh);
+  make_unreadable(stored.store.folder(kTown) / "timing-2.json");
+  CHECK_THROWS_AS(stored.store.find_repeat(kTown, 2, "key"), UnreadableError);
+}
+
+TEST_CASE("Removals that cannot be put in their place are told, and there is no cell without") {
+  const Stored stored;
+  // No folder can become a part of itself.
+  CHECK_THROWS_WITH(stored.store.keep(stored.cell, stored.folder.path()),
+                    Contains("removals: cannot be made ("));
+  CHECK_FALSE(fs::exists(stored.store.folder(kTown) / "cell.json"));
+}
+
+TEST_CASE("The record and the cells of a folder that cannot be read are no damaged ones") {
+  const Stored stored;
+  RunRecord run{"suite"};
+  run.sequences = {{*stored.cell.data, std::nullopt}};
+  run.methods = {{"comb", "comb:default", "1", {}, {}}};
+  run.cells = run.all_cells();
+  write_run_record(stored.folder.path() / "run.json", run);
+  REQUIRE(present_record(stored.folder.path()));
+  {
+    const NothingOpens full;
+    CHECK_THROWS_AS(present_record(stored.folder.path()), UnreadableError);
+    // It has no marker yet; its run.json would say that it is a run's folder.
+    CHECK_THROWS_AS(prepare_run_folder(stored.folder.path()), UnreadableError);
+  }
+  REQUIRE(read_earlier_cells(stored.store, run, RunRecord{}).kept.size() == 1);
+  make_unreadable(stored.store.folder(kTown) / "timing-2.json");
+  CHECK_THROWS_AS(read_earlier_cells(stored.store, run, RunRecord{}), UnreadableError);
+}

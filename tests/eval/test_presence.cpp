@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The search for kept points near flagged ones, in as little memory as there is.
+#include <catch2/catch.hpp>
+
+#include "eval/dynamicmap/presence.h"
+#include "eval/scan_passes.h"
+#include "tests/eval/random_sequence.h"
+
+namespace raymoval::test {
+namespace {
+
+using namespace dynamicmap;
+
+/// Counts how often the scans were shown.
+struct CountedPasses : ScanVisitor {
+  explicit CountedPasses(ScanVisitor& counted) : inner(counted) {}
+  bool begin_pass(std::size_t slots) override {
+    const bool goes_on = inner.begin_pass(slots);
+    passes += goes_on ? 1 : 0;
+    return goes_on;
+  }
+  void read(const CheckedScan& scan, std::size_t slot) override { inner.read(scan, slot); }
+  void take(std::size_t slot) override { inner.take(slot); }
+
+  ScanVisitor& inner;
+  int passes = 0;
+};
+
+struct Counted {
+  std::vector<std::int64_t> present, removed;
+  int passes = 0;
+};
+
+Counted count(const EvaluationInput& input, const MaskStore& masks, const Options& options,
+              std::size_t room) {
+  const TruthPoints truth(input, 0.0, options.ego_range);
+  const FineGrid grid(options.distance);
+  const TruthBlocks blocks = truth_blocks(truth, grid);
+  PresenceCount presence({truth, options, grid, blocks}, room);
+  CountedPasses passes(presence);
+  run_passes(input, masks, {&passes});
+  Counted counted;
+  counted.passes = passes.passes;
+  for (const ScanPresence& scan : presence.finish()) {
+    counted.present.push_back(scan.present_static);
+    counted.removed.push_back(scan.removed_dynamic);
+  }
+  return counted;
+}
+
+}  // namespace
+
+TEST_CASE("with little room the search takes more passes and finds the same", "[dynamicmap]") {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    CloudShape shape;
+    shape.seed = seed;
+    shape.scans = 6;
+    shape.points = 1500;
+    if (seed % 3 == 2) shape.coordinates = Coordinates::kOnWalls;
+    const MemorySequence sequence = random_sequence(shape);
+    EvaluationInput input = sequence.input();
+    input.threads = seed % 2 == 0 ? 1 : 4;
+    Options options;
+    options.distance = seed % 2 == 0 ? 0.05 : 0.1;
+    CAPTURE(seed);
+    const Counted usual = count(input, sequence.masks(), options, 0);
+    CHECK(usual.passes == 3);
+    const Counted narrow = count(input, sequence.masks(), options, 4000);
+    CHECK(narrow.passes > 4);
+    CHECK(narrow.present == usual.present);
+    CHECK(narrow.removed == usual.removed);
+    // Room for nothing: one block at a time.
+    const Counted none = count(input, sequence.masks(), options, 1);
+    CHECK(none.passes > narrow.passes);
+    CHECK(none.present == usual.present);
+    CHECK(none.removed == usual.removed);
+  }
+}
+
+TEST_CASE("where all is kept or all is removed nothing is searched", "[dynamicmap]") {
+  const MemorySequence sequence = random_sequence({});
+  const EvaluationInput input = sequence.input();
+  CHECK(count(input, sequence.constant_masks(false), {}, 0).passes == 1);
+  CHECK(count(input, sequence.constant_masks(true), {}, 0).passes == 1);
+}
+
+TEST_CASE("fine cells tell near from far for any distance", "[dynamicmap]") {
+  for (const double distance : {0.0, 0.01, 0.05, 0.3, 10.0}) {
+    CAPTURE(distance);
+    const FineGrid grid(distance);
+    const Eigen::Vector3d point(1234.5, -0.03, 7.0);
+    CellSet set;
+    for (int i = -1; i <= 1; ++i) {
+      const VoxelIndex block = voxel_index(grid.block_of(point));
+      for (int k = 0; k < 9; ++k) {
+        set.insert(voxel_key(block.x() + i, block.y() + k % 3 - 1, block.z() + k / 3 - 1));
+      }
+    }
+    const CellLattice blocks(set);
+    CellLattice::Cursor cursor;
+    // Whatever lies within the distance is within reach of the point's cell.
+    for (int i = 0; i < 200; ++i) {
+      const double u = 0.1 * i, z = 1.0 - 0.01 * i;
+      const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+      const Eigen::Vector3d other =
+          point + distance * Eigen::Vector3d(r * std::cos(u), r * std::sin(u), z);
+      FineBits bits(blocks.size());
+      const FineCell cell = grid.cell_of(other);
+      const auto block = blocks.find(cell.block, cursor);
+      REQUIRE(block != CellLattice::kNone);
+      bits.set(block, cell);
+      CHECK(bits.is_set(block, cell));
+      CHECK(bits.any(block));
+      CHECK(bits.any_near(grid.cell_of(point), blocks, cursor, 0, CellLattice::kNone));
+      CHECK_FALSE(
+          bits.any_near(grid.cell_of(point), blocks, cursor, block + 1, CellLattice::kNone));
+    }
+  }
+  CHECK(FineGrid(0.05).same_cell_is_near());
+  CHECK(FineGrid(10.0).same_cell_is_near());
+  CHECK_FALSE(FineGrid(0.01).same_cell_is_near());
+  CHECK_FALSE(FineGrid(0.0).same_cell_is_near());
+}
+
+}  // namespace raymoval::test

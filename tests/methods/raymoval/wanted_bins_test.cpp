@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "core/angle.h"
+#include "core/simd/instruction_set_scope.h"
+#include "tests/methods/raymoval/random_map.h"
+
+using namespace raymoval;
+using namespace raymoval::raymoval_method;
+using random_map::Random;
+
+namespace {
+
+/// Finite values with this probability.
+std::vector<float> random_values(const AngularGrid& grid, double share, Random& random) {
+  std::vector<float> values(static_cast<std::size_t>(grid.size()), kNoRange);
+  for (float& value : values) {
+    if (random.real(0, 1) < share) value = static_cast<float>(random.real(0, 50));
+  }
+  return values;
+}
+
+/// Whether a bin within `radius` columns and rows of `bin` has a finite value, looked at one by
+/// one.
+bool has_value_near(const std::vector<float>& values, const AngularGrid& grid, int bin,
+                    int radius) {
+  for (int dj = -radius; dj <= radius; ++dj) {
+    const int j = grid.elevation_of(bin) + dj;
+    if (j < 0 || j >= grid.elevation_bins) continue;
+    for (int di = -radius; di <= radius; ++di) {
+      const int n = grid.azimuth_bins;
+      const int i = ((grid.azimuth_of(bin) + di) % n + n) % n;
+      if (values[static_cast<std::size_t>(j * n + i)] != kNoRange) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a square of bits is turned about its diagonal") {
+  Random random(5);
+  std::array<std::uint64_t, 64> words{};
+  for (std::uint64_t& word : words) {
+    for (int b = 0; b < 64; ++b) word |= std::uint64_t(random.integer(0, 1)) << b;
+  }
+  std::array<std::uint64_t, 64> turned = words;
+  transpose_bits(turned);
+  for (std::size_t a = 0; a < 64; ++a) {
+    for (std::size_t b = 0; b < 64; ++b) {
+      REQUIRE((turned[b] >> a & 1) == (words[a] >> b & 1));
+    }
+  }
+}
+
+TEST_CASE("bins are wanted around every value, and nowhere else") {
+  Random random(23);
+  for (int round = 0; round < 60; ++round) {
+    // Whole and broken words, one column, one row, and a row after the last at a word's border.
+    const AngularGrid grid{round % 3 == 0 ? 64 * random.integer(1, 3) : random.integer(1, 150),
+                           round % 4 == 0 ? 64 * random.integer(1, 2) : random.integer(1, 140),
+                           -0.5, 0.5};
+    const std::vector<float> values = random_values(grid, random.real(0, 0.1), random);
+    const int radius = random.integer(0, 4);
+    INFO(grid.azimuth_bins << " x " << grid.elevation_bins << ", radius " << radius);
+    for (const InstructionSet set : supported_instruction_sets()) {
+      const InstructionSetScope scope(set);
+      WantedBins wanted;
+      wanted.ask_for_all(grid);  // What was asked before is forgotten.
+      wanted.ask_around(values, grid, radius);
+      for (int bin = 0; bin < grid.size(); ++bin) {
+        REQUIRE(wanted.contains(grid, bin) == has_value_near(values, grid, bin, radius));
+      }
+      for (int i = 0; i < grid.azimuth_bins; ++i) {
+        const auto after = static_cast<std::size_t>(grid.elevation_bins);
+        REQUIRE(wanted.column(i)[after / 64] >> after % 64 == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("first hits that are asked for do not depend on which others are") {
+  Random random(29);
+  for (int round = 0; round < 20; ++round) {
+    OccupancyMap map(0.2);
+    random_map::fill(map, {0, 0, 0}, 30, random);
+    const Pose pose = random_map::pose({random.real(-2, 2), random.real(-2, 2), 0.3}, random, 0.3);
+    const AngularGrid grid{random.integer(1, 130), random.integer(1, 120), -40 * kDegree,
+                           random.real(-30, 40) * kDegree};
+    const RayLimits limits{random.real(0, 1.5), random.real(4, 12)};
+    const FirstHitImage all = cast_first_hits(map, pose, grid, limits, 1);
+    const std::vector<float> values = random_values(grid, random.real(0, 0.2), random);
+    WantedBins wanted;
+    wanted.ask_around(values, grid, 1);
+    for (const InstructionSet set : supported_instruction_sets()) {
+      INFO(instruction_set_name(set));
+      const InstructionSetScope scope(set);
+      FirstHitCaster caster(grid, limits);
+      FirstHitImage some;
+      for (const int threads : {1, 3}) {
+        caster.cast(map, pose, wanted, threads, some);
+        for (int bin = 0; bin < grid.size(); ++bin) {
+          if (!wanted.contains(grid, bin)) continue;
+          const auto at = static_cast<std::size_t>(bin);
+          REQUIRE(some.range[at] == all.range[at]);
+        }
+      }
+    }
+  }
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "methods/raymoval_plus/evidence/evidence_map.h"
+
+namespace raymoval::toy {
+
+/// The voxel of a world point (metres) in a map with voxels of 0.2 m, and where the point is in it;
+/// written without the kernels.
+struct MapPoint {
+  explicit MapPoint(const Eigen::Vector3d& point) : cell(voxel_index(point, 5.0)) {
+    const Eigen::Vector3d offset = 256.0 * (5.0 * point - cell.cast<double>());
+    for (int axis = 2; axis >= 0; --axis) {
+      parts = parts << 8U | static_cast<std::uint32_t>(offset[axis]);
+    }
+  }
+  VoxelIndex cell;
+  std::uint32_t parts = 0;
+};
+
+/// Adds world points to a map, one by one, and finds them again.
+class MapPoints {
+ public:
+  raymoval_plus_method::EvidenceMap map{0.2};
+
+  std::uint32_t add(const Eigen::Vector3d& point) {
+    const MapPoint at(point);
+    return map.add(at.cell, at.parts, adding_);
+  }
+  [[nodiscard]] std::uint32_t find(const Eigen::Vector3d& point) const {
+    raymoval_plus_method::EvidenceMap::Blocks::Cursor cursor;
+    return map.find(MapPoint(point).cell, cursor).voxel;
+  }
+
+ private:
+  raymoval_plus_method::EvidenceMap::Adding adding_;
+};
+
+}  // namespace raymoval::toy
