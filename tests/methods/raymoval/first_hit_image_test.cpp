@@ -159,6 +159,19 @@ TEST_CASE("the outermost voxel of a brick is hit at the end of the range, whiche
   }
 }
 
+TEST_CASE("a sensor far off in a large map sees what is near it") {
+  // Forty voxels all over the map, and one 5 m ahead of the sensor.
+  for (const Eigen::Vector3d& at : {Eigen::Vector3d(-100.1, 100.1, 0.1), {100.1, -100.1, 0.1}}) {
+    OccupancyMap map(0.2);
+    for (int k = 0; k < 40; ++k) map.insert({100 * (k % 8) - 350, 100 * (k / 8) - 250, 40});
+    map.insert(map.voxel_of(at + Eigen::Vector3d(5.2, 0, 0)));
+    Pose pose = Pose::Identity();
+    pose.translation() = at;
+    const AngularGrid grid{3, 1, -0.1, 0.1};  // The middle one of three columns looks along x.
+    CHECK(cast_first_hits(map, pose, grid, {0.0, 10.0}, 1).range[1] == Approx(5.1));
+  }
+}
+
 TEST_CASE("a brick that holds no voxel yet stops no ray") {
   OccupancyMap map(0.2);
   map.insert({40, 0, 0});
