@@ -34,6 +34,10 @@ class FineGrid {
     };
     return {voxel_key(block), eighth(0), eighth(1), eighth(2)};
   }
+  /// Whether a point is within the lattice of blocks.
+  [[nodiscard]] bool holds(const Eigen::Vector3d& point) const {
+    return point.cwiseAbs().maxCoeff() * inverse_edge_ < kVoxelLimit;
+  }
   [[nodiscard]] VoxelKey block_of(const Eigen::Vector3d& point) const {
     return cell_key(point, inverse_edge_);
   }

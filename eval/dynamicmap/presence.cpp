@@ -193,12 +193,14 @@ class PresenceCount::State {
 
   /// Marks the cells of flagged points, and those of kept ones where flagged ones may be near.
   void mark(const CheckedScan& loaded, const Part& part) {
-    CellLattice::Cursor cursor;
-    visit_both(loaded, [&](const Eigen::Vector3d& point, Kind, bool is_kept) {
-      const CellLattice::Number block = block_at(point, part, cursor);
-      if (is_near_flagged_[block] == 0) return;
-      (is_kept ? kept_ : flagged_).set(block, input_.grid.cell_of(point));
-    });
+    const auto may_matter = [&](CellLattice::Number block, bool) {
+      return is_near_flagged_[block] != 0;
+    };
+    const auto set = [&](const Eigen::Vector3d& point, CellLattice::Number block, Kind,
+                         bool removed) {
+      (removed ? flagged_ : kept_).set(block, input_.grid.cell_of(point));
+    };
+    visit_where(loaded, part, may_matter, set);
   }
 
   /// Counts the flagged points that the marks decide on, and collects the others and what may be
@@ -206,12 +208,14 @@ class PresenceCount::State {
   void collect(const CheckedScan& loaded, Part& part) {
     part.counts = {};
     part.found = {};
-    CellLattice::Cursor cursor, around;
-    visit_both(loaded, [&](const Eigen::Vector3d& point, Kind kind, bool is_kept) {
-      const CellLattice::Number block = block_at(point, part, cursor);
-      if (!undecided_.may_matter(block, is_kept)) return;
+    CellLattice::Cursor around;
+    const auto may_matter = [&](CellLattice::Number block, bool removed) {
+      return removed || undecided_.is_near_flagged(block);
+    };
+    const auto add = [&](const Eigen::Vector3d& point, CellLattice::Number block, Kind kind,
+                         bool removed) {
       const FineCell cell = input_.grid.cell_of(point);
-      if (is_kept) {
+      if (!removed) {
         if (undecided_.is_wanted(cell, around)) part.found.kept.push_back(point);
         return;
       }
@@ -222,18 +226,32 @@ class PresenceCount::State {
                  kept_.any_near(cell, blocks(), around, 0, CellLattice::kNone)) {
         part.found.flagged.push_back({point, block, part.scan, moving});
       }
-    });
+    };
+    visit_where(loaded, part, may_matter, add);
   }
 
-  /// Calls `visit(point, kind, is_kept)` for the points of the estimate and for flagged ones.
-  template <class Visit>
-  void visit_both(const CheckedScan& loaded, Visit&& visit) const {
-    (void)input_.truth.visit_scan(loaded,
-                                  [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
-                                    const bool is_kept = in_estimate(kind, removed);
-                                    if (is_kept || (removed && is_truth(kind)))
-                                      visit(placed(scan, p), kind, is_kept);
-                                  });
+  /// Calls `visit(point, block, kind, removed)` for the points of the estimate and for flagged ones
+  /// where `may_matter(block, removed)`. Where a point is, is found out before what it is: most
+  /// points are where nothing was flagged.
+  template <class MayMatter, class Visit>
+  void visit_where(const CheckedScan& loaded, const Part& part, MayMatter&& may_matter,
+                   Visit&& visit) const {
+    CellLattice::Cursor cursor;
+    for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
+      const Eigen::Vector3d point = placed(loaded.scan, i);
+      const bool removed = loaded.removed(i);
+      const auto kind_of = [&] {
+        return input_.truth.kind_of(loaded.scan.points[i], loaded.labels[i]);
+      };
+      if (!input_.grid.holds(point) && kind_of() == Kind::kOutOfRange) continue;
+      const CellLattice::Number block = blocks().find(input_.grid.block_of(point), cursor);
+      if (block != CellLattice::kNone && !may_matter(block, removed)) continue;
+      const Kind kind = kind_of();
+      const bool counts = removed ? is_truth(kind) : in_estimate(kind, false);
+      if (kind == Kind::kOutOfRange || !counts) continue;
+      if (block == CellLattice::kNone) throw_changed(input_.truth.input(), part.scan);
+      visit(point, block, kind, removed);
+    }
   }
 
   /// Whether a point stands in the map that is scored; its label is not looked at.

@@ -43,7 +43,7 @@ TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid);
 /// these are searched. Where they are too many for the room that the number of blocks gives them,
 /// only those of the first blocks stay, and another pass collects those of the next ones. So memory
 /// is bounded by the map: at most 130 bytes a block for the marks, where points were flagged, and
-/// 72 for the points, but room for these is never less than 64 MiB.
+/// 72 for the points, but room for these is never less than 256 MiB.
 class PresenceCount : public ScanVisitor {
  public:
   struct Input {

@@ -59,6 +59,12 @@ class TruthPoints {
     }
   }
 
+  /// What a point is. @param point sensor frame
+  [[nodiscard]] Kind kind_of(const Eigen::Vector3f& point, std::uint32_t word) const {
+    PointCounts counts;
+    return kind_of(point, word, counts);
+  }
+
   /// The counts of each scan. Progress is shown as `task`.
   /// @throws DataError if no point at all is left
   [[nodiscard]] std::vector<PointCounts> count(const std::string& task) const;

@@ -9,7 +9,7 @@
 namespace raymoval::dynamicmap {
 namespace {
 
-constexpr std::size_t kLeastRoom = std::size_t{64} << 20;
+constexpr std::size_t kLeastRoom = std::size_t{256} << 20;
 constexpr std::size_t kRoomPerBlock = 72;
 /// What a kept point takes in the tree that is searched.
 constexpr std::size_t kTreeBytes = 16;

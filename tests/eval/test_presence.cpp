@@ -2,6 +2,7 @@
 // The search for kept points near flagged ones, in as little memory as there is.
 #include <catch2/catch.hpp>
 
+#include "core/error.h"
 #include "eval/dynamicmap/presence.h"
 #include "eval/scan_passes.h"
 #include "tests/eval/random_sequence.h"
@@ -82,6 +83,23 @@ TEST_CASE("where all is kept or all is removed nothing is searched", "[dynamicma
   const EvaluationInput input = sequence.input();
   CHECK(count(input, sequence.constant_masks(false), {}, 0).passes == 1);
   CHECK(count(input, sequence.constant_masks(true), {}, 0).passes == 1);
+}
+
+TEST_CASE("points out of range may lie beyond the lattice", "[dynamicmap]") {
+  LabelledScan scan;
+  scan.add(5.0f, 0.0f, 0.0f, 40, true);
+  scan.add(5.01f, 0.0f, 0.0f, 40);
+  scan.add(9.0f, 0.0f, 0.0f, 252, true);
+  scan.add(3e6f, 0.0f, 0.0f, 40);
+  scan.add(0.0f, -3e6f, 0.0f, 252, true);
+  const MemorySequence sequence({scan});
+  EvaluationInput input = sequence.input();
+  CHECK_THROWS_AS(score_by("dynamicmap", input, sequence.masks()), DataError);
+  input.range_m = {0.0, 50.0};
+  const ProtocolResult result = score_by("dynamicmap", input, sequence.masks());
+  CHECK(result.count("present_static_points") == 2);
+  CHECK(result.count("removed_dynamic_points") == 1);
+  CHECK(result.count("out_of_range_points") == 2);
 }
 
 TEST_CASE("fine cells tell near from far for any distance", "[dynamicmap]") {

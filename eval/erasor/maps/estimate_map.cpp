@@ -6,24 +6,6 @@
 #include "eval/checked_scan.h"
 
 namespace raymoval::erasor {
-namespace {
-
-/// Calls `visit(number)` for the cells beside one, and for itself.
-template <class Visit>
-void for_cells_beside(const CellLattice& cells, VoxelKey cell, CellLattice::Cursor& cursor,
-                      Visit&& visit) {
-  for (int z = -1; z <= 1; ++z) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int x = -1; x <= 1; ++x) {
-        const CellLattice::Number number = cells.find(cell_beside(cell, x, y, z), cursor);
-        if (number != CellLattice::kNone) visit(number);
-      }
-    }
-  }
-}
-
-}  // namespace
-
 EstimateMap::EstimateMap(const MapRules& rules, const TruthMap& truth)
     : rules_(rules), truth_(truth), points_(truth.points()), touched_(truth.cells().size()) {}
 
@@ -37,7 +19,6 @@ bool EstimateMap::begin_pass(std::size_t slots) {
       means_.assign(touched_.count(), kNoMean);
       if (points_.removed == 0) mixed_label_ties_ = truth_.mixed_label_ties();
       if (points_.removed == 0 || points_.removed == points_.evaluated) return false;
-      choose_sources();
       sums_.resize(touched_.count());
       return true;
     case kVote:
@@ -68,7 +49,7 @@ void EstimateMap::take(std::size_t slot) {
     points_.removed += part.removed;
   } else if (pass_ == kAddUp) {
     for (const DensePoint& point : part.dense) {
-      if (touched_.test(point.to)) sums_[touched_.rank(point.to)].add(point.point);
+      sums_[touched_.rank(point.cell)].add(point.point);
     }
   } else {
     mixed_label_ties_ += part.ties;
@@ -86,44 +67,27 @@ VoxelKind EstimateMap::kind(Number number) const {
   return kind_of(votes_->label(mixed.rank(number)).word, rules_.classes);
 }
 
-/// Touches the cells of removed points. Where a mean may lie in another cell by rounding, that one
-/// is touched, too.
+/// Touches the cells of removed points.
 void EstimateMap::touch(const CheckedScan& scan, Part& part) {
   const double inverse = 1.0 / rules_.options.voxel_size;
   CellLattice::Cursor cursor;
   part.removed = 0;
   visit_placed(scan, rules_, true, [&](const Eigen::Vector3d& point, std::uint32_t) {
     ++part.removed;
-    const VoxelKey cell = cell_key(point, inverse);
-    const Number number = cells().find(cell, cursor);
+    const Number number = cells().find(cell_key(point, inverse), cursor);
     if (number == CellLattice::kNone) throw_changed(rules_.input, part.scan);
     touched_.set(number);
-    if (!truth_.map_cells().on_walls.test(number)) return;
-    for_cells_beside(cells(), cell, cursor, [&](Number beside) { touched_.set(beside); });
-  });
-}
-
-void EstimateMap::choose_sources() {
-  sources_ = touched_;
-  CellLattice::Cursor cursor;
-  cells().for_each([&](Number number, VoxelKey cell) {
-    if (!truth_.map_cells().on_walls.test(number)) return;
-    bool is_source = false;
-    for_cells_beside(cells(), cell, cursor,
-                     [&](Number beside) { is_source = is_source || touched_.test(beside); });
-    if (is_source) sources_.set(number);
   });
 }
 
 void EstimateMap::add_up(const CheckedScan& scan, Part& part) const {
-  const LabelledCloud cloud = points_in(scan, sources_);
+  const LabelledCloud cloud = points_in(scan, touched_);
   part.dense = dense_points(cloud.points, rules_, truth_.map_cells(), part.scan, part.means);
 }
 
 bool EstimateMap::begin_votes() {
   for (std::size_t i = 0; i < sums_.size(); ++i) means_[i] = sums_[i].mean();
   sums_ = {};
-  sources_ = {};
   votes_ = std::make_unique<LabelVotes>(truth_.map_cells().mixed.count());
   return truth_.map_cells().mixed.count() > 0;
 }

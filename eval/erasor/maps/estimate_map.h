@@ -55,7 +55,6 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   void add_up(const CheckedScan& scan, Part& part) const;
   void vote(const CheckedScan& scan, Part& part) const;
   [[nodiscard]] LabelledCloud points_in(const CheckedScan& scan, const RankedBits& wanted) const;
-  void choose_sources();
   bool begin_votes();
 
   MapRules rules_;
@@ -64,8 +63,7 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   std::vector<Part> slots_;
   PointCounts points_;
   RankedBits touched_;
-  RankedBits sources_;            ///< Cells whose points may have their mean in a touched cell.
-  std::vector<OffsetMean> sums_;  ///< Of touched cells, while they are added up.
+  std::vector<OffsetMean> sums_;        ///< Of touched cells, while they are added up.
   std::vector<Eigen::Vector3d> means_;  ///< Of touched cells; not a number where nothing is left.
   std::unique_ptr<LabelVotes> votes_;   ///< Of `MapCells::mixed`; null: labels are those of truth.
   std::int64_t mixed_label_ties_ = 0;

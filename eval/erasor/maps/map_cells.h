@@ -7,16 +7,11 @@
 
 namespace raymoval::erasor {
 
-/// How near to a cell's wall a mean may be put on the other side by rounding, metres. It is far
-/// more than rounding does anywhere on the lattice.
-inline constexpr double kWallMargin = 1e-6;
-
 /// The cells of a sequence, whatever is removed of it.
 struct MapCells {
-  CellLattice all;  ///< Every cell that can hold a point of the dense map.
-  /// Cells with a point within `kWallMargin` of a wall. Only the means of such cells can lie in
-  /// another cell, by rounding.
-  RankedBits on_walls;
+  /// Every cell with a point. The points of the dense map lie in no others: a mean is between the
+  /// lowest and the highest of its points along each axis, also when it is rounded.
+  CellLattice all;
   /// Cells in which the class of a voxel, or of a point of the dense map, hangs on which points are
   /// near: those within two cells of a point that moves, or is a truck. A voxel's nearest point is
   /// never farther than half a diagonal from its mean, and the point from which that one has its

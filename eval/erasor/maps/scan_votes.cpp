@@ -8,23 +8,14 @@ namespace raymoval::erasor {
 std::vector<DensePoint> dense_points(const std::vector<Eigen::Vector3d>& points,
                                      const MapRules& rules, const MapCells& cells, std::size_t scan,
                                      CellMeans& means) {
-  const double inverse = 1.0 / rules.options.voxel_size;
   means.compute(points, rules.options.voxel_size);
   std::vector<DensePoint> dense;
   dense.reserve(means.cells().size());
   CellLattice::Cursor cursor;
-  bool in_own_cells = true;
   for (const CellMeans::Cell& cell : means.cells()) {
-    const Eigen::Vector3d point = cell.mean.mean();
-    const VoxelKey key = cell_key(point, inverse);
-    const CellLattice::Number number = cells.all.find(key, cursor);
+    const CellLattice::Number number = cells.all.find(cell.key, cursor);
     if (number == CellLattice::kNone) throw_changed(rules.input, scan);
-    in_own_cells = in_own_cells && key == cell.key;
-    dense.push_back({cell.key, number, point});
-  }
-  if (!in_own_cells) {
-    std::sort(dense.begin(), dense.end(),
-              [](const DensePoint& a, const DensePoint& b) { return a.from < b.from; });
+    dense.push_back({number, cell.mean.mean()});
   }
   return dense;
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "eval/erasor/maps/map_cells.h"
@@ -17,13 +15,11 @@ namespace raymoval::erasor {
 
 /// A point that a scan adds to the dense map, without its label.
 struct DensePoint {
-  VoxelKey from;           ///< Cell of the scan's points of which it is the mean.
-  CellLattice::Number to;  ///< Cell in which it lies; by rounding this may be the next one.
+  CellLattice::Number cell;
   Eigen::Vector3d point;
 };
 
-/// The points that a scan adds to the dense map: for each cell the mean of its points. Those that
-/// lie in one cell come in the order of the dense map.
+/// The points that a scan adds to the dense map: for each cell the mean of its points.
 /// @param points of the scan
 /// @param scan its number, for messages
 std::vector<DensePoint> dense_points(const std::vector<Eigen::Vector3d>& points,
@@ -47,7 +43,7 @@ template <class VoterOf, class MeanOf>
 void add_offers(const LabelledCloud& dense, const MapRules& rules, const CellLattice& cells,
                 VoterOf&& voter_of, MeanOf&& mean_of, std::vector<Offer>& offers) {
   const double size = rules.options.voxel_size;
-  const double reach = std::sqrt(0.75) * size + kWallMargin;
+  const double reach = std::sqrt(0.75) * size + 1e-6;  // More than rounding.
   const double bound = reach * reach;
   CellLattice::Cursor cursor;
   for (std::size_t i = 0; i < dense.size(); ++i) {

@@ -46,7 +46,7 @@ class TruthMap::Builder : public ScanVisitor {
     const Part& part = slots_[slot];
     if (pass_ == 1) {
       map_.points_ += part.points;
-      for (const DensePoint& point : part.dense) sums_[point.to].add(point.point);
+      for (const DensePoint& point : part.dense) sums_[point.cell].add(point.point);
       return;
     }
     map_.mixed_label_ties_ += part.ties;
