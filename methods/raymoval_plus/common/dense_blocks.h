@@ -75,6 +75,7 @@ class DenseBlocks {
     return cursor.block == kNone ? kNoSlot : cursor.block * kCells + offset(cell);
   }
   [[nodiscard]] const Value& at(std::size_t slot) const { return values_[slot]; }
+  [[nodiscard]] Value& at(std::size_t slot) { return values_[slot]; }
   /// The cell's value, or `empty` where there is no block.
   [[nodiscard]] Value get(const VoxelIndex& cell, Cursor& cursor) const {
     const std::size_t found = slot(cell, cursor);
