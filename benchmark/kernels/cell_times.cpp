@@ -19,7 +19,6 @@ namespace raymoval::kernels_bench {
 namespace {
 
 constexpr const char* kScene = "town:scans=30";
-constexpr int kRounds = 5;
 
 template <class Work>
 double seconds_of(Work&& work) {
@@ -89,7 +88,7 @@ void time_round(ScoredSequence& scored, const Suite& suite, std::vector<CellTime
 
 }  // namespace
 
-SpeedRecord time_cells() {
+SpeedRecord time_cells(int rounds) {
   const MethodRegistry registry = MethodRegistry::built_in();
   Suite suite;
   for (const std::string& name : expanded_methods("all", registry)) {
@@ -100,11 +99,11 @@ SpeedRecord time_cells() {
   (void)time_cell(scored, suite.methods.front(), first);  // Makes what all cells share.
   std::vector<CellTimes> times(suite.methods.size());
   Times yardsticks;
-  for (int round = 1; round <= kRounds; ++round) {
-    std::fprintf(stderr, "kernels: whole cells, round %d of %d\n", round, kRounds);
+  for (int round = 1; round <= rounds; ++round) {
+    std::fprintf(stderr, "kernels: whole cells, round %d of %d\n", round, rounds);
     time_round(scored, suite, times, yardsticks);
   }
-  SpeedRecord speed{kScene, static_cast<int>(scored.sequence().scans->size()), 1, kRounds};
+  SpeedRecord speed{kScene, static_cast<int>(scored.sequence().scans->size()), 1, rounds};
   speed.yardstick = kYardstick;
   speed.yardstick_milliseconds = yardsticks.figure().milliseconds;
   speed.processor = machine_record(1).processor;

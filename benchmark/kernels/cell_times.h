@@ -11,7 +11,7 @@ namespace raymoval::kernels_bench {
 /// scene, and the yardstick before each of them, in rounds: a machine that slows down slows all of
 /// them. One thread does everything but loading ahead.
 /// @throws Error if a cell fails
-SpeedRecord time_cells();
+SpeedRecord time_cells(int rounds);
 
 /// Markdown: the medians of each cell and of its parts.
 std::string cells_table(const SpeedRecord& speed);

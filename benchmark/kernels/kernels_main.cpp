@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Google Benchmark programs; see scripts/benchmark.sh. `raymoval_kernels --table FILE...` writes
-// the medians of earlier runs as Markdown, and `--cells FILE` times whole cells.
+// the medians of earlier runs as Markdown, and `--cells FILE [ROUNDS]` times
+// whole cells.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -10,6 +11,8 @@
 #include "benchmark/kernels/cell_times.h"
 #include "benchmark/kernels/registration.h"
 #include "benchmark/kernels/table.h"
+#include "core/error.h"
+#include "core/text.h"
 
 namespace {
 
@@ -23,11 +26,16 @@ int print_tables(const std::vector<std::string>& files) {
   }
 }
 
-/// Times whole cells into `file`, and prints their table.
-int time_whole_cells(const std::string& file) {
+/// Times whole cells into a file, and prints their table.
+/// @param words the file, and perhaps the number of rounds
+int time_whole_cells(const std::vector<std::string>& words) {
   try {
-    const raymoval::SpeedRecord speed = raymoval::kernels_bench::time_cells();
-    raymoval::write_speed(file, speed);
+    const auto rounds = raymoval::parse_number<int>(words.size() > 1 ? words[1] : "5");
+    if (!rounds || *rounds < 1 || words.size() > 2) {
+      throw raymoval::UsageError("usage: raymoval_kernels --cells FILE [ROUNDS]");
+    }
+    const raymoval::SpeedRecord speed = raymoval::kernels_bench::time_cells(*rounds);
+    raymoval::write_speed(words[0], speed);
     std::fputs(raymoval::kernels_bench::cells_table(speed).c_str(), stdout);
     return 0;
   } catch (const std::exception& error) {
@@ -41,7 +49,8 @@ int time_whole_cells(const std::string& file) {
 int main(int argc, char** argv) {
   using namespace raymoval;
   if (argc > 1 && std::string(argv[1]) == "--table") return print_tables({argv + 2, argv + argc});
-  if (argc == 3 && std::string(argv[1]) == "--cells") return time_whole_cells(argv[2]);
+  if (argc > 2 && std::string(argv[1]) == "--cells")
+    return time_whole_cells({argv + 2, argv + argc});
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   try {

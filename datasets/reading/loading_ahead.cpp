@@ -4,15 +4,11 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <chrono>
 #include <system_error>
 #include <utility>
 
 namespace raymoval {
 namespace {
-
-/// A scan is loaded in a few milliseconds. Where the loader needs longer, it gets no processor.
-constexpr std::chrono::milliseconds kPatience{20};
 
 /// Lets the calling thread run only where a processor would be idle. It is only a courtesy.
 void yield_to_everybody() {
@@ -78,7 +74,7 @@ void LoadingAhead::wish_after(std::size_t index) const {
 
 std::optional<LoadingAhead::Loaded> LoadingAhead::take(std::size_t index, Lock& lock) const {
   is_waited_for_ = true;
-  changed_.wait_for(lock, kPatience, [&] { return loading_ != index; });
+  changed_.wait_for(lock, patience_, [&] { return loading_ != index; });
   is_waited_for_ = false;
   const auto found = loaded_.find(index);
   if (found == loaded_.end()) return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -27,9 +28,15 @@ class LoadingAhead : public ScanSource {
  public:
   static constexpr std::size_t kScansAhead = 2;
 
-  /// The calling thread becomes the owner. @param source must outlive this object
-  explicit LoadingAhead(const ScanSource& source)
-      : source_(source), owner_(std::this_thread::get_id()) {}
+  /// A scan is loaded in a few milliseconds. Where the loader needs longer, it gets no processor.
+  static constexpr std::chrono::milliseconds kPatience{20};
+
+  /// The calling thread becomes the owner.
+  /// @param source must outlive this object
+  /// @param patience for so long the owner waits for a scan that is being loaded; then it loads the
+  /// scan itself
+  explicit LoadingAhead(const ScanSource& source, std::chrono::milliseconds patience = kPatience)
+      : source_(source), patience_(patience), owner_(std::this_thread::get_id()) {}
   ~LoadingAhead() override;
   LoadingAhead(const LoadingAhead&) = delete;
   LoadingAhead& operator=(const LoadingAhead&) = delete;
@@ -55,6 +62,7 @@ class LoadingAhead : public ScanSource {
   void load_wishes() const;
 
   const ScanSource& source_;
+  std::chrono::milliseconds patience_;
   std::thread::id owner_;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;

@@ -65,7 +65,7 @@ class DynamicMapScorer : public Scorer {
         options_(options),
         truth_(input(), options_.maximum_range, options_.ego_range),
         grid_(options_.distance),
-        blocks_(blocks_of(truth_, grid_)) {}
+        blocks_(truth_blocks(truth_, grid_)) {}
 
   [[nodiscard]] std::unique_ptr<Scoring> start() const override {
     return std::make_unique<DynamicMapScoring>(
@@ -80,7 +80,7 @@ class DynamicMapScorer : public Scorer {
   Options options_;
   TruthPoints truth_;
   FineGrid grid_;
-  CellLattice blocks_;
+  TruthBlocks blocks_;
 };
 
 }  // namespace

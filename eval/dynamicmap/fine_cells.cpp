@@ -49,14 +49,6 @@ FineGrid::FineGrid(double distance) : inverse_edge_(1.0 / block_edge(distance)) 
   same_cell_is_near_ = 3.0 * edge * edge * (1.0 + kMargin) < distance * distance;
 }
 
-FineCell FineGrid::cell_of(const Eigen::Vector3d& point) const {
-  const VoxelIndex block = voxel_index(point, inverse_edge_);
-  const auto eighth = [&](int axis) {
-    return std::min(7, static_cast<int>((point[axis] * inverse_edge_ - block[axis]) * 8.0));
-  };
-  return {voxel_key(block), eighth(0), eighth(1), eighth(2)};
-}
-
 FineBits::FineBits(std::size_t blocks)
     : blocks_(blocks),
       words_(static_cast<std::uint64_t*>(std::calloc(std::max<std::size_t>(blocks, 1) * 8, 8))) {

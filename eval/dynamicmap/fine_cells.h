@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -26,9 +27,15 @@ class FineGrid {
   explicit FineGrid(double distance);
 
   /// @throws DataError beyond the lattice of blocks
-  [[nodiscard]] FineCell cell_of(const Eigen::Vector3d& point) const;
+  [[nodiscard]] FineCell cell_of(const Eigen::Vector3d& point) const {
+    const VoxelIndex block = cell_index(point, inverse_edge_);
+    const auto eighth = [&](int axis) {
+      return std::min(7, static_cast<int>((point[axis] * inverse_edge_ - block[axis]) * 8.0));
+    };
+    return {voxel_key(block), eighth(0), eighth(1), eighth(2)};
+  }
   [[nodiscard]] VoxelKey block_of(const Eigen::Vector3d& point) const {
-    return voxel_key(voxel_index(point, inverse_edge_));
+    return cell_key(point, inverse_edge_);
   }
   /// Whether any two points of a fine cell are at most `distance` apart.
   [[nodiscard]] bool same_cell_is_near() const { return same_cell_is_near_; }

@@ -59,29 +59,33 @@ std::vector<ScanPresence> presence_by_index(const TruthPoints& truth, const Mask
   return scans;
 }
 
-CellLattice blocks_of(const TruthPoints& truth, const FineGrid& grid) {
+TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid) {
   struct Part {
     CellSet blocks;
     PointCounts points;
   };
   std::vector<Part> slots(usual_slots(truth.input()));
   Part all;
+  TruthBlocks result;
   in_scan_order(
       truth.input(), "ground truth points", slots.size(),
       [&](std::size_t index, std::size_t slot) {
         Part& part = slots[slot];
         part.blocks.clear();
+        CellInserter blocks(part.blocks);
         part.points = truth.visit_scan(load_checked(truth.input(), nullptr, index),
                                        [&](std::size_t p, const Scan& scan, Kind, bool) {
-                                         part.blocks.insert(grid.block_of(placed(scan, p)));
+                                         blocks.insert(grid.block_of(placed(scan, p)));
                                        });
       },
       [&](std::size_t slot) {
         all.blocks.insert(slots[slot].blocks);
         all.points += slots[slot].points;
+        result.points.push_back(slots[slot].points);
       });
   check_not_empty(all.points);
-  return CellLattice(all.blocks);
+  result.blocks = CellLattice(all.blocks);
+  return result;
 }
 
 class PresenceCount::State {
@@ -89,20 +93,20 @@ class PresenceCount::State {
   State(const Input& input, std::size_t room)
       : input_(input),
         scans_(input.truth.input().scans->size()),
-        kept_(input.blocks.size()),
-        flagged_(input.blocks.size()),
-        undecided_({input.options.distance, input.grid, input.blocks, flagged_}, room) {}
+        kept_(blocks().size()),
+        flagged_(blocks().size()),
+        undecided_({input.options.distance, input.grid, blocks(), flagged_}, room) {}
 
   bool begin_pass(std::size_t slots) {
     slots_.resize(slots);
     switch (++pass_) {
       case kCount:
-        has_flagged_.assign(input_.blocks.size(), 0);
+        has_flagged_.assign(blocks().size(), 0);
         return true;
       case kMark:
         if (!any_flagged_ || !any_kept_) return false;  // All are present, or all are gone.
         is_near_flagged_ = with_blocks_beside(
-            input_.blocks, [&](CellLattice::Number block) { return has_flagged_[block] != 0; });
+            blocks(), [&](CellLattice::Number block) { return has_flagged_[block] != 0; });
         has_flagged_ = {};
         return true;
       case kCollect:
@@ -152,41 +156,49 @@ class PresenceCount::State {
     UndecidedPoints::Found found;
   };
 
-  /// The block of a cell. All points of the truth have one.
-  [[nodiscard]] CellLattice::Number block_at(const FineCell& cell, const Part& part,
+  [[nodiscard]] const CellLattice& blocks() const { return input_.blocks.blocks; }
+
+  /// The block of a point. All points of the truth have one.
+  [[nodiscard]] CellLattice::Number block_at(const Eigen::Vector3d& point, const Part& part,
                                              CellLattice::Cursor& cursor) const {
-    const CellLattice::Number block = input_.blocks.find(cell.block, cursor);
+    const CellLattice::Number block = blocks().find(input_.grid.block_of(point), cursor);
     if (block == CellLattice::kNone) throw_changed(input_.truth.input(), part.scan);
     return block;
   }
 
   /// Counts what the mask says itself, and finds the blocks of flagged points.
   void count(const CheckedScan& loaded, Part& part) {
-    part.any_flagged = part.any_kept = false;
+    ScanPresence& counts = part.counts;
+    counts = {};
+    counts.points = input_.blocks.points[part.scan];
+    counts.kept_static = counts.points.static_points;
+    std::int64_t kept = counts.points.static_points + counts.points.dynamic_points;
+    if (input_.options.ignored_in_estimate) kept += counts.points.ignored;
+    part.any_flagged = false;
     CellLattice::Cursor cursor;
-    part.counts = count_by_index(
-        input_.truth, loaded, [&](const Scan& scan, std::size_t p, Kind kind, bool removed) {
-          part.any_kept = part.any_kept || in_estimate(kind, removed);
-          if (!removed || !is_truth(kind)) return;
-          part.any_flagged = true;
-          const FineCell cell = input_.grid.cell_of(placed(scan, p));
-          const std::atomic_ref<std::uint8_t> flag(has_flagged_[block_at(cell, part, cursor)]);
-          flag.store(1, std::memory_order_relaxed);
-        });
+    input_.truth.visit_flagged(loaded, [&](std::size_t p, const Scan& scan, Kind kind) {
+      if (in_estimate(kind, false)) --kept;
+      if (!is_truth(kind)) return;
+      part.any_flagged = true;
+      if (kind == Kind::kStatic) --counts.kept_static;
+      if (kind == Kind::kDynamic) ++counts.flagged_dynamic;
+      const std::atomic_ref<std::uint8_t> flag(
+          has_flagged_[block_at(placed(scan, p), part, cursor)]);
+      flag.store(1, std::memory_order_relaxed);
+    });
+    counts.present_static = counts.kept_static;
+    counts.removed_dynamic = counts.flagged_dynamic;
+    part.any_kept = kept > 0;
   }
 
   /// Marks the cells of flagged points, and those of kept ones where flagged ones may be near.
   void mark(const CheckedScan& loaded, const Part& part) {
     CellLattice::Cursor cursor;
-    (void)input_.truth.visit_scan(loaded,
-                                  [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
-                                    const bool is_kept = in_estimate(kind, removed);
-                                    if (!is_kept && !(removed && is_truth(kind))) return;
-                                    const FineCell cell = input_.grid.cell_of(placed(scan, p));
-                                    const CellLattice::Number block = block_at(cell, part, cursor);
-                                    if (is_near_flagged_[block] != 0)
-                                      (is_kept ? kept_ : flagged_).set(block, cell);
-                                  });
+    visit_both(loaded, [&](const Eigen::Vector3d& point, Kind, bool is_kept) {
+      const CellLattice::Number block = block_at(point, part, cursor);
+      if (is_near_flagged_[block] == 0) return;
+      (is_kept ? kept_ : flagged_).set(block, input_.grid.cell_of(point));
+    });
   }
 
   /// Counts the flagged points that the marks decide on, and collects the others and what may be
@@ -194,26 +206,34 @@ class PresenceCount::State {
   void collect(const CheckedScan& loaded, Part& part) {
     part.counts = {};
     part.found = {};
-    CellLattice::Cursor cursor, cursor_around;
-    (void)input_.truth.visit_scan(
-        loaded, [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
-          const bool is_kept = in_estimate(kind, removed);
-          if (!is_kept && !(removed && is_truth(kind))) return;
-          const Eigen::Vector3d point = placed(scan, p);
-          const FineCell cell = input_.grid.cell_of(point);
-          const CellLattice::Number block = block_at(cell, part, cursor);
-          if (is_kept) {
-            if (undecided_.is_wanted(block, cell, cursor_around)) part.found.kept.push_back(point);
-            return;
-          }
-          const bool moving = kind == Kind::kDynamic;
-          if (input_.grid.same_cell_is_near() && kept_.is_set(block, cell)) {
-            add_present(part.counts, moving);
-          } else if (undecided_.has_turn(block) &&
-                     kept_.any_near(cell, input_.blocks, cursor_around, 0, CellLattice::kNone)) {
-            part.found.flagged.push_back({point, block, part.scan, moving});
-          }
-        });
+    CellLattice::Cursor cursor, around;
+    visit_both(loaded, [&](const Eigen::Vector3d& point, Kind kind, bool is_kept) {
+      const CellLattice::Number block = block_at(point, part, cursor);
+      if (!undecided_.may_matter(block, is_kept)) return;
+      const FineCell cell = input_.grid.cell_of(point);
+      if (is_kept) {
+        if (undecided_.is_wanted(cell, around)) part.found.kept.push_back(point);
+        return;
+      }
+      const bool moving = kind == Kind::kDynamic;
+      if (input_.grid.same_cell_is_near() && kept_.is_set(block, cell)) {
+        add_present(part.counts, moving);
+      } else if (undecided_.has_turn(block) &&
+                 kept_.any_near(cell, blocks(), around, 0, CellLattice::kNone)) {
+        part.found.flagged.push_back({point, block, part.scan, moving});
+      }
+    });
+  }
+
+  /// Calls `visit(point, kind, is_kept)` for the points of the estimate and for flagged ones.
+  template <class Visit>
+  void visit_both(const CheckedScan& loaded, Visit&& visit) const {
+    (void)input_.truth.visit_scan(loaded,
+                                  [&](std::size_t p, const Scan& scan, Kind kind, bool removed) {
+                                    const bool is_kept = in_estimate(kind, removed);
+                                    if (is_kept || (removed && is_truth(kind)))
+                                      visit(placed(scan, p), kind, is_kept);
+                                  });
   }
 
   /// Whether a point stands in the map that is scored; its label is not looked at.

@@ -23,9 +23,14 @@ struct ScanPresence {
   ScanPresence& operator+=(const ScanPresence& other);
 };
 
-/// The blocks in which a sequence has points that are in range.
+/// What does not depend on masks.
+struct TruthBlocks {
+  CellLattice blocks;               ///< Those with points that are in range.
+  std::vector<PointCounts> points;  ///< Of each scan.
+};
+
 /// @throws DataError if no point at all is left to score against, or one lies beyond the lattice
-CellLattice blocks_of(const TruthPoints& truth, const FineGrid& grid);
+TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid);
 
 /// Counts for each scan how many of its points are kept, and how many have a kept point of any scan
 /// (the point itself included) at `options.distance` metres or less.
@@ -45,7 +50,7 @@ class PresenceCount : public ScanVisitor {
     const TruthPoints& truth;
     const Options& options;
     const FineGrid& grid;
-    const CellLattice& blocks;  ///< `blocks_of` the truth.
+    const TruthBlocks& blocks;  ///< Of the truth.
   };
 
   /// All parts of the input outlive this object.

@@ -48,6 +48,17 @@ class TruthPoints {
     return counts;
   }
 
+  /// Calls `visit(i, scan, kind)` for each flagged point i of a scan that is in range.
+  template <class Visit>
+  void visit_flagged(const CheckedScan& loaded, Visit&& visit) const {
+    PointCounts counts;
+    for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
+      if (!loaded.removed(i)) continue;
+      const Kind kind = kind_of(loaded.scan.points[i], loaded.labels[i], counts);
+      if (kind != Kind::kOutOfRange) visit(i, loaded.scan, kind);
+    }
+  }
+
   /// The counts of each scan. Progress is shown as `task`.
   /// @throws DataError if no point at all is left
   [[nodiscard]] std::vector<PointCounts> count(const std::string& task) const;

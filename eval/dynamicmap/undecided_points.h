@@ -56,11 +56,14 @@ class UndecidedPoints {
   /// Whether the flagged points of a block are collected in this pass. It may say so of a block
   /// whose turn ends meanwhile; `add` knows.
   [[nodiscard]] bool has_turn(Number block) const { return block >= first_ && block < end_; }
+  /// Whether a point of a block may matter: any flagged one does, and a kept one near those that
+  /// are undecided.
+  [[nodiscard]] bool may_matter(Number block, bool is_kept) const {
+    return !is_kept || is_near_flagged_[block] != 0;
+  }
   /// Whether a kept point in this cell may be near a flagged one that is collected.
-  [[nodiscard]] bool is_wanted(Number block, const FineCell& cell,
-                               CellLattice::Cursor& cursor) const {
-    return is_near_flagged_[block] != 0 &&
-           map_.flagged.any_near(cell, map_.blocks, cursor, first_, end_);
+  [[nodiscard]] bool is_wanted(const FineCell& cell, CellLattice::Cursor& cursor) const {
+    return map_.flagged.any_near(cell, map_.blocks, cursor, first_, end_);
   }
   void add(const Found& found);
 

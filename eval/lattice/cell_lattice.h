@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -30,6 +32,32 @@ constexpr VoxelKey cell_at(VoxelKey brick, int place) {
   const auto of_place = static_cast<VoxelKey>(place);
   return brick << 2 | (of_place & 3) | (of_place >> 2 & 3) << kVoxelBits |
          (of_place >> 4 & 3) << (2 * kVoxelBits);
+}
+
+/// The cell of a world point: `voxel_index` without a call for each axis.
+/// @throws DataError beyond the lattice
+inline VoxelIndex cell_index(const Eigen::Vector3d& point, double inverse_size) {
+  const Eigen::Vector3d place = point * inverse_size;
+  const bool is_inside = std::abs(place.x()) < kVoxelLimit && std::abs(place.y()) < kVoxelLimit &&
+                         std::abs(place.z()) < kVoxelLimit;
+  if (!is_inside) return voxel_index(point, inverse_size);
+  const auto floor_of = [](double value) {
+    const int whole = static_cast<int>(value);
+    return whole - (static_cast<double>(whole) > value ? 1 : 0);
+  };
+  return {floor_of(place.x()), floor_of(place.y()), floor_of(place.z())};
+}
+
+inline VoxelKey cell_key(const Eigen::Vector3d& point, double inverse_size) {
+  return voxel_key(cell_index(point, inverse_size));
+}
+
+/// How many bits are set, without a call on processors that have no instruction for it.
+constexpr int bits_set(std::uint64_t word) {
+  word -= word >> 1 & 0x5555555555555555U;
+  word = (word & 0x3333333333333333U) + (word >> 2 & 0x3333333333333333U);
+  word = (word + (word >> 4)) & 0x0F0F0F0F0F0F0F0FU;
+  return static_cast<int>(word * 0x0101010101010101U >> 56);
 }
 
 /// The cell so many steps away. Beyond the lattice's end this is a cell far away.
@@ -64,12 +92,39 @@ class CellSet {
   }
 
  private:
+  friend class CellInserter;
   friend class CellLattice;
   void insert(VoxelKey brick, std::uint64_t cells) {
     bricks_.try_emplace(brick, 0).first.value() |= cells;
   }
 
   VoxelMap<std::uint64_t> bricks_;
+};
+
+/// Inserts many cells, of which the next one is mostly in the same brick as the last.
+class CellInserter {
+ public:
+  explicit CellInserter(CellSet& set) : set_(set) {}
+  ~CellInserter() { flush(); }
+  CellInserter(const CellInserter&) = delete;
+  CellInserter& operator=(const CellInserter&) = delete;
+
+  void insert(VoxelKey cell) {
+    if (brick_of(cell) != brick_) {
+      flush();
+      brick_ = brick_of(cell);
+    }
+    cells_ |= std::uint64_t{1} << place_in_brick(cell);
+  }
+
+ private:
+  void flush() {
+    if (cells_ != 0) set_.insert(brick_, cells_);
+    cells_ = 0;
+  }
+  CellSet& set_;
+  VoxelKey brick_ = 0;
+  std::uint64_t cells_ = 0;
 };
 
 /// A set of cells that are numbered, from 0. What is close in space has numbers that are close, so
@@ -102,7 +157,7 @@ class CellLattice {
     const Brick& cells = bricks_[cursor.position];
     const std::uint64_t bit = std::uint64_t{1} << place_in_brick(cell);
     if ((cells.bits & bit) == 0) return kNone;
-    return cells.first + static_cast<Number>(std::popcount(cells.bits & (bit - 1)));
+    return cells.first + static_cast<Number>(bits_set(cells.bits & (bit - 1)));
   }
 
   [[nodiscard]] bool contains(VoxelKey cell, Cursor& cursor) const {

@@ -20,7 +20,7 @@ void CellMeans::compute(const std::vector<Eigen::Vector3d>& points, double voxel
   VoxelKey last = 0;  // Neighbours of a ring often share their brick.
   Brick* brick = nullptr;
   for (const Eigen::Vector3d& point : points) {
-    const VoxelKey key = voxel_key(voxel_index(point, inverse));
+    const VoxelKey key = cell_key(point, inverse);
     if (brick == nullptr || brick_of(key) != last) {
       last = brick_of(key);
       brick = &brick_at(last);

@@ -37,7 +37,7 @@ class LayerGaps {
 template <class Visit>
 void visit_cells_in_reach(const Eigen::Vector3d& point, double size, double squared_reach,
                           Visit&& visit) {
-  const VoxelIndex index = voxel_index(point, 1.0 / size);
+  const VoxelIndex index = cell_index(point, 1.0 / size);
   const VoxelKey cell = voxel_key(index);
   const LayerGaps gaps(point, index, size);
   for (int z = -1; z <= 1; ++z) {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "eval/lattice/cell_lattice.h"
+
 namespace raymoval {
 
 /// A bit for each of many numbers. The numbers whose bits are set can be counted through, so that a
@@ -40,7 +42,7 @@ class RankedBits {
   /// How many lower numbers are set.
   [[nodiscard]] std::uint32_t rank(std::size_t number) const {
     const std::uint64_t lower = words_[number / 64] & (bit(number) - 1);
-    return ranks_[number / 64] + static_cast<std::uint32_t>(std::popcount(lower));
+    return ranks_[number / 64] + static_cast<std::uint32_t>(bits_set(lower));
   }
 
  private:

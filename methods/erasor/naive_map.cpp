@@ -2,6 +2,7 @@
 #include "methods/erasor/naive_map.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace raymoval::erasor_method {
 namespace {
@@ -14,15 +15,15 @@ VoxelIndex tile_index(const Eigen::Vector3d& point) {
 
 }  // namespace
 
-NaiveMap::NaiveMap(const std::vector<VoxelKey>& keys, const std::vector<Eigen::Vector3d>& points)
-    : keys_(keys.size()), points_(points.size()), in_(keys.size(), 1) {
+NaiveMap::NaiveMap(std::vector<VoxelKey> keys, std::vector<Eigen::Vector3d> points)
+    : keys_(std::move(keys)), points_(std::move(points)), in_(keys_.size(), 1) {
   // Voxels are numbered tile by tile, in each tile as they are given.
   VoxelMap<std::uint32_t> tile_numbers;
-  std::vector<std::uint32_t> tile_of(keys.size());
+  std::vector<std::uint32_t> tile_of(keys_.size());
   std::vector<VoxelKey> tile_keys;
   std::vector<VoxelNumber> ends;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const VoxelKey tile = voxel_key(tile_index(points[i]));
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    const VoxelKey tile = voxel_key(tile_index(points_[i]));
     const auto found = tile_numbers.try_emplace(tile, static_cast<std::uint32_t>(ends.size()));
     if (found.second) {
       tile_keys.push_back(tile);
@@ -37,10 +38,20 @@ NaiveMap::NaiveMap(const std::vector<VoxelKey>& keys, const std::vector<Eigen::V
     sum += ends[t];
     ends[t] = sum - ends[t];  // Now the place of the tile's next voxel.
   }
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const VoxelNumber number = ends[tile_of[i]]++;
-    keys_[number] = keys[i];
-    points_[number] = points[i];
+  std::vector<VoxelNumber>& numbers = tile_of;  // In the same memory.
+  for (VoxelNumber& number : numbers) number = ends[number]++;
+  renumber(numbers);
+}
+
+/// Gives every voxel its number, in place. @param numbers of the voxels; afterwards 0, 1, 2, ...
+void NaiveMap::renumber(std::vector<VoxelNumber>& numbers) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    while (numbers[i] != i) {
+      const VoxelNumber to = numbers[i];
+      std::swap(keys_[i], keys_[to]);
+      std::swap(points_[i], points_[to]);
+      std::swap(numbers[i], numbers[to]);
+    }
   }
 }
 
@@ -67,17 +78,38 @@ void NaiveMap::put_back(VoxelKey key) {
   out_.erase(found);
 }
 
+VoxelNumber NaiveMapBuilder::number_of(VoxelKey key) {
+  if (4 * std::size_t{size_} >= 3 * table_.size()) grow_table();
+  const std::size_t mask = table_.size() - 1;
+  std::size_t at = VoxelKeyHash{}(key)&mask;
+  for (; table_[at] != kFree; at = (at + 1) & mask) {
+    if (voxel(table_[at]).key == key) return table_[at];
+  }
+  if (size_ % kChunk == 0) chunks_.push_back(std::make_unique<Voxel[]>(kChunk));
+  table_[at] = size_;
+  voxel(size_) = {key, Eigen::Vector3d::Zero(), 0, 0};
+  return size_++;
+}
+
+void NaiveMapBuilder::grow_table() {
+  table_.assign(std::max<std::size_t>(2 * table_.size(), 1024), kFree);
+  const std::size_t mask = table_.size() - 1;
+  for (VoxelNumber number = 0; number < size_; ++number) {
+    std::size_t at = VoxelKeyHash{}(voxel(number).key) & mask;
+    while (table_[at] != kFree) at = (at + 1) & mask;
+    table_[at] = number;
+  }
+}
+
 std::uint32_t NaiveMapBuilder::slot_of(VoxelKey key) {
-  const auto found = numbers_.try_emplace(key, static_cast<VoxelNumber>(voxels_.size()));
-  const VoxelNumber number = found.first->second;
-  if (found.second) voxels_.push_back({key, Eigen::Vector3d::Zero(), 0, 0});
-  Voxel& voxel = voxels_[number];
-  const bool known = voxel.slot < in_scan_.size() && in_scan_[voxel.slot].voxel == number;
+  const VoxelNumber number = number_of(key);
+  Voxel& found = voxel(number);
+  const bool known = found.slot < in_scan_.size() && in_scan_[found.slot].voxel == number;
   if (!known) {
-    voxel.slot = static_cast<std::uint32_t>(in_scan_.size());
+    found.slot = static_cast<std::uint32_t>(in_scan_.size());
     in_scan_.push_back({number, 0, Eigen::Vector3d::Zero()});
   }
-  return voxel.slot;
+  return found.slot;
 }
 
 void NaiveMapBuilder::add(const std::vector<VoxelKey>& keys,
@@ -95,19 +127,28 @@ void NaiveMapBuilder::add(const std::vector<VoxelKey>& keys,
     ++in_scan_[slot].points;
   }
   for (const VoxelOfScan& collected : in_scan_) {
-    voxels_[collected.voxel].sum_of_means += collected.sum / collected.points;
-    ++voxels_[collected.voxel].scans;
+    Voxel& filled = voxel(collected.voxel);
+    filled.sum_of_means += collected.sum / collected.points;
+    ++filled.scans;
   }
 }
 
-NaiveMap NaiveMapBuilder::finish() const {
-  std::vector<VoxelKey> keys(voxels_.size());
-  std::vector<Eigen::Vector3d> points(voxels_.size());
-  for (std::size_t i = 0; i < voxels_.size(); ++i) {
-    keys[i] = voxels_[i].key;
-    points[i] = voxels_[i].sum_of_means / voxels_[i].scans;
+NaiveMap NaiveMapBuilder::finish() {
+  table_ = {};
+  std::vector<VoxelKey> keys;
+  std::vector<Eigen::Vector3d> points;
+  keys.reserve(size_);
+  points.reserve(size_);
+  for (VoxelNumber number = 0; number < size_; ++number) {
+    const Voxel& collected = voxel(number);
+    keys.push_back(collected.key);
+    points.emplace_back(collected.sum_of_means / collected.scans);
+    // What was read is given back at once, so that the voxels are not in memory twice.
+    if ((number + 1) % kChunk == 0) chunks_[number / kChunk].reset();
   }
-  return {keys, points};
+  chunks_.clear();
+  size_ = 0;
+  return {std::move(keys), std::move(points)};
 }
 
 }  // namespace raymoval::erasor_method

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
+#include "methods/common/side_by_side.h"
 #include "methods/octomap/occupancy_tree.h"
 #include "methods/octomap/point_filters.h"
 #include "methods/octomap/scan_cells.h"
@@ -25,6 +26,7 @@ class OctomapRun {
         context_(context),
         lattice_(parameters.resolution),
         cells_(parameters, context),
+        known_cells_(parameters, context),
         map_(parameters),
         kept_(scans.size()),
         dropped_(scans.size()) {
@@ -46,14 +48,22 @@ class OctomapRun {
     });
   }
 
+  /// With several threads the map takes a scan in beside the search for the next one's cells.
   void build_map() {
-    for_each_scan("octomap", scans_, context_, [this](const Scan& scan) {
+    const auto take_in = [this](const RunContext& context) {
+      const StageScope timed(context.times, "map update");
+      map_.update(known_cells_.parts(), &wanted_);
+      known_cells_.clear();
+    };
+    for_each_scan("octomap", scans_, context_, [&](const Scan& scan) {
       const std::vector<octomap::point3d> points = in_tree_frame(scan);
       const std::vector<PointRole> roles = roles_of(scan.index, points);
-      find_cells(scan, points, roles);
-      const StageScope timed(context_.times, "map update");
-      map_.update(cells_.parts(), &wanted_);
+      side_by_side(context_, "beams and map update", take_in, [&](const RunContext& context) {
+        find_cells(scan, points, roles, context.times);
+      });
+      std::swap(cells_, known_cells_);
     });
+    take_in(context_);
   }
 
   void answer(RemovalSink& sink) {
@@ -122,8 +132,8 @@ class OctomapRun {
   }
 
   void find_cells(const Scan& scan, const std::vector<octomap::point3d>& points,
-                  const std::vector<PointRole>& roles) {
-    const StageScope timed(context_.times, "beams");
+                  const std::vector<PointRole>& roles, StageTimes* times) {
+    const StageScope timed(times, "beams");
     cells_.compute(points, roles, rounded(scan.T_world_sensor.translation() - centre_));
   }
 
@@ -163,8 +173,8 @@ class OctomapRun {
   const ScanSource& scans_;
   const RunContext& context_;
   CellLattice lattice_;
-  ScanCells cells_;
-  CellBlocks wanted_;  ///< Cells in which any scan has a point.
+  ScanCells cells_, known_cells_;  ///< Of the scan at hand, and of the one before it.
+  CellBlocks wanted_;              ///< Cells in which any scan has a point.
   OccupancyTree map_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< The tree's centre in the world, metres.
   MaskStore kept_;     ///< Points on the ground, which stay whatever their leaf says.

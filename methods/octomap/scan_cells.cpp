@@ -2,6 +2,7 @@
 #include "methods/octomap/scan_cells.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/parallel.h"
 
@@ -14,23 +15,26 @@ constexpr std::size_t kBeamsInTurn = 512;
 }  // namespace
 
 ScanCells::ScanCells(const Parameters& parameters, const RunContext& context)
-    : parameters_(parameters),
-      context_(context),
+    : parameters_(&parameters),
+      context_(&context),
       lattice_(parameters.resolution),
       threads_(std::clamp(context.threads, 1, 64)),
       parts_(static_cast<std::size_t>(threads_)) {}
 
 void ScanCells::compute(const std::vector<octomap::point3d>& points,
                         const std::vector<PointRole>& roles, const octomap::point3d& origin) {
-  for (CellBlocks& part : parts_) part.clear();
+  clear();
   collect_beams(points, roles, origin);
   const BeamTracer tracer(lattice_, origin);
-  // The union does not depend on which part takes which beam.
+  // Whoever has time takes the next beams: the union does not depend on which part they are in.
+  std::atomic<std::size_t> next_turn{0};
   parallel_for(threads_, parts_.size(), 1, [&](std::size_t part) {
-    for (std::size_t turn = part; turn * kBeamsInTurn < beams_.size(); turn += parts_.size()) {
-      context_.check_cancelled();
-      const std::size_t end = std::min(beams_.size(), (turn + 1) * kBeamsInTurn);
-      for (std::size_t i = turn * kBeamsInTurn; i < end; ++i) {
+    while (true) {
+      const std::size_t begin = next_turn++ * kBeamsInTurn;
+      if (begin >= beams_.size()) return;
+      context_->check_cancelled();
+      const std::size_t end = std::min(beams_.size(), begin + kBeamsInTurn);
+      for (std::size_t i = begin; i < end; ++i) {
         const Beam& beam = beams_[i];
         tracer.mark_free(beam.end, beam.last, parts_[part]);
         if (beam.hits) parts_[part].occupy(beam.last);
@@ -49,7 +53,7 @@ void ScanCells::collect_beams(const std::vector<octomap::point3d>& points,
     if (!cell) continue;
     if (roles[i] == PointRole::kNoise) {
       parts_[0].occupy(*cell);
-    } else if (parameters_.discretise) {
+    } else if (parameters_->discretise) {
       ends.emplace_back(*cell, roles[i]);
     } else {
       add_beam(points[i], *cell, roles[i], origin);
@@ -64,17 +68,17 @@ void ScanCells::collect_beams(const std::vector<octomap::point3d>& points,
 void ScanCells::add_beam(const octomap::point3d& end, CellCode last, PointRole role,
                          const octomap::point3d& origin) {
   const double range = (end - origin).norm();
-  if (parameters_.minimum_range > 0.0 && range < parameters_.minimum_range) return;
-  if (parameters_.maximum_range < 0.0 || range <= parameters_.maximum_range) {
+  if (parameters_->minimum_range > 0.0 && range < parameters_->minimum_range) return;
+  if (parameters_->maximum_range < 0.0 || range <= parameters_->maximum_range) {
     beams_.push_back({end, last, role == PointRole::kSurface});
     return;
   }
   const octomap::point3d direction = (end - origin).normalized();
-  const octomap::point3d cut = origin + direction * static_cast<float>(parameters_.maximum_range);
+  const octomap::point3d cut = origin + direction * static_cast<float>(parameters_->maximum_range);
   const std::optional<CellCode> cell = lattice_.cell_of(cut);
   if (!cell) return;
   beams_.push_back({cut, *cell, false});
-  if (parameters_.cut_end_free && role == PointRole::kSurface) {
+  if (parameters_->cut_end_free && role == PointRole::kSurface) {
     parts_[0].block(*cell >> kBlockBits).free[*cell >> 6 & 7] |= std::uint64_t{1} << (*cell & 63);
   }
 }

@@ -35,6 +35,9 @@ class ScanCells {
   /// The cells are the union of these. Where a cell is both free and occupied, which of the two
   /// counts is not decided yet.
   [[nodiscard]] const std::vector<CellBlocks>& parts() const { return parts_; }
+  void clear() {
+    for (CellBlocks& part : parts_) part.clear();
+  }
 
  private:
   /// A beam to `end`, whose cell is `last`.
@@ -48,8 +51,8 @@ class ScanCells {
   void add_beam(const octomap::point3d& end, CellCode last, PointRole role,
                 const octomap::point3d& origin);
 
-  const Parameters& parameters_;
-  const RunContext& context_;
+  const Parameters* parameters_;
+  const RunContext* context_;
   CellLattice lattice_;
   int threads_;
   std::vector<Beam> beams_;

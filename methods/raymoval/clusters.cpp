@@ -2,20 +2,48 @@
 #include "methods/raymoval/clusters.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "methods/common/disjoint_sets.h"
 
 namespace raymoval::raymoval_method {
 namespace {
 
-/// Calls `visit(key)` for each cell within `reach` cells of `cell`, itself included.
-template <class Visit>
-void for_neighbours(const VoxelIndex& cell, int reach, Visit&& visit) {
-  for (int dz = -reach; dz <= reach; ++dz) {
-    for (int dy = -reach; dy <= reach; ++dy) {
-      for (int dx = -reach; dx <= reach; ++dx) {
-        visit(voxel_key(cell.x() + dx, cell.y() + dy, cell.z() + dz));
-      }
+/// A voxel and the first of the elements in it.
+using FirstElement = std::pair<VoxelKey, std::uint32_t>;
+
+/// The voxels in ascending order, each with one of its elements; elements of one voxel are joined.
+std::vector<FirstElement> sorted_voxels(const std::vector<VoxelKey>& voxels, DisjointSets& sets) {
+  std::vector<FirstElement> sorted;
+  sorted.reserve(voxels.size());
+  for (std::uint32_t i = 0; i < voxels.size(); ++i) {
+    if (i > 0 && voxels[i] == voxels[i - 1]) {
+      sets.join(i - 1, i);  // Neighbours often share a voxel.
+    } else {
+      sorted.emplace_back(voxels[i], i);
+    }
+  }
+  std::sort(sorted.begin(), sorted.end());
+  const auto same = [&](const FirstElement& a, const FirstElement& b) {
+    if (a.first != b.first) return false;
+    sets.join(a.second, b.second);
+    return true;
+  };
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+  return sorted;
+}
+
+/// Joins each voxel with those that lie (-gap .. gap, y, z) cells from it. Sorted voxels run along
+/// x, so that one pass with two marks finds them.
+void join_rows(const std::vector<FirstElement>& sorted, int y, int z, int gap, DisjointSets& sets) {
+  const VoxelKey offset = voxel_key(0, y, z) - voxel_key(0, 0, 0);
+  const auto reach = static_cast<VoxelKey>(gap);
+  std::size_t low = 0;
+  for (const auto& [key, element] : sorted) {
+    const VoxelKey middle = key + offset;
+    while (low < sorted.size() && sorted[low].first + reach < middle) ++low;
+    for (std::size_t k = low; k < sorted.size() && sorted[k].first <= middle + reach; ++k) {
+      sets.join(element, sorted[k].second);
     }
   }
 }
@@ -24,17 +52,9 @@ void for_neighbours(const VoxelIndex& cell, int reach, Visit&& visit) {
 
 std::vector<int> voxel_components(const std::vector<VoxelKey>& voxels, int gap) {
   DisjointSets sets(voxels.size());
-  VoxelMap<std::uint32_t> seen;
-  for (std::uint32_t i = 0; i < voxels.size(); ++i) {
-    const auto [first, is_new] = seen.emplace(voxels[i], i);
-    if (!is_new) sets.join(i, first->second);
-  }
-  for (const auto& [voxel, element] : seen) {
-    for_neighbours(voxel_index(voxel), gap, [&, own = voxel, i = element](VoxelKey key) {
-      if (key <= own) return;  // Every pair once.
-      const auto found = seen.find(key);
-      if (found != seen.end()) sets.join(i, found->second);
-    });
+  const std::vector<FirstElement> sorted = sorted_voxels(voxels, sets);
+  for (int z = 0; z <= gap; ++z) {
+    for (int y = z == 0 ? 0 : -gap; y <= gap; ++y) join_rows(sorted, y, z, gap, sets);
   }
   return sets.numbers();
 }

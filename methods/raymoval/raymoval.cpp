@@ -5,9 +5,9 @@
 
 #include <utility>
 
-#include "core/parallel.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
+#include "methods/common/side_by_side.h"
 #include "methods/raymoval/answers.h"
 #include "methods/raymoval/erase_evidence.h"
 #include "methods/raymoval/scan_against_map.h"
@@ -59,7 +59,7 @@ class RaymovalRun {
     Mask dynamic;                                             // eqs 12-15
     Evidence evidence;                                        // the erase cases of Fig. 1
     side_by_side(
-        "validation and erase",
+        context_, "validation and erase",
         [&](const RunContext& context) { dynamic = validate(candidates, context.times); },
         [&](const RunContext& context) { evidence = find_evidence(context); });
     left_over_ = {std::move(evidence), dynamic};
@@ -77,8 +77,14 @@ class RaymovalRun {
   /// Projects a scan, and beside it brings the map up to date with the scan before, whose answer
   /// did not have to wait for that.
   void project(Scan scan) {
+    const Pose pose = scan.T_world_sensor;
     side_by_side(
-        "binning and integration", [&](const RunContext& context) { update_map(context); },
+        context_, "binning and integration",
+        [&](const RunContext& context) {
+          update_map(context);
+          const StageScope timed(context.times, "raycasting");
+          test_.prepare_cast(map_.occupied(), pose, context);
+        },
         [&](const RunContext& context) { test_.project_next(std::move(scan), context); });
     test_.take_next();
   }
@@ -117,25 +123,13 @@ class RaymovalRun {
       map_.integrate(at_hand.voxels);
     };
     for_each_scan("raymoval, naive map", scans_, context_, [&](const Scan& scan) {
-      side_by_side("integration", integrate, [&](const RunContext& context) {
+      side_by_side(context_, "integration", integrate, [&](const RunContext& context) {
         const StageScope timed(context.times, "binning");
         find_voxels(scan, map_.occupied().inverse_voxel_size(), context.threads, next);
       });
       std::swap(at_hand, next);
     });
     integrate(context_);
-  }
-
-  /// Takes two steps that do not need each other. With several threads one is taken beside the
-  /// other, and they are timed as one stage.
-  template <class OneStep, class OtherStep>
-  void side_by_side(const char* stage, OneStep&& one_step, OtherStep&& other_step) {
-    const bool together = context_.threads > 1;
-    const StageScope timed(together ? context_.times : nullptr, stage);
-    RunContext context = context_;
-    if (together) context.times = nullptr;
-    parallel_for(context_.threads, 2, 1,
-                 [&](std::size_t step) { step == 0 ? one_step(context) : other_step(context); });
   }
 
   /// Visits the scans from the first to the last, and back if a backward pass is asked for.

@@ -43,6 +43,11 @@ class ScanAgainstMap {
   void project_next(Scan scan, const RunContext& context);
   /// Makes the scan projected last the one at hand.
   void take_next() { std::swap(at_hand_, next_); }
+  /// Does the part of the next `cast_first_hits` that asks for the scan's pose only. The map must
+  /// not change in between.
+  void prepare_cast(OccupancyMap& map, const Pose& T_world_sensor, const RunContext& context) {
+    caster_.prepare(map, T_world_sensor, context.threads);
+  }
   /// Eqs 4-7. It changes nothing of a map whose boxes are up to date.
   void cast_first_hits(OccupancyMap& map, const RunContext& context);
   /// Eqs 8-9 where the scan has a return, for the tests to come. It also looks the points' voxels

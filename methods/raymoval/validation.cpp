@@ -71,6 +71,7 @@ ScanPoints subset(const ScanPoints& points, const std::vector<int>& chosen) {
 
 std::vector<VoxelKey> keys_of(const std::vector<VoxelIndex>& voxels) {
   std::vector<VoxelKey> keys;
+  keys.reserve(voxels.size());
   for (const VoxelIndex& voxel : voxels) keys.push_back(voxel_key(voxel));
   return keys;
 }
@@ -97,6 +98,7 @@ double coverage(const std::vector<int>& members, const ScanPoints& points,
                 const OccupancyMap& static_map, int dilation) {
   int inside = 0;
   VoxelMap<bool> near;  // Points share voxels.
+  near.reserve(members.size());
   for (const int member : members) {
     const VoxelIndex& voxel = points.voxel[at(member)];
     const auto [found, is_new] = near.try_emplace(voxel_key(voxel), false);
@@ -158,15 +160,17 @@ std::vector<int> unsupported_members(const std::vector<int>& cluster, const Scan
 
 Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& static_map,
                          const Parameters& parameters) {
-  std::vector<int> screened;
   const std::vector<int> cluster_numbers = range_adaptive_clusters(
       candidates.position, candidates.range, parameters.cluster_gap, parameters.cluster_gap_growth);
+  Mask passes(candidates.size(), 0);
   for (const std::vector<int>& cluster : members_of(cluster_numbers)) {
-    if (passes_cluster_screen(cluster, candidates, parameters)) {
-      screened.insert(screened.end(), cluster.begin(), cluster.end());
-    }
+    if (!passes_cluster_screen(cluster, candidates, parameters)) continue;
+    for (const int member : cluster) passes[at(member)] = 1;
   }
-  std::sort(screened.begin(), screened.end());
+  std::vector<int> screened;
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    if (passes[i] != 0) screened.push_back(static_cast<int>(i));
+  }
   const ScanPoints points = subset(candidates, screened);
   std::vector<int> cluster_of;
   for (const int i : screened) cluster_of.push_back(cluster_numbers[at(i)]);

@@ -96,12 +96,13 @@ def judge(programs, number):
 
 
 def judge_all(programs, numbers, jobs, told):
-    """Judges mutants, `jobs` at a time; calls `told(number, answer)` in order."""
+    """Judges mutants, `jobs` at a time; calls `told(number, answer)` as soon as one is known."""
     began = time.monotonic()
     pool = concurrent.futures.ThreadPoolExecutor(jobs)
     try:
-        for number, answer in zip(numbers, pool.map(lambda n: judge(programs, n), numbers)):
-            told(number, answer)
+        judged = {pool.submit(judge, programs, number): number for number in numbers}
+        for answer in concurrent.futures.as_completed(judged):
+            told(judged[answer], answer.result())
     finally:
         pool.shutdown(cancel_futures=True)  # Where it is stopped, the others are not waited for.
     return time.monotonic() - began

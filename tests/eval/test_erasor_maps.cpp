@@ -22,8 +22,8 @@ struct WholeDenseMap {
   WholeDenseMap(const erasor::MapRules& rules, const MaskStore& masks) {
     for (std::size_t i = 0; i < rules.input.scans->size(); ++i) {
       const CheckedScan scan = load_checked(rules.input, &masks, i);
-      const LabelledVoxels voxels = voxelise(erasor::place_scan(scan, rules).cloud,
-                                             rules.options.voxel_size, rules.classes, 1);
+      const LabelledVoxels voxels =
+          voxelise(erasor::place_scan(scan, rules), rules.options.voxel_size, rules.classes, 1);
       cloud.append(voxels.cloud);
       scans.resize(cloud.size(), static_cast<std::uint32_t>(i));
       ties += voxels.mixed_label_ties;

@@ -35,7 +35,7 @@ Counted count(const EvaluationInput& input, const MaskStore& masks, const Option
               std::size_t room) {
   const TruthPoints truth(input, 0.0, options.ego_range);
   const FineGrid grid(options.distance);
-  const CellLattice blocks = blocks_of(truth, grid);
+  const TruthBlocks blocks = truth_blocks(truth, grid);
   PresenceCount presence({truth, options, grid, blocks}, room);
   CountedPasses passes(presence);
   run_passes(input, masks, {&passes});

@@ -42,7 +42,7 @@ RAYMOVAL_FUZZ_TARGET(frames) {
 RAYMOVAL_FUZZ_TARGET(scene) {
   // Neither a command line nor a suite file can hold a zero byte.
   const std::string text(bytes.substr(0, bytes.find('\0')));
-  (void)names_scene(text);
+  may_refuse([&] { (void)names_scene(text); });
   may_refuse([&] {
     const SimulationOptions options = parse_scene(text);
     require(options.scene.size() <= text.size(), "a scene's name grows");

@@ -12,7 +12,7 @@ inline constexpr const char* kSceneForm =
     "SCENE[:key=value,...] with the keys scans, seed, sensor, pose_noise and rolling";
 
 /// Whether `text` names a built-in scene or an existing scene file (*.json), with or without
-/// options.
+/// options. @throws DataError as `is_file`, for example for a file name that is too long
 bool names_scene(const std::string& text);
 
 /// `town` or `town:scans=60,seed=3,sensor=vlp16,pose_noise=0,rolling=skewed`, read. Whether the

@@ -7,52 +7,6 @@
 #include "eval/scan_passes.h"
 
 namespace raymoval::erasor {
-namespace {
-
-/// Which of the counts a point belongs to.
-std::int64_t PointCounts::*fate_of(const Eigen::Vector3d& point, LabelClass label_class,
-                                   const EvaluationInput& input, const Options& options) {
-  if (!input.range_m.contains(point.norm())) return &PointCounts::out_of_range;
-  if (label_class == LabelClass::kIgnored) return &PointCounts::ignored;
-  const double limit = options.minimum_horizontal_range;
-  const double horizontal_squared = point.x() * point.x() + point.y() * point.y();
-  return horizontal_squared < limit * limit ? &PointCounts::cropped : &PointCounts::evaluated;
-}
-
-/// World pose of a scan in the frame that the options want.
-Pose pose_of(const Scan& scan, const EvaluationInput& input, const Options& options) {
-  return options.frame == FrameOption::kErasor
-             ? erasor_pose(scan.T_world_sensor, input.T_camera_lidar.value())
-             : scan.T_world_sensor;
-}
-
-/// The evaluated points that are flagged, or those that are not.
-PlacedScan place_points(const CheckedScan& loaded, const MapRules& rules, bool flagged) {
-  const Scan& scan = loaded.scan;
-  const std::vector<std::uint32_t>& labels = loaded.labels;
-  const Pose T_world_sensor = pose_of(scan, rules.input, rules.options);
-  PlacedScan placed;
-  if (!flagged) {
-    placed.cloud.points.reserve(scan.size());
-    placed.cloud.labels.reserve(scan.size());
-  }
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3d point = scan.points[i].cast<double>();
-    const auto fate = fate_of(point, rules.classes.of(labels[i]), rules.input, rules.options);
-    ++(placed.points.*fate);
-    if (fate != &PointCounts::evaluated) continue;
-    if (semantic_id(labels[i]) == kMovingTruck) ++placed.points.trucks;
-    placed.points.removed += loaded.removed(i) ? 1 : 0;
-    if (loaded.removed(i) != flagged) continue;
-    const Eigen::Vector3d lifted = point + Eigen::Vector3d(0.0, 0.0, rules.options.lift);
-    placed.cloud.points.push_back(T_world_sensor * lifted);
-    placed.cloud.labels.push_back(labels[i]);
-  }
-  return placed;
-}
-
-}  // namespace
-
 PointCounts& PointCounts::operator+=(const PointCounts& other) {
   out_of_range += other.out_of_range;
   ignored += other.ignored;
@@ -69,12 +23,34 @@ LabelRule effective_rule(const LabelRule& rule, const Options& options) {
   return effective;
 }
 
-PlacedScan place_scan(const CheckedScan& scan, const MapRules& rules) {
-  return place_points(scan, rules, false);
+Pose pose_of(const Scan& scan, const MapRules& rules) {
+  return rules.options.frame == FrameOption::kErasor
+             ? erasor_pose(scan.T_world_sensor, rules.input.T_camera_lidar.value())
+             : scan.T_world_sensor;
 }
 
-PlacedScan place_flagged(const CheckedScan& scan, const MapRules& rules) {
-  return place_points(scan, rules, true);
+LabelledCloud place_scan(const CheckedScan& scan, const MapRules& rules) {
+  LabelledCloud cloud;
+  cloud.points.reserve(scan.scan.size());
+  cloud.labels.reserve(scan.scan.size());
+  visit_placed(scan, rules, false, [&](const Eigen::Vector3d& point, std::uint32_t word) {
+    cloud.points.push_back(point);
+    cloud.labels.push_back(word);
+  });
+  return cloud;
+}
+
+PointCounts count_points(const CheckedScan& scan, const MapRules& rules) {
+  PointCounts counts;
+  for (std::size_t i = 0; i < scan.scan.size(); ++i) {
+    const Eigen::Vector3d point = scan.scan.points[i].cast<double>();
+    const auto fate = fate_of(point, rules.classes.of(scan.labels[i]), rules);
+    ++(counts.*fate);
+    if (fate != &PointCounts::evaluated) continue;
+    counts.removed += scan.removed(i) ? 1 : 0;
+    counts.trucks += semantic_id(scan.labels[i]) == kMovingTruck ? 1 : 0;
+  }
+  return counts;
 }
 
 LabelledCloud dense_map(const MapRules& rules, const std::string& task) {
@@ -83,8 +59,8 @@ LabelledCloud dense_map(const MapRules& rules, const std::string& task) {
   in_scan_order(
       rules.input, task, slots.size(),
       [&](std::size_t scan, std::size_t slot) {
-        const PlacedScan placed = place_scan(load_checked(rules.input, nullptr, scan), rules);
-        slots[slot] = voxelise(placed.cloud, rules.options.voxel_size, rules.classes, 1).cloud;
+        const LabelledCloud placed = place_scan(load_checked(rules.input, nullptr, scan), rules);
+        slots[slot] = voxelise(placed, rules.options.voxel_size, rules.classes, 1).cloud;
       },
       [&](std::size_t slot) { dense.append(slots[slot]); });
   return dense;

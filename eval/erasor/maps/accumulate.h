@@ -36,18 +36,39 @@ struct MapRules {
   const LabelClasses& classes;
 };
 
-/// Points of a scan in the world frame, lifted.
-struct PlacedScan {
-  LabelledCloud cloud;
-  PointCounts points;  ///< Of the whole scan.
-};
+/// Which of the counts a point belongs to. @param point sensor frame
+inline std::int64_t PointCounts::*fate_of(const Eigen::Vector3d& point, LabelClass label_class,
+                                          const MapRules& rules) {
+  if (!rules.input.range_m.contains(point.norm())) return &PointCounts::out_of_range;
+  if (label_class == LabelClass::kIgnored) return &PointCounts::ignored;
+  const double limit = rules.options.minimum_horizontal_range;
+  const double horizontal_squared = point.x() * point.x() + point.y() * point.y();
+  return horizontal_squared < limit * limit ? &PointCounts::cropped : &PointCounts::evaluated;
+}
 
-/// Steps 1 to 3 of the ground truth for one scan: crop, lift in the sensor frame, pose.
-/// @return the points that are evaluated and not flagged
-PlacedScan place_scan(const CheckedScan& scan, const MapRules& rules);
+/// World pose of a scan in the frame that the options want.
+Pose pose_of(const Scan& scan, const MapRules& rules);
 
-/// The points that are evaluated and flagged.
-PlacedScan place_flagged(const CheckedScan& scan, const MapRules& rules);
+/// Steps 1 to 3 of the ground truth for one scan: crop, lift in the sensor frame, pose. Calls
+/// `visit(point, label)` for each point that is evaluated and, as is asked for, flagged or not.
+template <class Visit>
+void visit_placed(const CheckedScan& loaded, const MapRules& rules, bool flagged, Visit&& visit) {
+  const Pose T_world_sensor = pose_of(loaded.scan, rules);
+  const Eigen::Vector3d lift(0.0, 0.0, rules.options.lift);
+  for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
+    if (loaded.removed(i) != flagged) continue;
+    const Eigen::Vector3d point = loaded.scan.points[i].cast<double>();
+    const std::uint32_t word = loaded.labels[i];
+    if (fate_of(point, rules.classes.of(word), rules) != &PointCounts::evaluated) continue;
+    visit(T_world_sensor * (point + lift), word);
+  }
+}
+
+/// The points of a scan that are evaluated and not flagged, world frame, lifted.
+LabelledCloud place_scan(const CheckedScan& scan, const MapRules& rules);
+
+/// What becomes of the points of a scan.
+PointCounts count_points(const CheckedScan& scan, const MapRules& rules);
 
 /// The dense map, point by point: the voxels of all scans, one scan after the other. For searches
 /// of the nearest point however far away; a map of voxels needs none of it (see `TruthMap`).

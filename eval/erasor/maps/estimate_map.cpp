@@ -25,7 +25,7 @@ void for_cells_beside(const CellLattice& cells, VoxelKey cell, CellLattice::Curs
 }  // namespace
 
 EstimateMap::EstimateMap(const MapRules& rules, const TruthMap& truth)
-    : rules_(rules), truth_(truth), touched_(truth.cells().size()) {}
+    : rules_(rules), truth_(truth), points_(truth.points()), touched_(truth.cells().size()) {}
 
 bool EstimateMap::begin_pass(std::size_t slots) {
   slots_.resize(slots);
@@ -65,7 +65,7 @@ void EstimateMap::read(const CheckedScan& scan, std::size_t slot) {
 void EstimateMap::take(std::size_t slot) {
   const Part& part = slots_[slot];
   if (pass_ == kTouch) {
-    points_ += part.points;
+    points_.removed += part.removed;
   } else if (pass_ == kAddUp) {
     for (const DensePoint& point : part.dense) {
       if (touched_.test(point.to)) sums_[touched_.rank(point.to)].add(point.point);
@@ -89,18 +89,18 @@ VoxelKind EstimateMap::kind(Number number) const {
 /// Touches the cells of removed points. Where a mean may lie in another cell by rounding, that one
 /// is touched, too.
 void EstimateMap::touch(const CheckedScan& scan, Part& part) {
-  const PlacedScan placed = place_flagged(scan, rules_);
-  part.points = placed.points;
   const double inverse = 1.0 / rules_.options.voxel_size;
   CellLattice::Cursor cursor;
-  for (const Eigen::Vector3d& point : placed.cloud.points) {
-    const VoxelKey cell = voxel_key(voxel_index(point, inverse));
+  part.removed = 0;
+  visit_placed(scan, rules_, true, [&](const Eigen::Vector3d& point, std::uint32_t) {
+    ++part.removed;
+    const VoxelKey cell = cell_key(point, inverse);
     const Number number = cells().find(cell, cursor);
     if (number == CellLattice::kNone) throw_changed(rules_.input, part.scan);
     touched_.set(number);
-    if (!truth_.map_cells().on_walls.test(number)) continue;
+    if (!truth_.map_cells().on_walls.test(number)) return;
     for_cells_beside(cells(), cell, cursor, [&](Number beside) { touched_.set(beside); });
-  }
+  });
 }
 
 void EstimateMap::choose_sources() {
@@ -142,18 +142,16 @@ void EstimateMap::vote(const CheckedScan& scan, Part& part) const {
 
 /// The points of a scan that are left in certain cells.
 LabelledCloud EstimateMap::points_in(const CheckedScan& scan, const RankedBits& wanted) const {
-  const PlacedScan placed = place_scan(scan, rules_);
   const double inverse = 1.0 / rules_.options.voxel_size;
   LabelledCloud cloud;
   CellLattice::Cursor cursor;
-  for (std::size_t i = 0; i < placed.cloud.size(); ++i) {
-    const VoxelKey cell = voxel_key(voxel_index(placed.cloud.points[i], inverse));
-    const Number number = cells().find(cell, cursor);
+  visit_placed(scan, rules_, false, [&](const Eigen::Vector3d& point, std::uint32_t word) {
+    const Number number = cells().find(cell_key(point, inverse), cursor);
     if (number == CellLattice::kNone) throw_changed(rules_.input, scan.scan.index);
-    if (!wanted.test(number)) continue;
-    cloud.points.push_back(placed.cloud.points[i]);
-    cloud.labels.push_back(placed.cloud.labels[i]);
-  }
+    if (!wanted.test(number)) return;
+    cloud.points.push_back(point);
+    cloud.labels.push_back(word);
+  });
   return cloud;
 }
 

@@ -44,7 +44,7 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   enum Pass { kTouch = 1, kAddUp, kVote };
   struct Part {
     std::uint32_t scan = 0;
-    PointCounts points;
+    std::int64_t removed = 0;
     CellMeans means;
     std::vector<DensePoint> dense;
     std::vector<Offer> offers;

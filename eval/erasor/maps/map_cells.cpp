@@ -21,17 +21,23 @@ struct FoundCells {
   }
 };
 
-/// Adds the cell of a point, and those into which a mean of such points may be rounded.
-void insert_cells(const Eigen::Vector3d& point, double inverse, FoundCells& found) {
+/// Adds the cells into which a mean of points like this one, which is on a wall, may be rounded.
+void insert_at_wall(const Eigen::Vector3d& point, double inverse, FoundCells& found) {
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kWallMargin);
-  const VoxelIndex low = voxel_index(point - margin, inverse);
-  const VoxelIndex high = voxel_index(point + margin, inverse);
+  const VoxelIndex low = cell_index(point - margin, inverse);
+  const VoxelIndex high = cell_index(point + margin, inverse);
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) found.cells.insert(voxel_key(x, y, z));
     }
   }
-  if (low != high) found.on_walls.insert(voxel_key(voxel_index(point, inverse)));
+  found.on_walls.insert(cell_key(point, inverse));
+}
+
+/// Whether a point is within `kWallMargin` of a wall of its cell.
+bool is_on_wall(const Eigen::Vector3d& point, const VoxelIndex& cell, double size) {
+  const Eigen::Vector3d above = point - cell.cast<double>() * size;
+  return above.minCoeff() <= kWallMargin || above.maxCoeff() >= size - kWallMargin;
 }
 
 /// The cells of `lattice` that are at most `steps` cells from one of `centres` along each axis.
@@ -52,15 +58,17 @@ RankedBits cells_around(const CellSet& centres, int steps, const CellLattice& la
   return around;
 }
 
-void find_cells(const PlacedScan& placed, const MapRules& rules, FoundCells& found) {
-  const double inverse = 1.0 / rules.options.voxel_size;
-  for (std::size_t i = 0; i < placed.cloud.size(); ++i) {
-    const Eigen::Vector3d& point = placed.cloud.points[i];
-    insert_cells(point, inverse, found);
-    const std::uint32_t word = placed.cloud.labels[i];
-    if (!rules.classes.moving(word) && semantic_id(word) != kMovingTruck) continue;
-    found.moving.insert(voxel_key(voxel_index(point, inverse)));
-  }
+void find_cells(const CheckedScan& scan, const MapRules& rules, FoundCells& found) {
+  const double size = rules.options.voxel_size;
+  const double inverse = 1.0 / size;
+  CellInserter cells(found.cells);
+  visit_placed(scan, rules, false, [&](const Eigen::Vector3d& point, std::uint32_t word) {
+    const VoxelIndex cell = cell_index(point, inverse);
+    cells.insert(voxel_key(cell));
+    if (is_on_wall(point, cell, size)) insert_at_wall(point, inverse, found);
+    if (!rules.classes.moving(word) && semantic_id(word) != kMovingTruck) return;
+    found.moving.insert(voxel_key(cell));
+  });
 }
 
 }  // namespace
@@ -72,7 +80,7 @@ MapCells map_cells(const MapRules& rules) {
       rules.input, "cells of the map", slots.size(),
       [&](std::size_t scan, std::size_t slot) {
         slots[slot].clear();
-        find_cells(place_scan(load_checked(rules.input, nullptr, scan), rules), rules, slots[slot]);
+        find_cells(load_checked(rules.input, nullptr, scan), rules, slots[slot]);
       },
       [&](std::size_t slot) { all.insert(slots[slot]); });
   MapCells cells;

@@ -16,7 +16,7 @@ std::vector<DensePoint> dense_points(const std::vector<Eigen::Vector3d>& points,
   bool in_own_cells = true;
   for (const CellMeans::Cell& cell : means.cells()) {
     const Eigen::Vector3d point = cell.mean.mean();
-    const VoxelKey key = voxel_key(voxel_index(point, inverse));
+    const VoxelKey key = cell_key(point, inverse);
     const CellLattice::Number number = cells.all.find(key, cursor);
     if (number == CellLattice::kNone) throw_changed(rules.input, scan);
     in_own_cells = in_own_cells && key == cell.key;

@@ -33,11 +33,10 @@ class TruthMap::Builder : public ScanVisitor {
   void read(const CheckedScan& scan, std::size_t slot) override {
     Part& part = slots_[slot];
     part.scan = static_cast<std::uint32_t>(scan.scan.index);
-    const PlacedScan placed = place_scan(scan, rules_);
+    const LabelledCloud placed = place_scan(scan, rules_);
     if (pass_ == 1) {
-      part.points = placed.points;
-      part.dense =
-          dense_points(placed.cloud.points, rules_, map_.map_cells_, part.scan, part.means);
+      part.points = count_points(scan, rules_);
+      part.dense = dense_points(placed.points, rules_, map_.map_cells_, part.scan, part.means);
     } else {
       vote(placed, part);
     }
@@ -66,9 +65,8 @@ class TruthMap::Builder : public ScanVisitor {
     std::int64_t ties = 0;
   };
 
-  void vote(const PlacedScan& placed, Part& part) const {
-    const LabelledVoxels dense =
-        voxelise(placed.cloud, rules_.options.voxel_size, rules_.classes, 1);
+  void vote(const LabelledCloud& placed, Part& part) const {
+    const LabelledVoxels dense = voxelise(placed, rules_.options.voxel_size, rules_.classes, 1);
     part.ties = dense.mixed_label_ties;
     part.offers.clear();
     add_offers(

@@ -96,10 +96,14 @@ void project(const Scan& scan, const AngularGrid& grid, double minimum_range, in
     job.bin[k] = bin_of_point(scan.points[k], grid, minimum_range);
   };
   parallel_chunks(threads, scan.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t kPiece = 64;  // Few of them have a close call.
     const std::size_t middle = begin + (end - begin) / kernel.lanes * kernel.lanes;
-    if (middle > begin) kernel.project(job, begin, middle);
-    for (std::size_t k = begin; k < middle; ++k) {
-      if (job.bin[k] == kernels::kCloseCall) single(k);
+    for (std::size_t from = begin; from < middle; from += kPiece) {
+      const std::size_t to = std::min(from + kPiece, middle);
+      if (!kernel.project(job, from, to)) continue;
+      for (std::size_t k = from; k < to; ++k) {
+        if (job.bin[k] == kernels::kCloseCall) single(k);
+      }
     }
     for (std::size_t k = middle; k < end; ++k) single(k);
   });

@@ -55,16 +55,6 @@ std::uint64_t run_around(std::uint64_t line, std::uint64_t seed) {
   return run;
 }
 
-void grow_z(const Brick& brick, Candidate& box) {
-  std::uint64_t common = 0xFF;
-  for (int x = box.x0; x <= box.x1; ++x) {
-    for (int y = box.y0; y <= box.y1; ++y) {
-      common &= brick.occupied[static_cast<std::size_t>(x)] >> (8 * y);
-    }
-  }
-  box.column = run_around(common, box.column);
-}
-
 int newly_covered(const Brick& left, const Candidate& box) {
   int count = 0;
   const std::uint64_t slice = box.slice();
@@ -74,40 +64,27 @@ int newly_covered(const Brick& left, const Candidate& box) {
   return count;
 }
 
-/// How many boxes there are to choose from.
-enum class Choice : int { kOne = 1, kTwo = 2, kFour = 4 };
-
-/// The best of the boxes around the lowest voxel of word `x` of `left`.
-Candidate best_box(const Brick& brick, const Brick& left, int x, Choice choice) {
+/// A box around the lowest voxel of word `x` of `left`: the voxel and the run of voxels above and
+/// below it, grown along x and then y.
+Candidate box_along_x(const Brick& brick, const Brick& left, int x) {
   const std::uint64_t word = left.occupied[static_cast<std::size_t>(x)];
   const int y = std::countr_zero(word) / 8;
   const std::uint64_t seed = std::uint64_t{1} << (std::countr_zero(word) % 8);
   const std::uint64_t line = brick.occupied[static_cast<std::size_t>(x)] >> (8 * y) & 0xFF;
-  const std::uint64_t run = run_around(line, seed);
-  Candidate best{x, x, y, y, run};
-  if (choice == Choice::kOne) {
-    grow_x(brick, best);
-    grow_y(brick, best);
-    return best;
-  }
-  int best_count = 0;
-  for (int kind = 0; kind < (run == seed ? 2 : static_cast<int>(choice)); ++kind) {
-    Candidate box{x, x, y, y, kind < 2 ? run : seed};
-    if (kind % 2 == 0) {
-      grow_x(brick, box);
-      grow_y(brick, box);
-    } else {
-      grow_y(brick, box);
-      grow_x(brick, box);
-    }
-    if (kind >= 2) grow_z(brick, box);
-    const int count = newly_covered(left, box);
-    if (count > best_count) {
-      best_count = count;
-      best = box;
-    }
-  }
-  return best;
+  Candidate box{x, x, y, y, run_around(line, seed)};
+  grow_x(brick, box);
+  grow_y(brick, box);
+  return box;
+}
+
+/// The same, or grown along y and then x if that covers more.
+Candidate better_box(const Brick& brick, const Brick& left, int x) {
+  const Candidate one = box_along_x(brick, left, x);
+  const int y = std::countr_zero(left.occupied[static_cast<std::size_t>(x)]) / 8;
+  Candidate other{x, x, y, y, one.column};
+  grow_y(brick, other);
+  grow_x(brick, other);
+  return newly_covered(left, other) > newly_covered(left, one) ? other : one;
 }
 
 Candidate candidate_of(BrickBox box) {
@@ -133,11 +110,12 @@ void keep_full_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
   });
 }
 
-/// Appends boxes for `left`, voxels of `brick`.
-void cover_left(const Brick& brick, Brick left, Choice choice, std::vector<BrickBox>& boxes) {
+/// Appends boxes for `left`, voxels of `brick`, chosen by `choose(brick, left, x)`.
+template <class Choose>
+void cover_left(const Brick& brick, Brick left, Choose&& choose, std::vector<BrickBox>& boxes) {
   for (int x = 0; x < Brick::kSide; ++x) {
     while (left.occupied[static_cast<std::size_t>(x)] != 0) {
-      const Candidate box = best_box(brick, left, x, choice);
+      const Candidate box = choose(brick, left, x);
       take_out(box, left);
       boxes.push_back(BrickBox::from({box.x0, box.y0, std::countr_zero(box.column)},
                                      {box.x1, box.y1, 63 - std::countl_zero(box.column)}));
@@ -148,19 +126,19 @@ void cover_left(const Brick& brick, Brick left, Choice choice, std::vector<Brick
 }  // namespace
 
 void cover_all(const Brick& brick, std::vector<BrickBox>& boxes) {
-  cover_left(brick, brick, Choice::kFour, boxes);
+  cover_left(brick, brick, better_box, boxes);
 }
 
-/// What is added to a cover is small: one box is enough to choose from.
+/// What is added to a cover is small: there is nothing to choose.
 void cover_more(const Brick& brick, const Brick& added, std::vector<BrickBox>& boxes) {
-  cover_left(brick, added, Choice::kOne, boxes);
+  cover_left(brick, added, box_along_x, boxes);
 }
 
 void keep_and_cover(const Brick& brick, std::vector<BrickBox>& boxes) {
   keep_full_boxes(brick, boxes);
   Brick left = brick;
   for (const BrickBox box : boxes) take_out(candidate_of(box), left);
-  cover_left(brick, left, Choice::kTwo, boxes);
+  cover_left(brick, left, better_box, boxes);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -50,8 +50,8 @@ struct BrickBox {
 /// Boxes that together hold each occupied voxel of `brick` and no empty one; they may overlap. A
 /// ray meets the boxes first where it meets the voxels first, and there are about five times fewer
 /// of them. Greedy: from the lowest voxel that is in no box yet, the voxel and the run of voxels
-/// above and below it are grown over occupied voxels in either order of axes, and the one that
-/// covers most of what is not covered yet is kept.
+/// above and below it are grown over occupied voxels in either order of axes, and the box that
+/// covers more of what is not covered yet is kept.
 /// @param boxes replaced
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes);
 

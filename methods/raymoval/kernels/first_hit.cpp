@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/parallel.h"
 #include "hwy/cache_control.h"
@@ -197,23 +198,32 @@ class FirstHitCaster::State {
 
   [[nodiscard]] const WantedBins& all() const { return all_; }
 
+  /// Finds the bricks that are seen, the nearest first.
+  void prepare(OccupancyMap& map, const Pose& T_world_sensor, int threads) {
+    map.update_boxes(threads);
+    frame_ = start_frame(map, T_world_sensor);
+    gather_bricks(map, walls_, frame_.maximum_range, bricks_);
+    parallel_chunks(threads, bricks_.count, 32 * kGroup, [&](std::size_t begin, std::size_t end) {
+      kernels_.measure_bricks(frame_, begin, end);
+    });
+    sort_by_distance(bricks_, starts_, order_);
+    frame_.most_groups = most_groups(map, bricks_, order_);
+    prepared_for_ = T_world_sensor;
+  }
+
   void cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted, int threads,
             FirstHitImage& image) {
-    map.update_boxes(threads);
+    const bool is_prepared = prepared_for_ && frame_.map == &map && !map.has_changed() &&
+                             prepared_for_->matrix() == T_world_sensor.matrix();
+    if (!is_prepared) prepare(map, T_world_sensor, threads);
+    prepared_for_.reset();
     image.grid = grid_;
     image.T_world_sensor = T_world_sensor;
     image.limits = limits_;
     image.directions = directions_;
     image.range.resize(static_cast<std::size_t>(grid_.size()));
-    Frame frame = start_frame(map, T_world_sensor);
-    frame.wanted = &wanted;
-    gather_bricks(map, walls_, frame.maximum_range, bricks_);
-    parallel_chunks(threads, bricks_.count, 32 * kGroup, [&](std::size_t begin, std::size_t end) {
-      kernels_.measure_bricks(frame, begin, end);
-    });
-    sort_by_distance(bricks_, starts_, order_);
-    frame.most_groups = most_groups(map, bricks_, order_);
-    sweep(frame, threads, image.range.data());
+    frame_.wanted = &wanted;
+    sweep(frame_, threads, image.range.data());
   }
 
  private:
@@ -242,7 +252,7 @@ class FirstHitCaster::State {
   /// Each thread lists the bricks of one part of the circle; the parts are then swept in smaller
   /// pieces, some of which take longer than others.
   void sweep(const Frame& frame, int threads, float* range) {
-    constexpr std::size_t kPiece = 3 * kGroup;
+    constexpr std::size_t kPiece = kGroup;
     const auto columns = static_cast<std::size_t>(grid_.azimuth_bins);
     const auto parts = static_cast<std::size_t>(std::max(threads, 1));
     const std::size_t width = (columns / parts / kPiece + 1) * kPiece;
@@ -269,6 +279,8 @@ class FirstHitCaster::State {
   WallTables walls_;
   BrickList bricks_;
   std::vector<std::uint32_t> starts_, order_;
+  Frame frame_;
+  std::optional<Pose> prepared_for_;  ///< The pose that `frame_` and the bricks are those of.
   std::vector<sweep::ColumnLists> lists_;
   Workspaces<sweep::Scratch> scratch_{[] { return std::make_unique<sweep::Scratch>(); }};
   std::uint64_t images_ = 0;
@@ -283,6 +295,10 @@ FirstHitCaster& FirstHitCaster::operator=(FirstHitCaster&&) noexcept = default;
 void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, int threads,
                           FirstHitImage& image) {
   state_->cast(map, T_world_sensor, state_->all(), threads, image);
+}
+
+void FirstHitCaster::prepare(OccupancyMap& map, const Pose& T_world_sensor, int threads) {
+  state_->prepare(map, T_world_sensor, threads);
 }
 
 void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted,

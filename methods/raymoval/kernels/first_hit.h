@@ -96,6 +96,9 @@ class FirstHitCaster {
   /// Casts the image from `T_world_sensor`. The boxes of changed bricks are brought up to date.
   /// @param image replaced; its memory is used again
   void cast(OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image);
+  /// Does the part of the next cast from this pose that does not ask for bins, where there is time
+  /// for it. The map must not change in between.
+  void prepare(OccupancyMap& map, const Pose& T_world_sensor, int threads);
   /// The same for some bins only. The ranges of the other bins mean nothing.
   void cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted, int threads,
             FirstHitImage& image);

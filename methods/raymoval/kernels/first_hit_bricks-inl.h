@@ -186,6 +186,10 @@ template <class Visit>
 void for_columns(const Frame& frame, std::size_t brick, int begin, int end, Visit&& visit) {
   const int columns = frame.grid->columns;
   const int first = frame.bricks->first_column[brick], last = frame.bricks->last_column[brick];
+  if (first >= begin && last < end) {  // As nearly all do.
+    for (int i = first; i <= last; ++i) visit(i - begin);
+    return;
+  }
   for (int turn = -columns; turn <= columns; turn += columns) {
     const int to = std::min(last + turn, end - 1);
     for (int i = std::max(first + turn, begin); i <= to; ++i) visit(i - begin);

@@ -71,13 +71,13 @@ void OccupancyMap::update_boxes(int threads) {
   for (std::size_t first = 0; first < changed_.size(); first += kBatch) {
     const auto batch =
         std::span(changed_).subspan(first, std::min(kBatch, changed_.size() - first));
-    new_boxes_.resize(std::max(new_boxes_.size(), (batch.size() + kGrain - 1) / kGrain));
+    std::vector<NewBoxes> new_boxes((batch.size() + kGrain - 1) / kGrain);
     parallel_chunks(threads, batch.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      find_boxes(batch.subspan(begin, end - begin), new_boxes_[begin / kGrain]);
+      find_boxes(batch.subspan(begin, end - begin), new_boxes[begin / kGrain]);
     });
     for (std::size_t begin = 0; begin < batch.size(); begin += kGrain) {
       store_boxes(batch.subspan(begin, std::min(kGrain, batch.size() - begin)),
-                  new_boxes_[begin / kGrain]);
+                  new_boxes[begin / kGrain]);
     }
   }
   changed_.clear();
@@ -85,9 +85,9 @@ void OccupancyMap::update_boxes(int threads) {
 }
 
 void OccupancyMap::find_boxes(std::span<const ChangedBrick> changed, NewBoxes& found) const {
-  found.boxes.clear();
-  found.ends.clear();
-  found.kinds.clear();
+  found.boxes.reserve(4 * changed.size());
+  found.ends.reserve(changed.size());
+  found.kinds.reserve(changed.size());
   for (const ChangedBrick& brick : changed) {
     found.kinds.push_back(cover_again(brick, found));
     found.ends.push_back(found.boxes.size());
@@ -169,10 +169,6 @@ std::size_t OccupancyMap::memory_bytes() const {
                       held(before_) + held(tiles_) + held(boxes_) + held(free_boxes_);
   for (const auto& tile : tiles_) bytes += held(tile);
   for (const auto& list : free_boxes_) bytes += held(list);
-  for (const NewBoxes& part : new_boxes_) {
-    bytes +=
-        sizeof(part) + held(part.boxes) + held(part.ends) + held(part.kinds) + held(part.cover);
-  }
   return bytes + (index_.bucket_count() + tile_index_.bucket_count()) * kBucket;
 }
 

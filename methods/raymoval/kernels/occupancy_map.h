@@ -104,6 +104,8 @@ class OccupancyMap {
   /// Brings boxes and heads of the bricks changed since the last call up to date; writes nothing if
   /// there are none.
   void update_boxes(int threads);
+  /// Whether voxels were added or removed since then.
+  [[nodiscard]] bool has_changed() const { return !changed_.empty(); }
   /// Boxes that cover the brick's voxels, as of the last `update_boxes`.
   [[nodiscard]] std::span<const BrickBox> boxes(Slot slot) const {
     return {boxes_.data() + covers_[slot].begin, covers_[slot].count};
@@ -184,7 +186,6 @@ class OccupancyMap {
   std::vector<Change> changes_;        ///< Of each brick.
   std::vector<ChangedBrick> changed_;  ///< In the order of their first change.
   std::vector<Brick> before_;
-  std::vector<NewBoxes> new_boxes_;  ///< Kept for their memory.
   VoxelMap<std::uint32_t> tile_index_;
   std::vector<std::vector<BrickHead>> tiles_;
   std::vector<BrickBox> boxes_;

@@ -90,8 +90,9 @@ HWY_INLINE void find_ranges(const Projection& job, const float* x, const float* 
   }
 }
 
-void project(const Projection& job, std::size_t begin, std::size_t end) {
+bool project(const Projection& job, std::size_t begin, std::size_t end) {
   const Floats d;
+  bool any_close = false;
   const hn::RebindToSigned<Floats> ints;
   const std::size_t lanes = hn::Lanes(d);
   alignas(64) std::array<float, 16> px, py, pz, margins;
@@ -120,7 +121,9 @@ void project(const Projection& job, std::size_t begin, std::size_t end) {
     const auto answer =
         hn::IfThenElse(hn::RebindMask(ints, close), hn::Set(ints, kCloseCall), known);
     hn::StoreU(answer, ints, job.bin + k);
+    any_close = any_close || !hn::AllFalse(d, close);
   }
+  return any_close;
 }
 
 bool voxelise(const Voxelisation& job, std::size_t begin, std::size_t end) {
@@ -128,19 +131,39 @@ bool voxelise(const Voxelisation& job, std::size_t begin, std::size_t end) {
   auto inside = hn::Eq(hn::Zero(d), hn::Zero(d));
   for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
     const Points p = load_points(job.points + 3 * k);
-    std::array<D, 3> cell;
     for (std::size_t row = 0; row < 3; ++row) {
       const D x = hn::Mul(number(job.rotation[3 * row]), p.x);
       const D y = hn::Mul(number(job.rotation[3 * row + 1]), p.y);
       const D z = hn::Mul(number(job.rotation[3 * row + 2]), p.z);
       const D world = hn::Add(hn::Add(hn::Add(x, y), z), number(job.translation[row]));
-      cell[row] = hn::Floor(hn::Mul(world, number(job.inverse_voxel_size)));
-      inside = hn::And(inside, hn::Le(hn::Abs(cell[row]), number(job.limit)));
+      const D cell = hn::Floor(hn::Mul(world, number(job.inverse_voxel_size)));
+      inside = hn::And(inside, hn::Le(hn::Abs(cell), number(job.limit)));
+      hn::StoreU(hn::DemoteTo(HalfInts(), cell), HalfInts(), job.voxels[row] + k);
     }
-    hn::StoreInterleaved3(hn::DemoteTo(HalfInts(), cell[0]), hn::DemoteTo(HalfInts(), cell[1]),
-                          hn::DemoteTo(HalfInts(), cell[2]), HalfInts(), job.voxels + 3 * k);
   }
   return hn::AllTrue(d, inside);
+}
+
+std::size_t find_runs(const RunSearch& job) {
+  const hn::RebindToSigned<Floats> d;
+  const hn::RebindToUnsigned<Floats> numbers;
+  std::size_t runs = 0;
+  for (std::size_t k = 0; k < job.count; k += hn::Lanes(d)) {
+    std::array<hn::Vec<decltype(d)>, 3> here;
+    auto differs = hn::Zero(d);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      here[axis] = hn::LoadU(d, job.voxels[axis] + k + 1);
+      differs = hn::Or(differs, hn::Xor(here[axis], hn::LoadU(d, job.voxels[axis] + k)));
+    }
+    const auto begins = hn::Ne(differs, hn::Zero(d));
+    hn::StoreInterleaved3(hn::Compress(here[0], begins), hn::Compress(here[1], begins),
+                          hn::Compress(here[2], begins), d, job.run_voxels + 3 * runs);
+    const auto number = hn::Iota(numbers, job.first_point + static_cast<std::uint32_t>(k));
+    hn::StoreU(hn::Compress(number, hn::RebindMask(numbers, begins)), numbers,
+               job.run_first + runs);
+    runs += hn::CountTrue(d, begins);
+  }
+  return runs;
 }
 
 /// Eq. 11 for a few points: the difference in float, the margin in double, as `check_consistency`
@@ -414,6 +437,7 @@ Kernels kernels() {
           static_cast<int>(hn::Lanes(Floats())),
           &project,
           &voxelise,
+          &find_runs,
           &check,
           &percentiles,
           &minimum,

@@ -30,8 +30,20 @@ struct Voxelisation {
   std::array<double, 9> rotation{};  ///< Row by row.
   std::array<double, 3> translation{};
   double inverse_voxel_size = 0.0;
-  double limit = 0.0;              ///< Largest magnitude of an index.
-  std::int32_t* voxels = nullptr;  ///< x y z of each point.
+  double limit = 0.0;                     ///< Largest magnitude of an index.
+  std::array<std::int32_t*, 3> voxels{};  ///< x, y and z of the points.
+};
+
+/// The search for the runs of points that share a voxel.
+struct RunSearch {
+  /// x, y and z of the points, behind that of the point before them. Behind the last point its
+  /// voxel stands again, up to a multiple of `lanes`.
+  std::array<const std::int32_t*, 3> voxels{};
+  std::size_t count = 0;          ///< Points.
+  std::uint32_t first_point = 0;  ///< The number of the first of them.
+  /// The x y z of each run's voxel, and its first point; `lanes` more of each are written over.
+  std::int32_t* run_voxels = nullptr;
+  std::uint32_t* run_first = nullptr;
 };
 
 /// Eq. 11 for points.
@@ -80,10 +92,13 @@ struct SuspectSearch {
 struct Kernels {
   std::size_t lanes;  ///< Points handled at a time.
   int row_lanes;      ///< Bins handled at a time; a row needs at least so many.
-  /// Points begin .. end - 1, a multiple of `lanes`.
-  void (*project)(const Projection& job, std::size_t begin, std::size_t end);
+  /// Points begin .. end - 1, a multiple of `lanes`. @return whether there is a close call among
+  /// them
+  bool (*project)(const Projection& job, std::size_t begin, std::size_t end);
   /// The same. @return false if an index is beyond the limit
   bool (*voxelise)(const Voxelisation& job, std::size_t begin, std::size_t end);
+  /// @return how many runs begin with one of the points
+  std::size_t (*find_runs)(const RunSearch& job);
   /// Points begin .. end - 1, a multiple of `lanes`.
   void (*check)(const ConsistencyCheck& job, std::size_t begin, std::size_t end);
   void (*percentiles)(const WindowRow& job);

@@ -31,49 +31,53 @@ kernels::Voxelisation voxelisation_of(const Scan& scan, double inverse_voxel_siz
   return job;
 }
 
-/// The voxels of the points begin .. end - 1, into `voxels` from its begin.
+/// x, y and z of some points' voxels, behind that of the point before them.
+struct Piece {
+  static constexpr std::size_t kSlack = 16;  ///< What vectors may need beyond the end.
+  std::array<std::array<std::int32_t, 1 + kPiece + kSlack>, 3> at;
+};
+
+/// Finds the voxels of the points begin .. end - 1.
 void find_piece(const Scan& scan, kernels::Voxelisation job, std::size_t begin, std::size_t end,
-                VoxelIndex* voxels) {
+                Piece& piece) {
   const kernels::Kernels kernel = kernels::best_kernels();
-  const auto single = [&](std::size_t k) {
-    voxels[k - begin] =
-        voxel_index(scan.T_world_sensor * scan.points[k].cast<double>(), job.inverse_voxel_size);
-  };
-  const std::size_t whole = (end - begin) / kernel.lanes * kernel.lanes;
+  const std::size_t count = end - begin, whole = count / kernel.lanes * kernel.lanes;
   job.points += 3 * begin;
-  job.voxels = voxels->data();
+  for (std::size_t axis = 0; axis < 3; ++axis) job.voxels[axis] = piece.at[axis].data() + 1;
   const bool on_lattice = kernel.voxelise(job, 0, whole);
   // If one of them is beyond the lattice, its error says where.
-  for (std::size_t k = on_lattice ? begin + whole : begin; k < end; ++k) single(k);
-}
-
-/// Appends the runs of `voxels`, which begin with point `begin`.
-void append_runs(const VoxelIndex* voxels, std::size_t count, std::size_t begin,
-                 VoxelRuns::Part& part) {
-  std::size_t runs = part.count;
-  VoxelIndex last = runs == 0 ? VoxelIndex(voxels[0].array() + 1) : part.voxels[runs - 1];
-  for (std::size_t k = 0; k < count; ++k) {
-    // Without a branch, which could not be foretold: what begins no run is written over.
-    const VoxelIndex here = voxels[k];
-    part.voxels[runs] = here;
-    part.first[runs] = static_cast<std::uint32_t>(begin + k);
-    const int differs = (here.x() ^ last.x()) | (here.y() ^ last.y()) | (here.z() ^ last.z());
-    runs += differs != 0 ? 1 : 0;
-    last = here;
+  for (std::size_t k = on_lattice ? whole : 0; k < count; ++k) {
+    const Eigen::Vector3d world = scan.T_world_sensor * scan.points[begin + k].cast<double>();
+    const VoxelIndex voxel = voxel_index(world, job.inverse_voxel_size);
+    for (int axis = 0; axis < 3; ++axis) {
+      job.voxels[static_cast<std::size_t>(axis)][k] = voxel[axis];
+    }
   }
-  part.count = runs;
+  for (std::int32_t* values : job.voxels)
+    std::fill_n(values + count, Piece::kSlack, values[count - 1]);
 }
 
 void find_part(const Scan& scan, const kernels::Voxelisation& job, std::size_t begin,
                std::size_t end, VoxelRuns::Part& part) {
-  part.voxels.resize(kPart);
-  part.first.resize(kPart);
+  part.voxels.resize(kPart + Piece::kSlack);
+  part.first.resize(kPart + Piece::kSlack);
   part.count = 0;
-  std::array<VoxelIndex, kPiece> voxels;
-  for (std::size_t piece = begin; piece < end; piece += kPiece) {
-    const std::size_t last = std::min(piece + kPiece, end);
-    find_piece(scan, job, piece, last, voxels.data());
-    append_runs(voxels.data(), last - piece, piece, part);
+  Piece piece;
+  for (std::size_t from = begin; from < end; from += kPiece) {
+    const std::size_t to = std::min(from + kPiece, end);
+    kernels::RunSearch search;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // The last voxel of the piece before.
+      piece.at[axis][0] = from == begin ? 0 : piece.at[axis][kPiece];
+      search.voxels[axis] = piece.at[axis].data();
+    }
+    find_piece(scan, job, from, to, piece);
+    if (from == begin) piece.at[0][0] = piece.at[0][1] ^ 1;  // The first point begins a run.
+    search.count = to - from;
+    search.first_point = static_cast<std::uint32_t>(from);
+    search.run_voxels = part.voxels.data()->data() + 3 * part.count;
+    search.run_first = part.first.data() + part.count;
+    part.count += kernels::best_kernels().find_runs(search);
   }
 }
 

@@ -111,22 +111,52 @@ TEST_CASE("voxels within the minimum range stop no ray, the next voxel of the sa
   CHECK(ahead(39.85) == kNoRange);  // The last voxel is entered at 39.7 m.
 }
 
-TEST_CASE("a sensor within a layer of loose voxels sees them on all sides") {
-  // Every second voxel of one layer, each of which the sensor's level plane cuts: all in all many
-  // more pieces than a map of walls has. It stands in an empty one.
+TEST_CASE("a sensor level with a layer of loose voxels sees them all around") {
+  // Every second voxel of one layer from 3 m on, each of which the sensor's level plane cuts: many
+  // more pieces than a map of walls has. Rays that look up pass over the layer, so that no brick is
+  // hidden from the rows beside them.
   OccupancyMap map(0.2);
   for (int x = -80; x < 80; ++x) {
     for (int y = -80; y < 80; ++y) {
-      if (((x + y) & 1) != 0) map.insert({x, y, 0});
+      if (((x + y) & 1) != 0 && x * x + y * y > 15 * 15) map.insert({x, y, 0});
     }
   }
   Random random(4);
-  const Pose pose = random_map::pose({0.13, 0.07, 0.1}, random, 0.01);
-  const AngularGrid grid{360, 40, -0.05, 0.05};
+  const Pose pose = random_map::pose({0.13, 0.07, 0.1}, random, 1e-4);
+  const AngularGrid grid{360, 16, -0.01, 0.07};  // Two rows hit even the last voxels, at 16 m.
   const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 30.0}, 1);
   const auto compared = random_map::compare_with_rays(map, image);
   CHECK(compared.wrong == 0);
-  CHECK(compared.hits == compared.bins);
+  CHECK(compared.hits > 4 * 360);
+  CHECK(image.range.back() == kNoRange);
+}
+
+TEST_CASE("the outermost voxel of a brick is hit at the end of the range, whichever way it lies") {
+  // Voxels of 1 m, bricks of 8. Forward along an axis the sensor stands 0.9 m in its voxel and
+  // meets voxel 8 after 7.1 m; backward it stands 0.1 m in it and meets voxel -9 after 8.1 m.
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int sign : {1, -1}) {
+      const double expected = sign > 0 ? 7.1 : 8.1;
+      VoxelIndex voxel(0, 0, 0);
+      voxel[axis] = sign > 0 ? 8 : -9;
+      OccupancyMap map(1.0);
+      map.insert(voxel);
+      Eigen::Vector3d ahead = Eigen::Vector3d::Zero();
+      ahead[axis] = sign;
+      Pose pose = Pose::Identity();
+      pose.linear() =
+          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), ahead).toRotationMatrix();
+      pose.translation().setConstant(0.5);
+      pose.translation()[axis] = sign > 0 ? 0.9 : 0.1;
+      const AngularGrid grid{3, 1, -0.1, 0.1};
+      const auto hit = [&](double maximum) {
+        return cast_first_hits(map, pose, grid, {0.0, maximum}, 1).range[1];
+      };
+      INFO(axis << ", " << sign);
+      CHECK(hit(expected + 0.05) == Approx(expected));
+      CHECK(hit(expected - 0.05) == kNoRange);
+    }
+  }
 }
 
 TEST_CASE("a brick that holds no voxel yet stops no ray") {

@@ -208,6 +208,8 @@ TEST_CASE("eq. 13: the median range decides, and none below a metre", "[raymoval
   ScanPoints points = voxel_points({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}});
   points.range = {10, 20, 20, 20};
   CHECK(passes_cluster_screen({0, 1, 2}, points, parameters));
+  points.range = {20, 10, 20, 20};  // In any order.
+  CHECK(passes_cluster_screen({0, 1, 2}, points, parameters));
   points.range = {10, 10, 20, 20};
   CHECK(passes_cluster_screen({0, 1, 2, 3}, points, parameters));
   CHECK_FALSE(passes_cluster_screen({0, 1, 2}, points, parameters));
