@@ -48,8 +48,7 @@ class EvidenceMap {
   /// `add` in three steps. Taking many points through one step before the next lets their memory
   /// come in meanwhile (`expect_slot`, `expect_sums`).
   [[nodiscard]] std::size_t make_slot(const VoxelIndex& cell, Blocks::Cursor& cursor) {
-    blocks_.make(cell, cursor);
-    return cursor.block * Blocks::kCells + Blocks::offset(cell);
+    return blocks_.make_slot(cell, cursor);
   }
   [[nodiscard]] std::uint32_t make_voxel(const VoxelIndex& cell, std::size_t slot) {
     std::uint32_t& number = blocks_.at(slot);

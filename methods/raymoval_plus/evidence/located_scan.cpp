@@ -14,10 +14,6 @@ bool is_ground(float height, const Parameters& parameters) {
   return height < static_cast<float>(parameters.ground_height);
 }
 
-/// So many points are taken through each step of a loop before the next step, so that their memory
-/// comes in meanwhile.
-constexpr std::size_t kPointsAtOnce = 64;
-
 /// The points that are not ground among as many.
 struct PointsAtOnce {
   std::array<std::size_t, kPointsAtOnce> point, slot;
