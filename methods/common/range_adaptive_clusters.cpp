@@ -253,10 +253,13 @@ class Clustering {
     std::uint32_t lowest = other.first;
     for (std::uint32_t a = one.first; a < one.last; ++a) {
       while (lowest < other.last && cells_[lowest].z < cells_[a].z - reach) ++lowest;
+      std::uint32_t root = sets.root(a);
       for (std::uint32_t b = &one == &other ? a + 1 : lowest; b < other.last; ++b) {
         if (cells_[b].z > cells_[a].z + reach) break;
-        const std::uint32_t root_a = sets.root(a), root_b = sets.root(b);
-        if (root_a != root_b && touch(cells_[a], cells_[b])) sets.join(root_a, root_b);
+        const std::uint32_t other_root = sets.root(b);
+        if (root == other_root || !touch(cells_[a], cells_[b])) continue;
+        sets.join(root, other_root);
+        root = std::min(root, other_root);
       }
     }
   }

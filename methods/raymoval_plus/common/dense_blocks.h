@@ -75,14 +75,15 @@ class DenseBlocks {
     return cursor.block == kNone ? kNoSlot : cursor.block * kCells + offset(cell);
   }
   [[nodiscard]] const Value& at(std::size_t slot) const { return values_[slot]; }
+  [[nodiscard]] Value& at(std::size_t slot) { return values_[slot]; }
   /// The cell's value, or `empty` where there is no block.
   [[nodiscard]] Value get(const VoxelIndex& cell, Cursor& cursor) const {
     const std::size_t found = slot(cell, cursor);
     return found == kNoSlot ? empty_ : at(found);
   }
-  /// The cell, which is made if it does not exist. References that earlier calls returned may then
-  /// no longer be valid.
-  Value& make(const VoxelIndex& cell, Cursor& cursor) {
+  /// The place of a cell, which is made if it does not exist. References that earlier calls
+  /// returned may then no longer be valid.
+  std::size_t make_slot(const VoxelIndex& cell, Cursor& cursor) {
     const VoxelIndex index = block_of(cell);
     const VoxelKey key = voxel_key(index);
     if (key != cursor.key || cursor.block == kNone) {
@@ -93,8 +94,9 @@ class DenseBlocks {
       }
       cursor = {key, found->second};
     }
-    return values_[cursor.block * kCells + offset(cell)];
+    return cursor.block * kCells + offset(cell);
   }
+  Value& make(const VoxelIndex& cell, Cursor& cursor) { return values_[make_slot(cell, cursor)]; }
 
  private:
   Value empty_;

@@ -14,6 +14,10 @@ namespace raymoval::raymoval_plus_method {
 /// and few enough that a scan of 120,000 points makes 15 tasks. It changes no answer.
 inline constexpr std::size_t kPointsATask = 8192;
 
+/// So many points are taken through each step of a loop before the next step, so that the memory
+/// that they need comes in meanwhile. It changes no answer.
+inline constexpr std::size_t kPointsAtOnce = 64;
+
 /// The cells of a scan's points in some lattice of the world; one number for each point.
 struct ScanCells {
   std::vector<std::int32_t> x, y, z;

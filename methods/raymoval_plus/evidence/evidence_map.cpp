@@ -18,28 +18,17 @@ constexpr std::uint32_t kComparedBlocks = 256;
 
 }  // namespace
 
-std::uint32_t EvidenceMap::add(const VoxelIndex& cell, std::uint32_t parts, Adding& adding) {
-  if (adding.voxel == kNone || cell != adding.cell) {
-    std::uint32_t& number = blocks_.make(cell, adding.cursor);
-    if (number == kNone) {
-      number = add_voxel(cell, static_cast<std::uint32_t>(adding.cursor.block * Blocks::kCells +
-                                                          Blocks::offset(cell)));
-    }
-    adding.cell = cell;
-    adding.voxel = number;
-    if (mean_changed_[number] == 0) {
-      mean_changed_[number] = 1;
-      changed_.push_back(number);
-    }
+void EvidenceMap::add_point(std::uint32_t voxel, std::uint32_t parts) {
+  if (mean_changed_[voxel] == 0) {
+    mean_changed_[voxel] = 1;
+    changed_.push_back(voxel);
   }
-  Sums& sums = sums_[adding.voxel];
-  if (sums.count < kMostPoints) {
-    sums.x += parts & 0xFFU;
-    sums.y += parts >> 8U & 0xFFU;
-    sums.z += parts >> 16U & 0xFFU;
-    ++sums.count;
-  }
-  return adding.voxel;
+  Sums& sums = sums_[voxel];
+  if (sums.count == kMostPoints) return;
+  sums.x += parts & 0xFFU;
+  sums.y += parts >> 8U & 0xFFU;
+  sums.z += parts >> 16U & 0xFFU;
+  ++sums.count;
 }
 
 std::uint32_t EvidenceMap::add_voxel(const VoxelIndex& index, std::uint32_t slot) {

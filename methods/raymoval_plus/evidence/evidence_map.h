@@ -38,27 +38,39 @@ class EvidenceMap {
     find_cells(scan, Eigen::Vector3d::Constant(inverse_), BesideCells::kParts, threads, cells);
   }
 
-  /// What `add` remembers from one point to the next, which mostly lies in the same voxel or block.
-  struct Adding {
-    Blocks::Cursor cursor;
-    VoxelIndex cell = VoxelIndex::Zero();
-    std::uint32_t voxel = kNone;  ///< That of `cell`, or none yet.
-  };
   /// Adds a point, and returns the number of its voxel.
   /// @param parts where the point is in its cell, see `ScanCells`
-  std::uint32_t add(const VoxelIndex& cell, std::uint32_t parts, Adding& adding);
+  std::uint32_t add(const VoxelIndex& cell, std::uint32_t parts, Blocks::Cursor& cursor) {
+    const std::uint32_t voxel = make_voxel(cell, make_slot(cell, cursor));
+    add_point(voxel, parts);
+    return voxel;
+  }
+  /// `add` in three steps. Taking many points through one step before the next lets their memory
+  /// come in meanwhile (`expect_slot`, `expect_sums`).
+  [[nodiscard]] std::size_t make_slot(const VoxelIndex& cell, Blocks::Cursor& cursor) {
+    return blocks_.make_slot(cell, cursor);
+  }
+  [[nodiscard]] std::uint32_t make_voxel(const VoxelIndex& cell, std::size_t slot) {
+    std::uint32_t& number = blocks_.at(slot);
+    if (number == kNone) number = add_voxel(cell, static_cast<std::uint32_t>(slot));
+    return number;
+  }
+  void add_point(std::uint32_t voxel, std::uint32_t parts);
+  void expect_slot(std::size_t slot) const {
+    __builtin_prefetch(&blocks_.at(slot));
+    if (slot < verdicts_.size()) __builtin_prefetch(&verdicts_[slot]);
+  }
+  void expect_sums(std::uint32_t voxel) const { __builtin_prefetch(&sums_[voxel]); }
 
   [[nodiscard]] std::size_t size() const { return voxels_.size(); }
-  struct Found {
-    std::uint32_t voxel;  ///< Its number, or `kNone`.
-    Verdict verdict;
-  };
-  /// The voxel of a cell.
-  [[nodiscard]] Found find(const VoxelIndex& cell, Blocks::Cursor& cursor) const {
-    const std::size_t slot = blocks_.slot(cell, cursor);
-    if (slot == Blocks::kNoSlot) return {kNone, Verdict::kUndecided};
-    return {blocks_.at(slot), verdicts_[slot]};
+  /// The place of a cell among those of all blocks, or `Blocks::kNoSlot`.
+  [[nodiscard]] std::size_t find_slot(const VoxelIndex& cell, Blocks::Cursor& cursor) const {
+    return blocks_.slot(cell, cursor);
   }
+  /// The number of the voxel in a slot, or `kNone`.
+  [[nodiscard]] std::uint32_t voxel_in(std::size_t slot) const { return blocks_.at(slot); }
+  /// The verdict on the voxel in a slot.
+  [[nodiscard]] Verdict verdict_in(std::size_t slot) const { return verdicts_[slot]; }
   [[nodiscard]] const VoxelIndex& index(std::size_t voxel) const { return voxels_[voxel].index; }
   /// The mean of the voxel's points so far, world frame, metres.
   [[nodiscard]] Eigen::Vector3d centroid(std::size_t voxel) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/evidence/located_scan.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/parallel.h"
@@ -11,6 +13,17 @@ namespace {
 bool is_ground(float height, const Parameters& parameters) {
   return height < static_cast<float>(parameters.ground_height);
 }
+
+/// The points that are not ground among as many.
+struct PointsAtOnce {
+  std::array<std::size_t, kPointsAtOnce> point, slot;
+  std::size_t count = 0;
+
+  void add(std::size_t at, std::size_t its_slot) {
+    point[count] = at;
+    slot[count++] = its_slot;
+  }
+};
 
 }  // namespace
 
@@ -36,11 +49,26 @@ void find_heights_and_cells(const Terrain& terrain, const EvidenceMap& map,
 void add_to_map(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
                 EvidenceMap& map) {
   const StageScope timed(context.times, "voxels");
-  scan.voxel.assign(scan.scan.size(), EvidenceMap::kNone);
-  EvidenceMap::Adding adding;
-  for (std::size_t k = 0; k < scan.voxel.size(); ++k) {
-    if (is_ground(scan.height[k], parameters)) continue;
-    scan.voxel[k] = map.add(scan.in_map[k], scan.in_map.parts[k], adding);
+  const std::size_t points = scan.scan.size();
+  scan.voxel.assign(points, EvidenceMap::kNone);
+  EvidenceMap::Blocks::Cursor cursor;
+  PointsAtOnce some;
+  for (std::size_t begin = 0; begin < points; begin += kPointsAtOnce) {
+    some.count = 0;
+    for (std::size_t k = begin; k < std::min(points, begin + kPointsAtOnce); ++k) {
+      if (is_ground(scan.height[k], parameters)) continue;
+      some.add(k, map.make_slot(scan.in_map[k], cursor));
+      map.expect_slot(some.slot[some.count - 1]);
+    }
+    for (std::size_t i = 0; i < some.count; ++i) {
+      const std::size_t k = some.point[i];
+      scan.voxel[k] = map.make_voxel(scan.in_map[k], some.slot[i]);
+      map.expect_sums(scan.voxel[k]);
+    }
+    for (std::size_t i = 0; i < some.count; ++i) {
+      const std::size_t k = some.point[i];
+      map.add_point(scan.voxel[k], scan.in_map.parts[k]);
+    }
   }
 }
 
@@ -50,14 +78,27 @@ void look_up(const EvidenceMap& map, const Parameters& parameters, const RunCont
   const std::size_t points = scan.scan.size();
   scan.voxel.assign(points, EvidenceMap::kNone);
   scan.verdict.assign(points, Verdict::kStatic);
-  parallel_chunks(context.threads, points, kPointsATask, [&](std::size_t begin, std::size_t end) {
-    EvidenceMap::Blocks::Cursor cursor;
+  const auto look_up_some = [&](std::size_t begin, std::size_t end,
+                                EvidenceMap::Blocks::Cursor& cursor) {
+    PointsAtOnce some;
     for (std::size_t k = begin; k < end; ++k) {
       if (is_ground(scan.height[k], parameters)) continue;
-      const EvidenceMap::Found found = map.find(scan.in_map[k], cursor);
-      if (found.voxel == EvidenceMap::kNone) continue;
-      scan.voxel[k] = found.voxel;
-      scan.verdict[k] = found.verdict;
+      const std::size_t slot = map.find_slot(scan.in_map[k], cursor);
+      if (slot == EvidenceMap::Blocks::kNoSlot) continue;
+      some.add(k, slot);
+      map.expect_slot(slot);
+    }
+    for (std::size_t i = 0; i < some.count; ++i) {
+      const std::size_t k = some.point[i];
+      scan.voxel[k] = map.voxel_in(some.slot[i]);
+      if (scan.voxel[k] == EvidenceMap::kNone) continue;
+      scan.verdict[k] = map.verdict_in(some.slot[i]);
+    }
+  };
+  parallel_chunks(context.threads, points, kPointsATask, [&](std::size_t begin, std::size_t end) {
+    EvidenceMap::Blocks::Cursor cursor;
+    for (std::size_t first = begin; first < end; first += kPointsAtOnce) {
+      look_up_some(first, std::min(end, first + kPointsAtOnce), cursor);
     }
   });
 }

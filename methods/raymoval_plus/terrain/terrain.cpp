@@ -2,6 +2,7 @@
 #include "methods/raymoval_plus/terrain/terrain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -45,14 +46,23 @@ void Terrain::add(const ScanCells& cells, const RunContext& context) {
   const StageScope timed(context.times, "terrain");
   Counts::Cursor cursor;
   std::uint32_t last = Counts::kNone;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    ++counts_.make(cells[k], cursor);
-    if (cursor.block == last) continue;
-    last = cursor.block;
-    if (has_news_.size() < counts_.block_count()) has_news_.resize(counts_.block_count(), 0);
-    if (std::exchange(has_news_[last], std::uint8_t{1}) == 0) {
-      mark_changed(counts_.block_index(last));
+  std::array<std::size_t, kPointsAtOnce> slots;
+  for (std::size_t begin = 0; begin < cells.size(); begin += kPointsAtOnce) {
+    const std::size_t count = std::min(kPointsAtOnce, cells.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      slots[i] = counts_.make_slot(cells[begin + i], cursor);
+      __builtin_prefetch(&counts_.at(slots[i]), 1);
+      if (cursor.block != last) note_change(cursor.block);
+      last = cursor.block;
     }
+    for (std::size_t i = 0; i < count; ++i) ++counts_.at(slots[i]);
+  }
+}
+
+void Terrain::note_change(std::uint32_t block) {
+  if (has_news_.size() < counts_.block_count()) has_news_.resize(counts_.block_count(), 0);
+  if (std::exchange(has_news_[block], std::uint8_t{1}) == 0) {
+    mark_changed(counts_.block_index(block));
   }
 }
 

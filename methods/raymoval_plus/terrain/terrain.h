@@ -40,6 +40,8 @@ class Terrain {
   static constexpr int kTile = Heights::kSideXY;
   /// The ground of a tile's columns and of those around it, row by row.
   using Window = std::vector<float>;
+  /// Remembers that points were added to a block of `counts_`.
+  void note_change(std::uint32_t block);
   void mark_changed(const VoxelIndex& block);
   [[nodiscard]] Window low_quantiles(const VoxelIndex& tile) const;
   void fill_quantiles(const VoxelIndex& block, int low_z, int high_z, int left, int bottom,

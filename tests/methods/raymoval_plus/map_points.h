@@ -25,15 +25,17 @@ class MapPoints {
 
   std::uint32_t add(const Eigen::Vector3d& point) {
     const MapPoint at(point);
-    return map.add(at.cell, at.parts, adding_);
+    return map.add(at.cell, at.parts, cursor_);
   }
   [[nodiscard]] std::uint32_t find(const Eigen::Vector3d& point) const {
     raymoval_plus_method::EvidenceMap::Blocks::Cursor cursor;
-    return map.find(MapPoint(point).cell, cursor).voxel;
+    using raymoval_plus_method::EvidenceMap;
+    const std::size_t slot = map.find_slot(MapPoint(point).cell, cursor);
+    return slot == EvidenceMap::Blocks::kNoSlot ? EvidenceMap::kNone : map.voxel_in(slot);
   }
 
  private:
-  raymoval_plus_method::EvidenceMap::Adding adding_;
+  raymoval_plus_method::EvidenceMap::Blocks::Cursor cursor_;
 };
 
 }  // namespace raymoval::toy
