@@ -73,8 +73,8 @@ std::vector<ParameterValue> other_values(const ParameterSpec& spec, const Parame
     for (const double step : {0.1, 1.0, 10.0}) add(clamped(spec, *number + step));
   }
   if (const auto* whole = std::get_if<std::int64_t>(&present)) {
-    for (const double other : {2.0 * static_cast<double>(*whole), *whole + 1.0, *whole - 1.0, 0.0,
-                               1.0, 5.0, 20.0, 10.0 * static_cast<double>(*whole)}) {
+    const auto now = static_cast<double>(*whole);
+    for (const double other : {2.0 * now, now + 1.0, now - 1.0, 0.0, 1.0, 5.0, 20.0, 10.0 * now}) {
       add(static_cast<std::int64_t>(clamped(spec, other)));
     }
   }
