@@ -42,6 +42,8 @@ commands() {
       sanitized "$program" simulate town --scans 6 --sensor vlp16 -o town --threads 4 --quiet &&
       sanitized "$program" run --sequence street --frames 0:9 "${methods[@]}" "${protocols[@]}" \
         --keep-removals --out run --quiet &&
+      sanitized "$program" run --sequence street --frames 0:9 --method noop "${methods[@]:0:6}" \
+        "${protocols[@]}" --jobs 3 --out jobs --quiet &&
       sanitized "$program" run --sequence ./town "${methods[@]}" "${protocols[@]}" --in-process \
         --out run2 --quiet &&
       # 1: it found something.
@@ -63,7 +65,7 @@ watches() {
 
 # Names of the unit tests of what runs in parallel.
 in_parallel='[Tt]hread|Chunks|index is visited|lowest chunk|: a child|: all that a forking'
-in_parallel+='|whoever asks at once|: external|[Rr]uns? (give|is|are|has|that)|cancelled|progress'
+in_parallel+='|foreseen|at once|[Jj]obs|more passes|maps added up|: external|[Rr]uns? (give|is|are|has|that)|cancelled|progress'
 
 races() {
   # The tests themselves are compiled once.
