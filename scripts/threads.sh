@@ -65,7 +65,8 @@ watches() {
 
 # Names of the unit tests of what runs in parallel.
 in_parallel='[Tt]hread|Chunks|index is visited|lowest chunk|: a child|: all that a forking'
-in_parallel+='|foreseen|at once|[Jj]obs|more passes|maps added up|: external|[Rr]uns? (give|is|are|has|that)|cancelled|progress'
+in_parallel+='|foreseen|at once|[Jj]obs|more passes|maps added up'
+in_parallel+='|: external|[Rr]uns? (give|is|are|has|that)|cancelled|progress'
 
 races() {
   # The tests themselves are compiled once.
