@@ -56,7 +56,7 @@ TEST_CASE("with little room the search takes more passes and finds the same", "[
     CloudShape shape;
     shape.seed = seed;
     shape.scans = 6;
-    shape.points = 1500;
+    shape.points = 600;
     if (seed % 3 == 2) shape.coordinates = Coordinates::kOnWalls;
     const MemorySequence sequence = random_sequence(shape);
     EvaluationInput input = sequence.input();

@@ -45,7 +45,7 @@ TEST_CASE("whole voxels and quarter turns change no verdict", "[every-method]") 
   }
 }
 
-TEST_CASE("any number of threads gives the same answer", "[threads]") {
+TEST_CASE("any number of threads gives the same answer", "[threads][every-method]") {
   // As many threads as are asked for, on any number of processors.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   const toy::World world = toy::street(10);
@@ -58,6 +58,17 @@ TEST_CASE("any number of threads gives the same answer", "[threads]") {
       const MaskStore many = masks_of(*method.make(), world, threads);
       CHECK(toy::different_verdicts(one, many, world.size()) == 0);
     }
+  }
+}
+
+// What the sanitizers see of threads.
+TEST_CASE("a second thread changes nothing on a short street", "[threads]") {
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 2);
+  const toy::World world = toy::street(4);
+  for (const ConfiguredMethod& method : all_methods()) {
+    INFO(method.full_name());
+    const MaskStore one = masks_of(*method.make(), world, 1);
+    CHECK(toy::different_verdicts(one, masks_of(*method.make(), world, 2), world.size()) == 0);
   }
 }
 

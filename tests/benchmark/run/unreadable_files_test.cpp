@@ -71,7 +71,7 @@ struct Stored {
 
 }  // namespace
 
-TEST_CASE("A cell that cannot be read is no missing one, and none to run again") {
+TEST_CASE("A cell that cannot be read is no missing one, and none to run again", "[no-files]") {
   const Stored stored;
   const test::TwoScans scans;
   REQUIRE(stored.store.find(kTown, stored.identity, &scans).state == StoredCell::State::kFresh);
@@ -94,7 +94,8 @@ TEST_CASE("Removals that cannot be put in their place are told, and there is no 
   CHECK_FALSE(fs::exists(stored.store.folder(kTown) / "cell.json"));
 }
 
-TEST_CASE("The record and the cells of a folder that cannot be read are no damaged ones") {
+TEST_CASE("The record and the cells of a folder that cannot be read are no damaged ones",
+          "[no-files]") {
   const Stored stored;
   RunRecord run{"suite"};
   run.sequences = {{*stored.cell.data, std::nullopt}};
