@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "core/scan/label_rule.h"
@@ -13,6 +14,7 @@
 #include "core/scan/scan_source.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/ego/ego_region.h"
+#include "datasets/records/record_source.h"
 #include "datasets/sequence_record.h"
 #include "datasets/world_axes/up_direction.h"
 
@@ -33,6 +35,13 @@ struct SequenceOptions {
   std::optional<std::string> up;      ///< Which way is up in the world, see `parse_up`.
   std::optional<EgoRegion> drop_ego;  ///< Points of the own vehicle that are left out.
   std::optional<std::string> name;    ///< Name in results.
+  std::optional<std::string> topic;   ///< Topic of a bag with the scans.
+  std::optional<std::string> point_layout;  ///< Fields of .bin and .npy files, "x y z intensity".
+  std::optional<PointFrame> points;         ///< The frame that points are stored in.
+  std::optional<std::string> T_sensor;  ///< Sensor in the frame of the poses: a file, or 7 numbers.
+  std::optional<double> time_offset_s;  ///< Added to the times of scans before poses are looked up.
+  std::optional<double> max_gap_s;      ///< Longest time between poses that are interpolated.
+  bool deskew = false;                  ///< Whether motion within a scan is taken out.
 };
 
 /// How a simulated scene is generated that is not in the cache yet.
@@ -53,6 +62,11 @@ struct Sequence {
   /// The scans as they were opened, where `scans` may be something that passes them on.
   std::shared_ptr<const ScanSource> opened = nullptr;
   std::shared_ptr<const LabelSource> labels;  ///< Null if the data has none.
+  /// What is stored of the scans, with all fields. Null for scenes that are made in memory.
+  std::shared_ptr<const RecordSource> records = nullptr;
+  /// What a user should know of how it was opened, in whole sentences: the topic that was chosen,
+  /// that a bag is cut, how many scans have no pose.
+  std::vector<std::string> notes = {};
   LabelRule label_rule;
   RangeLimits range_m;
   EgoRegion drop_ego;      ///< As the user asked; `scans` leave it out (see `EgoFreeSource`).

@@ -13,8 +13,9 @@
 rooms="core datasets|methods|eval benchmark"
 folders="
 core                   . files process scan simd
-datasets               clouds|fields|geometry ego|world_axes sequence_record sequence
-datasets               reading|settings layout semantickitti|dynamicmap|files
+datasets               records clouds|fields|geometry trajectories bags ego|world_axes
+datasets               sequence_record sequence reading|settings layout
+datasets               semantickitti|dynamicmap|files|bag_scans
 datasets               simulation layouts open_sequence inspection
 datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
+#include "datasets/records/record_source.h"
 
 namespace raymoval {
 
@@ -71,7 +72,6 @@ class LeftOutTally {
 /// points (evaluation protocol, edge cases).
 class FileScanSource : public ScanSource {
  public:
-  enum class PointFrame { kSensor, kWorld };
   struct Traits {
     PointFrame point_frame = PointFrame::kSensor;
     bool has_reflectance = true;  ///< False where the files' intensity is no reflectance.

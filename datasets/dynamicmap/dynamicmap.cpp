@@ -40,7 +40,7 @@ Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, cons
   Sequence sequence = make_sequence(settings, dynamicmap_layout(), chosen.range);
   sequence.poses_file = "VIEWPOINT";
   if (settings.label_rule_given) sequence.labels = std::make_shared<IntensityLabelSource>(entries);
-  const FileScanSource::Traits traits{FileScanSource::PointFrame::kWorld, false};
+  const FileScanSource::Traits traits{PointFrame::kWorld, false};
   sequence.scans = std::make_shared<FileScanSource>(std::move(entries), traits, settings.sensor);
   return sequence;
 }

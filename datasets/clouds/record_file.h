@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/files/replacements.h"
+#include "datasets/clouds/cloud_writer.h"
+#include "datasets/records/point_records.h"
+
+namespace raymoval {
+
+/// What a file does not say of itself.
+struct RecordReading {
+  /// Fields of a .bin file or the columns of an .npy array, such as "x y z intensity t:f8" (float32
+  /// where no type is given).
+  std::optional<std::string> point_layout;
+};
+
+/// Reads all fields of all points, bit for bit, of a file of any known format.
+/// @throws DataError naming the file, and the byte, point or line that is wrong; UsageError for an
+///   unknown extension
+PointRecords read_records(const std::filesystem::path& path, const RecordReading& reading = {});
+
+/// How a file of point records is to be written.
+struct RecordWriting {
+  /// LAS: the coordinate reference system as WKT or "EPSG:32632"; no other format holds one.
+  std::optional<std::string> crs;
+};
+
+/// What the format of `path` cannot hold of points of `layout`, in whole sentences that name the
+/// fields; none if every field goes through bit for bit. @throws UsageError for an unknown
+/// extension
+std::vector<std::string> what_is_lost(const std::filesystem::path& path,
+                                      const RecordLayout& layout);
+
+/// Writes points with all their fields piece by piece; only the piece at hand is in memory. The
+/// format is that of the extension. The file appears at `commit`, whole.
+class PointRecordWriter {
+ public:
+  /// Opens the file. @throws UsageError for an unknown extension or a `crs` that the format cannot
+  ///   hold, DataError if it cannot be written
+  explicit PointRecordWriter(const std::filesystem::path& path, const RecordWriting& writing = {});
+  ~PointRecordWriter();
+  PointRecordWriter(const PointRecordWriter&) = delete;
+  PointRecordWriter& operator=(const PointRecordWriter&) = delete;
+
+  /// To be called once before `add`, with the layout that all pieces have.
+  void start(const RecordLayout& layout);
+  /// @param rows of the layout given to `start`
+  /// @throws DataError when the disk is full, beyond 4,294,967,295 points, or for a coordinate that
+  ///   the format cannot hold
+  void add(const PointRecords& rows);
+  /// Ends the file and puts it on the disk, still without its name.
+  void finish();
+  /// Gives it its name, after `finish`.
+  void commit();
+  /// The same together with others.
+  void commit_with(Replacements& together);
+
+ private:
+  class Format;
+  std::unique_ptr<Format> format_;
+};
+
+}  // namespace raymoval

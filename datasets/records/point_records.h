@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raymoval {
+
+/// One named value (or `count` of them) of a point record.
+struct PointField {
+  std::string name;
+  char type = 'F';  ///< F real, I signed, U unsigned.
+  int size = 4;     ///< Bytes of one value: 1, 2, 4 or 8.
+  int count = 1;
+  std::size_t offset = 0;  ///< Bytes from the beginning of the record to the first value.
+
+  [[nodiscard]] std::size_t bytes() const {
+    return static_cast<std::size_t>(size) * static_cast<std::size_t>(count);
+  }
+  /// "float32 intensity", for messages.
+  [[nodiscard]] std::string text() const;
+  bool operator==(const PointField&) const = default;
+};
+
+/// How the bytes of a point are laid out. Numbers are little-endian. Between fields there may be
+/// bytes that mean nothing, which are kept as they are.
+struct RecordLayout {
+  std::vector<PointField> fields;
+  std::size_t row_bytes = 0;
+
+  /// The first field with one of `names`, or null. Names are compared as they are written.
+  [[nodiscard]] const PointField* find(const std::vector<std::string_view>& names) const;
+  /// Appends a field behind the last byte.
+  void add(std::string name, char type, int size, int count = 1);
+  bool operator==(const RecordLayout&) const = default;
+};
+
+/// The points of one scan with everything that was stored of them, bit for bit: N records of
+/// `layout.row_bytes` bytes. Points without a return are among them; row i is stored point i.
+struct PointRecords {
+  RecordLayout layout;
+  std::vector<std::byte> bytes;  ///< size() * layout.row_bytes.
+  /// Rows and columns of an organised cloud (width * height == size()); height 1 if it is not.
+  std::uint64_t width = 0, height = 1;
+  /// PCD: tx ty tz qw qx qy qz.
+  std::optional<Eigen::Matrix<double, 7, 1>> viewpoint = std::nullopt;
+
+  [[nodiscard]] std::size_t size() const {
+    return layout.row_bytes == 0 ? 0 : bytes.size() / layout.row_bytes;
+  }
+  [[nodiscard]] const std::byte* row(std::size_t point) const {
+    return bytes.data() + point * layout.row_bytes;
+  }
+  [[nodiscard]] std::byte* row(std::size_t point) {
+    return bytes.data() + point * layout.row_bytes;
+  }
+  /// Value `at` of `field` of a point, as the nearest double.
+  [[nodiscard]] double value(std::size_t point, const PointField& field, int at = 0) const;
+  /// Writes `value` in the type of `field`; a whole type takes the nearest number that it has.
+  void set_value(std::size_t point, const PointField& field, double value, int at = 0);
+  /// The rows whose `keep` is not 0, in order, as a cloud that is not organised.
+  /// @throws InternalError if there is not one value of `keep` a row
+  [[nodiscard]] PointRecords chosen(const std::vector<std::uint8_t>& keep) const;
+};
+
+/// The fields x, y and z.
+struct PositionFields {
+  PointField x, y, z;
+};
+/// @param where begins the message, such as "scan.pcd"
+/// @throws DataError naming the fields that there are, if one of x, y and z with a single value is
+///   missing
+PositionFields position_fields(const RecordLayout& layout, const std::string& where);
+
+/// The names that the strength of a return has in the field, the usual first.
+const std::vector<std::string_view>& intensity_names();
+
+/// The names that the time of a point has in the field (seconds, microseconds, nanoseconds or
+/// ticks, from the beginning of its scan or from 1970).
+const std::vector<std::string_view>& time_names();
+
+}  // namespace raymoval
