@@ -12,6 +12,7 @@
 #include "core/name.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
+#include "datasets/clouds/format/point_layout.h"
 #include "datasets/trajectories/body_sensor.h"
 
 namespace raymoval {
@@ -66,12 +67,22 @@ void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
   }
 }
 
+/// A text that `parse_point_layout` can read.
+std::string point_layout_value(const std::string& text, const std::string& where) {
+  try {
+    (void)parse_point_layout(text);
+  } catch (const UsageError& error) {
+    throw ConfigurationError(where + ": " + error.what());
+  }
+  return text;
+}
+
 void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
   const json content = read_json(path);
   const Fields file(content, path.string(),
                     "name source sensor up scan_period_s poses poses_are_lidar range_m labels "
-                    "drop_ego pose_format "
-                    "T_sensor time_offset_s max_gap_s points deskew point_time_unit");
+                    "drop_ego point_layout pose_format T_sensor time_offset_s max_gap_s points "
+                    "deskew point_time_unit");
   settings.name = file.text("name", settings.name);
   settings.source = file.text("source", settings.source);
   if (file.has("sensor")) settings.sensor = sensor_value(file.text("sensor", ""));
@@ -80,6 +91,10 @@ void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
     settings.drop_ego = ego_region_value(file.member("drop_ego"), file.place("drop_ego"));
   }
   apply_pose_keys(file, settings);
+  if (file.has("point_layout")) {
+    settings.point_layout =
+        point_layout_value(file.text("point_layout"), file.place("point_layout"));
+  }
   if (file.has("scan_period_s")) {
     settings.scan_period_s = file.number("scan_period_s", 0.0);
     if (!(*settings.scan_period_s > 0.0)) file.fail("scan_period_s", "a number above 0");
@@ -193,6 +208,10 @@ SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings 
   apply_pose_options(options, settings);
   if (options.range_m) settings.range_m = *options.range_m;
   if (options.sensor) settings.sensor = sensor_value(*options.sensor);
+  if (options.point_layout) {
+    (void)parse_point_layout(*options.point_layout);
+    settings.point_layout = options.point_layout;
+  }
   if (options.drop_ego) settings.drop_ego = *options.drop_ego;
   if (options.name) settings.name = *options.name;
   if (options.up) {

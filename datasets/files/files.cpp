@@ -34,7 +34,7 @@ std::vector<NumberedFile> scan_files(const fs::path& folder, const std::vector<f
     });
     if (is_other) continue;
     // a.pcd and a.ply would share a label file and are most likely one scan twice.
-    const auto [other, is_new] = names.emplace(path.stem().string(), path.filename().string());
+    const auto [other, is_new] = names.emplace(cloud_stem(path), path.filename().string());
     if (!is_new) {
       throw DataError(path.string() + ": there is also " + other->second +
                       "; keep one file a scan.");
@@ -66,7 +66,7 @@ StampColumn scan_stamps(const fs::path& folder, const std::vector<NumberedFile>&
                     "; expected a time for each scan in the order of the names.");
   }
   std::vector<std::string> stems;
-  for (const NumberedFile& file : files) stems.push_back(file.path.stem().string());
+  for (const NumberedFile& file : files) stems.push_back(cloud_stem(file.path));
   StampColumn column;
   column.stamps = stamps_in_names(stems).value_or(std::vector<Nanoseconds>());
   for (const Nanoseconds stamp : column.stamps) {
@@ -126,7 +126,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
   for (std::size_t i = 0; i < chosen.files.size(); ++i) {
     if (!poses.poses[i]) continue;
     const fs::path& scan = chosen.files[i].path;
-    entries.push_back({scan, "", scan.stem().string(), poses.times_s[i], *poses.poses[i]});
+    entries.push_back({scan, "", cloud_stem(scan), poses.times_s[i], *poses.poses[i]});
     sequence.stamps.push_back(poses.stamps[i]);
   }
   sequence.motion = poses.motion;
@@ -138,7 +138,11 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
   }
   FileScanSource::Traits traits;
   traits.point_frame = settings.points.value_or(PointFrame::kSensor);
-  sequence.scans = std::make_shared<FileScanSource>(std::move(entries), traits, settings.sensor);
+  traits.reading.point_layout = settings.point_layout;
+  const auto source =
+      std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
+  sequence.scans = source;
+  sequence.records = source;
   return sequence;
 }
 

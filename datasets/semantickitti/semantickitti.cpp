@@ -73,11 +73,11 @@ ScanKeys scan_keys(const std::vector<NumberedFile>& files, const std::vector<Num
 
 /// Frames with their poses; those without are left out.
 std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
-                                      const ScanPoses& poses) {
+                                      const ScanPoses& poses, const RecordReading& reading) {
   std::vector<FrameEntry> frames;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::filesystem::path& path = chosen[i].path;
-    check_bin_size(path, plain_file_size(path));
+    check_bin_size(path, plain_file_size(path), reading);
     if (!poses.poses[i]) continue;
     frames.push_back({path, "", path.stem().string(), poses.times_s[i], *poses.poses[i]});
   }
@@ -155,7 +155,7 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   const ScanKeys keys = scan_keys(files, chosen.files, times, *settings.scan_period_s);
   const ScanPoses poses = frame_poses(folder, settings, keys, sequence);
 
-  std::vector<FrameEntry> entries = frame_entries(chosen.files, poses);
+  std::vector<FrameEntry> entries = frame_entries(chosen.files, poses, {settings.point_layout});
   for (std::size_t i = 0; i < poses.poses.size(); ++i) {
     if (poses.poses[i]) sequence.stamps.push_back(poses.stamps[i]);
   }
@@ -166,7 +166,11 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   }
   FileScanSource::Traits traits;
   traits.point_frame = settings.points.value_or(PointFrame::kSensor);
-  sequence.scans = std::make_shared<FileScanSource>(std::move(entries), traits, settings.sensor);
+  traits.reading.point_layout = settings.point_layout;
+  const auto source =
+      std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
+  sequence.scans = source;
+  sequence.records = source;
   return sequence;
 }
 
