@@ -184,6 +184,14 @@ EgoRegion ego_region_value(const json& value, const std::string& where) {
   }
 }
 
+std::string first_pose_setting(const SequenceSettings& settings) {
+  if (settings.poses) return "--poses";
+  if (settings.pose_format) return "--pose-format";
+  if (settings.T_sensor) return "--T-sensor";
+  if (settings.time_offset_s) return "--time-offset";
+  return settings.max_gap_s ? "--max-gap" : "";
+}
+
 PointFrame parse_point_frame(const std::string& option, const std::string& text) {
   if (text == "sensor") return PointFrame::kSensor;
   if (text == "world") return PointFrame::kWorld;
