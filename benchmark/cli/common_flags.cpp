@@ -87,7 +87,7 @@ void SequenceFlags::add_poses_to(CommandOptions& options) {
               "that stands");
   options.add("--pose-format", "NAME", pose_format,
               "Form of the pose file (see `raymoval list pose-formats`; default: told by its "
-              "content)");
+              "content); inverse, or NAME:inverse, if its poses take the world to the sensor");
   options.add("--T-sensor", "POSE", T_sensor,
               "Pose of the sensor in the frame of the body that the poses are about: "
               "x,y,z,qx,qy,qz,qw in metres, or a file with these or a 4 x 4 matrix");
