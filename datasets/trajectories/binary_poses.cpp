@@ -56,7 +56,8 @@ ArrayHead parse_head(const std::string& bytes, const std::filesystem::path& path
   array.data = begin + length;
   array.type = value_of(head, "descr", '\'', '\'', path);
   array.fortran_order = value_of(head, "fortran_order", ' ', ',', path).starts_with("True");
-  for (const std::string_view size : split(value_of(head, "shape", '(', ')', path), ',')) {
+  const std::string shape = value_of(head, "shape", '(', ')', path);
+  for (const std::string_view size : split(shape, ',')) {
     const auto words = split_blanks(size);
     if (words.empty()) continue;
     const auto number = parse_number<std::size_t>(words.front());
