@@ -2,7 +2,7 @@
 # that names files by absolute path (OctoMap). Read by the build and by the installed configuration:
 # what links to these targets tells no path of the machine it was built on.
 set(raymoval_missing_libraries "")
-foreach(name pcl_common pcl_sample_consensus octomap octomath lzf bz2 lz4 zstd sqlite3)
+foreach(name pcl_common pcl_sample_consensus octomap octomath lzf)
   if(NOT TARGET raymoval::${name})
     find_library(RAYMOVAL_${name}_LIBRARY ${name})
     mark_as_advanced(RAYMOVAL_${name}_LIBRARY)
