@@ -84,8 +84,13 @@ Unpacked result(Room& room, std::uint64_t stated, std::string problem) {
 
 }  // namespace
 
+std::uint64_t most_unpacked_size(std::uint64_t packed) {
+  const std::uint64_t counted = std::min(packed, kMostUnpacked);
+  return std::min(kMostUnpacked, kMostGain * counted + kFreeGain);
+}
+
 void check_unpacked_size(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
-  if (unpacked <= kMostUnpacked && unpacked <= kMostGain * packed + kFreeGain) return;
+  if (unpacked <= most_unpacked_size(packed)) return;
   throw DataError(where + " of " + grouped_text(packed) + " bytes is said to unpack to " +
                   grouped_text(unpacked) +
                   ", beyond the limit of 1 GiB and of 1,000 times its bytes and 1 MiB; the file "
@@ -97,7 +102,7 @@ Unpacked unpack_bz2(std::string_view packed, std::uint64_t stated, const std::st
   Bz2Stream stream;
   Room room(stated);
   constexpr std::size_t kPiece = std::numeric_limits<unsigned>::max();
-  for (!room.over();) {
+  while (!room.over()) {
     bz_stream& state = *stream;
     const auto given = static_cast<unsigned>(std::min(packed.size(), kPiece));
     state.next_in = const_cast<char*>(packed.data());  // The library does not write there.
