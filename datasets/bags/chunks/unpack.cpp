@@ -84,12 +84,13 @@ Unpacked result(Room& room, std::uint64_t stated, std::string problem) {
 
 }  // namespace
 
-std::uint64_t most_unpacked(std::uint64_t packed) {
-  return std::min(kMostUnpacked, kMostGain * std::min(packed, kMostUnpacked) + kFreeGain);
+std::uint64_t most_unpacked_size(std::uint64_t packed) {
+  const std::uint64_t counted = std::min(packed, kMostUnpacked);
+  return std::min(kMostUnpacked, kMostGain * counted + kFreeGain);
 }
 
 void check_unpacked_size(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
-  if (unpacked <= most_unpacked(packed)) return;
+  if (unpacked <= most_unpacked_size(packed)) return;
   throw DataError(where + " of " + grouped_text(packed) + " bytes is said to unpack to " +
                   grouped_text(unpacked) +
                   ", beyond the limit of 1 GiB and of 1,000 times its bytes and 1 MiB; the file "

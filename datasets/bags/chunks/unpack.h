@@ -7,12 +7,11 @@
 
 namespace raymoval {
 
-/// The most bytes that so many packed bytes may unpack to: 1,000 times as many and 1 MiB, and 1 GiB
-/// at most.
-std::uint64_t most_unpacked(std::uint64_t packed);
+/// What `packed` bytes may unpack to at most: 1 GiB, and 1,000 times the packed bytes and 1 MiB.
+std::uint64_t most_unpacked_size(std::uint64_t packed);
 
-/// Refuses a size that packed bytes are said to have unpacked, before memory is asked for, if it
-/// is beyond `most_unpacked`. It is also for other compressions.
+/// Refuses a size that packed bytes are said to have unpacked, before memory is asked for, if it is
+/// more than `most_unpacked_size`. It is also for other compressions.
 /// @param where begins the message, such as "drive.bag: byte 4,117: chunk"
 /// @throws DataError
 void check_unpacked_size(std::uint64_t packed, std::uint64_t unpacked, const std::string& where);
