@@ -63,7 +63,8 @@ Unpacked unpack_chunk(const BagFile& file, const Ros1Chunk& chunk) {
   // What the whole chunk may unpack to was checked when its head was read; of a cut one less is
   // there, which the limit counts.
   const std::uint64_t most =
-      chunk.cut ? std::min<std::uint64_t>(chunk.size, most_unpacked_size(packed.size())) : chunk.size;
+      chunk.cut ? std::min<std::uint64_t>(chunk.size, most_unpacked_size(packed.size()))
+                : chunk.size;
   const std::string where = file.place(chunk.begin) + ": a chunk";
   return chunk.compression == Ros1Compression::kBz2 ? unpack_bz2(packed, most, where)
                                                     : unpack_lz4(packed, most, where);
