@@ -18,6 +18,7 @@ datasets               sequence_record sequence reading|settings layout
 datasets               semantickitti|dynamicmap|files|bag_scans
 datasets               simulation layouts open_sequence inspection
 datasets/bags          bag|damage_notes chunks|messages ros1|mcap ros2 open_bag rewriting
+datasets/clouds        format pcd|ply|bin|las|numpy .
 datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
 methods                remover method_entry common
