@@ -65,7 +65,7 @@ std::vector<fs::path> candidates(const fs::path& folder, const fs::path& listed,
   return places;
 }
 
-void add_file(Ros2Metadata& metadata, const YamlNode& node) {
+void add_file(Ros2Metadata& metadata, const YamlNode& node, std::set<fs::path>& known) {
   const fs::path folder = metadata.path.parent_path();
   if (node.value.empty()) {
     throw DataError(metadata.path.string() + ":" + std::to_string(node.line) +
@@ -79,12 +79,10 @@ void add_file(Ros2Metadata& metadata, const YamlNode& node) {
   });
   file.is_there = found != places.end();
   file.path = file.is_there ? *found : places.front();
-  const bool is_known = std::any_of(metadata.files.begin(), metadata.files.end(),
-                                    [&](const Ros2File& other) { return other.path == file.path; });
-  if (is_known) {
-    metadata.twice.push_back(file.listed);
-  } else {
+  if (known.insert(file.path).second) {
     metadata.files.push_back(std::move(file));
+  } else {
+    metadata.twice.push_back(file.listed);
   }
 }
 
@@ -107,11 +105,13 @@ Ros2Packing packing_of(const YamlNode& information, const fs::path& path) {
 void add_counts(Ros2Metadata& metadata) {
   const YamlNode* files = metadata.information.find("files");
   if (files == nullptr) return;
+  std::map<std::string, std::optional<std::uint64_t>> counts;
   for (const YamlNode& node : files->children) {
-    const std::string listed = value_of(node, "path");
-    for (Ros2File& file : metadata.files) {
-      if (file.listed == listed) file.messages = count_of(node, metadata.path);
-    }
+    counts.emplace(value_of(node, "path"), count_of(node, metadata.path));
+  }
+  for (Ros2File& file : metadata.files) {
+    const auto said = counts.find(file.listed);
+    if (said != counts.end()) file.messages = said->second;
   }
 }
 
@@ -158,7 +158,8 @@ Ros2Metadata read_ros2_metadata(const fs::path& folder) {
                     ": lists no file below 'relative_file_paths'; `ros2 bag reindex` writes it "
                     "anew.");
   }
-  for (const YamlNode& file : files->children) add_file(metadata, file);
+  std::set<fs::path> known;
+  for (const YamlNode& file : files->children) add_file(metadata, file, known);
   add_counts(metadata);
   return metadata;
 }
