@@ -48,7 +48,7 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
 std::vector<std::string> extensions_of(OutputKind kind) {
   if (kind == OutputKind::kPicture) return {".png"};
   if (kind == OutputKind::kPage) return {".html", ".htm"};
-  return writable_cloud_extensions();
+  return cloud_extensions();
 }
 
 void check_file(const OutputPath& output, bool overwrite) {
