@@ -12,6 +12,7 @@
 #include "core/name.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
+#include "datasets/clouds/format/point_layout.h"
 
 namespace raymoval {
 namespace {
@@ -45,17 +46,32 @@ std::optional<std::string> sensor_value(const std::string& name) {
   return name;
 }
 
+/// A text that `parse_point_layout` can read.
+std::string point_layout_value(const std::string& text, const std::string& where) {
+  try {
+    (void)parse_point_layout(text);
+  } catch (const UsageError& error) {
+    throw ConfigurationError(where + ": " + error.what());
+  }
+  return text;
+}
+
 void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
   const json content = read_json(path);
   const Fields file(
       content, path.string(),
-      "name source sensor up scan_period_s poses poses_are_lidar range_m labels drop_ego");
+      "name source sensor up scan_period_s poses poses_are_lidar range_m labels drop_ego "
+      "point_layout");
   settings.name = file.text("name", settings.name);
   settings.source = file.text("source", settings.source);
   if (file.has("sensor")) settings.sensor = sensor_value(file.text("sensor", ""));
   if (file.has("up")) settings.up = up_value(file.member("up"), file.place("up"));
   if (file.has("drop_ego")) {
     settings.drop_ego = ego_region_value(file.member("drop_ego"), file.place("drop_ego"));
+  }
+  if (file.has("point_layout")) {
+    settings.point_layout =
+        point_layout_value(file.text("point_layout"), file.place("point_layout"));
   }
   if (file.has("poses")) settings.poses = file.text("poses", "");
   if (file.has("scan_period_s")) {
@@ -127,6 +143,10 @@ SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings 
   if (options.poses) settings.poses = options.poses;
   if (options.range_m) settings.range_m = *options.range_m;
   if (options.sensor) settings.sensor = sensor_value(*options.sensor);
+  if (options.point_layout) {
+    (void)parse_point_layout(*options.point_layout);
+    settings.point_layout = options.point_layout;
+  }
   if (options.drop_ego) settings.drop_ego = *options.drop_ego;
   if (options.name) settings.name = *options.name;
   if (options.up) {

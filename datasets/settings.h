@@ -19,7 +19,8 @@ struct SequenceSettings {
   std::optional<std::string> poses;  ///< As the user gives it: a name in the folder or a path.
   bool poses_are_lidar = false;      ///< The poses are those of the LiDAR, not of a camera.
   std::optional<std::string> sensor;
-  std::optional<Eigen::Vector3d> up;  ///< Unit vector of the world frame.
+  std::optional<std::string> point_layout;  ///< As `parse_point_layout` reads it.
+  std::optional<Eigen::Vector3d> up;        ///< Unit vector of the world frame.
   EgoRegion drop_ego;
   std::optional<double> scan_period_s;
   RangeLimits range_m;
@@ -28,9 +29,9 @@ struct SequenceSettings {
 };
 
 /// Reads `folder`/sequence.json if there is one and lays `options` over it. Its keys, all optional:
-/// name, source, sensor (a known sensor, or "estimated" or "" for none), up, drop_ego (as
-/// `parse_ego_region`, or a number of metres), scan_period_s, poses, poses_are_lidar, range_m {min,
-/// max}, labels {name, moving, ignored}.
+/// name, source, sensor (a known sensor, or "estimated" or "" for none), point_layout, up, drop_ego
+/// (as `parse_ego_region`, or a number of metres), scan_period_s, poses, poses_are_lidar, range_m
+/// {min, max}, labels {name, moving, ignored}.
 /// @param defaults what holds where neither says anything; a `name` in it stands above the file's
 /// @throws ConfigurationError for an unknown key (with the nearest known one) or an illegal value
 SequenceSettings read_settings(const std::filesystem::path& folder, const SequenceOptions& options,

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/cloud_header.h"
+#include "datasets/clouds/format/cloud_header.h"
 
 namespace raymoval {
 namespace {

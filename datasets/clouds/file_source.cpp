@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/clouds/file_source.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/sampling.h"
-#include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/frames.h"
+#include "datasets/clouds/record_file.h"
+#include "datasets/clouds/returns.h"
 
 namespace raymoval {
 namespace {
-
-/// Share of infinite coordinates above which a scan is taken for damaged (evaluation protocol, edge
-/// cases). NaN is no damage: drivers write it where nothing came back.
-constexpr double kMostInfinite = 0.01;
-/// No LiDAR measures nearer than this many metres: a point there stands for a missing return.
-constexpr float kAtSensor = 0.05F;
-/// The same at the origin of stored points in the world frame, where the sensor hardly ever stands.
-constexpr float kAtZero = 1e-3F;
 
 const FrameEntry& frame_of(const std::vector<FrameEntry>& frames, std::size_t index) {
   if (index >= frames.size()) {
@@ -30,76 +22,6 @@ const FrameEntry& frame_of(const std::vector<FrameEntry>& frames, std::size_t in
                         std::to_string(frames.size()));
   }
   return frames[index];
-}
-
-/// What a stored point is.
-enum class PointKind { kReturn, kNoReturn, kInfinite };
-
-PointKind kind_of(const Eigen::Vector3f& stored, float nearest) {
-  if (stored.hasNaN()) return PointKind::kNoReturn;
-  if (!stored.allFinite()) return PointKind::kInfinite;
-  return stored.squaredNorm() < nearest * nearest ? PointKind::kNoReturn : PointKind::kReturn;
-}
-
-struct KindCounts {
-  std::size_t stored = 0, no_returns = 0, infinite = 0;
-  [[nodiscard]] std::size_t returns() const { return stored - no_returns - infinite; }
-};
-
-void check_kinds(const KindCounts& counts, const std::filesystem::path& path) {
-  const std::string remedy = " Copy it again, or leave it out with --frames.";
-  if (counts.stored == 0) {
-    throw DataError(path.string() + ": holds no point; a scan has at least one." + remedy);
-  }
-  const double infinite = static_cast<double>(counts.infinite) / static_cast<double>(counts.stored);
-  if (infinite > kMostInfinite) {
-    throw DataError(path.string() + ": " + grouped_text(counts.infinite) + " of " +
-                    grouped_text(counts.stored) +
-                    " points are infinite, more than 1 %; the file looks damaged. Where nothing "
-                    "came back write NaN." +
-                    remedy);
-  }
-  if (counts.returns() == 0) {
-    throw DataError(path.string() + ": none of its " + grouped_text(counts.stored) +
-                    " points is a return (all are NaN or at the origin); a scan has at least one." +
-                    remedy);
-  }
-}
-
-/// Fills points, reflectance and stored_index with the returns among the points of `cloud`.
-/// @param nearest what is stored nearer to the origin is no return, metres
-KindCounts keep_returns(Cloud&& cloud, float nearest, Scan& scan) {
-  KindCounts counts;
-  counts.stored = scan.stored_point_count = cloud.points.size();
-  for (const Eigen::Vector3f& point : cloud.points) {
-    const PointKind kind = kind_of(point, nearest);
-    counts.no_returns += kind == PointKind::kNoReturn ? 1 : 0;
-    counts.infinite += kind == PointKind::kInfinite ? 1 : 0;
-  }
-  if (counts.returns() == counts.stored) {
-    scan.points = std::move(cloud.points);
-    scan.reflectance = std::move(cloud.intensity);
-    return counts;
-  }
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (kind_of(cloud.points[i], nearest) != PointKind::kReturn) continue;
-    scan.points.push_back(cloud.points[i]);
-    if (!cloud.intensity.empty()) scan.reflectance.push_back(cloud.intensity[i]);
-    scan.stored_index.push_back(static_cast<std::uint32_t>(i));
-  }
-  return counts;
-}
-
-/// Takes the returns among `points` from the world to the sensor; others stay as they are stored.
-/// @param origin what was taken off the points when they were read
-void bring_to_sensor(const Pose& T_sensor_world, const Eigen::Vector3d& origin,
-                     std::vector<Eigen::Vector3f>& points) {
-  const Eigen::Vector3f zero = (-origin).cast<float>();  // Where a stored zero is now.
-  for (Eigen::Vector3f& point : points) {
-    const Eigen::Vector3f stored = point - zero;
-    const bool is_return = kind_of(stored, kAtZero) == PointKind::kReturn;
-    point = is_return ? (T_sensor_world * point.cast<double>()).cast<float>() : stored;
-  }
 }
 
 }  // namespace
@@ -133,25 +55,26 @@ Scan FileScanSource::load(std::size_t index) const {
   scan.name = frame.name;
   scan.time_s = frame.time_s;
   scan.T_world_sensor = frame.T_world_sensor;
-  const bool in_world = traits_.point_frame == PointFrame::kWorld;
-  // Points of a far world are read from the sensor's position on, before they become float32.
-  Pose T_world_sensor = frame.T_world_sensor;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  if (in_world && T_world_sensor.translation().cwiseAbs().maxCoeff() > kFarFromOrigin) {
-    origin = T_world_sensor.translation();
-    T_world_sensor.translation().setZero();
-  }
-  Cloud cloud = read_cloud(frame.path, origin);
-  if (!traits_.has_reflectance) cloud.intensity.clear();
-  if (in_world) bring_to_sensor(T_world_sensor.inverse(), origin, cloud.points);
-  const KindCounts counts = keep_returns(std::move(cloud), kAtSensor, scan);
-  check_kinds(counts, frame.path);
+  const ReturnCounts counts =
+      read_returns(scan, traits_.point_frame, place(index), [&](const Eigen::Vector3d& origin) {
+        Cloud cloud = read_cloud(frame.path, origin, traits_.reading);
+        if (!traits_.has_reflectance) cloud.intensity.clear();
+        return cloud;
+      });
   tally_.set(index, counts.stored, counts.no_returns);
   return scan;
 }
 
 Pose FileScanSource::pose(std::size_t index) const {
   return frame_of(frames_, index).T_world_sensor;
+}
+
+PointRecords FileScanSource::records(std::size_t index) const {
+  return read_records(frame_of(frames_, index).path, traits_.reading);
+}
+
+std::string FileScanSource::place(std::size_t index) const {
+  return frame_of(frames_, index).path.string();
 }
 
 const SensorModel& FileScanSource::sensor() const {

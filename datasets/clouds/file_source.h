@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
+#include "datasets/clouds/format/cloud_bytes.h"
 #include "datasets/records/record_source.h"
 
 namespace raymoval {
@@ -64,26 +65,29 @@ class LeftOutTally {
   mutable std::vector<std::pair<std::uint64_t, std::uint64_t>> scans_;
 };
 
-/// Scans in files of their own (.bin, .pcd, .ply). Points that stand for a missing return (a NaN
-/// coordinate, or within 5 cm of the sensor; in the world frame also at its origin) and infinite
-/// ones are left out; `tally` counts the former.
-///
-/// `load` throws DataError for a file without any return and for one with more than 1 % infinite
-/// points (evaluation protocol, edge cases).
-class FileScanSource : public ScanSource {
+/// Scans in files of their own, in any of `cloud_formats`, and what is stored of them. Points that
+/// are no returns are left out (see `read_returns`); `tally` counts them. `load` throws as that.
+class FileScanSource : public ScanSource, public RecordSource {
  public:
   struct Traits {
     PointFrame point_frame = PointFrame::kSensor;
     bool has_reflectance = true;  ///< False where the files' intensity is no reflectance.
+    RecordReading reading = {};   ///< What the files do not say of themselves.
   };
   FileScanSource(std::vector<FrameEntry> frames, Traits traits,
                  const std::optional<std::string>& sensor)
-      : frames_(std::move(frames)), traits_(traits), sensor_(sensor), tally_(frames_.size()) {}
+      : frames_(std::move(frames)),
+        traits_(std::move(traits)),
+        sensor_(sensor),
+        tally_(frames_.size()) {}
 
   [[nodiscard]] std::size_t size() const override { return frames_.size(); }
   [[nodiscard]] Scan load(std::size_t index) const override;
   [[nodiscard]] Pose pose(std::size_t index) const override;
   [[nodiscard]] const SensorModel& sensor() const override;
+  [[nodiscard]] PointRecords records(std::size_t index) const override;
+  [[nodiscard]] PointFrame point_frame() const override { return traits_.point_frame; }
+  [[nodiscard]] std::string place(std::size_t index) const override;
   [[nodiscard]] const std::vector<FrameEntry>& frames() const { return frames_; }
   /// Missing returns of the scans read so far.
   [[nodiscard]] const LeftOutTally& tally() const { return tally_; }

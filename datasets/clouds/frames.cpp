@@ -91,9 +91,12 @@ std::vector<std::filesystem::path> list_files(const std::filesystem::path& folde
                                               const std::vector<std::string>& extensions) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& path : entries_of(folder)) {
-    if (path.filename().string().starts_with(".")) continue;
-    const bool wanted = std::find(extensions.begin(), extensions.end(),
-                                  path.extension().string()) != extensions.end();
+    const std::string name = path.filename().string();
+    if (name.starts_with(".")) continue;
+    const bool wanted =
+        std::any_of(extensions.begin(), extensions.end(), [&](const std::string& extension) {
+          return name.size() > extension.size() && name.ends_with(extension);
+        });
     if (wanted) files.push_back(path);
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {

@@ -29,8 +29,8 @@ struct NumberedFile {
   std::filesystem::path path;
 };
 
-/// Files of `folder` whose extension is one of `extensions` (".bin"), hidden ones left out, in
-/// natural order (digit runs compare as numbers, so scan_2 comes before scan_10).
+/// Files of `folder` whose names end in one of `extensions` (".bin", ".pcd.gz"), hidden ones left
+/// out, in natural order (digit runs compare as numbers, so scan_2 comes before scan_10).
 /// @throws DataError if the folder cannot be read
 std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder,
                                               const std::vector<std::string>& extensions);

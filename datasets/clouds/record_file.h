@@ -3,33 +3,19 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/files/replacements.h"
-#include "datasets/clouds/cloud_writer.h"
+#include "datasets/clouds/format/cloud_bytes.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
-
-/// What a file does not say of itself.
-struct RecordReading {
-  /// Fields of a .bin file or the columns of an .npy array, such as "x y z intensity t:f8" (float32
-  /// where no type is given).
-  std::optional<std::string> point_layout;
-};
 
 /// Reads all fields of all points, bit for bit, of a file of any known format.
 /// @throws DataError naming the file, and the byte, point or line that is wrong; UsageError for an
 ///   unknown extension
 PointRecords read_records(const std::filesystem::path& path, const RecordReading& reading = {});
-
-/// How a file of point records is to be written.
-struct RecordWriting {
-  /// LAS: the coordinate reference system as WKT or "EPSG:32632"; no other format holds one.
-  std::optional<std::string> crs;
-};
 
 /// What the format of `path` cannot hold of points of `layout`, in whole sentences that name the
 /// fields; none if every field goes through bit for bit. @throws UsageError for an unknown
@@ -60,6 +46,7 @@ class PointRecordWriter {
   void commit();
   /// The same together with others.
   void commit_with(Replacements& together);
+  [[nodiscard]] const std::filesystem::path& path() const;
 
  private:
   class Format;

@@ -40,8 +40,13 @@ Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, cons
   Sequence sequence = make_sequence(settings, dynamicmap_layout(), chosen.range);
   sequence.poses_file = "VIEWPOINT";
   if (settings.label_rule_given) sequence.labels = std::make_shared<IntensityLabelSource>(entries);
-  const FileScanSource::Traits traits{PointFrame::kWorld, false};
-  sequence.scans = std::make_shared<FileScanSource>(std::move(entries), traits, settings.sensor);
+  FileScanSource::Traits traits;
+  traits.point_frame = PointFrame::kWorld;
+  traits.has_reflectance = false;
+  const auto source =
+      std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
+  sequence.scans = source;
+  sequence.records = source;
   return sequence;
 }
 

@@ -19,7 +19,7 @@ std::vector<NumberedFile> scan_files(const std::filesystem::path& folder) {
   std::map<std::string, std::string> names;
   for (const auto& path : list_files(folder, cloud_extensions())) {
     // a.pcd and a.ply would share a label file and are most likely one scan twice.
-    const auto [other, is_new] = names.emplace(path.stem().string(), path.filename().string());
+    const auto [other, is_new] = names.emplace(cloud_stem(path), path.filename().string());
     if (!is_new) {
       throw DataError(path.string() + ": there is also " + other->second +
                       "; keep one file a scan.");
@@ -56,7 +56,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
     const double time = stamp ? *stamp - *poses.rows.front().time_s
                               : static_cast<double>(file.number) *
                                     settings.scan_period_s.value_or(kUsualScanPeriod);
-    entries.push_back({file.path, "", file.path.stem().string(), time, rigid_pose(poses, row)});
+    entries.push_back({file.path, "", file.cloud_stem(path), time, rigid_pose(poses, row)});
   }
 
   Sequence sequence = make_sequence(settings, files_layout(), chosen.range);
@@ -64,8 +64,12 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
   if (find_label_files(folder / "labels", entries)) {
     sequence.labels = std::make_shared<LabelFileSource>(entries);
   }
-  sequence.scans = std::make_shared<FileScanSource>(std::move(entries), FileScanSource::Traits{},
-                                                    settings.sensor);
+  FileScanSource::Traits traits;
+  traits.reading.point_layout = settings.point_layout;
+  const auto source =
+      std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
+  sequence.scans = source;
+  sequence.records = source;
   return sequence;
 }
 

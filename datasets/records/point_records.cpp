@@ -59,6 +59,7 @@ const PointField* RecordLayout::find(const std::vector<std::string_view>& names)
 void RecordLayout::add(std::string name, char type, int size, int count) {
   fields.push_back({std::move(name), type, size, count, row_bytes});
   row_bytes += fields.back().bytes();
+  unnamed = false;
 }
 
 double PointRecords::value(std::size_t point, const PointField& field, int at) const {
@@ -81,7 +82,7 @@ PointRecords PointRecords::chosen(const std::vector<std::uint8_t>& keep) const {
     throw InternalError("a choice of " + std::to_string(keep.size()) + " among " +
                         std::to_string(size()) + " records");
   }
-  PointRecords result{layout, {}, 0, 1, viewpoint};
+  PointRecords result{layout, {}, 0, 1, viewpoint, las};
   result.width = static_cast<std::uint64_t>(
       std::count_if(keep.begin(), keep.end(), [](std::uint8_t kept) { return kept != 0; }));
   result.bytes.resize(result.width * layout.row_bytes);

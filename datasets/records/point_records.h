@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,13 +33,17 @@ struct PointField {
 struct RecordLayout {
   std::vector<PointField> fields;
   std::size_t row_bytes = 0;
+  /// The names were not stored beside the values: columns of an array, numbers of a .bin file.
+  bool unnamed = false;
 
   /// The first field with one of `names`, or null. Names are compared as they are written.
   [[nodiscard]] const PointField* find(const std::vector<std::string_view>& names) const;
-  /// Appends a field behind the last byte.
+  /// Appends a field behind the last byte, whose name counts from then on.
   void add(std::string name, char type, int size, int count = 1);
   bool operator==(const RecordLayout&) const = default;
 };
+
+struct LasNotes;
 
 /// The points of one scan with everything that was stored of them, bit for bit: N records of
 /// `layout.row_bytes` bytes. Points without a return are among them; row i is stored point i.
@@ -49,6 +54,8 @@ struct PointRecords {
   std::uint64_t width = 0, height = 1;
   /// PCD: tx ty tz qw qx qy qz.
   std::optional<Eigen::Matrix<double, 7, 1>> viewpoint = std::nullopt;
+  /// LAS: what its head says of the values, for a LAS file that is made of them (see las_notes.h).
+  std::shared_ptr<const LasNotes> las = nullptr;
 
   [[nodiscard]] std::size_t size() const {
     return layout.row_bytes == 0 ? 0 : bytes.size() / layout.row_bytes;

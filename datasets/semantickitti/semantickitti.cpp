@@ -62,11 +62,12 @@ std::vector<double> frame_times(const std::filesystem::path& folder, double peri
 
 std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
                                       const PoseFile& poses, const Pose& Tr,
-                                      const std::vector<double>& times) {
+                                      const std::vector<double>& times,
+                                      const RecordReading& reading) {
   const Pose Tr_inverse = Tr.inverse();
   std::vector<FrameEntry> frames;
   for (const NumberedFile& file : chosen) {
-    check_bin_size(file.path, plain_file_size(file.path));
+    check_bin_size(file.path, plain_file_size(file.path), reading);
     const auto number = static_cast<std::size_t>(file.number);
     frames.push_back({file.path, "", file.path.stem().string(), times[number],
                       Tr_inverse * rigid_pose(poses, number) * Tr});
@@ -125,15 +126,20 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   const PoseFile poses = read_pose_file(pose_path);
   check_row_count(poses.rows.size(), "poses", pose_path, files);
   const auto Tr = camera_calibration(folder, settings);
-  auto entries = frame_entries(chosen.files, poses, Tr.value_or(Pose::Identity()),
-                               frame_times(folder, *settings.scan_period_s, files));
+  auto entries =
+      frame_entries(chosen.files, poses, Tr.value_or(Pose::Identity()),
+                    frame_times(folder, *settings.scan_period_s, files), {settings.point_layout});
 
   Sequence sequence = make_sequence(settings, semantickitti_layout(), chosen.range);
   if (find_label_files(folder / "labels", entries)) {
     sequence.labels = std::make_shared<LabelFileSource>(entries);
   }
-  sequence.scans = std::make_shared<FileScanSource>(std::move(entries), FileScanSource::Traits{},
-                                                    settings.sensor);
+  FileScanSource::Traits traits;
+  traits.reading.point_layout = settings.point_layout;
+  const auto source =
+      std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
+  sequence.scans = source;
+  sequence.records = source;
   sequence.T_camera_lidar = Tr;
   sequence.poses_file = pose_path.filename().string();
   return sequence;

@@ -4,7 +4,8 @@
 
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/cloud_header.h"
+#include "datasets/clouds/pcd/pcd_header.h"
+#include "datasets/clouds/ply/ply_header.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -45,7 +46,7 @@ TEST_CASE("a PCD header needs no COUNT, no POINTS and no VIEWPOINT", "[header]")
   const CloudHeader header =
       pcd("\n#comment\n \nCOLUMNS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 3\nHEIGHT 2\nDATA ascii\n1");
   REQUIRE(header.fields.size() == 3);
-  for (const CloudField& field : header.fields) CHECK(field.count == 1);
+  for (const PointField& field : header.fields) CHECK(field.count == 1);
   CHECK(header.row_bytes() == 12);
   CHECK(header.points == 6);
   CHECK(header.body_line == 10);
@@ -172,9 +173,10 @@ TEST_CASE("PLY lines that cannot be are named", "[header]") {
   const std::string vertex = "element vertex 1\n";
   check_says(ply_says("ply x\n" + ply_of(vertex)), {"header line 1", "expected 'ply'"});
   check_says(ply_says("\n" + ply_of(vertex)), {"header line 1", "expected 'ply'"});
-  check_says(ply_says(ply_of("element face 1\n" + vertex)), {"header line 3", "once, first"});
-  check_says(ply_says(ply_of("element vertex\n")), {"header line 3", "once, first"});
-  check_says(ply_says(ply_of(vertex + vertex)), {"header line 4", "once, first"});
+  check_says(ply_says(ply_of("element vertex\n")), {"header line 3", "'vertex' once"});
+  check_says(ply_says(ply_of(vertex + vertex)), {"header line 4", "'vertex' once"});
+  check_says(ply_says(ply_of("element face 1\nproperty list float int a\n" + vertex)),
+             {"header line 4", "'property list TYPE TYPE NAME'"});
   check_says(ply_says(ply_of("")), {"header line 3", "property before any element"});
   for (const char* property : {"property float", "property float a b", "property half a"}) {
     check_says(ply_says(ply_of(vertex + property + "\n")), {"header line 4", "no list"});

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "datasets/clouds/format/cloud_bytes.h"
+#include "datasets/records/point_records.h"
+
+namespace raymoval {
+
+/// Makes the bytes of a file of one format of rows of points. A file is its head and, behind that,
+/// what `rows` gives of each piece.
+class RecordEncoder {
+ public:
+  virtual ~RecordEncoder() = default;
+  /// @param first rows that the file begins with, perhaps none, with the layout of all rows
+  virtual void start(const PointRecords& first) = 0;
+  /// The head of a file of `points` points. It has the same length for any count.
+  [[nodiscard]] virtual std::string head(std::uint64_t points) const = 0;
+  /// The bytes of more rows. @throws DataError for a value that the format cannot hold
+  virtual std::string rows(const PointRecords& more) = 0;
+};
+
+/// A kind of file that points are read from and written to. Each stands in a folder of its own and
+/// is listed in datasets/clouds/formats.cpp.
+struct CloudFormat {
+  std::string extension;  ///< ".pcd".
+  Cloud (*read_cloud)(const CloudBytes& file, const Eigen::Vector3d& origin) = nullptr;
+  PointRecords (*read_records)(const CloudBytes& file) = nullptr;
+  /// Null if such files are only read.
+  std::unique_ptr<RecordEncoder> (*encoder)(const std::filesystem::path& path,
+                                            const RecordWriting& writing) = nullptr;
+  /// As `what_is_lost`.
+  std::vector<std::string> (*lost)(const RecordLayout& layout) = nullptr;
+};
+
+}  // namespace raymoval

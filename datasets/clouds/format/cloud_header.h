@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/text.h"
+#include "datasets/records/point_records.h"
+
+namespace raymoval {
+
+/// Points of one file: what .pcd and .ply readers, ours among them, hold counts in.
+constexpr std::uint64_t kMostCloudPoints = 0xFFFFFFFFU;
+
+// More than any sensor's record; these guard the arithmetic that follows.
+constexpr int kLargestCount = 65536;
+constexpr std::size_t kLargestRow = 1 << 20;
+
+enum class CloudEncoding {
+  kAscii,       ///< A line per point.
+  kBinary,      ///< A record per point.
+  kCompressed,  ///< PCD: all values of a field after one another, LZF-compressed.
+};
+
+/// What the head of a PCD or PLY file says, checked for sense.
+struct CloudHeader {
+  CloudEncoding encoding = CloudEncoding::kBinary;
+  bool big_endian = false;
+  /// Padding among them (PCD's fields "_").
+  std::vector<PointField> fields;
+  std::uint64_t points = 0;
+  std::uint64_t width = 0, height = 1;  ///< Of an organised cloud; points is their product.
+  bool points_end_the_file = true;      ///< False for PLY, where faces may follow.
+  std::size_t body_offset = 0;          ///< Bytes before the data of the points.
+  std::size_t body_line = 1;            ///< Line at which ASCII data starts, from 1.
+  /// PCD: tx ty tz qw qx qy qz.
+  std::optional<Eigen::Matrix<double, 7, 1>> viewpoint;
+
+  [[nodiscard]] std::size_t row_bytes() const;
+  /// Position of the first field with one of `names`, or nothing.
+  [[nodiscard]] std::optional<std::size_t> find(const std::vector<std::string_view>& names) const;
+  /// Adds a field behind the others.
+  void add(std::string name, char type, int size, int count);
+};
+
+/// PCD's name for filler bytes; binary_compressed leaves them out.
+inline bool is_padding(const PointField& field) {
+  return field.name == "_";
+}
+
+/// @throws DataError for rows or counts beyond what a scan can have, and if x, y or z is missing
+void check_fields(const CloudHeader& header, const std::filesystem::path& path);
+
+/// Lines of a header, one by one, with what is needed to report them.
+class HeaderLines {
+ public:
+  HeaderLines(std::string_view bytes, const std::filesystem::path& path, const char* last_entry)
+      : bytes_(bytes), path_(path), last_entry_(last_entry) {}
+
+  /// Words of the next line. @throws DataError at the end of the file
+  std::vector<std::string_view> next();
+  [[nodiscard]] std::size_t offset() const { return at_; }
+  [[nodiscard]] std::size_t line() const { return line_; }
+  [[noreturn]] void fail(const std::string& what) const;
+  template <class Number>
+  Number number(std::string_view text, Number minimum, Number maximum) const {
+    const auto value = parse_number<Number>(text);
+    if (!value || *value < minimum || *value > maximum) {
+      fail("'" + std::string(text.substr(0, 40)) + "' is not a number that can stand here.");
+    }
+    return *value;
+  }
+
+ private:
+  std::string_view bytes_;
+  const std::filesystem::path& path_;
+  const char* last_entry_;
+  std::size_t at_ = 0;
+  std::size_t line_ = 0;
+};
+
+}  // namespace raymoval

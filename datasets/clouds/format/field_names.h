@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "datasets/records/point_records.h"
+
+namespace raymoval {
+
+/// Which names of fields a format can hold, besides that no two are equal and none is empty.
+struct NameRules {
+  bool with_blanks = false;             ///< Whether a name may have blanks and control characters.
+  std::size_t most_bytes = 65535;       ///< Of a name, 24 or more.
+  std::vector<std::string> taken = {};  ///< Names that mean something else in the format.
+};
+
+/// `wanted` with the names changed that cannot stand as they are: blanks become '_', long names are
+/// cut, and a number is put behind the later one of equal names. It takes linear time.
+std::vector<std::string> fitting_names(const std::vector<std::string>& wanted,
+                                       const NameRules& rules);
+
+/// The names of the single values of a layout's fields: "normal_0", "normal_1" and so on for a
+/// field with several values, else the field's name.
+std::vector<std::string> value_names(const RecordLayout& layout);
+
+/// The names of the fields.
+std::vector<std::string> names_of(const RecordLayout& layout);
+
+/// "The field 'a b' is written as 'a_b'." for each name that changes.
+std::vector<std::string> renamed_sentences(const std::vector<std::string>& wanted,
+                                           const std::vector<std::string>& names);
+
+/// "The field 'normal' has 3 values, which are written as 'normal_0' to 'normal_2'." for each field
+/// with several values.
+std::vector<std::string> split_sentences(const RecordLayout& layout);
+
+}  // namespace raymoval

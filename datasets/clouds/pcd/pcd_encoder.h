@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "datasets/clouds/format/cloud_format.h"
+
+namespace raymoval {
+
+/// Writes binary PCD files. VIEWPOINT is that of the rows if all have the same; WIDTH and HEIGHT
+/// are those of an organised cloud that is given in one piece.
+std::unique_ptr<RecordEncoder> pcd_encoder();
+
+/// As `what_is_lost`.
+std::vector<std::string> lost_in_pcd(const RecordLayout& layout);
+
+}  // namespace raymoval

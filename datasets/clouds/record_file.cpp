@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/clouds/record_file.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "core/files/file_writer.h"
+#include "core/text.h"
+#include "datasets/clouds/format/cloud_header.h"
+#include "datasets/clouds/formats.h"
+
+namespace raymoval {
+
+std::vector<std::string> what_is_lost(const std::filesystem::path& path,
+                                      const RecordLayout& layout) {
+  return format_written(path).lost(layout);
+}
+
+class PointRecordWriter::Format {
+ public:
+  Format(const std::filesystem::path& path, const RecordWriting& writing)
+      : encoder_(format_written(path).encoder(path, writing)), file_(path) {}
+
+  void start(const RecordLayout& layout) {
+    (void)position_fields(layout, file_.path().string());
+    layout_ = layout;
+  }
+
+  void add(const PointRecords& rows) {
+    check(rows);
+    points_ += rows.size();
+    if (points_ > kMostCloudPoints) {
+      throw DataError(file_.path().string() + ": more than " + grouped_text(kMostCloudPoints) +
+                      " points, which no reader takes. Nothing was changed; choose fewer frames or "
+                      "a voxel size.");
+    }
+    begin(rows);
+    file_.append(encoder_->rows(rows));
+  }
+
+  void finish() {
+    PointRecords none;
+    none.layout = layout_;
+    begin(none);
+    file_.overwrite(0, encoder_->head(points_));
+    file_.sync();
+  }
+
+  FileWriter& file() { return file_; }
+
+ private:
+  void check(const PointRecords& rows) const {
+    if (rows.layout.fields != layout_.fields || rows.layout.row_bytes != layout_.row_bytes) {
+      throw InternalError("points of another layout are written to " + file_.path().string());
+    }
+  }
+
+  /// What stands in the head may depend on the first points.
+  void begin(const PointRecords& first) {
+    if (std::exchange(begun_, true)) return;
+    encoder_->start(first);
+    file_.append(encoder_->head(0));
+  }
+
+  std::unique_ptr<RecordEncoder> encoder_;
+  FileWriter file_;
+  RecordLayout layout_;
+  std::uint64_t points_ = 0;
+  bool begun_ = false;
+};
+
+PointRecordWriter::PointRecordWriter(const std::filesystem::path& path,
+                                     const RecordWriting& writing)
+    : format_(std::make_unique<Format>(path, writing)) {}
+PointRecordWriter::~PointRecordWriter() = default;
+
+void PointRecordWriter::start(const RecordLayout& layout) {
+  format_->start(layout);
+}
+void PointRecordWriter::add(const PointRecords& rows) {
+  format_->add(rows);
+}
+void PointRecordWriter::finish() {
+  format_->finish();
+}
+void PointRecordWriter::commit() {
+  format_->file().commit();
+}
+void PointRecordWriter::commit_with(Replacements& together) {
+  format_->file().commit_with(together);
+}
+const std::filesystem::path& PointRecordWriter::path() const {
+  return format_->file().path();
+}
+
+}  // namespace raymoval

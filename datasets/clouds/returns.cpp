@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/clouds/returns.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "core/scan/local_frame.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// Share of infinite coordinates above which a scan is taken for damaged (evaluation protocol, edge
+/// cases). NaN is no damage: drivers write it where nothing came back.
+constexpr double kMostInfinite = 0.01;
+/// No LiDAR measures nearer than this many metres: a point there stands for a missing return.
+constexpr float kAtSensor = 0.05F;
+/// The same at the origin of stored points in the world frame, where the sensor hardly ever stands.
+constexpr float kAtZero = 1e-3F;
+
+/// What a stored point is.
+enum class PointKind { kReturn, kNoReturn, kInfinite };
+
+PointKind kind_of(const Eigen::Vector3f& stored, float nearest) {
+  if (stored.hasNaN()) return PointKind::kNoReturn;
+  if (!stored.allFinite()) return PointKind::kInfinite;
+  return stored.squaredNorm() < nearest * nearest ? PointKind::kNoReturn : PointKind::kReturn;
+}
+
+void check_kinds(const ReturnCounts& counts, const std::string& where) {
+  const std::string remedy = " Copy it again, or leave it out with --frames.";
+  if (counts.stored == 0) {
+    throw DataError(where + ": holds no point; a scan has at least one." + remedy);
+  }
+  const double infinite = static_cast<double>(counts.infinite) / static_cast<double>(counts.stored);
+  if (infinite > kMostInfinite) {
+    throw DataError(where + ": " + grouped_text(counts.infinite) + " of " +
+                    grouped_text(counts.stored) +
+                    " points are infinite, more than 1 %; the file looks damaged. Where nothing "
+                    "came back write NaN." +
+                    remedy);
+  }
+  if (counts.returns() == 0) {
+    throw DataError(where + ": none of its " + grouped_text(counts.stored) +
+                    " points is a return (all are NaN or at the origin); a scan has at least one." +
+                    remedy);
+  }
+}
+
+/// Fills points, reflectance and stored_index with the returns among the points of `cloud`.
+/// @param nearest what is stored nearer to the origin is no return, metres
+ReturnCounts keep_returns(Cloud&& cloud, float nearest, Scan& scan) {
+  ReturnCounts counts;
+  counts.stored = scan.stored_point_count = cloud.points.size();
+  for (const Eigen::Vector3f& point : cloud.points) {
+    const PointKind kind = kind_of(point, nearest);
+    counts.no_returns += kind == PointKind::kNoReturn ? 1 : 0;
+    counts.infinite += kind == PointKind::kInfinite ? 1 : 0;
+  }
+  if (counts.returns() == counts.stored) {
+    scan.points = std::move(cloud.points);
+    scan.reflectance = std::move(cloud.intensity);
+    return counts;
+  }
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (kind_of(cloud.points[i], nearest) != PointKind::kReturn) continue;
+    scan.points.push_back(cloud.points[i]);
+    if (!cloud.intensity.empty()) scan.reflectance.push_back(cloud.intensity[i]);
+    scan.stored_index.push_back(static_cast<std::uint32_t>(i));
+  }
+  return counts;
+}
+
+/// Takes the returns among `points` from the world to the sensor; others stay as they are stored.
+/// @param origin what was taken off the points when they were read
+void bring_to_sensor(const Pose& T_sensor_world, const Eigen::Vector3d& origin,
+                     std::vector<Eigen::Vector3f>& points) {
+  const Eigen::Vector3f zero = (-origin).cast<float>();  // Where a stored zero is now.
+  for (Eigen::Vector3f& point : points) {
+    const Eigen::Vector3f stored = point - zero;
+    const bool is_return = kind_of(stored, kAtZero) == PointKind::kReturn;
+    point = is_return ? (T_sensor_world * point.cast<double>()).cast<float>() : stored;
+  }
+}
+
+}  // namespace
+
+ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where,
+                          const std::function<Cloud(const Eigen::Vector3d&)>& read) {
+  const bool in_world = frame == PointFrame::kWorld;
+  // Points of a far world are read from the sensor's position on, before they become float32.
+  Pose T_world_sensor = scan.T_world_sensor;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  if (in_world && T_world_sensor.translation().cwiseAbs().maxCoeff() > kFarFromOrigin) {
+    origin = T_world_sensor.translation();
+    T_world_sensor.translation().setZero();
+  }
+  Cloud cloud = read(origin);
+  if (in_world) bring_to_sensor(T_world_sensor.inverse(), origin, cloud.points);
+  const ReturnCounts counts = keep_returns(std::move(cloud), kAtSensor, scan);
+  check_kinds(counts, where);
+  return counts;
+}
+
+}  // namespace raymoval

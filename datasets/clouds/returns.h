@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "core/scan/scan.h"
+#include "datasets/clouds/format/cloud_bytes.h"
+#include "datasets/records/record_source.h"
+
+namespace raymoval {
+
+/// What the stored points of a scan are.
+struct ReturnCounts {
+  std::size_t stored = 0, no_returns = 0, infinite = 0;
+  [[nodiscard]] std::size_t returns() const { return stored - no_returns - infinite; }
+};
+
+/// Fills the points, reflectances and stored indices of `scan` with the returns among the points
+/// that `read` gives, in the sensor frame. Points that stand for a missing return (a NaN
+/// coordinate, or within 5 cm of the sensor; in the world frame also at its origin) and infinite
+/// ones are left out.
+/// @param scan with `T_world_sensor`
+/// @param frame of the stored points
+/// @param where begins the message, such as the file's path
+/// @param read gives the stored points less an origin in metres, see `read_cloud`
+/// @throws DataError for no point, no return, and more than 1 % infinite points (evaluation
+///   protocol, edge cases); what `read` throws
+ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where,
+                          const std::function<Cloud(const Eigen::Vector3d&)>& read);
+
+}  // namespace raymoval
