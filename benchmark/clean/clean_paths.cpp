@@ -13,8 +13,8 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/file_source.h"
+#include "datasets/clouds/formats.h"
 
 namespace raymoval {
 namespace {
@@ -48,7 +48,7 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
 std::vector<std::string> extensions_of(OutputKind kind) {
   if (kind == OutputKind::kPicture) return {".png"};
   if (kind == OutputKind::kPage) return {".html", ".htm"};
-  return cloud_extensions();
+  return written_extensions();
 }
 
 void check_file(const OutputPath& output, bool overwrite) {

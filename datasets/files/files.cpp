@@ -56,7 +56,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
     const double time = stamp ? *stamp - *poses.rows.front().time_s
                               : static_cast<double>(file.number) *
                                     settings.scan_period_s.value_or(kUsualScanPeriod);
-    entries.push_back({file.path, "", file.cloud_stem(path), time, rigid_pose(poses, row)});
+    entries.push_back({file.path, "", cloud_stem(file.path), time, rigid_pose(poses, row)});
   }
 
   Sequence sequence = make_sequence(settings, files_layout(), chosen.range);

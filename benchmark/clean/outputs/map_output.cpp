@@ -35,6 +35,7 @@ ScanRows MapOutput::with_label(const ScanRows& rows,
                                const std::vector<std::uint8_t>& removed) const {
   const std::size_t size = rows.rows.size();
   ScanRows result{{layout_, std::vector<std::byte>(size * layout_.row_bytes), size, 1}, rows.world};
+  result.rows.las = rows.rows.las;
   const std::size_t bytes = rows.rows.layout.row_bytes;
   for (std::size_t i = 0; i < size; ++i) {
     const std::uint16_t label = removed[i] != 0 ? kRemovedLabel : kKeptLabel;

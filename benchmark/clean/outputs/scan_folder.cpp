@@ -11,7 +11,7 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/formats.h"
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/record_file.h"

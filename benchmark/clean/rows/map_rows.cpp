@@ -162,6 +162,7 @@ ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
                       "when nobody writes there.");
     }
     result.rows = copied_rows(scan, *stored, layout_);
+    if (frame_ == PointFrame::kWorld) result.rows.las = stored->las;
   }
   result.world = world_points(scan, stored);
   if (stored == nullptr || frame_ == PointFrame::kSensor) {

@@ -21,7 +21,7 @@
 #include "core/scan/local_frame.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
-#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/formats.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
@@ -287,7 +287,7 @@ Command add_clean_command(CommandParser& program) {
   SequenceFlags::add_place_to(options, flags->path);
   options.add("-o,--output,--static", "FILE", flags->output,
               "The cleaned map in the world frame, with all fields of the scans: a file that ends "
-              "in " + join(cloud_extensions(), ", "));
+              "in " + join(written_extensions(), ", "));
   options.add("--dynamic", "FILE", flags->dynamic, "Also write what was removed, as a map");
   options.add("--labelled", "FILE", flags->labelled,
               "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
