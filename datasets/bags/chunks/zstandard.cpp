@@ -94,6 +94,10 @@ std::string unpack_zstd_message(std::string_view packed, const std::string& wher
   throw DataError(where + ": " + problem + ". Copy the file again.");
 }
 
+std::string unpacked_if_packed(std::string message, bool is_cdr, const std::string& where) {
+  return is_cdr && is_zstd(message) ? unpack_zstd_message(message, where) : std::move(message);
+}
+
 std::string unpack_zstd_file(const BagFile& file, std::uint64_t most,
                              const std::function<void(std::string_view)>& take) {
   Unpacker unpacker;

@@ -22,6 +22,11 @@ Unpacked unpack_zstd(std::string_view packed, std::uint64_t stated, const std::s
 /// @throws DataError if it is damaged
 std::string unpack_zstd_message(std::string_view packed, const std::string& where);
 
+/// A message as it was published, of one that rosbag2 may have packed alone. What is CDR never
+/// begins as Zstandard does.
+/// @throws DataError as `unpack_zstd_message`
+std::string unpacked_if_packed(std::string message, bool is_cdr, const std::string& where);
+
 /// Unpacks a file piece by piece.
 /// @param most bytes that it may unpack to
 /// @return what is wrong with it, such as a cut end; empty if all of it was unpacked

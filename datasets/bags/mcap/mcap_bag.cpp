@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/bags/chunks/zstandard.h"
 
 namespace raymoval {
 namespace {
@@ -31,7 +32,8 @@ std::string McapBag::published(std::string_view content, std::size_t topic,
   if (index_.topic_of(head.channel) != topic || mcap_time(head.log_time) != message.recorded) {
     throw_wrong_index(where, McapMessagePlace::of(message.place).offset);
   }
-  return std::string(content.substr(kMcapMessageHeadSize));
+  return unpacked_if_packed(std::string(content.substr(kMcapMessageHeadSize)),
+                            topics()[topic].encoding == MessageEncoding::kCdr, where);
 }
 
 std::string McapBag::in_file(std::size_t topic, const MessageTable::Message& message) const {
