@@ -47,10 +47,13 @@ const EgoFreeSource* ego_free_source(const Sequence& sequence) {
       (sequence.opened ? sequence.opened : sequence.scans).get());
 }
 
+const ScanSource& stored_source(const Sequence& sequence) {
+  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) return without_ego->whole();
+  return sequence.opened ? *sequence.opened : *sequence.scans;
+}
+
 const FileScanSource* file_source(const Sequence& sequence) {
-  const ScanSource* source = (sequence.opened ? sequence.opened : sequence.scans).get();
-  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) source = &without_ego->whole();
-  return dynamic_cast<const FileScanSource*>(source);
+  return dynamic_cast<const FileScanSource*>(&stored_source(sequence));
 }
 
 }  // namespace raymoval
