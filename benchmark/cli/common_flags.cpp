@@ -63,6 +63,10 @@ void SequenceFlags::add_to(CommandOptions& options) {
   options.add("--frames", "FIRST:LAST:STRIDE", frames,
               "First and last frame and the step between frames; each may be left out");
   add_poses_to(options);
+  options.add("--topic", "NAME", topic,
+              "Topic of a recording with the scans (default: the only one with clouds)");
+  options.add("--pose-topic", "NAME", pose_topic,
+              "Topic of a recording with the poses (default: its odometry, else tf)");
   options.add("--label-rule", "FILE", label_rule, "JSON file that says which labels move");
   options.add(
       "--range", "MIN:MAX", range,
@@ -106,14 +110,22 @@ void SequenceFlags::add_poses_to(CommandOptions& options) {
 }
 
 std::string SequenceFlags::first_given() const {
-  const std::pair<const char*, const std::string*> all[] = {
-      {"--frames", &frames},           {"--poses", &poses},
-      {"--label-rule", &label_rule},   {"--range", &range},
-      {"--sensor", &sensor},           {"--up", &up},
-      {"--drop-ego", &drop_ego},       {"--name", &name},
-      {"--pose-format", &pose_format}, {"--T-sensor", &T_sensor},
-      {"--time-offset", &time_offset}, {"--max-gap", &max_gap},
-      {"--points", &points},           {"--point-time-unit", &point_time_unit}};
+  const std::pair<const char*, const std::string*> all[] = {{"--frames", &frames},
+                                                            {"--poses", &poses},
+                                                            {"--label-rule", &label_rule},
+                                                            {"--range", &range},
+                                                            {"--sensor", &sensor},
+                                                            {"--up", &up},
+                                                            {"--drop-ego", &drop_ego},
+                                                            {"--name", &name},
+                                                            {"--pose-format", &pose_format},
+                                                            {"--T-sensor", &T_sensor},
+                                                            {"--time-offset", &time_offset},
+                                                            {"--max-gap", &max_gap},
+                                                            {"--points", &points},
+                                                            {"--point-time-unit", &point_time_unit},
+                                                            {"--topic", &topic},
+                                                            {"--pose-topic", &pose_topic}};
   if (deskew) return "--deskew";
   for (const auto& [option, text] : all) {
     if (!text->empty()) return option;
@@ -125,6 +137,8 @@ SequenceOptions SequenceFlags::options() const {
   SequenceOptions options;
   if (!frames.empty()) options.frames = parse_frame_range(frames);
   if (!poses.empty()) options.poses = poses;
+  if (!topic.empty()) options.topic = topic;
+  if (!pose_topic.empty()) options.pose_topic = pose_topic;
   if (!label_rule.empty()) options.label_rule = label_rule;
   if (!sensor.empty()) options.sensor = sensor;
   if (!up.empty()) options.up = up;
