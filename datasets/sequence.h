@@ -16,6 +16,7 @@
 #include "datasets/ego/ego_region.h"
 #include "datasets/records/record_source.h"
 #include "datasets/sequence_record.h"
+#include "datasets/trajectories/pose_lookup.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
@@ -28,7 +29,8 @@ class UpChoice;
 /// if that does not say it either, from the layout's defaults.
 struct SequenceOptions {
   std::optional<FrameRange> frames;
-  std::optional<std::string> poses;  ///< Pose file: a name in the sequence's folder, or a path.
+  /// Pose file: a name in the sequence's folder, or a path; "identity" for a sensor that stands.
+  std::optional<std::string> poses;
   std::optional<std::filesystem::path> label_rule;  ///< JSON file.
   std::optional<RangeLimits> range_m;
   std::optional<std::string> sensor;  ///< Name of a known sensor, or "estimated" or "" for none.
@@ -41,7 +43,9 @@ struct SequenceOptions {
   std::optional<std::string> T_sensor;  ///< Sensor in the frame of the poses: a file, or 7 numbers.
   std::optional<double> time_offset_s;  ///< Added to the times of scans before poses are looked up.
   std::optional<double> max_gap_s;      ///< Longest time between poses that are interpolated.
-  bool deskew = false;                  ///< Whether motion within a scan is taken out.
+  std::optional<std::string> pose_format;      ///< Name in the list of pose formats.
+  std::optional<bool> deskew;                  ///< Whether motion within a scan is taken out.
+  std::optional<std::string> point_time_unit;  ///< s, ms, us, ns, or a number of seconds.
 };
 
 /// How a simulated scene is generated that is not in the cache yet.
@@ -67,6 +71,15 @@ struct Sequence {
   /// What a user should know of how it was opened, in whole sentences: the topic that was chosen,
   /// that a bag is cut, how many scans have no pose.
   std::vector<std::string> notes = {};
+  /// What else was read besides the scans and their labels: pose files, times, T_sensor, settings.
+  std::vector<std::filesystem::path> input_files = {};
+  /// Where the sensor was over time, for the motion within a scan. Null if the times are unknown.
+  std::shared_ptr<const SensorMotion> motion = nullptr;
+  /// The time of each scan on the clock of `motion`. Empty if there is no motion.
+  std::vector<Nanoseconds> stamps = {};
+  /// Whether motion within a scan is taken out, as a user asked.
+  bool deskew = false;
+  std::optional<std::string> point_time_unit = std::nullopt;  ///< As a user says it.
   LabelRule label_rule;
   RangeLimits range_m;
   EgoRegion drop_ego;      ///< As the user asked; `scans` leave it out (see `EgoFreeSource`).

@@ -16,8 +16,14 @@ namespace raymoval {
 /// they would not as a double of seconds (0.2 microseconds).
 using Nanoseconds = std::int64_t;
 
+/// Stamps that are read from data lie between this and its negative (139 years), so that sums and
+/// differences of them with a shift of a clock do not overflow.
+inline constexpr Nanoseconds kMostStamp = 4'400'000'000'000'000'000;
+/// The same for shifts of a clock (63 years).
+inline constexpr Nanoseconds kMostOffset = 2'000'000'000'000'000'000;
+
 /// "1317384506.4000001" as nanoseconds, exactly. Digits behind the ninth place are rounded. Nothing
-/// if it is no number, or beyond 292 years.
+/// if it is no number, or beyond `kMostStamp`.
 std::optional<Nanoseconds> parse_stamp(std::string_view text);
 /// Seconds with nine decimals: "1317384506.400000100".
 std::string stamp_text(Nanoseconds stamp);
