@@ -120,7 +120,7 @@ class LasEncoder : public RecordEncoder {
     const Eigen::Vector3d place(rows.value(point, position_.x), rows.value(point, position_.y),
                                 rows.value(point, position_.z));
     grid_->encode(place, points_ + point, to);
-    if (!mapping_.returns_given) to[14] = 0x11;  // The first return of one.
+    to[14] = static_cast<char>(mapping_.assumed_returns);
     for (const LasMapping::Standard& field : mapping_.standard)
       put_standard(rows, point, field, to);
     if (mapping_.shown_intensity != nullptr) put_intensity(rows, point, to);

@@ -85,7 +85,8 @@ LasMapping map_to_las(const RecordLayout& layout) {
     });
     if (to != all.end()) {
       mapping.standard.push_back({field, *to});
-      if (field.name == "return_number") mapping.returns_given = true;
+      if (field.name == "return_number") mapping.assumed_returns &= 0xF0U;
+      if (field.name == "number_of_returns") mapping.assumed_returns &= 0x0FU;
       continue;
     }
     if (field.name == "scan_angle_rank" && field.type == 'I' && field.bytes() == 1) {

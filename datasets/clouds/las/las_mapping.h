@@ -28,7 +28,8 @@ struct LasMapping {
   std::vector<Extra> extra;
   /// Fields that the extra bytes have, and that are also written where viewers look for them.
   const PointField *shown_intensity = nullptr, *shown_colour = nullptr, *shown_angle = nullptr;
-  bool returns_given = false;  ///< Whether there is a return number.
+  /// The bits of the return number and the number of returns, of which points without them have 1.
+  unsigned assumed_returns = 0x11;
 };
 
 /// @param layout outlives the result
