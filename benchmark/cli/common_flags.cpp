@@ -82,6 +82,10 @@ void SequenceFlags::add_to(CommandOptions& options) {
               "Leave out the points on the vehicle that carries the sensor, so that no method sees "
               "them: auto (estimated), a radius (2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX in "
               "the sensor frame");
+  options.add(
+      "--point-layout", "FIELDS", point_layout,
+      "The fields of a point in .bin and .npy scans, such as \"x y z intensity ring:u2 t:f8\" "
+      "(float32 where no type is given)");
   options.add("--name", "NAME", name, "The name of the sequence in the results");
 }
 
@@ -117,6 +121,7 @@ std::string SequenceFlags::first_given() const {
                                                             {"--sensor", &sensor},
                                                             {"--up", &up},
                                                             {"--drop-ego", &drop_ego},
+                                                            {"--point-layout", &point_layout},
                                                             {"--name", &name},
                                                             {"--pose-format", &pose_format},
                                                             {"--T-sensor", &T_sensor},
@@ -143,6 +148,7 @@ SequenceOptions SequenceFlags::options() const {
   if (!sensor.empty()) options.sensor = sensor;
   if (!up.empty()) options.up = up;
   if (!drop_ego.empty()) options.drop_ego = parse_drop_ego(drop_ego);
+  if (!point_layout.empty()) options.point_layout = point_layout;
   if (!name.empty()) options.name = name;
   if (!pose_format.empty()) options.pose_format = pose_format;
   if (!T_sensor.empty()) options.T_sensor = T_sensor;
