@@ -66,10 +66,8 @@ void CleanOutputs::note_losses(const OutputPath& output, const std::string& name
 void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
                            const CleanWriting& writing, const Eigen::Vector3d& voxel_origin) {
   const MapContent content = content_of(output);
-  const RecordLayout layout =
-      content.labelled ? labelled_layout(rows_->layout()) : rows_->layout();
-  const std::string name =
-      paths.tiled ? "tile" + writing.tile_extension : output.path.string();
+  const RecordLayout layout = content.labelled ? labelled_layout(rows_->layout()) : rows_->layout();
+  const std::string name = paths.tiled ? "tile" + writing.tile_extension : output.path.string();
   if (rows_->is_widened()) check_coordinates(name, Coordinates::kDouble);
   note_losses(output, name, layout);
   std::unique_ptr<RowSink> sink;
@@ -89,8 +87,7 @@ void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
 void CleanOutputs::add_views(const CleanPaths& paths, const CleanWriting& writing) {
   const ViewTexts texts{sequence_.name, writing.method};
   if (!paths.page.empty()) {
-    outputs_.push_back(
-        std::make_unique<MapPageFile>(paths.page, texts, sequence_.upright_frame()));
+    outputs_.push_back(std::make_unique<MapPageFile>(paths.page, texts, sequence_.upright_frame()));
   }
   if (paths.picture.empty()) return;
   const LocalFrameSource upright(*sequence_.scans, sequence_.upright_frame());

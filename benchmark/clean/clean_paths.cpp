@@ -72,7 +72,8 @@ void check_file(const OutputPath& output, bool overwrite) {
 std::optional<std::set<std::string>> recorded_files(const fs::path& folder, OutputKind kind) {
   return if_whole([&] {
     std::set<std::string> files = {record_name(kind)};
-    const auto record = nlohmann::json::parse(read_text(folder / record_name(kind)), nullptr, false);
+    const auto record =
+        nlohmann::json::parse(read_text(folder / record_name(kind)), nullptr, false);
     const char* key = kind == OutputKind::kTiles ? "tiles" : "files";
     if (!record.is_object() || !record.contains("written_by") || !record.contains(key) ||
         !record[key].is_array()) {
@@ -117,8 +118,11 @@ void check_folder(const OutputPath& output, bool overwrite) {
   }
   for (const fs::path& entry : all) {
     if (is_ours(entry, path, output.kind, recorded)) continue;
-    throw UsageError(entry.string() + ": was not written by `clean " + output.option +
-                     "`, and --overwrite replaces the whole folder; choose a new one.");
+    throw UsageError(entry.string() +
+                     (output.kind == OutputKind::kLabels
+                          ? ": is no label file"
+                          : ": was not written by `clean " + output.option + "`") +
+                     ", and --overwrite replaces the whole folder; choose a new one.");
   }
 }
 
@@ -134,7 +138,8 @@ std::vector<fs::path> files_of(const Sequence& sequence) {
   return files;
 }
 
-void check_inputs_stay(const std::vector<fs::path>& inputs, const std::vector<OutputPath>& outputs) {
+void check_inputs_stay(const std::vector<fs::path>& inputs,
+                       const std::vector<OutputPath>& outputs) {
   std::set<std::pair<dev_t, ino_t>> identities;
   std::set<fs::path> folders;
   for (const fs::path& input : inputs) {
@@ -198,8 +203,9 @@ void check_paths(const CleanPaths& paths) {
         throw UsageError(both + " name the same file.");
       }
       if (is_within(first, second) || is_within(second, first)) {
-        throw UsageError(both + " name places of which one is in the other; choose two that are "
-                                "beside each other.");
+        throw UsageError(both +
+                         " name places of which one is in the other; choose two that are "
+                         "beside each other.");
       }
     }
   }

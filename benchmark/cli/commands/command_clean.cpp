@@ -176,8 +176,9 @@ std::vector<std::string> arguments_of_child() {
 /// The arguments that say how the sequence is read, so that its cleaned scans are read in the same
 /// way. @param own_poses leaves out those that are about poses
 std::string reading_arguments(bool own_poses) {
-  constexpr std::array kReading = {"--sensor", "--up", "--label-rule", "--points", "--point-layout",
-                                   "--point-time-unit", "--deskew"};
+  constexpr std::array kReading = {"--sensor", "--up",           "--label-rule",
+                                   "--points", "--point-layout", "--point-time-unit",
+                                   "--deskew"};
   constexpr std::array kPoses = {"--frames",      "--poses",   "--T-sensor",
                                  "--time-offset", "--max-gap", "--pose-format"};
   const auto is_one = [](const auto& names, const std::string& word) {
@@ -287,7 +288,8 @@ Command add_clean_command(CommandParser& program) {
   SequenceFlags::add_place_to(options, flags->path);
   options.add("-o,--output,--static", "FILE", flags->output,
               "The cleaned map in the world frame, with all fields of the scans: a file that ends "
-              "in " + join(written_extensions(), ", "));
+              "in " +
+                  join(written_extensions(), ", "));
   options.add("--dynamic", "FILE", flags->dynamic, "Also write what was removed, as a map");
   options.add("--labelled", "FILE", flags->labelled,
               "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
@@ -308,7 +310,8 @@ Command add_clean_command(CommandParser& program) {
   options.add("--html", "FILE", flags->page,
               "Also write a page with a 3-D view of what was kept and removed (.html)");
   options.add("--picture", "FILE", flags->picture, "Also write the map from above (.png)");
-  options.add("--voxel", "METRES", flags->voxel, "Write one point for each cell of this size: the mean of its points and of their "
+  options.add("--voxel", "METRES", flags->voxel,
+              "Write one point for each cell of this size: the mean of its points and of their "
               "intensity, with the other fields of the point nearest to the middle of the cell");
   options.add("--method", "NAME", flags->method,
               "The method (default: raymoval_plus:offline, which is the best)");
