@@ -18,6 +18,9 @@ Sequence make_sequence(const SequenceSettings& settings, const Layout& layout,
   sequence.frames = frame_range_text(range);
   sequence.source = settings.source;
   sequence.scan_period_s = settings.scan_period_s;
+  sequence.deskew = settings.deskew;
+  sequence.point_time_unit = settings.point_time_unit;
+  sequence.input_files = settings.input_files;
   sequence.up_choice = std::make_shared<UpChoice>(settings.up);
   return sequence;
 }

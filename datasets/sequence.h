@@ -77,6 +77,9 @@ struct Sequence {
   std::shared_ptr<const SensorMotion> motion = nullptr;
   /// The time of each scan on the clock of `motion`. Empty if there is no motion.
   std::vector<Nanoseconds> stamps = {};
+  /// Whether motion within a scan is taken out, as a user asked.
+  bool deskew = false;
+  std::optional<std::string> point_time_unit = std::nullopt;  ///< As a user says it.
   LabelRule label_rule;
   RangeLimits range_m;
   EgoRegion drop_ego;      ///< As the user asked; `scans` leave it out (see `EgoFreeSource`).

@@ -13,6 +13,7 @@
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
 #include "datasets/clouds/format/point_layout.h"
+#include "datasets/trajectories/body_sensor.h"
 
 namespace raymoval {
 namespace {
@@ -56,12 +57,32 @@ std::string point_layout_value(const std::string& text, const std::string& where
   return text;
 }
 
+std::optional<std::string> text_value(const Fields& file, const std::string& key) {
+  return file.has(key) ? std::optional(file.text(key)) : std::nullopt;
+}
+
+/// What a file says of poses and of the motion within scans.
+void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
+  settings.poses_are_lidar = file.flag("poses_are_lidar", settings.poses_are_lidar);
+  if (file.has("poses")) settings.poses = file.text("poses", "");
+  settings.pose_format = text_value(file, "pose_format");
+  settings.T_sensor = text_value(file, "T_sensor");
+  settings.point_time_unit = text_value(file, "point_time_unit");
+  settings.deskew = file.flag("deskew", settings.deskew);
+  if (file.has("time_offset_s")) settings.time_offset_s = file.number("time_offset_s", 0.0);
+  if (file.has("max_gap_s")) settings.max_gap_s = file.positive("max_gap_s", 1.0);
+  if (file.has("points")) {
+    const std::string points = file.choice("points", "sensor", {"sensor", "world"});
+    settings.points = parse_point_frame(file.place("points"), points);
+  }
+}
+
 void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
   const json content = read_json(path);
-  const Fields file(
-      content, path.string(),
-      "name source sensor up scan_period_s poses poses_are_lidar range_m labels drop_ego "
-      "point_layout");
+  const Fields file(content, path.string(),
+                    "name source sensor up scan_period_s poses poses_are_lidar range_m labels "
+                    "drop_ego point_layout pose_format "
+                    "T_sensor time_offset_s max_gap_s points deskew point_time_unit");
   settings.name = file.text("name", settings.name);
   settings.source = file.text("source", settings.source);
   if (file.has("sensor")) settings.sensor = sensor_value(file.text("sensor", ""));
@@ -73,12 +94,11 @@ void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
     settings.point_layout =
         point_layout_value(file.text("point_layout"), file.place("point_layout"));
   }
-  if (file.has("poses")) settings.poses = file.text("poses", "");
+  apply_pose_keys(file, settings);
   if (file.has("scan_period_s")) {
     settings.scan_period_s = file.number("scan_period_s", 0.0);
     if (!(*settings.scan_period_s > 0.0)) file.fail("scan_period_s", "a number above 0");
   }
-  settings.poses_are_lidar = file.flag("poses_are_lidar", settings.poses_are_lidar);
   if (file.has("range_m")) settings.range_m = range_value(file);
   if (file.has("labels")) {
     LabelRule base = settings.label_rule;
@@ -96,8 +116,22 @@ void check_name(const std::string& name) {
                            ". Give one with --name or \"name\" in sequence.json.");
 }
 
+void check_pose_settings(const SequenceSettings& settings) {
+  const double most = to_seconds(kMostOffset);
+  if (settings.time_offset_s && !(std::abs(*settings.time_offset_s) <= most)) {
+    throw ConfigurationError("time offset " + number_text(*settings.time_offset_s) +
+                             " s of sequence " + settings.name + ": expected at most " +
+                             number_text(most) + " s either way.");
+  }
+  if (settings.max_gap_s && !(*settings.max_gap_s > 0.0 && *settings.max_gap_s <= 1e6)) {
+    throw ConfigurationError("largest gap " + number_text(*settings.max_gap_s) + " s of sequence " +
+                             settings.name + ": expected more than 0 and at most 1,000,000 s.");
+  }
+}
+
 void check_settings(const SequenceSettings& settings) {
   check_name(settings.name);
+  check_pose_settings(settings);
   const RangeLimits& range = settings.range_m;
   if (!(range.min >= 0.0 && range.min < range.max)) {
     throw ConfigurationError("range_m of sequence " + settings.name + ": min " +
@@ -126,6 +160,18 @@ std::string folder_name(const std::filesystem::path& folder) {
   return name.empty() ? "sequence" : name.string();
 }
 
+/// Lays what a user says of poses over the rest.
+void apply_pose_options(const SequenceOptions& options, SequenceSettings& settings) {
+  if (options.poses) settings.poses = options.poses;
+  if (options.pose_format) settings.pose_format = options.pose_format;
+  if (options.T_sensor) settings.T_sensor = options.T_sensor;
+  if (options.time_offset_s) settings.time_offset_s = options.time_offset_s;
+  if (options.max_gap_s) settings.max_gap_s = options.max_gap_s;
+  if (options.points) settings.points = options.points;
+  if (options.deskew) settings.deskew = *options.deskew;
+  if (options.point_time_unit) settings.point_time_unit = options.point_time_unit;
+}
+
 }  // namespace
 
 EgoRegion ego_region_value(const json& value, const std::string& where) {
@@ -138,9 +184,28 @@ EgoRegion ego_region_value(const json& value, const std::string& where) {
   }
 }
 
+PointFrame parse_point_frame(const std::string& option, const std::string& text) {
+  if (text == "sensor") return PointFrame::kSensor;
+  if (text == "world") return PointFrame::kWorld;
+  throw UsageError(option + " " + text +
+                   ": expected sensor or world, the frame that the points are stored in.");
+}
+
+PoseSettings pose_settings(const SequenceSettings& settings, const std::filesystem::path& folder,
+                           std::vector<std::filesystem::path>& input_files) {
+  PoseSettings result;
+  if (settings.time_offset_s) result.time_offset = from_seconds(*settings.time_offset_s);
+  if (settings.max_gap_s) result.max_gap = from_seconds(*settings.max_gap_s);
+  if (!settings.T_sensor) return result;
+  const BodySensor sensor = read_body_sensor(*settings.T_sensor, folder);
+  result.T_body_sensor = sensor.T_body_sensor;
+  if (sensor.file) input_files.push_back(*sensor.file);
+  return result;
+}
+
 SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings settings) {
   if (options.frames) settings.frames = *options.frames;
-  if (options.poses) settings.poses = options.poses;
+  apply_pose_options(options, settings);
   if (options.range_m) settings.range_m = *options.range_m;
   if (options.sensor) settings.sensor = sensor_value(*options.sensor);
   if (options.point_layout) {
@@ -154,6 +219,7 @@ SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings 
     if (!settings.up) throw UsageError("--up " + *options.up + ": " + kUpForm + ".");
   }
   if (options.label_rule) {
+    settings.input_files.push_back(*options.label_rule);
     LabelRule base;
     base.name = options.label_rule->stem().string();
     settings.label_rule =
@@ -168,20 +234,29 @@ SequenceSettings read_settings(const std::filesystem::path& folder, const Sequen
                                const SequenceSettings& defaults) {
   SequenceSettings settings = defaults;
   const auto file = folder / "sequence.json";
-  if (has_file(file)) apply_file(file, settings);
+  if (has_file(file)) {
+    apply_file(file, settings);
+    settings.input_files.push_back(file);
+  }
   if (!defaults.name.empty()) settings.name = defaults.name;
   if (settings.name.empty()) settings.name = folder_name(folder);
   return apply_options(options, settings);
 }
 
-std::filesystem::path find_pose_file(const std::filesystem::path& folder, const std::string& name) {
-  if (has_file(folder / name)) return folder / name;
-  if (has_file(name)) return name;
+std::filesystem::path find_pose_file(const std::filesystem::path& folder,
+                                     const std::optional<std::string>& name) {
+  const std::string wanted = name.value_or("poses.txt");
+  if (has_file(folder / wanted)) return folder / wanted;
+  if (name && has_file(wanted)) return wanted;
   std::vector<std::string> there;
-  for (const auto& path : list_files(folder, {".txt"})) there.push_back(path.filename().string());
-  throw DataError(folder.string() + ": there is no pose file '" + name + "'; found " +
-                  (there.empty() ? "no .txt file" : join(there)) +
-                  ". Name one with --poses or \"poses\" in sequence.json.");
+  for (const auto& path : list_files(folder, {".txt", ".csv", ".tum", ".npy", ".g2o", ".json"})) {
+    if (path.filename() == "sequence.json") continue;
+    if (there.size() < 8) there.push_back(path.filename().string());
+  }
+  throw DataError(folder.string() + ": there is no pose file '" + wanted + "'; found " +
+                  (there.empty() ? "no .txt, .csv, .tum, .npy, .g2o or .json file" : join(there)) +
+                  ". Name one with --poses or \"poses\" in sequence.json." +
+                  (name ? "" : " " + ways_to_poses()));
 }
 
 }  // namespace raymoval

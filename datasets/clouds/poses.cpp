@@ -4,6 +4,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files/files.h"
@@ -39,31 +41,6 @@ Eigen::Matrix<double, 3, 4> kitti_matrix(const std::vector<double>& numbers) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
 }
 
-PoseFile::Row parse_row(const std::vector<double>& numbers, const std::string& where,
-                        std::size_t line) {
-  PoseFile::Row row;
-  row.line = line;
-  if (numbers.size() == 12) {
-    row.matrix = kitti_matrix(numbers);
-    return row;
-  }
-  row.time_s = numbers[0];
-  row.matrix = rigid_pose({numbers[1], numbers[2], numbers[3]},
-                          {numbers[7], numbers[4], numbers[5], numbers[6]}, where)
-                   .matrix()
-                   .topRows<3>();
-  return row;
-}
-
-void check_time(const PoseFile& file, const PoseFile::Row& row) {
-  if (!row.time_s) return;
-  const bool backwards = !file.rows.empty() && *row.time_s < *file.rows.back().time_s;
-  if (std::isfinite(*row.time_s) && !backwards) return;
-  throw DataError(line_text(file.path, row.line) + ": time " + number_text(*row.time_s) +
-                  (backwards ? " is before that of the row above" : " is not finite") +
-                  "; expected times in seconds that do not decrease.");
-}
-
 /// The numbers of one line. @param first_column column of `text` in its line, from 1
 /// @throws DataError with file, line and column
 std::vector<double> parse_numbers(std::string_view text, const std::filesystem::path& path,
@@ -83,33 +60,6 @@ std::vector<double> parse_numbers(std::string_view text, const std::filesystem::
 }
 
 }  // namespace
-
-PoseFile read_pose_file(const std::filesystem::path& path) {
-  PoseFile file;
-  file.path = path;
-  std::size_t columns = 0;
-  for_each_line(read_text(path), [&](std::string_view line, std::size_t number) {
-    const auto numbers = parse_numbers(line, path, number);
-    const std::string where = line_text(path, number);
-    if (columns == 0 && (numbers.size() == 12 || numbers.size() == 8)) columns = numbers.size();
-    if (numbers.size() != columns) {
-      const std::string expected =
-          columns == 0
-              ? "12 (KITTI, a 3 x 4 matrix row by row) or 8 (TUM, t x y z qx qy qz qw)"
-              : std::to_string(columns) + " as in the rows above; the row looks cut or doubled";
-      throw DataError(where + ": " + std::to_string(numbers.size()) + " numbers; expected " +
-                      expected + ".");
-    }
-    PoseFile::Row row = parse_row(numbers, where, number);
-    check_time(file, row);
-    file.rows.push_back(row);
-  });
-  if (file.rows.empty()) {
-    throw DataError(path.string() + ": holds no pose; expected one row of 12 (KITTI) or 8 (TUM) " +
-                    "numbers a scan.");
-  }
-  return file;
-}
 
 Pose rigid_pose(const Eigen::Matrix<double, 3, 4>& matrix, const std::string& where) {
   if (!matrix.allFinite()) {
@@ -134,10 +84,6 @@ Pose rigid_pose(const Eigen::Matrix<double, 3, 4>& matrix, const std::string& wh
   pose.linear() = rotation;
   pose.translation() = matrix.col(3);
   return pose;
-}
-
-Pose rigid_pose(const PoseFile& file, std::size_t row) {
-  return rigid_pose(file.rows[row].matrix, line_text(file.path, file.rows[row].line));
 }
 
 Pose rigid_pose(const Eigen::Vector3d& position, const Eigen::Vector4d& wxyz,
@@ -179,18 +125,6 @@ Pose read_calibration(const std::filesystem::path& path, const std::string& key)
                   (found.empty() ? "no row" : join(found)) +
                   ". If the poses are those of the LiDAR, say \"poses_are_lidar\": true in "
                   "sequence.json.");
-}
-
-std::vector<double> read_number_column(const std::filesystem::path& path) {
-  std::vector<double> column;
-  for_each_line(read_text(path), [&](std::string_view line, std::size_t number) {
-    const auto numbers = parse_numbers(line, path, number);
-    if (numbers.size() != 1 || !std::isfinite(numbers.front())) {
-      throw DataError(line_text(path, number) + ": expected one finite number.");
-    }
-    column.push_back(numbers.front());
-  });
-  return column;
 }
 
 }  // namespace raymoval

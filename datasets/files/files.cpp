@@ -1,23 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/files/files.h"
 
+#include <algorithm>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/frames.h"
-#include "datasets/clouds/poses.h"
 #include "datasets/settings.h"
+#include "datasets/trajectories/pose_file.h"
+#include "datasets/trajectories/stamps.h"
 
 namespace raymoval {
 namespace {
 
-std::vector<NumberedFile> scan_files(const std::filesystem::path& folder) {
+namespace fs = std::filesystem;
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) && !error;
+}
+
+/// @param others files that are no scans, wherever they stand: poses, T_sensor
+std::vector<NumberedFile> scan_files(const fs::path& folder, const std::vector<fs::path>& others) {
   std::vector<NumberedFile> files;
   std::map<std::string, std::string> names;
   for (const auto& path : list_files(folder, cloud_extensions())) {
+    const bool is_other = std::any_of(others.begin(), others.end(), [&](const fs::path& other) {
+      return is_same_file(path, other);
+    });
+    if (is_other) continue;
     // a.pcd and a.ply would share a label file and are most likely one scan twice.
     const auto [other, is_new] = names.emplace(cloud_stem(path), path.filename().string());
     if (!is_new) {
@@ -26,45 +41,103 @@ std::vector<NumberedFile> scan_files(const std::filesystem::path& folder) {
     }
     files.push_back({static_cast<long>(files.size()), path});
   }
+  if (files.empty()) {
+    throw DataError(folder.string() +
+                    ": holds no scan besides the files that were named for "
+                    "poses; expected one scan a file.");
+  }
   return files;
 }
 
-/// A pose in this layout belongs to a scan by nothing but its position, so a count that differs
-/// leaves no pair to trust.
-void check_counts(const PoseFile& poses, const std::vector<NumberedFile>& files,
-                  const std::filesystem::path& folder) {
-  if (poses.rows.size() == files.size()) return;
-  throw DataError(poses.path.string() + ": holds " + grouped_text(poses.rows.size()) +
-                  " poses, but " + folder.string() + " holds " + grouped_text(files.size()) +
-                  " scans (" + files.front().path.filename().string() + " to " +
-                  files.back().path.filename().string() +
-                  "); expected one row a scan in the order of the names.");
+/// The time of each scan: a line of times.txt or timestamps.txt for each, or the names of the
+/// files. KITTI's raw data have timestamps.txt beside their folder `data`.
+/// @return nothing in it if scans have no times
+StampColumn scan_stamps(const fs::path& folder, const std::vector<NumberedFile>& files,
+                        std::vector<fs::path>& input_files) {
+  for (const fs::path& path :
+       {folder / "times.txt", folder / "timestamps.txt",
+        folder.filename() == "data" ? folder.parent_path() / "timestamps.txt" : folder / "."}) {
+    if (path.filename() == "." || !has_file(path)) continue;
+    input_files.push_back(path);
+    StampColumn column = read_stamp_file(path);
+    if (column.stamps.size() == files.size()) return column;
+    throw DataError(path.string() + ": holds " + counted_text(column.stamps.size(), "time") +
+                    ", but " + folder.string() + " holds " + counted_text(files.size(), "scan") +
+                    "; expected a time for each scan in the order of the names.");
+  }
+  std::vector<std::string> stems;
+  for (const NumberedFile& file : files) stems.push_back(file.path.stem().string());
+  StampColumn column;
+  column.stamps = stamps_in_names(stems).value_or(std::vector<Nanoseconds>());
+  for (const Nanoseconds stamp : column.stamps) {
+    column.since_first.push_back(to_seconds(stamp - column.stamps.front()));
+  }
+  return column;
+}
+
+/// What is known of the chosen scans.
+ScanKeys scan_keys(const std::vector<NumberedFile>& chosen, std::size_t all,
+                   const StampColumn& times, double period_s) {
+  ScanKeys keys;
+  keys.row_count = all;
+  for (const NumberedFile& file : chosen) {
+    const auto row = static_cast<std::size_t>(file.number);
+    keys.rows.push_back(row);
+    if (!times.stamps.empty()) keys.stamps.push_back(times.stamps[row]);
+    keys.times_s.push_back(times.stamps.empty() ? static_cast<double>(file.number) * period_s
+                                                : times.since_first[row]);
+  }
+  return keys;
+}
+
+/// Where the poses are from.
+struct PosePlaceFound {
+  std::optional<fs::path> file;  ///< Nothing for a sensor that stands.
+  PoseSettings settings;
+};
+
+PosePlaceFound find_poses(const fs::path& folder, const SequenceSettings& settings,
+                          std::vector<fs::path>& input_files) {
+  PosePlaceFound found;
+  found.settings = pose_settings(settings, folder, input_files);
+  if (settings.poses == kStandingSensor) return found;
+  found.file = find_pose_file(folder, settings.poses);
+  input_files.push_back(*found.file);
+  return found;
 }
 
 Sequence open_files(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
-  const std::filesystem::path folder = path;
+  const fs::path folder = path;
   const SequenceSettings settings = read_settings(folder, options, {});
-  const auto files = scan_files(folder);
-  const PoseFile poses =
-      read_pose_file(find_pose_file(folder, settings.poses.value_or("poses.txt")));
-  check_counts(poses, files, folder);
+  std::vector<fs::path> input_files;
+  const PosePlaceFound place = find_poses(folder, settings, input_files);
+  const auto files = scan_files(folder, input_files);
+  const StampColumn times = scan_stamps(folder, files, input_files);
   const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
-  std::vector<FrameEntry> entries;
-  for (const NumberedFile& file : chosen.files) {
-    const auto row = static_cast<std::size_t>(file.number);
-    const auto& stamp = poses.rows[row].time_s;
-    const double time = stamp ? *stamp - *poses.rows.front().time_s
-                              : static_cast<double>(file.number) *
-                                    settings.scan_period_s.value_or(kUsualScanPeriod);
-    entries.push_back({file.path, "", cloud_stem(file.path), time, rigid_pose(poses, row)});
-  }
+  const ScanKeys keys = scan_keys(chosen.files, files.size(), times,
+                                  settings.scan_period_s.value_or(kUsualScanPeriod));
+  std::optional<PoseFile> file;
+  if (place.file) file = read_pose_file(*place.file, {settings.pose_format});
+  const ScanPoses poses =
+      file ? scan_poses(*file, keys, place.settings) : standing_poses(keys, place.settings);
 
   Sequence sequence = make_sequence(settings, files_layout(), chosen.range);
-  sequence.poses_file = poses.path.filename().string();
+  std::vector<FrameEntry> entries;
+  for (std::size_t i = 0; i < chosen.files.size(); ++i) {
+    if (!poses.poses[i]) continue;
+    const fs::path& scan = chosen.files[i].path;
+    entries.push_back({scan, "", cloud_stem(scan), poses.times_s[i], *poses.poses[i]});
+    sequence.stamps.push_back(poses.stamps[i]);
+  }
+  sequence.motion = poses.motion;
+  sequence.notes = poses.notes;
+  sequence.input_files.insert(sequence.input_files.end(), input_files.begin(), input_files.end());
+  sequence.poses_file = file ? file->path.filename().string() : kStandingSensor;
   if (find_label_files(folder / "labels", entries)) {
     sequence.labels = std::make_shared<LabelFileSource>(entries);
   }
   FileScanSource::Traits traits;
+  traits.point_frame = settings.points.value_or(PointFrame::kSensor);
   traits.reading.point_layout = settings.point_layout;
   const auto source =
       std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);

@@ -11,9 +11,9 @@
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/pcd/pcd_header.h"
-#include "datasets/clouds/poses.h"
 #include "datasets/layouts.h"
 #include "datasets/settings.h"
+#include "datasets/trajectories/pose_file.h"
 
 namespace raymoval::inspection {
 namespace {

@@ -2,6 +2,7 @@
 #include "datasets/semantickitti/semantickitti.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -10,6 +11,8 @@
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/poses.h"
 #include "datasets/settings.h"
+#include "datasets/trajectories/pose_file.h"
+#include "datasets/trajectories/stamps.h"
 
 namespace raymoval {
 namespace {
@@ -41,36 +44,42 @@ std::optional<Pose> camera_calibration(const std::filesystem::path& folder,
   return read_calibration(calibration, "Tr");
 }
 
-/// Seconds since frame 0, by frame number.
-std::vector<double> frame_times(const std::filesystem::path& folder, double period,
-                                const std::vector<NumberedFile>& files) {
+/// times.txt: the time of each frame, by frame number; nothing in it if there is no such file.
+StampColumn frame_stamps(const std::filesystem::path& folder,
+                         const std::vector<NumberedFile>& files,
+                         std::vector<std::filesystem::path>& input_files) {
   const auto path = folder / "times.txt";
-  std::vector<double> times;
-  if (has_file(path)) {
-    times = read_number_column(path);
-    check_row_count(times.size(), "times", path, files);
-    const double start = times.front();
-    for (double& time : times) time -= start;
-    return times;
-  }
-  for (const NumberedFile& file : files) {
-    times.resize(static_cast<std::size_t>(file.number) + 1);
-    times.back() = static_cast<double>(file.number) * period;
-  }
-  return times;
+  if (!has_file(path)) return {};
+  input_files.push_back(path);
+  StampColumn column = read_stamp_file(path);
+  check_row_count(column.stamps.size(), "times", path, files);
+  return column;
 }
 
-std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
-                                      const PoseFile& poses, const Pose& Tr,
-                                      const std::vector<double>& times,
-                                      const RecordReading& reading) {
-  const Pose Tr_inverse = Tr.inverse();
-  std::vector<FrameEntry> frames;
+ScanKeys scan_keys(const std::vector<NumberedFile>& files, const std::vector<NumberedFile>& chosen,
+                   const StampColumn& times, double period_s) {
+  ScanKeys keys;
+  keys.row_count = static_cast<std::size_t>(files.back().number) + 1;
+  keys.more_rows = true;
   for (const NumberedFile& file : chosen) {
-    check_bin_size(file.path, plain_file_size(file.path), reading);
-    const auto number = static_cast<std::size_t>(file.number);
-    frames.push_back({file.path, "", file.path.stem().string(), times[number],
-                      Tr_inverse * rigid_pose(poses, number) * Tr});
+    const auto row = static_cast<std::size_t>(file.number);
+    keys.rows.push_back(row);
+    if (!times.stamps.empty()) keys.stamps.push_back(times.stamps[row]);
+    keys.times_s.push_back(times.stamps.empty() ? static_cast<double>(file.number) * period_s
+                                                : times.since_first[row]);
+  }
+  return keys;
+}
+
+/// Frames with their poses; those without are left out.
+std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
+                                      const ScanPoses& poses, const RecordReading& reading) {
+  std::vector<FrameEntry> frames;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const std::filesystem::path& path = chosen[i].path;
+    check_bin_size(path, plain_file_size(path), reading);
+    if (!poses.poses[i]) continue;
+    frames.push_back({path, "", path.stem().string(), poses.times_s[i], *poses.poses[i]});
   }
   return frames;
 }
@@ -109,6 +118,25 @@ ChosenFrames chosen_frames(const std::vector<NumberedFile>& files, const FrameRa
   }
 }
 
+/// The poses of the chosen frames; `sequence` gets what is to be said of them.
+ScanPoses frame_poses(const std::filesystem::path& folder, const SequenceSettings& settings,
+                      const ScanKeys& keys, Sequence& sequence) {
+  PoseSettings options = pose_settings(settings, folder, sequence.input_files);
+  sequence.poses_file = kStandingSensor;
+  if (settings.poses == kStandingSensor) return standing_poses(keys, options);
+  const auto path = find_pose_file(folder, settings.poses);
+  sequence.poses_file = path.filename().string();
+  sequence.input_files.push_back(path);
+  const PoseFile file = read_pose_file(path, {settings.pose_format});
+  // A user who says where the sensor is on the body has no poses of the camera of calib.txt.
+  if (!settings.T_sensor) sequence.T_camera_lidar = camera_calibration(folder, settings);
+  if (sequence.T_camera_lidar) {
+    sequence.input_files.push_back(folder / "calib.txt");
+    options.T_camera_lidar = sequence.T_camera_lidar;
+  }
+  return scan_poses(file, keys, options);
+}
+
 }  // namespace
 
 Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
@@ -122,26 +150,27 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   const auto files = list_numbered_files(folder / "velodyne", ".bin");
   const ChosenFrames chosen =
       chosen_frames(files, settings.frames, folder, options.frames ? "" : name);
-  const auto pose_path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
-  const PoseFile poses = read_pose_file(pose_path);
-  check_row_count(poses.rows.size(), "poses", pose_path, files);
-  const auto Tr = camera_calibration(folder, settings);
-  auto entries =
-      frame_entries(chosen.files, poses, Tr.value_or(Pose::Identity()),
-                    frame_times(folder, *settings.scan_period_s, files), {settings.point_layout});
-
   Sequence sequence = make_sequence(settings, semantickitti_layout(), chosen.range);
+  const StampColumn times = frame_stamps(folder, files, sequence.input_files);
+  const ScanKeys keys = scan_keys(files, chosen.files, times, *settings.scan_period_s);
+  const ScanPoses poses = frame_poses(folder, settings, keys, sequence);
+
+  std::vector<FrameEntry> entries = frame_entries(chosen.files, poses, {settings.point_layout});
+  for (std::size_t i = 0; i < poses.poses.size(); ++i) {
+    if (poses.poses[i]) sequence.stamps.push_back(poses.stamps[i]);
+  }
+  sequence.motion = poses.motion;
+  sequence.notes = poses.notes;
   if (find_label_files(folder / "labels", entries)) {
     sequence.labels = std::make_shared<LabelFileSource>(entries);
   }
   FileScanSource::Traits traits;
+  traits.point_frame = settings.points.value_or(PointFrame::kSensor);
   traits.reading.point_layout = settings.point_layout;
   const auto source =
       std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
   sequence.scans = source;
   sequence.records = source;
-  sequence.T_camera_lidar = Tr;
-  sequence.poses_file = pose_path.filename().string();
   return sequence;
 }
 

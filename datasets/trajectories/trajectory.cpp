@@ -4,21 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <utility>
 
 #include "core/error.h"
-#include "core/text.h"
 
 namespace raymoval {
 namespace {
 
 constexpr Nanoseconds kSecond = 1'000'000'000;
 constexpr std::size_t kDecimals = 9;
-
-bool all_digits(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
 
 }  // namespace
 
@@ -27,35 +21,11 @@ Nanoseconds from_seconds(double seconds) {
 }
 
 double to_seconds(Nanoseconds time) {
+  constexpr Nanoseconds kExact = 1LL << 53;  // Up to here (104 days) a double holds each of them.
+  if (std::abs(time) <= kExact) return static_cast<double>(time) / static_cast<double>(kSecond);
   // Whole seconds and the rest apart: each is exact, and only their sum is rounded.
   return static_cast<double>(time / kSecond) +
          static_cast<double>(time % kSecond) / static_cast<double>(kSecond);
-}
-
-std::optional<Nanoseconds> parse_stamp(std::string_view text) {
-  const bool negative = text.starts_with('-');
-  const std::string_view digits = negative || text.starts_with('+') ? text.substr(1) : text;
-  const std::size_t point = digits.find('.');
-  const std::string_view whole = digits.substr(0, point);
-  const std::string_view part = point == std::string_view::npos ? "" : digits.substr(point + 1);
-  if (!all_digits(whole) || !all_digits(part)) {
-    // An exponent, or no number: a double has what digits such a number has.
-    const auto number = parse_number<double>(text);
-    if (!number || !(std::abs(*number) < 9.2e9)) return std::nullopt;
-    return from_seconds(*number);
-  }
-  if (whole.empty() && part.empty()) return std::nullopt;
-  const auto seconds =
-      whole.empty() ? std::optional<Nanoseconds>(0) : parse_number<Nanoseconds>(whole);
-  if (!seconds || *seconds > std::numeric_limits<Nanoseconds>::max() / kSecond - 1) {
-    return std::nullopt;
-  }
-  std::string decimals(part.substr(0, kDecimals));
-  decimals.resize(kDecimals, '0');
-  const bool up = part.size() > kDecimals && part[kDecimals] >= '5';
-  const Nanoseconds stamp =
-      *seconds * kSecond + *parse_number<Nanoseconds>(decimals) + (up ? 1 : 0);
-  return negative ? -stamp : stamp;
 }
 
 std::string stamp_text(Nanoseconds stamp) {

@@ -23,7 +23,7 @@ inline constexpr Nanoseconds kMostStamp = 4'400'000'000'000'000'000;
 inline constexpr Nanoseconds kMostOffset = 2'000'000'000'000'000'000;
 
 /// "1317384506.4000001" as nanoseconds, exactly. Digits behind the ninth place are rounded. Nothing
-/// if it is no number, or beyond 292 years.
+/// if it is no number, or beyond `kMostStamp`.
 std::optional<Nanoseconds> parse_stamp(std::string_view text);
 /// Seconds with nine decimals: "1317384506.400000100".
 std::string stamp_text(Nanoseconds stamp);

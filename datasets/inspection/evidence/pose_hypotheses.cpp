@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/poses.h"
+#include "datasets/trajectories/pose_file.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -112,7 +113,7 @@ bool have_quaternions(const Samples& samples) {
   const auto folder = samples.files().front().path.parent_path();
   for (const auto& place : {folder, folder.parent_path()}) {
     const auto path = place / samples.sequence().poses_file;
-    if (is_file(path)) return read_pose_file(path).rows.front().time_s.has_value();
+    if (is_file(path)) return read_pose_file(path).has_quaternions;
   }
   return true;
 }

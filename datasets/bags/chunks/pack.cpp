@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/bags/chunks/pack.h"
+
+#include <bzlib.h>
+#include <lz4frame.h>
+#include <zstd.h>
+
+#include <limits>
+#include <new>
+
+#include "core/error.h"
+
+namespace raymoval {
+
+std::string pack_zstd(std::string_view bytes) {
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), ZSTD_CLEVEL_DEFAULT);
+  if (ZSTD_isError(size) != 0) throw std::bad_alloc();  // There is room for whatever it gives.
+  packed.resize(size);
+  return packed;
+}
+
+std::string pack_lz4(std::string_view bytes) {
+  LZ4F_preferences_t preferences = LZ4F_INIT_PREFERENCES;
+  preferences.frameInfo.contentSize = bytes.size();
+  std::string packed(LZ4F_compressFrameBound(bytes.size(), &preferences), '\0');
+  const std::size_t size =
+      LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), &preferences);
+  if (LZ4F_isError(size) != 0) throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
+}
+
+std::string pack_bz2(std::string_view bytes) {
+  // The library's own bound: 1 % more and 600 bytes.
+  const std::size_t most = bytes.size() + bytes.size() / 100 + 600;
+  if (most > std::numeric_limits<unsigned>::max()) {
+    throw InternalError("more than 4 GiB are packed by bzip2 at once");
+  }
+  std::string packed(most, '\0');
+  auto size = static_cast<unsigned>(most);
+  // The library does not write where it reads. 9: blocks of 900 kB, as all recorders have them.
+  const int answer = BZ2_bzBuffToBuffCompress(packed.data(), &size, const_cast<char*>(bytes.data()),
+                                              static_cast<unsigned>(bytes.size()), 9, 0, 0);
+  if (answer != BZ_OK) throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/trajectories/pose_columns.h"
+#include "datasets/trajectories/pose_format.h"
+
+namespace raymoval::pose_formats {
+namespace {
+
+constexpr double kUnit = 1e-3;  // What a quaternion's length may deviate by.
+
+/// The columns of a format with the count of words that `text` has.
+using ColumnsOf = std::function<std::optional<PoseColumns>(std::size_t count)>;
+
+std::optional<PoseColumns> kitti_columns(std::size_t count) {
+  if (count != 12 && count != 13) return std::nullopt;
+  PoseColumns columns;
+  columns.count = count;
+  columns.rotation = Rotation::kMatrix3x4;
+  columns.matrix = count - 12;
+  if (count == 13) columns.time = 0;
+  return columns;
+}
+
+std::optional<PoseColumns> matrix_columns(std::size_t count) {
+  if (count != 16 && count != 17) return std::nullopt;
+  PoseColumns columns;
+  columns.count = count;
+  columns.rotation = Rotation::kMatrix4x4;
+  columns.matrix = count - 16;
+  if (count == 17) columns.time = 0;
+  return columns;
+}
+
+std::optional<PoseColumns> tum_columns(std::size_t count) {
+  if (count != 8) return std::nullopt;
+  PoseColumns columns;
+  columns.count = count;
+  columns.time = 0;
+  columns.position = {1, 2, 3};
+  columns.turn = {4, 5, 6, 7};
+  return columns;
+}
+
+std::optional<PoseColumns> euroc_columns(std::size_t count) {
+  if (count != 8 && count != 17) return std::nullopt;
+  PoseColumns columns;
+  columns.count = count;
+  columns.time = 0;
+  columns.unit = TimeUnit::kNanoseconds;
+  columns.position = {1, 2, 3};
+  columns.turn = {5, 6, 7, 4};
+  return columns;
+}
+
+std::optional<PoseColumns> fast_lio_columns(std::size_t count) {
+  if (count != 25) return std::nullopt;
+  PoseColumns columns;
+  columns.count = count;
+  columns.rotation = Rotation::kVector;
+  columns.time = 0;
+  columns.unit = TimeUnit::kSeconds;
+  columns.turn = {1, 2, 3, 3};
+  columns.position = {4, 5, 6};
+  return columns;
+}
+
+std::optional<PoseColumns> hba_columns(std::size_t count) {
+  if (count != 7) return std::nullopt;
+  PoseColumns columns;
+  columns.count = count;
+  columns.position = {0, 1, 2};
+  columns.turn = {4, 5, 6, 3};
+  return columns;
+}
+
+std::vector<double> first_numbers(const PoseText& text) {
+  std::vector<double> numbers;
+  for (const std::string_view word : text.first().words) {
+    numbers.push_back(parse_number<double>(word).value_or(std::nan("")));
+  }
+  return numbers;
+}
+
+bool ends_with_unit_row(const std::vector<double>& numbers) {
+  const std::size_t n = numbers.size();
+  return n >= 4 && numbers[n - 4] == 0.0 && numbers[n - 3] == 0.0 && numbers[n - 2] == 0.0 &&
+         numbers[n - 1] == 1.0;
+}
+
+/// What the rows say of the order of eight numbers between commas. The length of a quaternion does
+/// not depend on the order, but a vehicle mostly turns about z, so that the x and y of its
+/// quaternions are small.
+enum class QuaternionOrder { kUnknown, kScalarFirst, kScalarLast };
+
+QuaternionOrder quaternion_order(const PoseText& text) {
+  constexpr double kSmall = 0.2;
+  double last = 0.0, first = 0.0;  // Largest part that x and y would have under each order.
+  text.for_each_row([&](const TextRow& row) {
+    if (row.words.size() < 8) return;
+    const double a = text.number(row, 4), b = text.number(row, 5), c = text.number(row, 6);
+    last = std::max(last, std::hypot(a, b));
+    first = std::max(first, std::hypot(b, c));
+  });
+  if (last <= kSmall && first > kSmall) return QuaternionOrder::kScalarLast;
+  if (first <= kSmall && last > kSmall) return QuaternionOrder::kScalarFirst;
+  // Both small: only the last number is large. It is w, unless the vehicle came about by 180 deg.
+  return last <= kSmall ? QuaternionOrder::kScalarLast : QuaternionOrder::kUnknown;
+}
+
+/// The times of EuRoC's files are whole nanoseconds since 1970.
+bool has_nanoseconds(const PoseText& text) {
+  const std::string_view time = text.first().words.front();
+  return time.find('.') == std::string_view::npos && time.size() >= 17;
+}
+
+/// Whether a text of eight numbers a row is EuRoC's, or has TUM's order.
+/// @throws DataError if nobody can tell
+bool is_euroc_of_eight(const PoseText& text) {
+  if (text.separator() == ' ') return false;
+  const QuaternionOrder order = quaternion_order(text);
+  const bool nanoseconds = has_nanoseconds(text);
+  if (!nanoseconds && order != QuaternionOrder::kScalarFirst) return false;
+  if (nanoseconds && order == QuaternionOrder::kScalarFirst) return true;
+  throw DataError(text.path().string() +
+                  ": eight numbers a row between commas, without a line of names: the order of the "
+                  "quaternion cannot be told. Say --pose-format tum if w is the last number "
+                  "(t x y z qx qy qz qw), or --pose-format euroc if it is the first of the four.");
+}
+
+Match match_matrix(const PoseText& text) {
+  const std::size_t count = text.first().words.size();
+  if (count == 4 || count == 16) return Match::kYes;
+  return count == 17 && ends_with_unit_row(first_numbers(text)) ? Match::kYes : Match::kNo;
+}
+
+Match match_euroc(const PoseText& text) {
+  const std::size_t count = text.first().words.size();
+  if (count == 17) return ends_with_unit_row(first_numbers(text)) ? Match::kNo : Match::kYes;
+  return count == 8 && is_euroc_of_eight(text) ? Match::kYes : Match::kNo;
+}
+
+Match match_tum(const PoseText& text) {
+  const bool fits = text.first().words.size() == 8 && !is_euroc_of_eight(text);
+  return fits ? Match::kYes : Match::kNo;
+}
+
+/// Seven numbers are taken for position and quaternion only in a file of that name.
+Match match_hba(const PoseText& text) {
+  if (text.first().words.size() != 7) return Match::kNo;
+  return text.path().extension() == ".json" ? Match::kYes : Match::kPossible;
+}
+
+[[noreturn]] void throw_count(const PoseText& text, const PoseFormatName& name) {
+  const TextRow& row = text.first();
+  if (!row.words.empty()) (void)text.numbers(row);  // What is no number says more.
+  throw DataError(text.place(row.line) + ": " + std::to_string(row.words.size()) +
+                  " numbers; expected, for a file of format " + name.name + ", " + name.sentence +
+                  ".");
+}
+
+TextFormat fixed(PoseFormatName name, const ColumnsOf& columns_of,
+                 std::function<Match(const PoseText&)> match = nullptr) {
+  if (!match) {
+    match = [columns_of](const PoseText& text) {
+      return columns_of(text.first().words.size()) ? Match::kYes : Match::kNo;
+    };
+  }
+  const auto read = [name, columns_of](const PoseText& text) {
+    const auto columns = columns_of(text.first().words.size());
+    if (!columns) throw_count(text, name);
+    return read_columns(text, *columns);
+  };
+  return {name, match, read};
+}
+
+/// Matrices in blocks of four lines with four numbers each.
+PoseFile read_blocks(const PoseText& text) {
+  PoseColumns columns = *matrix_columns(16);
+  PoseFile file;
+  file.path = text.path();
+  std::vector<double> numbers;
+  std::size_t line = 0, last_line = 0;
+  text.for_each_row([&](const TextRow& row) {
+    const auto part = text.numbers(row);
+    if (part.size() != 4) {
+      throw DataError(text.place(row.line) + ": " + std::to_string(part.size()) +
+                      " numbers; expected 4 as in the rows above; the row looks cut or doubled.");
+    }
+    if (numbers.empty()) line = row.line;
+    last_line = row.line;
+    numbers.insert(numbers.end(), part.begin(), part.end());
+    if (numbers.size() < 16) return;
+    PoseFile::Row pose;
+    pose.line = line;
+    pose.matrix = pose_matrix(numbers, columns, text.place(row.line));
+    file.rows.push_back(pose);
+    numbers.clear();
+  });
+  if (!numbers.empty()) {
+    throw DataError(text.place(last_line) +
+                    ": the file ends within a matrix; expected blocks of "
+                    "four lines with four numbers each.");
+  }
+  return file;
+}
+
+PoseFile read_matrix(const PoseText& text, const PoseFormatName& name) {
+  const std::size_t count = text.first().words.size();
+  if (count == 4) return read_blocks(text);
+  const auto columns = matrix_columns(count);
+  if (!columns) throw_count(text, name);
+  return read_columns(text, *columns);
+}
+
+/// CT-ICP writes the time of the reference and the first number of the quaternion without a blank
+/// between them ("-10.25" is -1 and 0.25). The length of the quaternion tells where to cut.
+/// @return the first number of the quaternion
+double cut_quaternion(const PoseText& text, const TextRow& row, std::size_t word) {
+  constexpr std::size_t kLongest = 64;
+  double rest = 1.0;
+  for (std::size_t i = 1; i < 4; ++i) rest -= std::pow(text.number(row, word + i), 2);
+  const double size = std::sqrt(std::max(rest, 0.0));
+  const std::string_view both = row.words[word];
+  for (std::size_t cut = 1; cut < std::min(both.size(), kLongest); ++cut) {
+    const auto time = parse_number<double>(both.substr(0, cut));
+    const auto number = parse_number<double>(both.substr(cut));
+    if (!time || !number || !(std::abs(std::abs(*number) - size) < kUnit)) continue;
+    return *number;
+  }
+  throw DataError(text.place(row.line) + ": '" + std::string(both.substr(0, 40)) +
+                  "' is not the time and the first number of a quaternion that CT-ICP writes "
+                  "without a blank between them.");
+}
+
+PoseFile read_ct_icp(const PoseText& text, const PoseFormatName& name) {
+  const std::size_t count = text.first().words.size();
+  if (count != 20 && count != 22) throw_count(text, name);
+  // Id, time, id and time of the reference, quaternion, position; twice: at the begin and the end.
+  PoseColumns columns;
+  columns.turn = {3, 4, 5, 6};
+  columns.position = {7, 8, 9};
+  PoseFile file;
+  file.path = text.path();
+  file.has_quaternions = true;
+  std::vector<std::string_view> times;
+  text.for_each_row([&](const TextRow& row) {
+    const std::string where = text.place(row.line);
+    if (row.words.size() != count) {
+      throw DataError(where + ": " + std::to_string(row.words.size()) + " numbers; expected " +
+                      std::to_string(count) +
+                      " as in the rows above; the row looks cut or doubled.");
+    }
+    const std::size_t skipped = count == 22 ? 1 : 0;
+    std::vector<double> numbers(10, 0.0);
+    for (std::size_t i = 4; i < 10; ++i) numbers[i] = text.number(row, i + skipped);
+    numbers[3] = count == 22 ? text.number(row, 4) : cut_quaternion(text, row, 3);
+    PoseFile::Row pose;
+    pose.line = row.line;
+    pose.matrix = pose_matrix(numbers, columns, where);
+    file.rows.push_back(pose);
+    times.push_back(row.words[1]);
+  });
+  set_stamps(file, times, {}, std::nullopt);
+  file.notes.push_back(text.path().string() +
+                       ": CT-ICP gives two poses for each scan; that of its begin is used.");
+  return file;
+}
+
+TextFormat ct_icp() {
+  const PoseFormatName name = {"ct-icp", "CT-ICP's trajectory, two poses a row (20 or 22 numbers)"};
+  const auto match = [](const PoseText& text) {
+    const std::size_t count = text.first().words.size();
+    return count == 20 || count == 22 ? Match::kYes : Match::kNo;
+  };
+  return {name, match, [name](const PoseText& text) { return read_ct_icp(text, name); }};
+}
+
+TextFormat matrix() {
+  const PoseFormatName name = {
+      "matrix", "4 x 4 matrices: 16 numbers a row, blocks of four lines, or a time and 16 numbers"};
+  return {name, match_matrix, [name](const PoseText& text) { return read_matrix(text, name); }};
+}
+
+}  // namespace
+
+std::vector<TextFormat> column_formats() {
+  return {
+      fixed(
+          {"kitti",
+           "12 numbers a row, a 3 x 4 matrix row by row (KITTI, KISS-ICP's _kitti.txt), or a time "
+           "and 12 numbers (MulRan)"},
+          kitti_columns),
+      matrix(),
+      fixed({"tum",
+             "8 numbers a row, t x y z qx qy qz qw (GLIM's traj_lidar.txt, KISS-ICP's _tum.txt, "
+             "evo)"},
+            tum_columns, match_tum),
+      fixed({"euroc",
+             "8 or 17 numbers a row between commas, nanoseconds x y z qw qx qy qz ... (EuRoC)"},
+            euroc_columns, match_euroc),
+      fixed({"fast-lio",
+             "25 numbers a row, seconds since the first scan, rotation vector, position ... "
+             "(FAST-LIO's pos_log.txt)"},
+            fast_lio_columns),
+      ct_icp(),
+      fixed({"hba", "7 numbers a row, x y z qw qx qy qz, without a time (pose.json of HBA, BALM)"},
+            hba_columns, match_hba),
+  };
+}
+
+}  // namespace raymoval::pose_formats

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/trajectories/pose_columns.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/angle.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/clouds/poses.h"
+
+namespace raymoval::pose_formats {
+namespace {
+
+using Matrix3x4 = Eigen::Matrix<double, 3, 4>;
+
+Eigen::Vector3d chosen(const std::vector<double>& numbers, const std::size_t* at) {
+  return {numbers[at[0]], numbers[at[1]], numbers[at[2]]};
+}
+
+void check_finite(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::string& where) {
+  if (a.allFinite() && b.allFinite()) return;
+  throw DataError(where + ": the pose holds a number that is not finite (nan or inf).");
+}
+
+Matrix3x4 with_position(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& position) {
+  Matrix3x4 matrix;
+  matrix << rotation, position;
+  return matrix;
+}
+
+Matrix3x4 matrix_at(const double* numbers) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers);
+}
+
+void check_last_row(const double* row, const std::string& where) {
+  constexpr double kTolerance = 1e-6;
+  const bool good = std::abs(row[0]) <= kTolerance && std::abs(row[1]) <= kTolerance &&
+                    std::abs(row[2]) <= kTolerance && std::abs(row[3] - 1.0) <= kTolerance;
+  if (good) return;
+  throw DataError(where + ": the last row of the 4 x 4 matrix is " + number_text(row[0]) + " " +
+                  number_text(row[1]) + " " + number_text(row[2]) + " " + number_text(row[3]) +
+                  "; expected 0 0 0 1. A matrix that was written column by column has to be "
+                  "transposed.");
+}
+
+Eigen::Matrix3d euler_rotation(const Eigen::Vector3d& rpy) {
+  return (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+Eigen::Matrix3d vector_rotation(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle < 1e-12) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
+}
+
+}  // namespace
+
+Matrix3x4 pose_matrix(const std::vector<double>& numbers, const PoseColumns& columns,
+                      const std::string& where) {
+  if (columns.rotation == Rotation::kMatrix3x4) return matrix_at(&numbers[columns.matrix]);
+  if (columns.rotation == Rotation::kMatrix4x4) {
+    check_last_row(&numbers[columns.matrix + 12], where);
+    return matrix_at(&numbers[columns.matrix]);
+  }
+  const Eigen::Vector3d position = chosen(numbers, columns.position.data());
+  const Eigen::Vector3d turn = chosen(numbers, columns.turn.data());
+  if (columns.rotation == Rotation::kQuaternion) {
+    const double w = numbers[columns.turn[3]];
+    return rigid_pose(position, {w, turn.x(), turn.y(), turn.z()}, where).matrix().topRows<3>();
+  }
+  check_finite(position, turn, where);
+  if (columns.rotation == Rotation::kVector) {
+    return with_position(vector_rotation(turn), position);
+  }
+  const double unit = columns.rotation == Rotation::kEulerDegrees ? kDegree : 1.0;
+  return with_position(euler_rotation(unit * turn), position);
+}
+
+void set_stamps(PoseFile& file, const std::vector<std::string_view>& words,
+                const std::vector<std::string_view>& extra, std::optional<TimeUnit> unit) {
+  const auto place = [&](std::size_t i) { return file.place(i); };
+  const StampColumn column = parse_stamps(words, unit, place);
+  for (std::size_t i = 0; i < words.size(); ++i) file.rows[i].stamp = column.stamps[i];
+  if (!unit && column.unit != TimeUnit::kSeconds) {
+    file.notes.push_back(file.path.string() + ": the times are taken for " +
+                         time_unit_name(column.unit) + ", by their size.");
+  }
+  if (extra.empty()) return;
+  const StampColumn parts = parse_stamps(extra, TimeUnit::kNanoseconds, place);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool whole = column.stamps[i] % 1'000'000'000 == 0;
+    if (!whole || parts.stamps[i] < 0 || parts.stamps[i] >= 1'000'000'000) {
+      throw DataError(place(i) + ": seconds " + std::string(words[i]) + " and nanoseconds " +
+                      std::string(extra[i]) +
+                      "; expected whole seconds, and nanoseconds from 0 to 999999999.");
+    }
+    *file.rows[i].stamp += parts.stamps[i];
+  }
+}
+
+/// The numbers of a row; 0 for words that are not used and no numbers.
+std::vector<double> used_numbers(const PoseText& text, const TextRow& row,
+                                 const PoseColumns& columns) {
+  if (columns.others_are_numbers) return text.numbers(row);
+  std::vector<double> numbers(row.words.size(), 0.0);
+  for (const std::size_t at : columns.position) numbers[at] = text.number(row, at);
+  for (const std::size_t at : columns.turn) numbers[at] = text.number(row, at);
+  return numbers;
+}
+
+PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
+  PoseFile file;
+  file.path = text.path();
+  file.has_quaternions = columns.rotation == Rotation::kQuaternion;
+  std::vector<std::string_view> times, nanoseconds;
+  text.for_each_row([&](const TextRow& row) {
+    const std::string where = text.place(row.line);
+    if (row.words.size() != columns.count) {
+      // What is no number says more than the count.
+      if (columns.others_are_numbers) (void)text.numbers(row);
+      throw DataError(where + ": " + std::to_string(row.words.size()) + " numbers; expected " +
+                      std::to_string(columns.count) +
+                      " as in the rows above; the row looks cut or doubled.");
+    }
+    PoseFile::Row pose;
+    pose.line = row.line;
+    pose.matrix = pose_matrix(used_numbers(text, row, columns), columns, where);
+    file.rows.push_back(pose);
+    if (columns.time) times.push_back(row.words[*columns.time]);
+    if (columns.nanoseconds) nanoseconds.push_back(row.words[*columns.nanoseconds]);
+  });
+  if (columns.time) set_stamps(file, times, nanoseconds, columns.unit);
+  return file;
+}
+
+}  // namespace raymoval::pose_formats

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/trajectories/scan_poses.h"
+
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// Motion along poses that belong to scans by their order. All gaps are bridged: which time passed
+/// between scans may only be assumed.
+std::shared_ptr<const SensorMotion> motion_along(const std::vector<Nanoseconds>& stamps,
+                                                 const std::vector<std::optional<Pose>>& poses) {
+  BodyMotion body;
+  body.max_gap = std::numeric_limits<Nanoseconds>::max();
+  std::vector<StampedPose> stamped;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const bool later = stamped.empty() || stamps[i] > stamped.back().stamp;
+    if (poses[i] && later) stamped.push_back({stamps[i], *poses[i]});
+  }
+  if (stamped.empty()) return nullptr;
+  body.trajectory = Trajectory(std::move(stamped));
+  return std::make_shared<TrajectoryMotion>(std::move(body));
+}
+
+/// The pose of the sensor, of a pose in the file.
+Pose sensor_pose(const Pose& pose, const PoseSettings& settings) {
+  if (settings.T_camera_lidar) {
+    return settings.T_camera_lidar->inverse() * pose * *settings.T_camera_lidar;
+  }
+  return settings.T_body_sensor ? pose * *settings.T_body_sensor : pose;
+}
+
+/// Times of scans that have none: those of the rows, or what is assumed.
+std::vector<Nanoseconds> assumed_stamps(const ScanKeys& scans, const PoseFile* file) {
+  if (!scans.stamps.empty()) return scans.stamps;
+  std::vector<Nanoseconds> stamps;
+  const bool stamped = file != nullptr && file->stamped();
+  for (std::size_t i = 0; i < scans.rows.size(); ++i) {
+    stamps.push_back(stamped ? *file->rows[scans.rows[i]].stamp : from_seconds(scans.times_s[i]));
+  }
+  return stamps;
+}
+
+void refuse_offset(const PoseSettings& settings, const std::string& why) {
+  if (settings.time_offset == 0) return;
+  throw UsageError("--time-offset has no effect here: " + why + ". Leave it out.");
+}
+
+ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
+  ScanPoses result;
+  result.stamps = scans.stamps;
+  BodyMotion body;
+  body.time_offset = settings.time_offset;
+  body.max_gap = settings.max_gap;
+  std::vector<StampedPose> poses;
+  for (std::size_t i = 0; i < file.rows.size(); ++i) {
+    poses.push_back({*file.rows[i].stamp, sensor_pose(rigid_pose(file, i), settings)});
+  }
+  body.trajectory = Trajectory(std::move(poses));
+  result.motion = std::make_shared<TrajectoryMotion>(std::move(body));
+  FoundPoses found = look_up_poses(scans.stamps, *result.motion, file.path.string());
+  result.poses = std::move(found.poses);
+  result.notes = std::move(found.notes);
+  return result;
+}
+
+ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
+  refuse_offset(settings, file.stamped() ? "the scans have no times of their own"
+                                         : "the poses have no times");
+  ScanPoses result;
+  for (const std::size_t row : scans.rows) {
+    result.poses.emplace_back(sensor_pose(rigid_pose(file, row), settings));
+  }
+  result.stamps = assumed_stamps(scans, &file);
+  if (file.stamped() && scans.stamps.empty()) {
+    const Nanoseconds first = *file.rows.front().stamp;
+    for (const Nanoseconds stamp : result.stamps) {
+      result.times_s.push_back(to_seconds(stamp - first));
+    }
+  }
+  result.motion = motion_along(result.stamps, result.poses);
+  return result;
+}
+
+ScanPoses one_for_all(const Pose& pose, const ScanKeys& scans) {
+  ScanPoses result;
+  result.poses.assign(scans.rows.size(), pose);
+  result.stamps = assumed_stamps(scans, nullptr);
+  result.motion = motion_along(result.stamps, result.poses);
+  return result;
+}
+
+[[noreturn]] void throw_rows(const PoseFile& file, const ScanKeys& scans) {
+  const std::string remedy =
+      file.stamped() ? " The poses have times, but the scans have none: give the scans theirs in "
+                       "times.txt (a time a line), or name their files by time."
+                     : " Take the file that belongs to these scans.";
+  throw DataError(file.path.string() + ": holds " + grouped_text(file.rows.size()) +
+                  " poses; expected one for each scan, which is " +
+                  (scans.more_rows ? "at least " : "") + grouped_text(scans.row_count) + "." +
+                  remedy);
+}
+
+}  // namespace
+
+bool fits_rows(const PoseFile& file, const ScanKeys& scans) {
+  return scans.more_rows ? file.rows.size() >= scans.row_count
+                         : file.rows.size() == scans.row_count;
+}
+
+ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
+  ScanPoses result;
+  if (file.rows.size() == 1 && scans.row_count > 1) {
+    refuse_offset(settings, "there is one pose for all scans");
+    result = one_for_all(sensor_pose(rigid_pose(file, 0), settings), scans);
+    result.notes.push_back(file.path.string() +
+                           ": holds one pose, which counts for all scans: the sensor stands.");
+  } else if (file.stamped() && !scans.stamps.empty()) {
+    result = by_time(file, scans, settings);
+  } else {
+    if (!fits_rows(file, scans)) throw_rows(file, scans);
+    result = by_row(file, scans, settings);
+  }
+  if (result.times_s.empty()) result.times_s = scans.times_s;
+  result.notes.insert(result.notes.begin(), file.notes.begin(), file.notes.end());
+  return result;
+}
+
+ScanPoses standing_poses(const ScanKeys& scans, const PoseSettings& settings) {
+  refuse_offset(settings, "the sensor stands");
+  ScanPoses result = one_for_all(settings.T_body_sensor.value_or(Pose::Identity()), scans);
+  result.times_s = scans.times_s;
+  return result;
+}
+
+std::string ways_to_poses() {
+  return "Odometry programs such as KISS-ICP, GLIM or FAST-LIO find poses, and raymoval reads what "
+         "they write (see docs/poses.md): --poses FILE. If the sensor stood still, say --poses "
+         "identity.";
+}
+
+}  // namespace raymoval

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/trajectories/pose_file.h"
+#include "datasets/trajectories/pose_lookup.h"
+
+namespace raymoval {
+
+/// What is said of poses besides their file.
+struct PoseSettings {
+  /// As a user says it; nothing: the poses are those of the sensor.
+  std::optional<Pose> T_body_sensor = std::nullopt;
+  /// Calibration "Tr" where the poses P are those of a camera: then Tr^-1 P Tr is that of the
+  /// LiDAR.
+  std::optional<Pose> T_camera_lidar = std::nullopt;
+  Nanoseconds time_offset = 0;
+  Nanoseconds max_gap = kUsualMaxGap;
+};
+
+/// The scans that poses are looked for, by what is known of them.
+struct ScanKeys {
+  /// Row of the pose file for each scan, for poses that belong to scans by their order.
+  std::vector<std::size_t> rows;
+  std::size_t row_count = 0;  ///< Rows that the file has at least then; the highest of `rows` + 1.
+  bool more_rows = false;     ///< Whether the file may have more of them.
+  /// The time of each scan, on a clock of its own. Empty if scans have no times.
+  std::vector<Nanoseconds> stamps;
+  /// Seconds since the first scan of the data set, of each scan; assumed if nobody knows them.
+  std::vector<double> times_s;
+};
+
+/// The poses of scans. All lists are as long as `ScanKeys::rows`.
+struct ScanPoses {
+  std::vector<std::optional<Pose>> poses;  ///< T_world_sensor; nothing: to be left out.
+  std::vector<Nanoseconds> stamps;         ///< Of each scan, on the clock of `motion`.
+  std::vector<double> times_s;             ///< Seconds since the first scan of the data set.
+  std::shared_ptr<const SensorMotion> motion;
+  std::vector<std::string> notes;
+};
+
+/// Whether the rows of `file` fit scans by their order.
+bool fits_rows(const PoseFile& file, const ScanKeys& scans);
+
+/// The poses of scans:
+/// - a file with one pose is that of all scans, for a sensor that stands;
+/// - a file with times is looked up by time if the scans have times (see `look_up_poses`);
+/// - in all other files a row belongs to a scan by its order.
+/// @throws DataError if the rows do not fit the scans, a pose is damaged, or as `look_up_poses`;
+///   UsageError for a shift of the clock where poses do not go by time
+ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings);
+
+/// The same for a sensor that stands at the origin of the world all the time.
+ScanPoses standing_poses(const ScanKeys& scans, const PoseSettings& settings);
+
+/// What to do where there are no poses: sentences that name programs which find them.
+std::string ways_to_poses();
+
+}  // namespace raymoval
