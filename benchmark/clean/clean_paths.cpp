@@ -48,6 +48,7 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
 std::vector<std::string> extensions_of(OutputKind kind) {
   if (kind == OutputKind::kPicture) return {".png"};
   if (kind == OutputKind::kPage) return {".html", ".htm"};
+  if (kind == OutputKind::kBag) return {".bag", ".mcap", ".db3"};
   return written_extensions();
 }
 
@@ -167,14 +168,17 @@ bool is_folder_output(OutputKind kind) {
 }
 
 std::vector<OutputPath> CleanPaths::all() const {
+  const std::vector<std::string> bags = extensions_of(OutputKind::kBag);
+  const bool is_bag = std::find(bags.begin(), bags.end(), scans.extension()) != bags.end();
   const OutputKind maps = tiled ? OutputKind::kTiles : OutputKind::kCloud;
-  std::vector<OutputPath> outputs = {{"-o", map, maps},
-                                     {"--dynamic", removed, maps},
-                                     {"--labelled", labelled, maps},
-                                     {"--labels", labels, OutputKind::kLabels},
-                                     {"--scans", scans, OutputKind::kScans},
-                                     {"--html", page, OutputKind::kPage},
-                                     {"--picture", picture, OutputKind::kPicture}};
+  std::vector<OutputPath> outputs = {
+      {"-o", map, maps},
+      {"--dynamic", removed, maps},
+      {"--labelled", labelled, maps},
+      {"--labels", labels, OutputKind::kLabels},
+      {"--scans", scans, is_bag ? OutputKind::kBag : OutputKind::kScans},
+      {"--html", page, OutputKind::kPage},
+      {"--picture", picture, OutputKind::kPicture}};
   std::erase_if(outputs, [](const OutputPath& output) { return output.path.empty(); });
   return outputs;
 }

@@ -47,7 +47,7 @@ std::string RangeShares::table() const {
 
 std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points,
                                      const std::string& path, const std::string& method,
-                                     const std::vector<Finding>& warned) {
+                                     const std::vector<Finding>& warned, bool is_seen) {
   std::vector<std::string> advice;
   if (!warned.empty()) {
     std::vector<std::string> names;
@@ -73,7 +73,7 @@ std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points
   advice.push_back(
       "if walls or ground are gone, the poses are off in most cases: `raymoval inspect " + path +
       "`; if points of the own vehicle are left, try --drop-ego auto.");
-  advice.push_back("look at it with --html map.html or --picture map.png.");
+  if (!is_seen) advice.push_back("look at it with --html map.html or --picture map.png.");
   return advice;
 }
 

@@ -227,8 +227,9 @@ std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& me
   for (const std::string& line : sequence.notes) text += line + '\n';
   text += outputs_summary(paths, outputs);
   text += "It took " + fixed_text(facts.seconds, 1) + " s.\nIf the map does not look right:\n";
-  for (const std::string& line : what_to_try(masks.removed_count(), masks.point_count(), flags.path,
-                                             method.full_name(), facts.warned)) {
+  for (const std::string& line :
+       what_to_try(masks.removed_count(), masks.point_count(), flags.path, method.full_name(),
+                   facts.warned, !paths.page.empty() || !paths.picture.empty())) {
     text += "  - " + line + '\n';
   }
   return text;
