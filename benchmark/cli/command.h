@@ -47,6 +47,7 @@ const MethodRegistry& program_methods();
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {
   std::string frames, poses, label_rule, range, sensor, up, drop_ego, name;
+  std::string topic, pose_topic;
 
   void add_to(CommandOptions& options);
   /// The sequence that a command is about, which may be given with --sequence or without it.

@@ -53,6 +53,10 @@ void SequenceFlags::add_to(CommandOptions& options) {
   options.add("--frames", "FIRST:LAST:STRIDE", frames,
               "First and last frame and the step between frames; each may be left out");
   options.add("--poses", "FILE", poses, "Pose file: a name in the sequence folder, or a path");
+  options.add("--topic", "NAME", topic,
+              "Topic of a recording with the scans (default: the only one with clouds)");
+  options.add("--pose-topic", "NAME", pose_topic,
+              "Topic of a recording with the poses (default: its odometry, else tf)");
   options.add("--label-rule", "FILE", label_rule, "JSON file that says which labels move");
   options.add(
       "--range", "MIN:MAX", range,
@@ -73,9 +77,10 @@ void SequenceFlags::add_to(CommandOptions& options) {
 
 std::string SequenceFlags::first_given() const {
   const std::pair<const char*, const std::string*> all[] = {
-      {"--frames", &frames},     {"--poses", &poses},   {"--label-rule", &label_rule},
-      {"--range", &range},       {"--sensor", &sensor}, {"--up", &up},
-      {"--drop-ego", &drop_ego}, {"--name", &name}};
+      {"--frames", &frames},        {"--poses", &poses},   {"--label-rule", &label_rule},
+      {"--range", &range},          {"--sensor", &sensor}, {"--up", &up},
+      {"--drop-ego", &drop_ego},    {"--name", &name},     {"--topic", &topic},
+      {"--pose-topic", &pose_topic}};
   for (const auto& [option, text] : all) {
     if (!text->empty()) return option;
   }
@@ -86,6 +91,8 @@ SequenceOptions SequenceFlags::options() const {
   SequenceOptions options;
   if (!frames.empty()) options.frames = parse_frame_range(frames);
   if (!poses.empty()) options.poses = poses;
+  if (!topic.empty()) options.topic = topic;
+  if (!pose_topic.empty()) options.pose_topic = pose_topic;
   if (!label_rule.empty()) options.label_rule = label_rule;
   if (!sensor.empty()) options.sensor = sensor;
   if (!up.empty()) options.up = up;

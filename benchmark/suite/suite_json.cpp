@@ -82,11 +82,14 @@ std::string sequence_path(const std::string& path, Places& places, const std::st
 
 SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
   if (item.is_string()) return {sequence_path(item.get<std::string>(), places, where), {}};
-  const Fields object(item, where, "path name frames poses label_rule range_m sensor up drop_ego");
+  const Fields object(
+      item, where, "path name frames poses topic pose_topic label_rule range_m sensor up drop_ego");
   SequenceRequest request{sequence_path(object.text("path"), places, where), {}};
   SequenceOptions& options = request.options;
   options.name = text_of(object, "name");
   options.poses = text_of(object, "poses");
+  options.topic = text_of(object, "topic");
+  options.pose_topic = text_of(object, "pose_topic");
   options.sensor = text_of(object, "sensor");
   options.up = text_of(object, "up");
   if (const auto frames = text_of(object, "frames")) options.frames = parse_frame_range(*frames);
@@ -272,6 +275,8 @@ ordered_json to_json(const SequenceRequest& place) {
   };
   if (options.frames) add("frames", frame_range_text(*options.frames));
   add("poses", options.poses);
+  add("topic", options.topic);
+  add("pose_topic", options.pose_topic);
   if (options.label_rule) add("label_rule", options.label_rule->string());
   add("sensor", options.sensor);
   add("up", options.up);
@@ -291,6 +296,8 @@ SequenceRequest place_from(const ordered_json& json) {
     const auto text = value.get<std::string>();
     if (key == "frames") options.frames = parse_frame_range(text);
     if (key == "poses") options.poses = text;
+    if (key == "topic") options.topic = text;
+    if (key == "pose_topic") options.pose_topic = text;
     if (key == "label_rule") options.label_rule = text;
     if (key == "sensor") options.sensor = text;
     if (key == "up") options.up = text;

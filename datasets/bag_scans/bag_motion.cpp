@@ -71,8 +71,9 @@ class TopicPosesReader {
                           const std::string& place) {
     if (before == now) return;
     throw DataError(place + ": its " + field + " is '" + now + "', that of earlier messages '" +
-                    before + "'; poses of different frames are no trajectory. Filter the bag so "
-                             "that one is left, or give the poses as a file (--poses).");
+                    before +
+                    "'; poses of different frames are no trajectory. Filter the bag so "
+                    "that one is left, or give the poses as a file (--poses).");
   }
 
   void finish() {
@@ -134,8 +135,8 @@ BagMotion motion_of_topic(const Bag& bag, std::size_t topic, const BagPoseQuery&
   result.where = bag_name(bag) + ": " + result.name;
   TopicPoses poses = TopicPosesReader(bag, topic).read();
   result.notes = poses.notes;
-  const bool in_world = !query.cloud_frame.empty() && query.cloud_frame == poses.frame &&
-                        poses.child != poses.frame;
+  const bool in_world =
+      !query.cloud_frame.empty() && query.cloud_frame == poses.frame && poses.child != poses.frame;
   result.point_frame =
       query.point_frame.value_or(in_world ? PointFrame::kWorld : PointFrame::kSensor);
   if (in_world && !query.point_frame) {
@@ -145,8 +146,7 @@ BagMotion motion_of_topic(const Bag& bag, std::size_t topic, const BagPoseQuery&
   }
   std::vector<ChainLink> links = body_to_sensor(bag, poses, query, result);
   links.insert(links.begin(), {std::move(poses.trajectory), Pose::Identity(), false});
-  result.motion =
-      std::make_shared<ChainMotion>(std::move(links), query.time_offset, query.max_gap);
+  result.motion = std::make_shared<ChainMotion>(std::move(links), query.time_offset, query.max_gap);
   return result;
 }
 
@@ -160,9 +160,8 @@ BagMotion motion_of_tf(const Bag& bag, const BagPoseQuery& query) {
   const FrameTree tree(bag);
   const std::string frame = "'" + query.cloud_frame + "'";
   if (!tree.knows(query.cloud_frame)) {
-    throw_no_poses(bag, tree.empty()
-                            ? "No topic has odometry, poses or tf."
-                            : "tf does not know the frame of the points, " + frame + ".");
+    throw_no_poses(bag, tree.empty() ? "No topic has odometry, poses or tf."
+                                     : "tf does not know the frame of the points, " + frame + ".");
   }
   if (query.T_body_sensor) {
     throw UsageError(bag_name(bag) +
@@ -171,9 +170,8 @@ BagMotion motion_of_tf(const Bag& bag, const BagPoseQuery& query) {
                      "with --pose-topic or --poses.");
   }
   const std::vector<std::string> chain = tree.chain(query.cloud_frame);
-  const bool dynamic = std::any_of(chain.begin(), chain.end() - 1, [&](const std::string& name) {
-    return tree.is_dynamic(name);
-  });
+  const bool dynamic = std::any_of(chain.begin(), chain.end() - 1,
+                                   [&](const std::string& name) { return tree.is_dynamic(name); });
   if (!dynamic) {
     throw_no_poses(bag, "tf says only how the frame of the points, " + frame + ", is fixed in '" +
                             chain.back() + "', not how that moves.");
