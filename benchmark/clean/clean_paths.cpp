@@ -38,13 +38,6 @@ bool is_within(const fs::path& path, const fs::path& folder) {
   return end == folder.end();
 }
 
-/// What tells a file from all others, whatever its names; nothing if there is none.
-std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return std::pair{status.st_dev, status.st_ino};
-}
-
 std::vector<std::string> extensions_of(OutputKind kind) {
   if (kind == OutputKind::kPicture) return {".png"};
   if (kind == OutputKind::kPage) return {".html", ".htm"};
@@ -162,6 +155,12 @@ void check_inputs_stay(const std::vector<fs::path>& inputs,
 }
 
 }  // namespace
+
+std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return std::pair{status.st_dev, status.st_ino};
+}
 
 bool is_folder_output(OutputKind kind) {
   return kind == OutputKind::kLabels || kind == OutputKind::kTiles || kind == OutputKind::kScans;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datasets/sequence.h"
@@ -48,6 +52,10 @@ struct CleanPaths {
     return !map.empty() ? map : !removed.empty() ? removed : labelled;
   }
 };
+
+/// What tells the file or folder at `path` from all others, whatever its names; nothing if there is
+/// none.
+std::optional<std::pair<dev_t, ino_t>> identity_of(const std::filesystem::path& path);
 
 /// The record that stands in a folder of tiles or of scans and lists its files; else empty. Only
 /// such a folder is replaced.
