@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "benchmark/clean/outputs/scan_folder.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
@@ -123,7 +124,7 @@ void check_folder(const OutputPath& output, bool overwrite) {
 /// All files that a sequence is read from, as far as it says so.
 std::vector<fs::path> files_of(const Sequence& sequence) {
   std::vector<fs::path> files = sequence.input_files;
-  if (const FileScanSource* source = file_source(sequence)) {
+  if (const FileScanSource* source = stored_files(sequence)) {
     for (const FrameEntry& frame : source->frames()) {
       files.push_back(frame.path);
       if (!frame.label_path.empty()) files.push_back(frame.label_path);
@@ -219,7 +220,7 @@ void check_apart_from(const Sequence& sequence, const CleanPaths& paths,
   std::vector<fs::path> all = files_of(sequence);
   all.insert(all.end(), inputs.begin(), inputs.end());
   const std::vector<OutputPath> outputs = paths.all();
-  const auto* files = file_source(sequence);
+  const FileScanSource* files = stored_files(sequence);
   if (files != nullptr && !files->frames().empty()) {
     const fs::path scans = plain(files->frames().front().path).parent_path();
     for (const OutputPath& output : outputs) {

@@ -82,8 +82,13 @@ std::vector<std::uint8_t> kept_rows(const CleanedScan& scan) {
 
 }  // namespace
 
+const FileScanSource* stored_files(const Sequence& sequence) {
+  const auto* files = dynamic_cast<const FileScanSource*>(sequence.records.get());
+  return files != nullptr ? files : file_source(sequence);
+}
+
 ScanFolderPlan plan_scan_folder(const Sequence& sequence) {
-  const FileScanSource* source = file_source(sequence);
+  const FileScanSource* source = stored_files(sequence);
   if (source == nullptr || sequence.records == nullptr) {
     throw UsageError("--scans writes scans in the format in which they are stored, but those of '" +
                      sequence.name +
@@ -150,7 +155,7 @@ void ScanFolder::write_labels(const fs::path& labels, const std::vector<std::uin
 }
 
 void ScanFolder::add(const CleanedScan& scan) {
-  const FrameEntry& frame = file_source(sequence_)->frames()[scan.scan.index];
+  const FrameEntry& frame = stored_files(sequence_)->frames()[scan.scan.index];
   const std::vector<std::uint8_t> keep = kept_rows(scan);
   const PointRecords kept = scan.stored->chosen(keep);
   if (kept.size() == 0) empty_.push_back(scan.scan.name);

@@ -199,7 +199,7 @@ std::string reading_arguments(bool own_poses) {
 std::string outputs_summary(const CleanPaths& paths, const CleanOutputs& outputs) {
   std::string text;
   for (const OutputPath& output : paths.all()) {
-    if (output.kind != OutputKind::kScans) continue;
+    if (output.kind != OutputKind::kScans && output.kind != OutputKind::kBag) continue;
     text += "The cleaned scans open with: raymoval inspect " + output.path.string() +
             reading_arguments(outputs.has_own_poses()) + "\n";
   }
@@ -300,7 +300,7 @@ Command add_clean_command(CommandParser& program) {
       "out)");
   options.add("--scans", "DIR", flags->scans,
               "Also write the scans without the removed points, one by one in their own format, "
-              "into a folder that opens as the sequence does");
+              "into a folder that opens as the sequence does; of a recording, another recording");
   options.add("--tiles", "METRES", flags->tiles,
               "Cut maps into square tiles of this size: -o, --dynamic and --labelled then name "
               "folders");
