@@ -94,6 +94,7 @@ class FileScanSource : public ScanSource, public RecordSource, public TalliedSou
   [[nodiscard]] Pose pose(std::size_t index) const override;
   [[nodiscard]] const SensorModel& sensor() const override;
   [[nodiscard]] PointRecords records(std::size_t index) const override;
+  [[nodiscard]] RecordLayout layout(std::size_t index) const override;
   [[nodiscard]] PointFrame point_frame() const override { return traits_.point_frame; }
   [[nodiscard]] std::string place(std::size_t index) const override;
   [[nodiscard]] const std::vector<FrameEntry>& frames() const { return frames_; }
