@@ -5,7 +5,7 @@ find_package(CLI11 2.1 REQUIRED)
 # Messages: fmt::format, by <fmt/format.h>.
 find_package(fmt 9 REQUIRED)
 find_package(TBB REQUIRED)
-# Deflates the points of a report.
+# Deflates the points of a report; unpacks clouds (.gz, .npz).
 find_package(ZLIB REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(tsl-robin-map REQUIRED)
@@ -13,6 +13,11 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # SIMD chosen at run time.
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
+# Compressions of recordings, and the databases that ROS 2 records to.
+find_package(BZip2 REQUIRED)
+pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 
 # PCL only where a method says so.
 find_path(RAYMOVAL_PCL_INCLUDE_DIRS pcl/point_cloud.h PATH_SUFFIXES pcl-1.13 pcl-1.12 REQUIRED)

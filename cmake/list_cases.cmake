@@ -1,8 +1,9 @@
-# cmake -DPROGRAM=FILE -DROOM=NAME -DSPEC=WHICH -DSLOW=TAG -DTOGETHER=TAG -DENVIRONMENT=TEXT
-#       -DOUTPUT=FILE -P list_cases.cmake
+# cmake -DPROGRAM=FILE -DROOM=NAME -DSPEC=WHICH -DSLOW=TAG -DTOGETHER=TAG -DAT_ONCE=COUNT
+#       -DENVIRONMENT=TEXT -DOUTPUT=FILE -P list_cases.cmake
 # Writes OUTPUT, which ctest reads: a test "ROOM: NAME" for each test case of PROGRAM, a program made
 # with Catch2. SPEC chooses cases as on its command line. Cases with the tag SLOW are started first,
-# so that none of them is left for the end. Cases with the tag TOGETHER are run by one process.
+# so that none of them is left for the end. Cases with the tag TOGETHER are run by one process. If
+# AT_ONCE is above 1, one process runs so many cases, or half as many of those that are SLOW.
 # Catch2's own catch_discover_tests splits names at semicolons.
 cmake_minimum_required(VERSION 3.25)
 
@@ -24,6 +25,16 @@ function(as_written name result)
   set(${result} "${name}" PARENT_SCOPE)
 endfunction()
 
+# as_spec(NAME RESULT): a name, with a backslash before what has a meaning in a choice of tests.
+function(as_spec name result)
+  string(REPLACE "\\" "\\\\" spec "${name}")
+  string(REPLACE "\"" "\\\"" spec "${spec}")
+  string(REPLACE "," "\\," spec "${spec}")
+  string(REPLACE "[" "\\[" spec "${spec}")
+  string(REPLACE "]" "\\]" spec "${spec}")
+  set(${result} "${spec}" PARENT_SCOPE)
+endfunction()
+
 list_cases("${SPEC}" cases)
 if(NOT cases)
   message(FATAL_ERROR "${PROGRAM} lists no test case")
@@ -39,9 +50,9 @@ if(TOGETHER)
 endif()
 
 set(text "")
-# add_case(NAME SPEC COST)
-function(add_case name spec cost)
-  string(APPEND text "add_test([==[${ROOM}: ${name}]==] [==[${PROGRAM}]==] [==[${spec}]==] --warn NoTests)\n"
+# add_case(NAME COMMAND COST)
+function(add_case name command cost)
+  string(APPEND text "add_test([==[${ROOM}: ${name}]==] ${command})\n"
          "set_tests_properties([==[${ROOM}: ${name}]==] PROPERTIES LABELS ${ROOM} COST ${cost}")
   if(ENVIRONMENT)
     string(APPEND text " ENVIRONMENT [==[${ENVIRONMENT}]==]")
@@ -50,7 +61,52 @@ function(add_case name spec cost)
 endfunction()
 
 if(together)
-  add_case("all of ${TOGETHER}" "${SPEC}${TOGETHER}" 100)
+  add_case("all of ${TOGETHER}" "[==[${PROGRAM}]==] [==[${SPEC}${TOGETHER}]==] --warn NoTests" 100)
+endif()
+
+# add_groups(COST COUNT CASE...): processes of COUNT cases. Each has a file with a choice of one case
+# in each line, see tests/run_cases.sh.
+set(groups 0)
+function(add_groups cost count)
+  set(rest ${ARGN})
+  while(rest)
+    list(SUBLIST rest 0 ${count} group)
+    list(REMOVE_ITEM rest ${group})
+    list(LENGTH group size)
+    math(EXPR groups "${groups} + 1")
+    set(file ${OUTPUT}.${groups}.txt)
+    list(GET group 0 first)
+    as_written("${first}" first)
+    set(lines "")
+    foreach(one ${group})
+      as_written("${one}" name)
+      as_spec("${name}" spec)
+      string(APPEND lines "${spec}\n")
+    endforeach()
+    file(WRITE ${file} "${lines}")
+    set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tests/run_cases.sh)
+    add_case("${size} cases from '${first}' on"
+             "bash [==[${script}]==] [==[${PROGRAM}]==] [==[${file}]==]" ${cost})
+  endwhile()
+  set(groups ${groups} PARENT_SCOPE)
+  set(text "${text}" PARENT_SCOPE)
+endfunction()
+
+if(AT_ONCE GREATER 1)
+  set(others ${cases})
+  set(slow_ones "")
+  foreach(case ${cases})
+    if(case IN_LIST slow)
+      list(APPEND slow_ones "${case}")
+    endif()
+  endforeach()
+  if(slow_ones)
+    list(REMOVE_ITEM others ${slow_ones})
+  endif()
+  math(EXPR half "(${AT_ONCE} + 1) / 2")
+  add_groups(50 ${half} ${slow_ones})
+  add_groups(10 ${AT_ONCE} ${others})
+  set(cases "")
 endif()
 foreach(case ${cases})
   set(cost 1)
@@ -58,12 +114,7 @@ foreach(case ${cases})
     set(cost 50)
   endif()
   as_written("${case}" name)
-  # What has a meaning in a choice of tests.
-  string(REPLACE "\\" "\\\\" spec "${name}")
-  string(REPLACE "\"" "\\\"" spec "${spec}")
-  string(REPLACE "," "\\," spec "${spec}")
-  string(REPLACE "[" "\\[" spec "${spec}")
-  string(REPLACE "]" "\\]" spec "${spec}")
-  add_case("${name}" "${spec}" ${cost})
+  as_spec("${name}" spec)
+  add_case("${name}" "[==[${PROGRAM}]==] [==[${spec}]==] --warn NoTests" ${cost})
 endforeach()
 file(WRITE ${OUTPUT} "${text}")

@@ -58,10 +58,13 @@ const EgoFreeSource* ego_free_source(const Sequence& sequence) {
   return dynamic_cast<const EgoFreeSource*>(skewed_source(sequence));
 }
 
+const ScanSource& stored_source(const Sequence& sequence) {
+  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) return without_ego->whole();
+  return *skewed_source(sequence);
+}
+
 const FileScanSource* file_source(const Sequence& sequence) {
-  const ScanSource* source = skewed_source(sequence);
-  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) source = &without_ego->whole();
-  return dynamic_cast<const FileScanSource*>(source);
+  return dynamic_cast<const FileScanSource*>(&stored_source(sequence));
 }
 
 }  // namespace raymoval

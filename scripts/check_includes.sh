@@ -17,6 +17,7 @@ datasets               records clouds|fields|geometry trajectories bags ego|worl
 datasets               sequence_record sequence reading|settings layout
 datasets               semantickitti|dynamicmap|files|bag_scans
 datasets               simulation layouts open_sequence inspection
+datasets/bags          bag|damage_notes chunks|messages ros1|mcap ros2 open_bag rewriting
 datasets/clouds        format pcd|ply|bin|las|numpy .
 datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
@@ -27,9 +28,10 @@ methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects .
 eval                   . points lattice dynamicmap|erasor protocol_registry columns|comparison|published
 eval/erasor            options|frame maps matching rates scorer .
-benchmark              harness suite result process tables run clean picture report cli cli/shell cli/commands
+benchmark              harness suite result process tables run picture report clean cli cli/shell cli/commands
 benchmark              kernels
 benchmark/picture      canvas charts|maps
+benchmark/clean        rows outputs .
 benchmark/result       . removals|checks|speed
 benchmark/run          folder .
 benchmark/tables       text comparison .

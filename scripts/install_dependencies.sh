@@ -13,8 +13,8 @@ set -euo pipefail
 packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev libpcl-dev liboctomap-dev nlohmann-json3-dev
   catch2 libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
-  libembree-dev libfmt-dev librapidcheck-dev libxxhash-dev liblzf-dev zlib1g-dev libcairo2-dev
-  librsvg2-dev fonts-dejavu-core esbuild
+  libembree-dev libfmt-dev librapidcheck-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
+  liblz4-dev libzstd-dev libsqlite3-dev libcairo2-dev librsvg2-dev fonts-dejavu-core esbuild
 )
 case ${1:-} in
   "") ;;

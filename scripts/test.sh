@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Everything that has to hold before a change is merged. Goes on after a failure; the last line is
-# "N passed, N failed", and the exit code is 1 if anything failed.
+# Everything that has to hold before a change is merged. Goes on after a failure. At the end it shows
+# the last 30 lines of whatever failed, then the names of all that failed, and in the last line
+# "N passed, N failed". The exit code is 1 if anything failed.
 #
 #   scripts/test.sh        installs what the tests need first
 set -uo pipefail
@@ -17,21 +18,25 @@ passed=0
 failed=0
 failures=()
 
-# count NAME STATUS: one check more.
+logs=$(mktemp -d)
+: >"$logs/failures"
+
+# count NAME STATUS LOG: one check more, and what it printed.
 count() {
   if [[ $2 -eq 0 ]]; then
     passed=$((passed + 1))
   else
     failed=$((failed + 1))
     failures+=("$1")
+    { echo "== failed: $1"; tail -n 30 "$3"; } >>"$logs/failures"
   fi
 }
 
 # step NAME COMMAND...: one check that counts as one.
 step() {
   echo "== $1"
-  "${@:2}"
-  count "$1" $?
+  "${@:2}" 2>&1 | tee "$logs/step"
+  count "$1" "${PIPESTATUS[0]}" "$logs/step"
 }
 
 # begin COMMAND...: runs beside what follows, at a lower priority and in a process group of its own,
@@ -39,7 +44,7 @@ step() {
 beside=
 begin() {
   set -m
-  (renice -n 10 "$BASHPID" >/dev/null; "$@") >"$log_beside" 2>&1 </dev/null &
+  (renice -n 10 "$BASHPID" >/dev/null; "$@") >"$logs/beside" 2>&1 </dev/null &
   beside=$!
   set +m
 }
@@ -48,31 +53,30 @@ finish() {
   wait "$beside"
   local status=$?
   beside=
-  cat "$log_beside"
-  count "$1" $status
+  cat "$logs/beside"
+  count "$1" $status "$logs/beside"
 }
-log_beside=$(mktemp)
-trap '[[ -z $beside ]] || kill -- "-$beside" 2>/dev/null; rm -f "$log_beside"' EXIT
+trap '[[ -z $beside ]] || kill -- "-$beside" 2>/dev/null; rm -rf "$logs"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
-# run_tests PRESET: counts every test of ctest.
+# run_tests PRESET: counts every test of ctest, and each test case where one process runs several.
 run_tests() {
-  local log=build/$1/ctest.log
+  local build=build/$1 status total=0 bad=0
   echo "== tests, $1"
-  ctest --preset "$1" 2>&1 | tee "$log"
-  local status=${PIPESTATUS[0]} summary total bad
-  # "97% tests passed, 1 tests failed out of 40"
-  summary=$(grep -E 'tests passed, [0-9]+ tests failed out of [0-9]+' "$log" | tail -1)
-  total=$(sed -nE 's/.*out of ([0-9]+).*/\1/p' <<<"$summary")
-  bad=$(sed -nE 's/.*, ([0-9]+) tests failed.*/\1/p' <<<"$summary")
-  if [[ -z $total || $total -eq 0 || ( $status -ne 0 && $bad -eq 0 ) ]]; then
-    total=1
-    bad=1
+  rm -f "$build"/Testing/Temporary/LastTestsFailed.log "$build/junit.xml"
+  ctest --preset "$1" --output-junit "$PWD/$build/junit.xml" 2>&1 | tee "$build/ctest.log"
+  status=${PIPESTATUS[0]}
+  if [[ -e $build/junit.xml ]]; then
+    read -r total bad < <(python3 scripts/test_results.py "$build" "$build/junit.xml" "$logs/failures")
+  fi
+  if [[ $total -eq 0 || ( $status -ne 0 && $bad -eq 0 ) ]]; then
+    count "tests, $1" 1 "$build/ctest.log"
+    return
   fi
   passed=$((passed + total - bad))
   failed=$((failed + bad))
-  [[ $bad -eq 0 ]] || failures+=("tests, $1")
+  [[ $bad -eq 0 ]] || failures+=("$(sed "s/^[0-9]*:/tests, $1: /" "$build"/Testing/Temporary/LastTestsFailed.log)")
 }
 
 build() {
@@ -101,6 +105,7 @@ scripts/coverage.sh --reset
 run_tests asan-ubsan
 step "coverage" scripts/coverage.sh
 
-[[ ${#failures[@]} -eq 0 ]] || printf 'failed: %s\n' "${failures[@]}"
+cat "$logs/failures"
+[[ ${#failures[@]} -eq 0 ]] || printf '%s\n' "${failures[@]}" | sed 's/^/failed: /'
 echo "$passed passed, $failed failed"
 [[ $failed -eq 0 ]]

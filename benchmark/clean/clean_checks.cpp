@@ -19,12 +19,13 @@ void warn(const std::string& text) {
 
 }  // namespace
 
-void check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress,
-                const std::atomic<bool>& cancel) {
+std::vector<Finding> check_data(const Sequence& sequence, const std::string& path, bool force,
+                                Progress& progress, const std::atomic<bool>& cancel) {
   progress.begin("looking for mistakes in the data", 1);
   const InspectionReport report = inspect(sequence, &cancel);
   progress.end();
   std::vector<std::string> wrong;
+  std::vector<Finding> warned;
   for (const Finding& finding : report.findings) {
     if (finding.severity == Severity::kNote || finding.consequence == Consequence::kUnused)
       continue;
@@ -32,10 +33,11 @@ void check_data(const Sequence& sequence, const std::string& path, bool force, P
     if (refused && !force) {
       wrong.push_back(finding.sentence());
     } else {
+      warned.push_back(finding);
       warn((refused ? "going on because of --force, in spite of " : "") + finding.sentence());
     }
   }
-  if (wrong.empty()) return;
+  if (wrong.empty()) return warned;
   throw DataError(
       fmt::format("{} The map would be wrong, so nothing was written; `raymoval inspect {}` says "
                   "more, and --force cleans all the same.",

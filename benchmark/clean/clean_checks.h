@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
+#include "datasets/inspection/evidence/finding.h"
 #include "datasets/sequence.h"
 
 namespace raymoval {
@@ -15,9 +17,10 @@ namespace raymoval {
 /// @param path what the user called the sequence, for the message
 /// @param force goes on where the map would be wrong, and says so
 /// @param cancel the check is given up when this becomes true
+/// @return the findings in spite of which the map is made
 /// @throws DataError with the findings for which it would be wrong; Cancelled
-void check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress,
-                const std::atomic<bool>& cancel);
+std::vector<Finding> check_data(const Sequence& sequence, const std::string& path, bool force,
+                                Progress& progress, const std::atomic<bool>& cancel);
 
 /// Warns on standard error if no point was removed, or more than half of them.
 void check_removed(std::uint64_t removed, std::uint64_t points, const std::string& path);

@@ -2,148 +2,146 @@
 #include "benchmark/clean/clean_outputs.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
-#include <utility>
 
-#include "benchmark/result/removals/removal_files.h"
+#include "benchmark/clean/outputs/bag_copy.h"
+#include "benchmark/clean/outputs/label_folder.h"
+#include "benchmark/clean/outputs/map_output.h"
+#include "benchmark/clean/outputs/map_views.h"
+#include "benchmark/clean/outputs/scan_folder.h"
+#include "benchmark/clean/outputs/tile_sink.h"
+#include "benchmark/picture/maps/map_picture.h"
 #include "core/error.h"
-#include "core/files/file_kind.h"
-#include "core/files/file_writer.h"
-#include "core/files/files.h"
+#include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "datasets/clouds/cloud_file.h"
-#include "datasets/ego/ego_free_source.h"
 
 namespace raymoval {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// The one way to write a path, so that two can be compared.
-fs::path plain(const fs::path& path) {
-  std::error_code error;
-  fs::path whole = fs::absolute(path, error);
-  if (!error) whole = fs::weakly_canonical(whole, error);
-  if (error) {
-    throw UnreadableError(path.string() + ": cannot be looked at (" + error.message() + ").");
-  }
-  return without_slash(whole);
+bool is_map(const OutputPath& output) {
+  return output.kind == OutputKind::kCloud || output.kind == OutputKind::kTiles;
 }
 
-void check_cloud_path(const fs::path& path, bool overwrite) {
-  const std::vector<std::string>& known = cloud_extensions();
-  if (std::find(known.begin(), known.end(), path.extension().string()) == known.end()) {
-    throw UsageError(path.string() + ": expected a file name that ends in " + join(known) + ".");
-  }
-  check_folder_of(path);
-  const FileKind there = file_kind(path);
-  if (there == FileKind::kFolder) {
-    throw UsageError(path.string() + ": is a folder, expected a file name.");
-  }
-  if (there == FileKind::kFile && !overwrite) {
-    throw UsageError(path.string() +
-                     ": is there already; choose another name, or replace it with --overwrite.");
-  }
+MapContent content_of(const OutputPath& output) {
+  if (output.option == "--dynamic") return {false, true, false};
+  if (output.option == "--labelled") return {true, true, true};
+  return {};
 }
 
-void check_label_folder(const fs::path& path, bool overwrite) {
-  if (!is_there(path)) return;
-  if (!is_folder(path)) {
-    throw UsageError(path.string() + ": is no folder; --labels writes a file per scan into one.");
+/// @throws UsageError if --scans names a recording, which scans in files cannot become
+ScanFolderPlan planned_scans(const std::vector<OutputPath>& outputs, const Sequence& sequence) {
+  for (const OutputPath& output : outputs) {
+    if (output.kind != OutputKind::kBag) continue;
+    throw UsageError(output.path.string() + ": names a recording, but the scans of '" +
+                     sequence.name + "' are no recording. Name a folder with --scans.");
   }
-  for (const fs::path& entry : entries_of(path)) {
-    if (!overwrite) {
-      throw UsageError(path.string() + ": holds " + entry.filename().string() +
-                       " already; choose a new folder, or replace its label files with "
-                       "--overwrite.");
-    }
-    if (entry.extension() != ".label" || !is_file(entry)) {
-      throw UsageError(entry.string() +
-                       ": is no label file, and --overwrite replaces the whole folder; choose a "
-                       "new one.");
-    }
-  }
+  return plan_scan_folder(sequence);
 }
 
 }  // namespace
 
-void check_paths(const CleanPaths& paths) {
-  check_cloud_path(paths.map, paths.overwrite);
-  if (!paths.removed.empty()) {
-    check_cloud_path(paths.removed, paths.overwrite);
-    if (plain(paths.map) == plain(paths.removed)) {
-      throw UsageError("-o and --dynamic name the same file.");
-    }
+CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
+                           const Sequence& sequence, Progress& progress,
+                           const std::atomic<bool>& cancel)
+    : sequence_(sequence) {
+  const std::vector<OutputPath> all = paths.all();
+  const MapPrecision precision = map_precision(*sequence.scans);
+  const bool needs_rows = std::any_of(all.begin(), all.end(), [](const OutputPath& output) {
+    return output.kind != OutputKind::kLabels;
+  });
+  const bool is_bag = bag_source(sequence) != nullptr;
+  std::optional<ScanFolderPlan> plan;
+  if (!paths.scans.empty() && is_bag) check_bag_copy(sequence, paths.scans);
+  if (!paths.scans.empty() && !is_bag) plan = planned_scans(all, sequence);
+  if (needs_rows) rows_.emplace(sequence, precision.coordinates, progress, cancel);
+  for (const OutputPath& output : all) {
+    if (is_map(output)) add_map(output, paths, writing, precision.origin);
   }
-  if (!paths.labels.empty()) check_label_folder(paths.labels, paths.overwrite);
-}
-
-void check_apart_from(const Sequence& sequence, const CleanPaths& paths) {
-  const auto* files = file_source(sequence);
-  if (files == nullptr || files->frames().empty()) return;
-  const FrameEntry& frame = files->frames().front();
-  const fs::path scans = plain(frame.path).parent_path();
-  for (const fs::path& path : {paths.map, paths.removed}) {
-    if (path.empty() || plain(path).parent_path() != scans) continue;
-    throw UsageError(path.string() +
-                     ": lies among the scans of the sequence and would be taken for one of them; "
-                     "choose another folder.");
+  if (rows_ && rows_->is_widened() && first_map_ != nullptr) {
+    notes_.push_back(
+        "The map lies more than 8 km from the world's origin: its coordinates are float64.");
   }
-  if (paths.labels.empty()) return;
-  const fs::path labels = plain(paths.labels);
-  if (labels == scans || labels == scans / "labels" || labels == scans.parent_path() / "labels") {
-    throw UsageError(paths.labels.string() +
-                     ": is where the sequence's own labels stand, which are the truth; choose "
-                     "another folder.");
+  if (!paths.labels.empty()) outputs_.push_back(std::make_unique<LabelFolder>(paths.labels));
+  if (!paths.scans.empty() && is_bag) {
+    outputs_.push_back(std::make_unique<BagCopy>(paths.scans, sequence, cancel));
+  }
+  if (plan) {
+    has_own_poses_ = plan->own_poses;
+    auto scans = std::make_unique<ScanFolder>(paths.scans, sequence, std::move(*plan));
+    scans_ = scans.get();
+    outputs_.push_back(std::move(scans));
+  }
+  add_views(paths, writing);
+}
+
+void CleanOutputs::note_losses(const OutputPath& output, const std::string& name,
+                               const RecordLayout& layout) {
+  for (const std::string& lost : what_is_lost(name, layout)) {
+    notes_.push_back(output.option + ": " + lost);
   }
 }
 
-LabelFolder::LabelFolder(const fs::path& path) : path_(plain(path)) {
-  std::error_code above;  // Shows when the folder is made.
-  fs::create_directories(folder_of(path_), above);
-  part_ = new_part_folder(path_);
-  if (part_.held.valid()) return;
-  throw DataError(path_.string() + ": cannot be made (" + std::generic_category().message(errno) +
-                  "). Nothing was changed; choose another folder.");
+void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
+                           const CleanWriting& writing, const Eigen::Vector3d& voxel_origin) {
+  const MapContent content = content_of(output);
+  const RecordLayout layout = content.labelled ? labelled_layout(rows_->layout()) : rows_->layout();
+  const std::string name = paths.tiled ? "tile" + writing.tile_extension : output.path.string();
+  if (rows_->is_widened()) check_coordinates(name, Coordinates::kDouble);
+  note_losses(output, name, layout);
+  std::unique_ptr<RowSink> sink;
+  if (paths.tiled) {
+    sink = std::make_unique<TileSink>(
+        output.path, layout,
+        Tiling{writing.tile_size, sequence_.upright_frame(), writing.tile_extension, writing.crs});
+  } else {
+    sink = std::make_unique<FileSink>(output.path, layout, writing.crs);
+  }
+  auto map = std::make_unique<MapOutput>(std::move(sink), rows_->layout(), content,
+                                         writing.voxel_size, voxel_origin);
+  if (first_map_ == nullptr) first_map_ = map.get();
+  outputs_.push_back(std::move(map));
 }
 
-LabelFolder::~LabelFolder() {
-  std::error_code ignored;
-  if (!committed_) fs::remove_all(part_.place, ignored);
-}
-
-void LabelFolder::add(const Scan& scan, const Mask& mask) {
-  write_removal(part_.place, scan, mask);
-}
-
-void LabelFolder::commit_with(Replacements& together) {
-  sync_folder(part_.place);
-  together.add(std::move(part_), path_);
-  committed_ = true;
-}
-
-CleanOutputs::CleanOutputs(const CleanPaths& paths, double voxel_size,
-                           const MapPrecision& precision)
-    : map_(paths.map, voxel_size, precision) {
-  if (!paths.removed.empty()) removed_.emplace(paths.removed, voxel_size, precision);
-  if (!paths.labels.empty()) labels_.emplace(paths.labels);
+void CleanOutputs::add_views(const CleanPaths& paths, const CleanWriting& writing) {
+  const ViewTexts texts{sequence_.name, writing.method};
+  if (!paths.page.empty()) {
+    outputs_.push_back(std::make_unique<MapPageFile>(paths.page, texts, sequence_.upright_frame()));
+  }
+  if (paths.picture.empty()) return;
+  const LocalFrameSource upright(*sequence_.scans, sequence_.upright_frame());
+  outputs_.push_back(std::make_unique<MapPictureFile>(
+      paths.picture, texts, sequence_.upright_frame(), window_around_way(upright)));
 }
 
 void CleanOutputs::add(const Scan& scan, const Mask& mask) {
-  map_.add(scan, mask, 0);
-  if (removed_) removed_->add(scan, mask, 1);
-  if (labels_) labels_->add(scan, mask);
+  std::optional<PointRecords> stored;
+  if (sequence_.records != nullptr && rows_) stored = sequence_.records->records(scan.index);
+  const PointRecords* records = stored ? &*stored : nullptr;
+  const ScanRows rows = rows_ ? rows_->rows(scan, records) : ScanRows{};
+  const CleanedScan cleaned{scan, mask, rows, records};
+  for (const auto& output : outputs_) output->add(cleaned);
 }
 
 void CleanOutputs::commit() {
-  map_points_ = map_.finish();
-  if (removed_) removed_->finish();
+  for (const auto& output : outputs_) output->finish();
   Replacements all;
-  if (labels_) labels_->commit_with(all);
-  if (removed_) removed_->commit_with(all);
-  map_.commit_with(all);
+  // The map comes last: where it is, the others are.
+  for (auto output = outputs_.rbegin(); output != outputs_.rend(); ++output) {
+    (*output)->commit_with(all);
+  }
   all.commit();
+}
+
+std::optional<std::uint64_t> CleanOutputs::map_points() const {
+  if (first_map_ == nullptr) return std::nullopt;
+  return first_map_->points();
+}
+
+std::vector<std::string> CleanOutputs::results() const {
+  if (scans_ == nullptr || scans_->empty_scans().empty()) return {};
+  const std::vector<std::string>& empty = scans_->empty_scans();
+  return {"No point is left of " + counted_text(empty.size(), "scan") + " (" + empty.front() +
+          (empty.size() > 1 ? ", ..." : "") +
+          "), which no reader takes: leave such scans out with --frames."};
 }
 
 }  // namespace raymoval

@@ -1,70 +1,69 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
+#include <atomic>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "benchmark/clean/map_cleaner.h"
-#include "core/files/part_name.h"
-#include "core/files/replacements.h"
+#include "benchmark/clean/clean_paths.h"
+#include "benchmark/clean/outputs/clean_output.h"
+#include "core/progress.h"
 #include "datasets/sequence.h"
 
 namespace raymoval {
 
-/// The files that `raymoval clean` is to write.
-struct CleanPaths {
-  std::filesystem::path map;      ///< Cleaned map.
-  std::filesystem::path removed;  ///< Removed points as a map; empty: none is written.
-  std::filesystem::path labels;   ///< Folder for a label file per scan; empty: none is written.
-  bool overwrite = false;         ///< Whether these may exist already.
-};
-
-/// Refuses paths that could not be written after the work is done, or that would destroy something:
-/// unknown extensions, missing folders, the same file twice, and files that exist already.
-/// @throws UsageError that names the path and the remedy
-void check_paths(const CleanPaths& paths);
-
-/// Refuses to write among the files of `sequence`: maps beside its scans, where they would be taken
-/// for scans, and labels over its labels. @throws UsageError
-void check_apart_from(const Sequence& sequence, const CleanPaths& paths);
-
-/// A folder of label files that gets its name when it is complete.
-class LabelFolder {
- public:
-  /// @throws DataError if it cannot be made
-  explicit LabelFolder(const std::filesystem::path& path);
-  ~LabelFolder();
-  LabelFolder(const LabelFolder&) = delete;
-  LabelFolder& operator=(const LabelFolder&) = delete;
-
-  void add(const Scan& scan, const Mask& mask);
-  /// Lets `together` give the folder its name, in place of a folder that had it. @throws DataError
-  void commit_with(Replacements& together);
-
- private:
-  std::filesystem::path path_;
-  Part part_;
-  bool committed_ = false;
+/// How the outputs of `raymoval clean` are written.
+struct CleanWriting {
+  double voxel_size = 0.0;  ///< Metres; 0 keeps every point.
+  double tile_size = 0.0;   ///< Metres; for maps that are folders of tiles.
+  std::string tile_extension = ".pcd";
+  std::optional<std::string> crs = std::nullopt;  ///< See `RecordWriting`.
+  std::string method = "clean";                   ///< What pictures and pages call it.
 };
 
 /// The outputs of `raymoval clean`. All are opened at the beginning, so that a place where nothing
-/// can be written is found before the work. They get their names at the end: until then nothing is
-/// replaced, and an error or an interruption leaves nothing behind.
+/// can be written, and what a format cannot hold, is found before the work. They get their names
+/// together at the end: until then nothing is replaced, and an error or an interruption leaves
+/// nothing behind.
 class CleanOutputs {
  public:
-  /// @param voxel_size in metres; 0 keeps every point
-  /// @throws UsageError if a file's format cannot hold the map's coordinates
-  CleanOutputs(const CleanPaths& paths, double voxel_size, const MapPrecision& precision);
+  /// @param sequence must outlive this object
+  /// @throws UsageError if a format cannot hold what it is to hold; DataError if scans have
+  ///   different fields, or a place cannot be written; Cancelled
+  CleanOutputs(const CleanPaths& paths, const CleanWriting& writing, const Sequence& sequence,
+               Progress& progress, const std::atomic<bool>& cancel);
+
+  /// Scans come in order. @param mask 1 = removed, 0 = kept, `kLeftOutMask` = in no output
   void add(const Scan& scan, const Mask& mask);
   /// Ends all outputs, which may find the disk full, and then gives them their names.
   void commit();
-  [[nodiscard]] std::uint64_t map_points() const { return map_points_; }
+
+  /// Points of the first map after `commit`, if there is a map.
+  [[nodiscard]] std::optional<std::uint64_t> map_points() const;
+  /// What a user should know before the work: fields that a format cannot hold, coordinates that
+  /// became float64.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  /// What a user should know of what was written, after `commit`.
+  [[nodiscard]] std::vector<std::string> results() const;
+  /// Whether the folder of --scans has poses of its own, so that those that the user gave belong to
+  /// it no more.
+  [[nodiscard]] bool has_own_poses() const { return has_own_poses_; }
 
  private:
-  MapWriter map_;
-  std::optional<MapWriter> removed_;
-  std::optional<LabelFolder> labels_;
-  std::uint64_t map_points_ = 0;
+  void add_map(const OutputPath& output, const CleanPaths& paths, const CleanWriting& writing,
+               const Eigen::Vector3d& voxel_origin);
+  void add_views(const CleanPaths& paths, const CleanWriting& writing);
+  void note_losses(const OutputPath& output, const std::string& name, const RecordLayout& layout);
+
+  const Sequence& sequence_;
+  std::optional<MapRows> rows_;
+  std::vector<std::unique_ptr<CleanOutput>> outputs_;
+  const CleanOutput* first_map_ = nullptr;
+  const class ScanFolder* scans_ = nullptr;
+  bool has_own_poses_ = false;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace raymoval

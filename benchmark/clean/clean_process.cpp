@@ -2,12 +2,10 @@
 #include "benchmark/clean/clean_process.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <exception>
-#include <optional>
 #include <set>
 #include <system_error>
 #include <vector>
@@ -26,9 +24,8 @@ namespace fs = std::filesystem;
 /// Unfinished files and folders beside the outputs.
 std::set<fs::path> unfinished(const CleanPaths& paths) {
   std::set<fs::path> found;
-  for (const fs::path& output : {paths.map, paths.removed, paths.labels}) {
-    if (output.empty()) continue;
-    const std::vector<fs::path> parts = parts_of(fs::absolute(output).lexically_normal());
+  for (const OutputPath& output : paths.all()) {
+    const std::vector<fs::path> parts = parts_of(fs::absolute(output.path).lexically_normal());
     found.insert(parts.begin(), parts.end());
   }
   return found;
@@ -38,7 +35,7 @@ std::set<fs::path> unfinished(const CleanPaths& paths) {
 class LeftOvers {
  public:
   explicit LeftOvers(const CleanPaths& paths)
-      : paths_(paths), before_(unfinished(paths)), had_labels_(has_labels()) {}
+      : paths_(paths), before_(unfinished(paths)), had_(present()) {}
   ~LeftOvers() {
     try {
       remove();
@@ -52,27 +49,25 @@ class LeftOvers {
  private:
   void remove() const {
     // The child was ended between two renames: what was there has another name and is the user's.
-    if (has_labels() != had_labels_) return;
+    if (present() != had_) return;
     std::error_code ignored;
     for (const fs::path& path : unfinished(paths_)) {
       if (before_.count(path) == 0) fs::remove_all(path, ignored);
     }
     remove_abandoned_working_folders();
   }
-  [[nodiscard]] bool has_labels() const {
-    return !paths_.labels.empty() && is_there(paths_.labels);
+  /// The outputs that are there, for a folder may be away under another name.
+  [[nodiscard]] std::vector<fs::path> present() const {
+    std::vector<fs::path> there;
+    for (const OutputPath& output : paths_.all()) {
+      if (is_folder_output(output.kind) && is_there(output.path)) there.push_back(output.path);
+    }
+    return there;
   }
   const CleanPaths& paths_;
   std::set<fs::path> before_;
-  bool had_labels_;
+  std::vector<fs::path> had_;
 };
-
-/// What tells the file at `path` from one that takes its place; nothing if there is no file.
-std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return std::pair{status.st_dev, status.st_ino};
-}
 
 ExitCode answer_of(const ChildEnd& end, double limit_mib) {
   if (asking_signal(end) != 0) {
@@ -116,7 +111,8 @@ ExitCode answer_of(const ChildEnd& end, double limit_mib) {
 
 ExitCode clean_apart(const std::vector<std::string>& arguments, const CleanPaths& paths,
                      double memory_limit_mib, const std::atomic<bool>& cancel) {
-  const auto map_before = identity_of(paths.map);
+  const fs::path first = paths.all().front().path;
+  const auto before = identity_of(first);
   ChildSetup setup;
   setup.arguments = {"raymoval"};
   setup.arguments.insert(setup.arguments.end(), arguments.begin(), arguments.end());
@@ -131,8 +127,8 @@ ExitCode clean_apart(const std::vector<std::string>& arguments, const CleanPaths
   // The line with its progress may still be on the terminal.
   if (end.kind != ChildEnd::Kind::kExited) Progress(progress_style_of_stderr()).end();
   const ExitCode answer = answer_of(end, memory_limit_mib);
-  const auto map = identity_of(paths.map);
-  if (answer == ExitCode::kDone && (!map || map == map_before)) {
+  const auto after = identity_of(first);
+  if (answer == ExitCode::kDone && (!after || after == before)) {
     throw MethodError("cleaning ended without a map and without an error. Try another --method.");
   }
   return answer;

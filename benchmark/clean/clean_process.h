@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/clean/clean_outputs.h"
+#include "benchmark/clean/clean_paths.h"
 #include "core/error.h"
 
 namespace raymoval {

@@ -63,6 +63,10 @@ void SequenceFlags::add_to(CommandOptions& options) {
   options.add("--frames", "FIRST:LAST:STRIDE", frames,
               "First and last frame and the step between frames; each may be left out");
   add_poses_to(options);
+  options.add("--topic", "NAME", topic,
+              "Topic of a recording with the scans (default: the only one with clouds)");
+  options.add("--pose-topic", "NAME", pose_topic,
+              "Topic of a recording with the poses (default: its odometry, else tf)");
   options.add("--label-rule", "FILE", label_rule, "JSON file that says which labels move");
   options.add(
       "--range", "MIN:MAX", range,
@@ -78,6 +82,10 @@ void SequenceFlags::add_to(CommandOptions& options) {
               "Leave out the points on the vehicle that carries the sensor, so that no method sees "
               "them: auto (estimated), a radius (2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX in "
               "the sensor frame");
+  options.add(
+      "--point-layout", "FIELDS", point_layout,
+      "The fields of a point in .bin and .npy scans, such as \"x y z intensity ring:u2 t:f8\" "
+      "(float32 where no type is given)");
   options.add("--name", "NAME", name, "The name of the sequence in the results");
 }
 
@@ -106,14 +114,23 @@ void SequenceFlags::add_poses_to(CommandOptions& options) {
 }
 
 std::string SequenceFlags::first_given() const {
-  const std::pair<const char*, const std::string*> all[] = {
-      {"--frames", &frames},           {"--poses", &poses},
-      {"--label-rule", &label_rule},   {"--range", &range},
-      {"--sensor", &sensor},           {"--up", &up},
-      {"--drop-ego", &drop_ego},       {"--name", &name},
-      {"--pose-format", &pose_format}, {"--T-sensor", &T_sensor},
-      {"--time-offset", &time_offset}, {"--max-gap", &max_gap},
-      {"--points", &points},           {"--point-time-unit", &point_time_unit}};
+  const std::pair<const char*, const std::string*> all[] = {{"--frames", &frames},
+                                                            {"--poses", &poses},
+                                                            {"--label-rule", &label_rule},
+                                                            {"--range", &range},
+                                                            {"--sensor", &sensor},
+                                                            {"--up", &up},
+                                                            {"--drop-ego", &drop_ego},
+                                                            {"--point-layout", &point_layout},
+                                                            {"--name", &name},
+                                                            {"--pose-format", &pose_format},
+                                                            {"--T-sensor", &T_sensor},
+                                                            {"--time-offset", &time_offset},
+                                                            {"--max-gap", &max_gap},
+                                                            {"--points", &points},
+                                                            {"--point-time-unit", &point_time_unit},
+                                                            {"--topic", &topic},
+                                                            {"--pose-topic", &pose_topic}};
   if (deskew) return "--deskew";
   for (const auto& [option, text] : all) {
     if (!text->empty()) return option;
@@ -125,10 +142,13 @@ SequenceOptions SequenceFlags::options() const {
   SequenceOptions options;
   if (!frames.empty()) options.frames = parse_frame_range(frames);
   if (!poses.empty()) options.poses = poses;
+  if (!topic.empty()) options.topic = topic;
+  if (!pose_topic.empty()) options.pose_topic = pose_topic;
   if (!label_rule.empty()) options.label_rule = label_rule;
   if (!sensor.empty()) options.sensor = sensor;
   if (!up.empty()) options.up = up;
   if (!drop_ego.empty()) options.drop_ego = parse_drop_ego(drop_ego);
+  if (!point_layout.empty()) options.point_layout = point_layout;
   if (!name.empty()) options.name = name;
   if (!pose_format.empty()) options.pose_format = pose_format;
   if (!T_sensor.empty()) options.T_sensor = T_sensor;

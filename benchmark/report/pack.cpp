@@ -162,6 +162,7 @@ PackedScene pack_scene(const Scene& scene, std::size_t number) {
   const std::string prefix = "scene-" + std::to_string(number);
   head["sequence"] = scene.sequence;
   head["stream"] = prefix;
+  if (scene.is_unlabelled) head["unlabelled"] = true;
   head["points"] = scene.points.size();
   head["points_in_range"] = scene.points_in_range;
   head["voxel"] = kPageVoxel;

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "benchmark/picture/charts/charts.h"
-#include "benchmark/report/pack.h"
 #include "benchmark/report/page_files.h"
+#include "benchmark/report/page_parts.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/suite/suite.h"
@@ -144,46 +144,12 @@ std::vector<PageSection> sections_of(const PageRequest& request, const Points& p
   return sections;
 }
 
-std::string head_html(const std::string& title) {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-         "<meta name=\"generator\" content=\"raymoval " RAYMOVAL_VERSION
-         "\">\n"
-         "<link rel=\"icon\" href=\"data:,\">\n<title>" +
-         html_text(title) + "</title>\n<style>\n" + chart_style() +
-         std::string(page_file("page.css")) + "</style>\n</head>\n";
-}
-
 std::string navigation_html(const std::vector<PageSection>& sections) {
   std::string html = "<nav aria-label=\"Sections\"><div><ul>\n";
   for (const PageSection& section : sections) {
     html += "<li><a href=\"#" + section.id + "\">" + html_text(section.title) + "</a></li>\n";
   }
   return html + "</ul><button type=\"button\" id=\"theme\">Dark</button></div></nav>\n";
-}
-
-std::string footer_html(bool with_view) {
-  std::string html =
-      "<footer><p>Made by raymoval " RAYMOVAL_VERSION ". This file needs no network.";
-  if (with_view) {
-    html += " Its 3-D view contains three.js " RAYMOVAL_THREE_VERSION
-            ", under the MIT licence.</p>\n<details><summary>Licence of three.js</summary>\n<pre>" +
-            html_text(std::string(page_file("LICENSE"))) + "</pre></details";
-  } else {
-    html += "</p";
-  }
-  return html + "></footer>\n";
-}
-
-std::string scripts_html(const Points& points) {
-  std::string html = "<script>\n" + std::string(page_file("page.js")) + "</script>\n";
-  if (points.scenes.empty()) return html;
-  for (const auto& [id, text] : points.streams) {
-    html += "<script type=\"application/octet-stream\" id=\"" + id + "\">" + text + "</script>\n";
-  }
-  html += "<script type=\"application/json\" id=\"scenes\">" + page_data(points.scenes) +
-          "</script>\n<script>\n" + std::string(page_file("view.js")) + "</script>\n";
-  return html;
 }
 
 /// "a, b and c", or "4 methods".
@@ -228,8 +194,8 @@ Page make_page(const PageRequest& request) {
                      "</p></header>\n" + navigation_html(sections) + "<main id=\"main\">\n" +
                      facts_html(request.content);
   for (const PageSection& section : sections) html += html_section(section);
-  html += "</main>\n" + footer_html(!points.scenes.empty()) + scripts_html(points) +
-          "</body>\n</html>\n";
+  html += "</main>\n" + footer_html(!points.scenes.empty()) +
+          scripts_html(points.scenes, points.streams) + "</body>\n</html>\n";
   return {std::move(html), std::move(points.warnings)};
 }
 

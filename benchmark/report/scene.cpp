@@ -2,13 +2,10 @@
 #include "benchmark/report/scene.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
 
+#include "benchmark/report/scene_points.h"
 #include "benchmark/result/removals/reasons.h"
-#include "core/morton.h"
 #include "core/scan/local_frame.h"
 #include "eval/columns/removal_tally.h"
 
@@ -17,19 +14,6 @@ namespace {
 
 /// The share of the points that may be wrongly classified ones.
 constexpr double kErrorShare = 0.6;
-
-/// The Morton code of a point: the bits of its coordinates in turn, z on top.
-using Morton = std::array<std::uint64_t, 2>;
-
-Morton morton_of(const ShownPoint& point) {
-  Morton code{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto biased = static_cast<std::uint64_t>(std::int64_t{point.step[axis]} + (1LL << 31));
-    code[0] |= spread_bits(biased >> 21) << axis;
-    code[1] |= spread_bits(biased) << axis;
-  }
-  return code;
-}
 
 /// What a method did to one scan.
 struct ScanVerdicts {
@@ -78,7 +62,7 @@ class SceneBuilder {
     for (const auto& [id, kind] : labels_) {
       scene_.labels.push_back({id, sequence_.label_rule.class_name(id), kind});
     }
-    gather();
+    gather_points(errors_, others_, scene_);
     return std::move(scene_);
   }
 
@@ -120,54 +104,6 @@ class SceneBuilder {
       ++(removed ? counts.true_positive : counts.false_negative);
     } else {
       ++(removed ? counts.false_positive : counts.kept_static);
-    }
-  }
-
-  static std::array<std::int32_t, 3> steps_of(const Eigen::Vector3d& world) {
-    constexpr double kMost = std::numeric_limits<std::int32_t>::max() - kStepsPerVoxel;
-    // Within the voxel of `voxel_index`, whatever rounding does.
-    std::array<std::int32_t, 3> steps{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const double place = world[axis] * (1.0 / kPageVoxel);
-      const double voxel = std::floor(place);
-      const double inside = world[axis] / kPageVoxel - voxel;
-      const double step =
-          std::clamp(std::floor(inside * kStepsPerVoxel), 0.0, double{kStepsPerVoxel - 1});
-      const double steps_from_zero = voxel * kStepsPerVoxel + step;
-      if (!(std::abs(steps_from_zero) <= kMost)) {
-        throw_voxel_out_of_range(world.x(), world.y(), world.z(), kPageVoxel);
-      }
-      steps[axis] = static_cast<std::int32_t>(steps_from_zero);
-    }
-    return steps;
-  }
-
-  /// Puts both kinds of points into one order, in which neighbours in space are near each other.
-  void gather() {
-    const std::size_t count = errors_.size() + others_.size();
-    const auto set_of = [&](std::size_t i) -> std::pair<const ThinnedPoints&, std::size_t> {
-      if (i < errors_.size()) return {errors_, i};
-      return {others_, i - errors_.size()};
-    };
-    std::vector<Morton> codes(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto [set, place] = set_of(i);
-      codes[i] = morton_of(set.points()[place]);
-    }
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return codes[a] != codes[b] ? codes[a] < codes[b] : a < b;
-    });
-    scene_.points.reserve(count);
-    scene_.verdicts.assign(scene_.cells.size(), std::vector<std::uint8_t>(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto [set, place] = set_of(order[i]);
-      scene_.points.push_back(set.points()[place]);
-      const std::span<const std::uint8_t> verdict = set.verdict(place);
-      for (std::size_t cell = 0; cell < verdict.size(); ++cell) {
-        scene_.verdicts[cell][i] = verdict[cell];
-      }
     }
   }
 

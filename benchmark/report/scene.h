@@ -39,6 +39,8 @@ struct SceneLabel {
 /// What the 3-D view shows of a sequence.
 struct Scene {
   std::string sequence;
+  /// Whether nobody knows what moves: a point was kept or removed, and neither is right or wrong.
+  bool is_unlabelled = false;
   std::vector<SceneCell> cells;
   std::vector<VerdictCounts> counts;  ///< One for each cell, over all points in range.
   std::vector<std::string> scans;     ///< The names of the scans.
@@ -47,8 +49,10 @@ struct Scene {
   std::vector<Eigen::Vector3d> trajectory;  ///< Sensor positions, metres.
   std::vector<SceneLabel> labels;           ///< By id.
   std::uint64_t points_in_range = 0;
-  int error_cell = 0, other_cell = 0;  ///< Cells by which points were thinned, in steps; 0: not.
-  std::vector<ShownPoint> points;      ///< In the order of a Morton curve.
+  /// Cells by which points were thinned, in steps; 0: not. Where nothing is labelled, those of the
+  /// removed and of the kept ones.
+  int error_cell = 0, other_cell = 0;
+  std::vector<ShownPoint> points;  ///< In the order of a Morton curve.
   /// For each cell a byte for each point. Bit 0 is set if the point was removed; the bits above it
   /// hold the reason's code plus 1, or 0 if there is no reason.
   std::vector<std::vector<std::uint8_t>> verdicts;

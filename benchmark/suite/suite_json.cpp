@@ -96,14 +96,18 @@ void read_pose_options(const Fields& object, SequenceOptions& options) {
 SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
   if (item.is_string()) return {sequence_path(item.get<std::string>(), places, where), {}};
   const Fields object(item, where,
-                      "path name frames poses label_rule range_m sensor up drop_ego pose_format "
+                      "path name frames poses topic pose_topic label_rule range_m sensor up "
+                      "drop_ego point_layout pose_format "
                       "T_sensor time_offset_s max_gap_s points deskew point_time_unit");
   SequenceRequest request{sequence_path(object.text("path"), places, where), {}};
   SequenceOptions& options = request.options;
   options.name = text_of(object, "name");
   options.poses = text_of(object, "poses");
+  options.topic = text_of(object, "topic");
+  options.pose_topic = text_of(object, "pose_topic");
   options.sensor = text_of(object, "sensor");
   options.up = text_of(object, "up");
+  options.point_layout = text_of(object, "point_layout");
   if (const auto frames = text_of(object, "frames")) options.frames = parse_frame_range(*frames);
   if (const auto rule = text_of(object, "label_rule")) options.label_rule = located(*rule, places);
   if (object.has("drop_ego")) {
@@ -288,9 +292,12 @@ ordered_json to_json(const SequenceRequest& place) {
   };
   if (options.frames) add("frames", frame_range_text(*options.frames));
   add("poses", options.poses);
+  add("topic", options.topic);
+  add("pose_topic", options.pose_topic);
   if (options.label_rule) add("label_rule", options.label_rule->string());
   add("sensor", options.sensor);
   add("up", options.up);
+  add("point_layout", options.point_layout);
   if (options.drop_ego) add("drop_ego", ego_region_text(*options.drop_ego));
   add("name", options.name);
   add("pose_format", options.pose_format);
@@ -314,9 +321,12 @@ SequenceRequest place_from(const ordered_json& json) {
     const auto text = value.get<std::string>();
     if (key == "frames") options.frames = parse_frame_range(text);
     if (key == "poses") options.poses = text;
+    if (key == "topic") options.topic = text;
+    if (key == "pose_topic") options.pose_topic = text;
     if (key == "label_rule") options.label_rule = text;
     if (key == "sensor") options.sensor = text;
     if (key == "up") options.up = text;
+    if (key == "point_layout") options.point_layout = text;
     if (key == "drop_ego") options.drop_ego = parse_ego_region(text);
     if (key == "name") options.name = text;
     if (key == "pose_format") options.pose_format = text;

@@ -42,6 +42,15 @@ class Bag {
   /// @throws DataError naming the file, the byte and what is wrong there; UnreadableError if the
   ///   disk fails
   [[nodiscard]] virtual std::string message(std::size_t topic, std::size_t index) const = 0;
+  /// The first `most` bytes of that message, or all if it has fewer, for those who want to know no
+  /// more than its header. Formats that can give them without reading all of it do so.
+  /// @throws as `message`
+  [[nodiscard]] virtual std::string message_head(std::size_t topic, std::size_t index,
+                                                 std::size_t most) const {
+    std::string bytes = message(topic, index);
+    if (bytes.size() > most) bytes.resize(most);
+    return bytes;
+  }
   /// Sentences on what of the file could not be read, such as a cut end; none if it is whole. They
   /// are bounded in number, however often a file is damaged.
   [[nodiscard]] virtual std::vector<std::string> damage() const = 0;

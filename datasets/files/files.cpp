@@ -153,8 +153,8 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
 Layout files_layout() {
   Layout layout;
   layout.name = "files";
-  layout.expected = "a folder of .pcd, .ply or .bin scans with poses.txt";
-  layout.forms = {{"FOLDER", "a folder of .pcd, .ply or .bin scans with poses.txt"}};
+  layout.expected = "a folder of .pcd, .ply, .bin, .las or .npy scans with poses.txt";
+  layout.forms = {{"FOLDER", "a folder of .pcd, .ply, .bin, .las or .npy scans with poses.txt"}};
   layout.pose_place = PosePlace::kRowOfScan;
   layout.class_names = semantickitti_class_names();
   layout.recognise = [](Layout::Path path) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "core/parallel.h"
 #include "eval/dynamicmap/undecided_points.h"
@@ -84,7 +85,7 @@ TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid) {
         result.points.push_back(slots[slot].points);
       });
   check_not_empty(all.points);
-  result.blocks = CellLattice(all.blocks);
+  result.blocks = CellLattice(std::move(all.blocks));
   return result;
 }
 

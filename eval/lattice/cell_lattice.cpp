@@ -17,15 +17,17 @@ std::uint64_t curve_of(VoxelKey brick) {
 
 }  // namespace
 
-CellLattice::CellLattice(const CellSet& cells) {
+CellLattice::CellLattice(CellSet cells) {
   bricks_.reserve(cells.bricks_.size());
   for (const auto& [brick, bits] : cells.bricks_) bricks_.push_back({brick, bits, 0});
+  cells.bricks_ = {};
   std::sort(bricks_.begin(), bricks_.end(),
             [](const Brick& a, const Brick& b) { return curve_of(a.key) < curve_of(b.key); });
-  positions_.reserve(bricks_.size());
+  const KeyOfBrick key_of{bricks_.data()};
+  positions_.reserve(bricks_.size(), key_of);
   for (Brick& brick : bricks_) {
     brick.first = static_cast<Number>(size_);
-    positions_.emplace(brick.key, static_cast<std::uint32_t>(&brick - bricks_.data()));
+    (void)positions_.add(brick.key, key_of);
     size_ += static_cast<std::size_t>(std::popcount(brick.bits));
     if (size_ >= kNone) {
       throw DataError(

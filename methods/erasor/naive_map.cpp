@@ -15,11 +15,11 @@ VoxelIndex tile_index(const Eigen::Vector3d& point) {
 
 }  // namespace
 
-NaiveMap::NaiveMap(std::vector<VoxelKey> keys, std::vector<Eigen::Vector3d> points)
+NaiveMap::NaiveMap(Chunks<VoxelKey> keys, Chunks<Eigen::Vector3d> points,
+                   Chunks<VoxelNumber> numbers)
     : keys_(std::move(keys)), points_(std::move(points)), in_(keys_.size(), 1) {
   // Voxels are numbered tile by tile, in each tile as they are given.
   VoxelMap<std::uint32_t> tile_numbers;
-  std::vector<std::uint32_t> tile_of(keys_.size());
   std::vector<VoxelKey> tile_keys;
   std::vector<VoxelNumber> ends;
   for (std::size_t i = 0; i < keys_.size(); ++i) {
@@ -29,8 +29,8 @@ NaiveMap::NaiveMap(std::vector<VoxelKey> keys, std::vector<Eigen::Vector3d> poin
       tile_keys.push_back(tile);
       ends.push_back(0);
     }
-    tile_of[i] = found.first->second;
-    ++ends[tile_of[i]];
+    numbers[i] = found.first->second;  // For now the number of the tile.
+    ++ends[numbers[i]];
   }
   VoxelNumber sum = 0;
   for (std::size_t t = 0; t < ends.size(); ++t) {
@@ -38,13 +38,12 @@ NaiveMap::NaiveMap(std::vector<VoxelKey> keys, std::vector<Eigen::Vector3d> poin
     sum += ends[t];
     ends[t] = sum - ends[t];  // Now the place of the tile's next voxel.
   }
-  std::vector<VoxelNumber>& numbers = tile_of;  // In the same memory.
-  for (VoxelNumber& number : numbers) number = ends[number]++;
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = ends[numbers[i]]++;
   renumber(numbers);
 }
 
 /// Gives every voxel its number, in place. @param numbers of the voxels; afterwards 0, 1, 2, ...
-void NaiveMap::renumber(std::vector<VoxelNumber>& numbers) {
+void NaiveMap::renumber(Chunks<VoxelNumber>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     while (numbers[i] != i) {
       const VoxelNumber to = numbers[i];
@@ -78,77 +77,44 @@ void NaiveMap::put_back(VoxelKey key) {
   out_.erase(found);
 }
 
-VoxelNumber NaiveMapBuilder::number_of(VoxelKey key) {
-  if (4 * std::size_t{size_} >= 3 * table_.size()) grow_table();
-  const std::size_t mask = table_.size() - 1;
-  std::size_t at = VoxelKeyHash{}(key)&mask;
-  for (; table_[at] != kFree; at = (at + 1) & mask) {
-    if (voxel(table_[at]).key == key) return table_[at];
-  }
-  if (size_ % kChunk == 0) chunks_.push_back(std::make_unique<Voxel[]>(kChunk));
-  table_[at] = size_;
-  voxel(size_) = {key, Eigen::Vector3d::Zero(), 0, 0};
-  return size_++;
-}
-
-void NaiveMapBuilder::grow_table() {
-  table_.assign(std::max<std::size_t>(2 * table_.size(), 1024), kFree);
-  const std::size_t mask = table_.size() - 1;
-  for (VoxelNumber number = 0; number < size_; ++number) {
-    std::size_t at = VoxelKeyHash{}(voxel(number).key) & mask;
-    while (table_[at] != kFree) at = (at + 1) & mask;
-    table_[at] = number;
-  }
-}
-
-std::uint32_t NaiveMapBuilder::slot_of(VoxelKey key) {
-  const VoxelNumber number = number_of(key);
-  Voxel& found = voxel(number);
-  const bool known = found.slot < in_scan_.size() && in_scan_[found.slot].voxel == number;
-  if (!known) {
-    found.slot = static_cast<std::uint32_t>(in_scan_.size());
-    in_scan_.push_back({number, 0, Eigen::Vector3d::Zero()});
-  }
-  return found.slot;
-}
-
 void NaiveMapBuilder::add(const std::vector<VoxelKey>& keys,
                           const std::vector<Eigen::Vector3d>& points) {
+  const auto key_in_scan = [this](VoxelNumber place) { return in_scan_[place].key; };
   in_scan_.clear();
+  places_.clear();
   VoxelKey last_key = kNoVoxel;  // Neighbours of a beam often share their voxel.
-  std::uint32_t slot = 0;
+  VoxelNumber place = 0;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (keys[i] == kNoVoxel) continue;
     if (keys[i] != last_key) {
       last_key = keys[i];
-      slot = slot_of(last_key);
+      place = places_.add(last_key, key_in_scan);
+      if (place == in_scan_.size()) in_scan_.push_back({last_key, Eigen::Vector3d::Zero(), 0});
     }
-    in_scan_[slot].sum += points[i];
-    ++in_scan_[slot].points;
+    in_scan_[place].sum += points[i];
+    ++in_scan_[place].points;
   }
   for (const VoxelOfScan& collected : in_scan_) {
-    Voxel& filled = voxel(collected.voxel);
-    filled.sum_of_means += collected.sum / collected.points;
-    ++filled.scans;
+    const VoxelNumber number =
+        numbers_.add(collected.key, [this](VoxelNumber one) { return keys_[one]; });
+    if (number == keys_.size()) {
+      keys_.push_back(collected.key);
+      sums_of_means_.push_back(Eigen::Vector3d::Zero());
+      scans_.push_back(0);
+    }
+    sums_of_means_[number] += collected.sum / collected.points;
+    ++scans_[number];
   }
 }
 
 NaiveMap NaiveMapBuilder::finish() {
-  table_ = {};
-  std::vector<VoxelKey> keys;
-  std::vector<Eigen::Vector3d> points;
-  keys.reserve(size_);
-  points.reserve(size_);
-  for (VoxelNumber number = 0; number < size_; ++number) {
-    const Voxel& collected = voxel(number);
-    keys.push_back(collected.key);
-    points.emplace_back(collected.sum_of_means / collected.scans);
-    // What was read is given back at once, so that the voxels are not in memory twice.
-    if ((number + 1) % kChunk == 0) chunks_[number / kChunk].reset();
+  numbers_ = {};
+  in_scan_ = {};
+  places_ = {};
+  for (std::size_t number = 0; number < scans_.size(); ++number) {
+    sums_of_means_[number] /= scans_[number];
   }
-  chunks_.clear();
-  size_ = 0;
-  return {std::move(keys), std::move(points)};
+  return {std::move(keys_), std::move(sums_of_means_), std::move(scans_)};
 }
 
 }  // namespace raymoval::erasor_method

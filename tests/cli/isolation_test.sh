@@ -56,7 +56,7 @@ expect 1 "(1/2)" run two.json --quiet --out two  # It crashes at its second scan
 # On a terminal a method's progress is seen, and never taken for its output.
 if command -v script >/dev/null; then
   script -qec "\"$raymoval\" run --sequence street --frames 0:9 --method throw --method comb \
-    --set comb.milliseconds=20 --threads 1 --out seen" /dev/null >seen.txt </dev/null
+    --set comb.milliseconds=100 --threads 1 --out seen" /dev/null >seen.txt </dev/null
   holds "progress is seen" grep -q "combing: [1-9] of 10" seen.txt
   holds "it is no output of the method" grep -q '"output_tail": ""' \
     seen/cells/street/throw-default/cell.json

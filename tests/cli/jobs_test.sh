@@ -35,14 +35,14 @@ touch_and_wait='touch here.$$; for i in $(seq 600); do [ $(ls here.* | wc -l) -g
 FAULTY_COMMAND=$touch_and_wait expect 0 "" run both.json --quiet --jobs 2 --out both
 
 # Limits hold for each cell, and the rest goes on.
-expect 1 "hang:default: did not finish within 2 s" run --sequence street --frames 0:2 --quiet --jobs 2 \
-  --method hang --method stray --method comb --time-limit 2 --out limits
+expect 1 "hang:default: did not finish within 4 s" run --sequence street --frames 0:2 --quiet --jobs 2 \
+  --method hang --method stray --method comb --time-limit 4 --out limits
 holds "both were ended" test "$(grep -c ',timeout,' limits/results.csv)" -eq 2
 holds "the good one has a score" grep -q "^street,comb,default,erasor,ok,[0-9]" limits/results.csv
 
 # Asked to end, it ends all, and the same command goes on.
-slow=(--sequence street --frames 0:3 --method comb --method comb2 --set comb.milliseconds=300
-  --set comb2.milliseconds=300)
+slow=(--sequence street --frames 0:3 --method comb --method comb2 --set comb.milliseconds=600
+  --set comb2.milliseconds=600)
 "$raymoval" run "${slow[@]}" --quiet --jobs 2 --out cut >out.txt 2>err.txt &
 process=$!
 until [[ $(pgrep -P $process | wc -l) -ge 2 ]] || ! kill -0 $process 2>/dev/null; do sleep 0.02; done

@@ -43,7 +43,7 @@ nothing_left() {
 nap=3000.$$
 sleepers() { pgrep -fx "sleep $nap"; }
 no_sleepers() {
-  for _ in $(seq 250); do
+  for _ in $(seq 1500); do
     sleepers >/dev/null || break
     sleep 0.02
   done
@@ -81,7 +81,7 @@ done
 begin run --sequence street --frames 0:9 "${slow[@]}" --only '*/comb*' --in-process --out alone
 wait_for_name alone/cells/street/comb-default
 kill -TERM $process
-sleep 0.2
+sleep 1  # Of two signals that come at once the first number would count.
 holds "the first signal is noted" kill -0 $process
 kill -INT $process
 ends 130 "a run after a second signal"

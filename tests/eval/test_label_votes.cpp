@@ -24,11 +24,12 @@ TEST_CASE("votes that keep no points decide as the vote that keeps them", "[vote
       const double distance = 0.1 + step * below(8);
       moving.push_back(below(2) == 0);
       slow.offer(distance * distance, i);
-      fast.offer(1, std::sqrt(distance * distance), {i, i + 100}, moving.back());
+      fast.offer(1, std::sqrt(distance * distance), {static_cast<std::uint16_t>(i), i + 100},
+                 moving.back());
       nearest = std::min(nearest, std::sqrt(distance * distance));
     }
     const LabelVote::Result expected = slow.decide([&](std::uint32_t i) { return moving[i]; });
-    REQUIRE(fast.label(1).word == expected.point);
+    REQUIRE(fast.label(1).id == expected.point);
     REQUIRE(fast.label(1).scan == expected.point + 100);
     REQUIRE(fast.is_mixed_tie(1) == expected.mixed_tie);
     ties += expected.mixed_tie ? 1 : 0;

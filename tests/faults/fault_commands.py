@@ -26,7 +26,7 @@ SUITE = {
 }
 
 
-def run(program, arguments, folder, environment, seconds=60):
+def run(program, arguments, folder, environment, seconds=180):
     """Runs the program in a folder. Returns its exit code (None: it hangs) and what it printed."""
     try:
         done = subprocess.run([program, *arguments], cwd=folder, env=environment,

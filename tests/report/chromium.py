@@ -22,7 +22,7 @@ def find():
 class Browser:
     """One page. What it logs as an error, throws or asks the network for stands in `problems`."""
 
-    def __init__(self, program, width=1280, height=900, dark=False, limit_s=120.0):
+    def __init__(self, program, width=1280, height=900, dark=False, limit_s=300.0):
         self._profile = tempfile.mkdtemp(prefix="raymoval-chromium-")
         self._deadline = time.monotonic() + limit_s
         to_read, self._write = os.pipe()

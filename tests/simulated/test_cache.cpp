@@ -41,11 +41,11 @@ class Log {
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
   Progress* progress() { return &progress_; }
+  /// Read by a descriptor of its own, so that others may go on writing.
   std::string text() {
-    std::rewind(file_);
-    std::string all;
-    for (int c = std::fgetc(file_); c != EOF; c = std::fgetc(file_)) all += static_cast<char>(c);
-    return all;
+    std::fflush(file_);
+    std::ifstream written("/proc/self/fd/" + std::to_string(::fileno(file_)));
+    return {std::istreambuf_iterator<char>(written), {}};
   }
 
  private:
@@ -244,11 +244,13 @@ TEST_CASE("Who asks for a scene that another one makes waits for it, and may be 
     cached_simulation(small_town(), scratch.text(), 1, log.progress(), &cancel);
     done = true;
   });
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const std::string waiting = "waiting for process " + std::to_string(::getpid());
+  while (!done && log.text().find(waiting) == std::string::npos) std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
   CHECK_FALSE(done);
   other.reset();
   asker.join();
-  CHECK_THAT(log.text(), Contains("waiting for process " + std::to_string(::getpid())));
+  CHECK_THAT(log.text(), Contains(waiting));
   CHECK(fs::exists(folder / "poses.txt"));
   CHECK_FALSE(fs::exists(lock_file));
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <memory>
 #include <optional>
 
 #include "benchmark/clean/clean_checks.h"
 #include "benchmark/clean/clean_outputs.h"
 #include "benchmark/clean/clean_process.h"
+#include "benchmark/clean/clean_summary.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/mask_spool.h"
@@ -16,7 +19,9 @@
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/scan/local_frame.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
+#include "datasets/clouds/formats.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
@@ -25,7 +30,8 @@ namespace raymoval {
 namespace {
 
 struct CleanFlags {
-  std::string path, output, dynamic, labels, voxel, memory_limit;
+  std::string path, output, dynamic, labelled, labels, scans, page, picture;
+  std::string voxel, tiles, tile_format, crs, memory_limit;
   std::string method = "raymoval_plus:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
@@ -52,6 +58,15 @@ struct RangeCut {
   }
 };
 
+/// What the summary tells besides what the outputs and the method say.
+struct CleaningFacts {
+  const CleanPaths& paths;
+  RangeCut range;
+  RangeShares shares = {};
+  std::vector<Finding> warned = {};
+  double seconds = 0.0;
+};
+
 ConfiguredMethod configured(const CleanFlags& flags) {
   Suite suite;
   add_method(suite, flags.method, "", program_methods());
@@ -74,13 +89,16 @@ void find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
   masks.check_complete();
 }
 
-void write_outputs(const ScanSource& scans, const MaskSpool& masks, RangeCut& range,
+void write_outputs(const ScanSource& scans, const MaskSpool& masks, CleaningFacts& facts,
                    CleanOutputs& outputs, Progress& progress) {
-  progress.begin("writing the map", scans.size());
+  RangeCut& range = facts.range;
+  progress.begin("writing the outputs", scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (interrupt_flag()) throw Cancelled();
     const Scan scan = scans.load(i);
-    outputs.add(scan, range.cut(scan, masks.get(i)));
+    const Mask mask = range.cut(scan, masks.get(i));
+    facts.shares.add(scan, mask);
+    outputs.add(scan, mask);
     progress.advance();
   }
   if (range.left_out == masks.point_count()) {
@@ -94,12 +112,38 @@ void write_outputs(const ScanSource& scans, const MaskSpool& masks, RangeCut& ra
 
 CleanPaths checked_paths(const CleanFlags& flags) {
   if (flags.path.empty()) throw UsageError("clean what? Expected `raymoval clean PATH -o FILE`.");
-  if (flags.output.empty()) throw UsageError("-o FILE is missing: name the cleaned map's file.");
   check_not_both(flags.path);
-  CleanPaths paths{output_target(flags.output), output_target(flags.dynamic), flags.labels,
-                   flags.overwrite};
+  CleanPaths paths;
+  paths.tiled = !flags.tiles.empty();
+  const auto map_target = [&](const std::string& named) {
+    return paths.tiled ? std::filesystem::path(named) : output_target(named);
+  };
+  paths.map = map_target(flags.output);
+  paths.removed = map_target(flags.dynamic);
+  paths.labelled = map_target(flags.labelled);
+  paths.labels = flags.labels;
+  paths.scans = flags.scans;
+  paths.page = output_target(flags.page);
+  paths.picture = output_target(flags.picture);
+  paths.overwrite = flags.overwrite;
+  if (paths.all().empty()) {
+    throw UsageError("-o FILE is missing: name the cleaned map's file, or another output.");
+  }
   check_paths(paths);
   return paths;
+}
+
+CleanWriting writing_of(const CleanFlags& flags, const ConfiguredMethod& method) {
+  CleanWriting writing;
+  if (!flags.voxel.empty()) writing.voxel_size = parse_positive("--voxel", flags.voxel);
+  if (!flags.tiles.empty()) writing.tile_size = parse_positive("--tiles", flags.tiles);
+  if (!flags.tile_format.empty()) {
+    if (flags.tiles.empty()) throw UsageError("--tile-format needs --tiles METRES.");
+    writing.tile_extension = '.' + flags.tile_format.substr(flags.tile_format.front() == '.');
+  }
+  if (!flags.crs.empty()) writing.crs = flags.crs;
+  writing.method = method.full_name();
+  return writing;
 }
 
 Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const ConfiguredMethod& method,
@@ -110,7 +154,10 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
     throw DataError("sequence '" + sequence.name + "' has no scan in the chosen frames (" +
                     sequence.frames + ").");
   }
-  check_apart_from(sequence, paths);
+  std::vector<std::filesystem::path> inputs;
+  if (!flags.reading.label_rule.empty()) inputs.emplace_back(flags.reading.label_rule);
+  if (!flags.reading.poses.empty()) inputs.emplace_back(flags.reading.poses);
+  check_apart_from(sequence, paths, inputs);
   if (method.entry->needs_truth && !sequence.labels) {
     throw UsageError("sequence '" + sequence.name + "' has no labels, and " + method.entry->name +
                      " answers from them; choose another --method.");
@@ -126,47 +173,92 @@ std::vector<std::string> arguments_of_child() {
   return arguments;
 }
 
+/// The arguments that say how the sequence is read, so that its cleaned scans are read in the same
+/// way. @param own_poses leaves out those that are about poses
+std::string reading_arguments(bool own_poses) {
+  constexpr std::array kReading = {"--sensor", "--up",           "--label-rule",
+                                   "--points", "--point-layout", "--point-time-unit",
+                                   "--deskew"};
+  constexpr std::array kPoses = {"--frames",      "--poses",   "--T-sensor",
+                                 "--time-offset", "--max-gap", "--pose-format"};
+  const auto is_one = [](const auto& names, const std::string& word) {
+    return std::find(names.begin(), names.end(), word.substr(0, word.find('='))) != names.end();
+  };
+  std::string text;
+  const std::vector<std::string>& words = program_arguments();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!is_one(kReading, words[i]) && (own_poses || !is_one(kPoses, words[i]))) continue;
+    text += ' ' + words[i];
+    const bool takes_next = words[i] != "--deskew" && words[i].find('=') == std::string::npos;
+    if (takes_next && i + 1 < words.size()) text += ' ' + words[++i];
+  }
+  return text;
+}
+
+/// What was written, a line each.
+std::string outputs_summary(const CleanPaths& paths, const CleanOutputs& outputs) {
+  std::string text;
+  for (const OutputPath& output : paths.all()) {
+    if (output.kind != OutputKind::kScans && output.kind != OutputKind::kBag) continue;
+    text += "The cleaned scans open with: raymoval inspect " + output.path.string() +
+            reading_arguments(outputs.has_own_poses()) + "\n";
+  }
+  for (const std::string& line : outputs.results()) text += line + '\n';
+  return text;
+}
+
 /// What was done, a line each.
 std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& method,
                              const Sequence& sequence, const MaskSpool& masks,
-                             const RangeCut& range, const CleanOutputs& outputs) {
+                             const CleaningFacts& facts, const CleanOutputs& outputs) {
+  const CleanPaths& paths = facts.paths;
   std::string text = method.full_name() + " removed " + grouped_text(masks.removed_count()) +
                      " of " + counted_text(masks.point_count(), "point") + " in " +
-                     counted_text(sequence.scans->size(), "scan") + "; " + flags.output + " has " +
-                     counted_text(outputs.map_points(), "point") + ".\n";
-  if (range.kept) {
-    text += counted_text(range.left_out, "point") + " beyond --range " + flags.reading.range +
+                     counted_text(sequence.scans->size(), "scan");
+  if (const auto points = outputs.map_points()) {
+    text += "; " + paths.first_map().string() + " has " + counted_text(*points, "point");
+  }
+  text += ".\n" + facts.shares.table();
+  if (facts.range.kept) {
+    text += counted_text(facts.range.left_out, "point") + " beyond --range " + flags.reading.range +
             " are in no output.\n";
   }
   for (const std::string& line : left_out_lines(sequence)) text += line + ".\n";
+  for (const std::string& line : sequence.notes) text += line + '\n';
+  text += outputs_summary(paths, outputs);
+  text += "It took " + fixed_text(facts.seconds, 1) + " s.\nIf the map does not look right:\n";
+  for (const std::string& line :
+       what_to_try(masks.removed_count(), masks.point_count(), flags.path, method.full_name(),
+                   facts.warned, !paths.page.empty() || !paths.picture.empty())) {
+    text += "  - " + line + '\n';
+  }
   return text;
 }
 
 ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& progress) {
-  const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
+  const auto start = std::chrono::steady_clock::now();
   const ConfiguredMethod method = configured(flags);
+  const CleanWriting writing = writing_of(flags, method);
   const Sequence sequence = opened(flags, paths, method, progress);
   const std::string turned = up_line(sequence.up());
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
-  check_data(sequence, flags.path, flags.force, progress, interrupt_flag());
+  CleaningFacts facts{paths, RangeCut{flags.reading.options().range_m}};
+  facts.warned = check_data(sequence, flags.path, flags.force, progress, interrupt_flag());
   progress.set_context(method.full_name() + " on " + sequence.name);
-  const MapPrecision precision = map_precision(*sequence.scans);
-  CleanOutputs outputs(paths, voxel, precision);
   // A scan that is another when the map is written than when it was judged is an error.
   const WatchedSequence data = watched(sequence);
+  CleanOutputs outputs(paths, writing, data.sequence, progress, interrupt_flag());
+  for (const std::string& note : outputs.notes()) print_error("raymoval: " + note);
   const LocalFrameSource local(*data.sequence.scans, sequence.method_frame());
   const TimedSource scans(local);
-  MaskSpool masks(method.full_name(), scans, paths.map);
+  MaskSpool masks(method.full_name(), scans, paths.all().front().path);
   find_removals(flags, method, data.sequence, scans, masks, progress);
-  RangeCut range{flags.reading.options().range_m};
-  write_outputs(*data.sequence.scans, masks, range, outputs, progress);
-  if (precision.coordinates == Coordinates::kDouble) {
-    print("The map lies more than 8 km from the world's origin: its coordinates are float64.\n");
-  }
+  write_outputs(*data.sequence.scans, masks, facts, outputs, progress);
+  facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!is_control(method.entry->name)) {
     check_removed(masks.removed_count(), masks.point_count(), flags.path);
   }
-  print(cleaning_summary(flags, method, sequence, masks, range, outputs));
+  print(cleaning_summary(flags, method, sequence, masks, facts, outputs));
   return ExitCode::kDone;
 }
 
@@ -195,14 +287,33 @@ Command add_clean_command(CommandParser& program) {
   auto flags = std::make_shared<CleanFlags>();
   CommandOptions options = program.add_command("clean", "Writes a map without moving objects");
   SequenceFlags::add_place_to(options, flags->path);
-  options.add("-o,--output", "FILE", flags->output,
-              "The cleaned map in the world frame: a .pcd, .ply or .bin file");
+  options.add("-o,--output,--static", "FILE", flags->output,
+              "The cleaned map in the world frame, with all fields of the scans: a file that ends "
+              "in " +
+                  join(written_extensions(), ", "));
   options.add("--dynamic", "FILE", flags->dynamic, "Also write what was removed, as a map");
+  options.add("--labelled", "FILE", flags->labelled,
+              "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
   options.add(
       "--labels", "DIR", flags->labels,
       "Also write a label file for each scan into this folder (251 = removed, 9 = kept, 0 = left "
       "out)");
-  options.add("--voxel", "METRES", flags->voxel, "Keep one point in each cell of this size");
+  options.add("--scans", "DIR", flags->scans,
+              "Also write the scans without the removed points, one by one in their own format, "
+              "into a folder that opens as the sequence does; of a recording, another recording");
+  options.add("--tiles", "METRES", flags->tiles,
+              "Cut maps into square tiles of this size: -o, --dynamic and --labelled then name "
+              "folders");
+  options.add("--tile-format", "FORMAT", flags->tile_format,
+              "The format of the tiles, such as ply (default: pcd)");
+  options.add("--crs", "CRS", flags->crs,
+              "Coordinate reference system that is written into LAS files");
+  options.add("--html", "FILE", flags->page,
+              "Also write a page with a 3-D view of what was kept and removed (.html)");
+  options.add("--picture", "FILE", flags->picture, "Also write the map from above (.png)");
+  options.add("--voxel", "METRES", flags->voxel,
+              "Write one point for each cell of this size: the mean of its points and of their "
+              "intensity, with the other fields of the point nearest to the middle of the cell");
   options.add("--method", "NAME", flags->method,
               "The method (default: raymoval_plus:offline, which is the best)");
   options.add("--set", "SETTING", flags->settings, "A parameter: METHOD.key=value");
@@ -226,6 +337,8 @@ Command add_clean_command(CommandParser& program) {
       "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 "
       "--method raymoval:online\n"
       "  raymoval clean data/05 -o near.pcd --range 2:40 --drop-ego auto\n"
+      "  raymoval clean data/05 --scans cleaned --html map.html --picture map.png\n"
+      "  raymoval clean data/05 -o tiles --tiles 100\n"
       "The data is checked first, as `raymoval inspect` does. Mistakes that make the map wrong "
       "are\nrefused (see `raymoval inspect --list`) unless --force is given. Points on the "
       "sensor's vehicle (--drop-ego)\nand missing returns (NaN or at the origin) are in no output "

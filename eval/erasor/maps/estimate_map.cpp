@@ -16,11 +16,11 @@ bool EstimateMap::begin_pass(std::size_t slots) {
       return true;
     case kAddUp:
       touched_.count_through();
-      means_.assign(touched_.count(), kNoMean);
+      means_ = MeanTable(touched_.count());
       if (points_.removed == 0) mixed_label_ties_ = truth_.mixed_label_ties();
-      if (points_.removed == 0 || points_.removed == points_.evaluated) return false;
-      sums_.resize(touched_.count());
-      return true;
+      if (points_.removed != 0 && points_.removed != points_.evaluated) return true;
+      (void)means_.finish();
+      return false;
     case kVote:
       return begin_votes();
     default:
@@ -49,12 +49,12 @@ void EstimateMap::take(std::size_t slot) {
     points_.removed += part.removed;
   } else if (pass_ == kAddUp) {
     for (const DensePoint& point : part.dense) {
-      sums_[touched_.rank(point.cell)].add(point.point);
+      means_.add(touched_.rank(point.cell), point.point);
     }
   } else {
     mixed_label_ties_ += part.ties;
     for (const Offer& offer : part.offers) {
-      votes_->offer(offer.voter, offer.distance, {offer.word, part.scan}, offer.moves);
+      votes_->offer(offer.voter, offer.distance, {semantic_id(offer.word), part.scan}, offer.moves);
     }
   }
 }
@@ -64,7 +64,7 @@ VoxelKind EstimateMap::kind(Number number) const {
   if (points_.removed == 0) return truth_.kind(number);
   const RankedBits& mixed = truth_.map_cells().mixed;
   if (!mixed.test(number)) return VoxelKind::kStatic;
-  return kind_of(votes_->label(mixed.rank(number)).word, rules_.classes);
+  return kind_of(votes_->label(mixed.rank(number)).id, rules_.classes);
 }
 
 /// Touches the cells of removed points.
@@ -86,8 +86,7 @@ void EstimateMap::add_up(const CheckedScan& scan, Part& part) const {
 }
 
 bool EstimateMap::begin_votes() {
-  for (std::size_t i = 0; i < sums_.size(); ++i) means_[i] = sums_[i].mean();
-  sums_ = {};
+  (void)means_.finish();
   votes_ = std::make_unique<LabelVotes>(truth_.map_cells().mixed.count());
   return truth_.map_cells().mixed.count() > 0;
 }

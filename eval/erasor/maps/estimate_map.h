@@ -11,6 +11,7 @@
 #include "eval/erasor/maps/truth_map.h"
 #include "eval/lattice/cell_means.h"
 #include "eval/lattice/label_votes.h"
+#include "eval/lattice/mean_table.h"
 #include "eval/lattice/ranked_bits.h"
 #include "eval/protocol.h"
 
@@ -20,8 +21,7 @@ namespace raymoval::erasor {
 /// It is made of what differs from the truth. The first pass finds the touched cells, in which
 /// points were removed. The second one adds up their voxels' means; all other voxels are those of
 /// the truth. The third one lets points vote for labels where both classes are near; elsewhere all
-/// labels are static. It takes at most 56 bytes a touched cell, 24 afterwards, and 32 a cell that
-/// votes.
+/// labels are static. It takes 52 bytes a touched cell, 24 afterwards, and 16 a cell that votes.
 class EstimateMap : public ScanVisitor, public MapVoxels {
  public:
   /// @param truth of the same scans; must outlive this object
@@ -34,7 +34,7 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   // After the last pass:
   [[nodiscard]] const CellLattice& cells() const override { return truth_.cells(); }
   [[nodiscard]] Eigen::Vector3d mean(Number number) const override {
-    return touched_.test(number) ? means_[touched_.rank(number)] : truth_.mean(number);
+    return touched_.test(number) ? means_.mean(touched_.rank(number)) : truth_.mean(number);
   }
   [[nodiscard]] VoxelKind kind(Number number) const override;
   [[nodiscard]] const PointCounts& points() const { return points_; }
@@ -63,9 +63,8 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   std::vector<Part> slots_;
   PointCounts points_;
   RankedBits touched_;
-  std::vector<OffsetMean> sums_;        ///< Of touched cells, while they are added up.
-  std::vector<Eigen::Vector3d> means_;  ///< Of touched cells; not a number where nothing is left.
-  std::unique_ptr<LabelVotes> votes_;   ///< Of `MapCells::mixed`; null: labels are those of truth.
+  MeanTable means_;                    ///< Of touched cells; not a number where nothing is left.
+  std::unique_ptr<LabelVotes> votes_;  ///< Of `MapCells::mixed`; null: labels are those of truth.
   std::int64_t mixed_label_ties_ = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/erasor/maps/map_cells.h"
 
+#include <utility>
+
 #include "eval/scan_passes.h"
 
 namespace raymoval::erasor {
@@ -61,7 +63,7 @@ MapCells map_cells(const MapRules& rules) {
       },
       [&](std::size_t slot) { all.insert(slots[slot]); });
   MapCells cells;
-  cells.all = CellLattice(all.cells);
+  cells.all = CellLattice(std::move(all.cells));
   cells.mixed = cells_around(all.moving, 2, cells.all);
   cells.near_mixed = cells_around(all.moving, 3, cells.all);
   return cells;

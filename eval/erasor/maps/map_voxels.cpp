@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/erasor/maps/map_voxels.h"
 
+#include <utility>
+
 #include "core/scan/scan_source.h"
 
 namespace raymoval::erasor {
@@ -9,7 +11,7 @@ namespace {
 CellLattice lattice_of(const std::vector<VoxelKey>& keys) {
   CellSet cells;
   for (const VoxelKey key : keys) cells.insert(key);
-  return CellLattice(cells);
+  return CellLattice(std::move(cells));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "eval/lattice/cell_lattice.h"
@@ -38,9 +37,6 @@ class MapVoxels {
   [[nodiscard]] virtual Eigen::Vector3d mean(Number number) const = 0;
   [[nodiscard]] virtual VoxelKind kind(Number number) const = 0;
 };
-
-inline const Eigen::Vector3d kNoMean =
-    Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
 inline bool is_voxel(const Eigen::Vector3d& mean) {
   return !std::isnan(mean.x());

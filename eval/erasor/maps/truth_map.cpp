@@ -19,10 +19,11 @@ class TruthMap::Builder : public ScanVisitor {
     slots_.resize(slots);
     switch (++pass_) {
       case 1:
-        sums_.resize(map_.cells().size());
+        map_.means_ = MeanTable(map_.cells().size());
         return true;
       case 2:
-        end_sums();
+        map_.voxels_ = static_cast<std::int64_t>(map_.means_.finish());
+        votes_ = std::make_unique<LabelVotes>(map_.cells().size());
         return map_.voxels_ > 0;
       default:
         end_votes();
@@ -46,12 +47,12 @@ class TruthMap::Builder : public ScanVisitor {
     const Part& part = slots_[slot];
     if (pass_ == 1) {
       map_.points_ += part.points;
-      for (const DensePoint& point : part.dense) sums_[point.cell].add(point.point);
+      for (const DensePoint& point : part.dense) map_.means_.add(point.cell, point.point);
       return;
     }
     map_.mixed_label_ties_ += part.ties;
     for (const Offer& offer : part.offers) {
-      votes_->offer(offer.voter, offer.distance, {offer.word, part.scan}, offer.moves);
+      votes_->offer(offer.voter, offer.distance, {semantic_id(offer.word), part.scan}, offer.moves);
     }
   }
 
@@ -71,28 +72,19 @@ class TruthMap::Builder : public ScanVisitor {
     part.offers.clear();
     add_offers(
         dense.cloud, rules_, map_.cells(), [](Number number) { return number; },
-        [&](Number number) -> const Eigen::Vector3d& { return map_.means_[number]; }, part.offers);
-  }
-
-  void end_sums() {
-    map_.means_.reserve(sums_.size());
-    for (const OffsetMean& sum : sums_) {
-      map_.means_.push_back(sum.mean());
-      map_.voxels_ += sum.points > 0 ? 1 : 0;
-    }
-    sums_ = {};
-    votes_ = std::make_unique<LabelVotes>(map_.means_.size());
+        [&](Number number) { return map_.mean(number); }, part.offers);
   }
 
   void end_votes() {
-    map_.kinds_.assign(map_.means_.size(), VoxelKind::kNone);
-    map_.scans_.assign(map_.means_.size(), 0);
-    for (std::size_t i = 0; i < map_.means_.size(); ++i) {
-      if (!is_voxel(map_.means_[i])) continue;
-      const LabelVotes::Label& label = votes_->label(i);
-      map_.kinds_[i] = kind_of(label.word, rules_.classes);
+    const std::size_t cells = map_.cells().size();
+    map_.kinds_.assign(cells, VoxelKind::kNone);
+    map_.scans_.assign(cells, 0);
+    for (Number i = 0; i < cells; ++i) {
+      if (!is_voxel(map_.mean(i))) continue;
+      const LabelVotes::Label label = votes_->label(i);
+      map_.kinds_[i] = kind_of(label.id, rules_.classes);
       map_.scans_[i] = label.scan;
-      map_.unlabelled_voxels_ += semantic_id(label.word) <= 1 ? 1 : 0;
+      map_.unlabelled_voxels_ += label.id <= 1 ? 1 : 0;
       map_.mixed_label_ties_ += votes_->is_mixed_tie(i) ? 1 : 0;
     }
   }
@@ -101,7 +93,6 @@ class TruthMap::Builder : public ScanVisitor {
   TruthMap& map_;
   int pass_ = 0;
   std::vector<Part> slots_;
-  std::vector<OffsetMean> sums_;  ///< By number, in the first pass.
   std::unique_ptr<LabelVotes> votes_;
 };
 

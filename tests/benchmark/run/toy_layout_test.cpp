@@ -174,9 +174,12 @@ TEST_CASE("A layout of a program's own is run, with the counts of the same data 
 TEST_CASE("A layout of a program's own is cleaned like any other") {
   const test::TemporaryFolder folder;
   const Sequence sequence = open_sequence(write_toy(folder), {});
-  const CleanPaths paths{folder.path() / "map.pcd", "", "", false};
+  CleanPaths paths;
+  paths.map = folder.path() / "map.pcd";
   check_apart_from(sequence, paths);
-  CleanOutputs outputs(paths, 0.0, map_precision(*sequence.scans));
+  Progress progress(ProgressStyle::kQuiet);
+  const std::atomic<bool> cancel{false};
+  CleanOutputs outputs(paths, {}, sequence, progress, cancel);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
     const Scan scan = sequence.scans->load(i);

@@ -4,7 +4,8 @@ import {Color} from 'three';
 
 import {COLOUR_BY, Cloud, SceneBuffers, sharedUniforms} from './cloud.js';
 import {rgbOf} from './colours.js';
-import {element, fillSelect, makeKinds, tellColours, tellKinds, tellPoint, tellThinning} from './panel.js';
+import {element, fillSelect, hideComparison, makeKinds, tellColours, tellKinds, tellPoint,
+        tellThinning} from './panel.js';
 import {pick} from './picking.js';
 import {SceneData} from './scene_data.js';
 import {Stage} from './stage.js';
@@ -41,7 +42,9 @@ class View {
     element('sequence-label').style.display = this.scenes.length < 2 ? 'none' : '';
     element('sequence').addEventListener('change', () => this.openScene());
     for (const id of ['left', 'right']) element(id).addEventListener('change', () => this.openCells());
-    makeKinds([...this.kindColours, '#a596bd'], this.visible, (kind, shown) => this.showKind(kind, shown));
+    const unlabelled = this.scenes.every((scene) => scene.head.unlabelled);
+    if (unlabelled) hideComparison();
+    makeKinds(unlabelled, [...this.kindColours, '#a596bd'], this.visible, (kind, shown) => this.showKind(kind, shown));
     for (const radio of document.querySelectorAll('input[name="colour"]')) {
       radio.addEventListener('change', () => this.setColourBy(radio.value));
     }

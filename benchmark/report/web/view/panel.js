@@ -27,17 +27,32 @@ const swatch = (colour) => make('span', {class: 'swatch', style: `--swatch:${col
 const KIND_NAMES = ['static, kept: right', 'static, removed: false positive',
                     'moving, removed: true positive', 'moving, kept: false negative',
                     'label not evaluated'];
+/** Without labels nobody knows what is right. */
+const UNLABELLED_NAMES = ['kept', null, 'removed', null, null];
 
 /** A checkbox for each kind. @param visible what is shown at first @param changed called with kind and whether it is shown */
-export function makeKinds(colours, visible, changed) {
+export function makeKinds(unlabelled, colours, visible, changed) {
   const field = element('kinds');
-  field.append(...KIND_NAMES.map((name, kind) => {
+  field.append(...(unlabelled ? UNLABELLED_NAMES : KIND_NAMES).map((name, kind) => {
     const box = make('input', {type: 'checkbox', id: `kind-${kind}`});
     box.checked = visible[kind];
     box.addEventListener('change', () => changed(kind, box.checked));
     const count = make('span', {class: 'count', id: `count-${kind}`});
-    return make('label', {for: `kind-${kind}`}, box, swatch(colours[kind]), name, count);
+    const label = make('label', {for: `kind-${kind}`}, box, swatch(colours[kind]), name ?? '', count);
+    if (name === null) label.style.display = 'none';
+    return label;
   }));
+}
+
+/** Takes away what says nothing where there is one method and no label. */
+export function hideComparison() {
+  const help = element('view-help').firstChild;
+  help.textContent = help.textContent.replace('its scan, label and voxel, and why it was removed or kept',
+                                              'its scan and voxel, and whether it was removed');
+  for (const id of ['left', 'right']) element(id).parentElement.style.display = 'none';
+  for (const radio of document.querySelectorAll('input[name="colour"]')) {
+    if (radio.value === 'label' || radio.value === 'reason') radio.parentElement.style.display = 'none';
+  }
 }
 
 /** How many points of each kind there are in the data of each shown cell. */
@@ -85,12 +100,16 @@ export function tellPoint(data, cells, i) {
   const metres = (values) => values.map((value) => value.toFixed(2)).join(', ');
   const entries = [
     ['scan', `${scan} (${head.scans[scan]})`],
-    ['label', label ? `${label.name} (${label.id})` : 'unknown'],
+    ...(head.unlabelled ? [] : [['label', label ? `${label.name} (${label.id})` : 'unknown']]),
     ['position', `${metres(data.world(i))} m`],
     [`voxel of ${head.voxel} m`, voxel ? voxel.join(', ') : 'unknown'],
   ];
   for (const cell of cells) {
     const kind = cell.tags[4 * i + 2], reason = cell.tags[4 * i + 1];
+    if (head.unlabelled) {
+      entries.push([cell.head.name, cell.tags[4 * i + 3] ? 'removed' : 'kept']);
+      continue;
+    }
     const verdict = KIND_WORDS[kind] ?? (cell.tags[4 * i + 3] ? 'removed' : 'kept') + ', not evaluated';
     const why = reason > 0 ? cell.head.reasons[reason - 1] : 'the method does not say why';
     entries.push([cell.head.name, `${verdict}: ${why}`]);
@@ -102,6 +121,13 @@ export function tellPoint(data, cells, i) {
 /** How much of the data is shown. */
 export function tellThinning(head) {
   const size = (cell) => `one in each cell of ${Number(cell.toFixed(3))} m`;
+  if (head.unlabelled) {
+    element('view-thinning').textContent =
+        `${grouped(head.points)} of ${grouped(head.points_in_range)} points are shown. Removed ones: ` +
+        `${size(head.error_cell)}, in each scan anew. Kept ones: ${size(head.other_cell)}; they ` +
+        'stand for the first scan that saw their cell. The numbers beside the kinds are of all points.';
+    return;
+  }
   const errors = head.error_cell > 0 ? size(head.error_cell) : 'all of them';
   element('view-thinning').textContent =
       `${grouped(head.points)} of ${grouped(head.points_in_range)} points within range are shown. ` +

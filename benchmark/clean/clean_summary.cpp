@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/clean/clean_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// A map in which less than this share was removed has hardly anything that moves, or has it still.
+constexpr double kFew = 0.001;
+
+std::string share_text(std::uint64_t part, std::uint64_t whole) {
+  return fixed_text(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+}
+
+}  // namespace
+
+void RangeShares::add(const Scan& scan, const Mask& mask) {
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] > 1) continue;
+    const float range = scan.points[i].norm();
+    std::size_t band = kBands.size() - 1;
+    while (band > 0 && range < static_cast<float>(kBands[band])) --band;
+    ++counts_[band].points;
+    counts_[band].removed += mask[i];
+  }
+}
+
+std::string RangeShares::table() const {
+  std::string text =
+      fmt::format("{:>9} {:>15} {:>13} {:>9}\n", "range", "points", "removed", "share");
+  for (std::size_t band = 0; band < kBands.size(); ++band) {
+    const Count& count = counts_[band];
+    if (count.points == 0) continue;
+    const std::string range = band + 1 < kBands.size()
+                                  ? fmt::format("{}-{} m", kBands[band], kBands[band + 1])
+                                  : fmt::format("{}+ m", kBands[band]);
+    text += fmt::format("{:>9} {:>15} {:>13} {:>9}\n", range, grouped_text(count.points),
+                        grouped_text(count.removed), share_text(count.removed, count.points));
+  }
+  return text;
+}
+
+std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points,
+                                     const std::string& path, const std::string& method,
+                                     const std::vector<Finding>& warned, bool is_seen) {
+  std::vector<std::string> advice;
+  if (!warned.empty()) {
+    std::vector<std::string> names;
+    for (const Finding& finding : warned) {
+      if (std::find(names.begin(), names.end(), finding.check) == names.end()) {
+        names.push_back(finding.check);
+      }
+    }
+    advice.push_back("first mend what was said of the data: " + join(names) + ".");
+  }
+  const auto share =
+      static_cast<double>(removed) / static_cast<double>(std::max<std::uint64_t>(points, 1));
+  if (share < kFew && method != "raymoval_plus:offline") {
+    advice.push_back(
+        "little was removed: if moving things are left, try --method "
+        "raymoval_plus:offline, which removes most.");
+  } else if (share < kFew) {
+    advice.push_back(
+        "little was removed: if moving things are left, look at the poses and units "
+        "(`raymoval inspect " +
+        path + "`).");
+  }
+  advice.push_back(
+      "if walls or ground are gone, the poses are off in most cases: `raymoval inspect " + path +
+      "`; if points of the own vehicle are left, try --drop-ego auto.");
+  if (!is_seen) advice.push_back("look at it with --html map.html or --picture map.png.");
+  return advice;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/clean/outputs/map_output.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "benchmark/result/removals/removal_files.h"
+
+namespace raymoval {
+
+RecordLayout labelled_layout(const RecordLayout& layout) {
+  RecordLayout labelled = layout;
+  std::string name = "label";
+  while (layout.find({name}) != nullptr) name = "raymoval_" + name;
+  labelled.add(name, 'U', 2);
+  return labelled;
+}
+
+MapOutput::MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, MapContent content,
+                     double voxel_size, const Eigen::Vector3d& voxel_origin)
+    : sink_(std::move(sink)),
+      layout_(content.labelled ? labelled_layout(layout) : layout),
+      labelled_(content.labelled),
+      has_cells_(voxel_size > 0.0) {
+  const auto add_side = [&](std::uint8_t mask) {
+    sides_.push_back({mask, has_cells_
+                                ? std::make_unique<VoxelRows>(layout, voxel_size, voxel_origin)
+                                : nullptr});
+  };
+  if (content.kept) add_side(0);
+  if (content.removed) add_side(1);
+}
+
+ScanRows MapOutput::with_label(const ScanRows& rows,
+                               const std::vector<std::uint8_t>& removed) const {
+  const std::size_t size = rows.rows.size();
+  ScanRows result{{layout_, std::vector<std::byte>(size * layout_.row_bytes), size, 1}, rows.world};
+  result.rows.las = rows.rows.las;
+  const std::size_t bytes = rows.rows.layout.row_bytes;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint16_t label = removed[i] != 0 ? kRemovedLabel : kKeptLabel;
+    std::memcpy(result.rows.row(i), rows.rows.row(i), bytes);
+    std::memcpy(result.rows.row(i) + bytes, &label, sizeof label);
+  }
+  return result;
+}
+
+void MapOutput::write(const ScanRows& rows) {
+  points_ += rows.world.size();
+  sink_->add(rows);
+}
+
+void MapOutput::pass_on(const CleanedScan& scan) {
+  std::vector<std::uint8_t> chosen(scan.mask.size(), 0);
+  for (const Side& side : sides_) {
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      chosen[i] = static_cast<std::uint8_t>(chosen[i] | (scan.mask[i] == side.mask ? 1 : 0));
+    }
+  }
+  ScanRows rows{scan.rows.rows.chosen(chosen), {}};
+  std::vector<std::uint8_t> removed;
+  rows.world.reserve(rows.rows.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (chosen[i] == 0) continue;
+    rows.world.push_back(scan.rows.world[i]);
+    removed.push_back(scan.mask[i]);
+  }
+  if (!rows.world.empty()) write(labelled_ ? with_label(rows, removed) : rows);
+}
+
+void MapOutput::add(const CleanedScan& scan) {
+  if (!has_cells_) return pass_on(scan);
+  for (const Side& side : sides_) {
+    for (std::size_t i = 0; i < scan.mask.size(); ++i) {
+      if (scan.mask[i] == side.mask) side.cells->add(scan.rows, i);
+    }
+  }
+}
+
+void MapOutput::finish() {
+  for (const Side& side : sides_) {
+    if (!has_cells_) break;
+    side.cells->take([&](const ScanRows& piece) {
+      const std::vector<std::uint8_t> removed(piece.world.size(), side.mask);
+      write(labelled_ ? with_label(piece, removed) : piece);
+    });
+  }
+  sink_->finish();
+}
+
+}  // namespace raymoval

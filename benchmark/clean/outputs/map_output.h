@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmark/clean/outputs/clean_output.h"
+#include "benchmark/clean/outputs/row_sink.h"
+#include "benchmark/clean/rows/voxel_rows.h"
+
+namespace raymoval {
+
+/// Which points a map has.
+struct MapContent {
+  bool kept = true;
+  bool removed = false;
+  bool labelled = false;  ///< With the field of `labelled_layout`.
+};
+
+/// `layout` with a field behind it that says what became of a point: 9 = kept, 251 = removed. It is
+/// called `label`, or `raymoval_label` if there is a field of that name, which stays as it is.
+RecordLayout labelled_layout(const RecordLayout& layout);
+
+/// A map in the world frame. With a voxel size it holds a row for each occupied cell, so that
+/// memory is bounded by the map. Without one it passes rows on as they come, and memory is bounded
+/// by a scan.
+class MapOutput : public CleanOutput {
+ public:
+  /// @param layout of all rows, without a label
+  /// @param voxel_size in metres; 0 keeps every point
+  MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, MapContent content,
+            double voxel_size, const Eigen::Vector3d& voxel_origin);
+
+  void add(const CleanedScan& scan) override;
+  void finish() override;
+  void commit_with(Replacements& together) override { sink_->commit_with(together); }
+  [[nodiscard]] std::uint64_t points() const override { return points_; }
+
+ private:
+  /// The points that are kept, or those that are removed.
+  struct Side {
+    std::uint8_t mask;
+    std::unique_ptr<VoxelRows> cells;
+  };
+  void pass_on(const CleanedScan& scan);
+  void write(const ScanRows& rows);
+  [[nodiscard]] ScanRows with_label(const ScanRows& rows,
+                                    const std::vector<std::uint8_t>& removed) const;
+
+  std::unique_ptr<RowSink> sink_;
+  RecordLayout layout_;  ///< Of what is written.
+  bool labelled_;
+  std::vector<Side> sides_;
+  bool has_cells_;
+  std::uint64_t points_ = 0;
+};
+
+}  // namespace raymoval

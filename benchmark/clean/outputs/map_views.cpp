@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/clean/outputs/map_views.h"
+
+#include <algorithm>
+
+#include "benchmark/picture/canvas/png_file.h"
+#include "benchmark/report/map_page.h"
+#include "benchmark/report/page_parts.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// The longer side of a picture, and its margin.
+constexpr double kPicturePixels = 1600.0;
+constexpr int kPictureMargin = 20;
+constexpr int kTitleHeight = 30, kLegendHeight = 30;
+
+/// The colours of what is right in pictures of labelled data: here nobody knows better.
+constexpr Outcome kKept = Outcome::kKeptStatic, kRemoved = Outcome::kTruePositive;
+
+void draw_legend(Canvas& canvas, int x, int y) {
+  for (const auto& [outcome, name] : {std::pair{kRemoved, "removed"}, std::pair{kKept, "kept"}}) {
+    canvas.fill(x, y - 11, 13, 13, outcome_colour(outcome));
+    canvas.text(x + 19, y, name, 13, kInk);
+    x += 19 + canvas.text_width(name, 13) + 24;
+  }
+}
+
+}  // namespace
+
+MapPictureFile::MapPictureFile(const std::filesystem::path& path, ViewTexts texts,
+                               const Pose& T_upright_world, const WorldWindow& window)
+    : file_(path),
+      texts_(std::move(texts)),
+      T_upright_world_(T_upright_world),
+      resolution_(std::max(window.width(), window.height()) / kPicturePixels),
+      raster_(window, resolution_) {}
+
+void MapPictureFile::add(const CleanedScan& scan) {
+  for (std::size_t i = 0; i < scan.mask.size(); ++i) {
+    if (scan.mask[i] > 1) continue;
+    raster_.add(T_upright_world_ * scan.rows.world[i], scan.mask[i] != 0 ? kRemoved : kKept);
+  }
+}
+
+void MapPictureFile::finish() {
+  const int width = std::max(raster_.width(), 420), top = kPictureMargin + kTitleHeight;
+  Canvas canvas(width + 2 * kPictureMargin,
+                top + raster_.height() + kLegendHeight + kPictureMargin);
+  canvas.text(kPictureMargin, kPictureMargin + 16,
+              canvas.fitted(texts_.sequence + ", cleaned by " + texts_.method, 16, width), 16,
+              kInk);
+  raster_.draw(canvas, kPictureMargin, top);
+  canvas.frame(kPictureMargin, top, raster_.width(), raster_.height(), kBorder);
+  draw_scale_bar(canvas, kPictureMargin + 10, top + raster_.height() - 12, resolution_,
+                 raster_.width() / 3);
+  draw_legend(canvas, kPictureMargin, top + raster_.height() + kLegendHeight);
+  file_.append(png_bytes(canvas));
+  file_.sync();
+}
+
+MapPageFile::MapPageFile(const std::filesystem::path& path, ViewTexts texts,
+                         const Pose& T_upright_world)
+    : file_(path),
+      texts_(std::move(texts)),
+      scene_(texts_.sequence, texts_.method, T_upright_world, kMostPoints) {
+  if (has_page_view()) return;
+  throw UsageError("this program was built without the 3-D view (it needs npm); leave --html out.");
+}
+
+void MapPageFile::add(const CleanedScan& scan) {
+  scene_.add_scan(scan.scan.name, scan.scan.T_world_sensor.translation());
+  for (std::size_t i = 0; i < scan.mask.size(); ++i) {
+    if (scan.mask[i] <= 1) scene_.add_point(scan.rows.world[i], scan.mask[i] != 0);
+  }
+}
+
+void MapPageFile::finish() {
+  const Scene scene = scene_.finish();
+  const VerdictCounts& counts = scene.counts.front();
+  const std::uint64_t removed = counts.true_positive;
+  file_.append(map_page(scene, texts_.sequence + ", cleaned by " + texts_.method,
+                        {counted_text(scene.scans.size(), "scan") + " with " +
+                             counted_text(scene.points_in_range, "point") + ".",
+                         texts_.method + " removed " + grouped_text(removed) +
+                             " of them and kept " + grouped_text(counts.kept_static) + "."}));
+  file_.sync();
+}
+
+}  // namespace raymoval

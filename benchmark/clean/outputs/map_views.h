@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmark/clean/outputs/clean_output.h"
+#include "benchmark/picture/maps/top_down.h"
+#include "benchmark/report/map_scene.h"
+#include "core/files/file_writer.h"
+
+namespace raymoval {
+
+/// What pictures and pages say of a cleaned map.
+struct ViewTexts {
+  std::string sequence, method;
+};
+
+/// The cleaned map from above as a PNG: grey what was kept, in a colour what was removed. Memory is
+/// bounded by the picture.
+class MapPictureFile : public CleanOutput {
+ public:
+  /// @param window in the upright world, metres
+  MapPictureFile(const std::filesystem::path& path, ViewTexts texts, const Pose& T_upright_world,
+                 const WorldWindow& window);
+  void add(const CleanedScan& scan) override;
+  void finish() override;
+  void commit_with(Replacements& together) override { file_.commit_with(together); }
+
+ private:
+  FileWriter file_;
+  ViewTexts texts_;
+  Pose T_upright_world_;
+  double resolution_;  ///< Metres per pixel.
+  TopDownRaster raster_;
+};
+
+/// The cleaned map as a page with the 3-D view. Memory is bounded by the points that it shows.
+class MapPageFile : public CleanOutput {
+ public:
+  /// Points that a page shows at most.
+  static constexpr std::size_t kMostPoints = 1'000'000;
+
+  /// @throws UsageError if the program was built without the view
+  MapPageFile(const std::filesystem::path& path, ViewTexts texts, const Pose& T_upright_world);
+  void add(const CleanedScan& scan) override;
+  void finish() override;
+  void commit_with(Replacements& together) override { file_.commit_with(together); }
+
+ private:
+  FileWriter file_;
+  ViewTexts texts_;
+  MapSceneBuilder scene_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/clean/outputs/output_folder.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
+
+namespace raymoval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Gives `made` the owner and the rights of `before`, as far as the system allows that, if both are
+/// of one kind.
+void keep_rights(const fs::path& made, const fs::path& before) {
+  struct stat now {};
+  struct stat then {};
+  if (::lstat(made.c_str(), &now) != 0 || ::lstat(before.c_str(), &then) != 0) return;
+  if ((now.st_mode & S_IFMT) != (then.st_mode & S_IFMT)) return;
+  const bool same_owner = now.st_uid == then.st_uid && now.st_gid == then.st_gid;
+  const bool owned = same_owner || ::lchown(made.c_str(), then.st_uid, then.st_gid) == 0;
+  // Rights of a group or of others that belonged with another owner are given to nobody.
+  [[maybe_unused]] const int kept = ::chmod(made.c_str(), then.st_mode & (owned ? 0777U : 0700U));
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& path) : path_(without_slash(fs::absolute(path))) {
+  std::error_code above;  // Shows when the folder is made.
+  fs::create_directories(folder_of(path_), above);
+  part_ = new_part_folder(path_);
+  if (part_.held.valid()) return;
+  throw DataError(path_.string() + ": cannot be made (" + std::generic_category().message(errno) +
+                  "). Nothing was changed; choose another folder.");
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  if (!committed_) fs::remove_all(part_.place, ignored);
+}
+
+void OutputFolder::commit_with(Replacements& together) {
+  sync_folder(part_.place);
+  if (is_there(path_)) {
+    for (const fs::path& entry : fs::recursive_directory_iterator(part_.place)) {
+      keep_rights(entry, path_ / entry.lexically_relative(part_.place));
+    }
+    keep_rights(part_.place, path_);
+  }
+  together.add(std::move(part_), path_);
+  committed_ = true;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "benchmark/clean/rows/map_rows.h"
+#include "core/files/replacements.h"
+#include "datasets/clouds/record_file.h"
+
+namespace raymoval {
+
+/// Where the rows of a map go. As `CleanOutput`, it opens at the beginning and has its name at the
+/// end.
+class RowSink {
+ public:
+  RowSink() = default;
+  virtual ~RowSink() = default;
+  RowSink(const RowSink&) = delete;
+  RowSink& operator=(const RowSink&) = delete;
+
+  virtual void add(const ScanRows& rows) = 0;
+  virtual void finish() = 0;
+  virtual void commit_with(Replacements& together) = 0;
+};
+
+/// Rows in one file, in order of arrival.
+class FileSink : public RowSink {
+ public:
+  /// @throws UsageError, DataError as `PointRecordWriter`
+  FileSink(const std::filesystem::path& path, const RecordLayout& layout,
+           const std::optional<std::string>& crs)
+      : file_(path, {crs}) {
+    file_.start(layout);
+  }
+  void add(const ScanRows& rows) override { file_.add(rows.rows); }
+  void finish() override { file_.finish(); }
+  void commit_with(Replacements& together) override { file_.commit_with(together); }
+
+ private:
+  PointRecordWriter file_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "benchmark/clean/outputs/output_folder.h"
+#include "benchmark/clean/outputs/row_sink.h"
+
+namespace raymoval {
+
+/// How a map is cut into tiles.
+struct Tiling {
+  double size_m = 100.0;  ///< The edge of a tile.
+  /// The turn that brings up to z: tiles are squares in the horizontal plane.
+  Pose T_upright_world = Pose::Identity();
+  std::string extension = ".pcd";  ///< Says the format of the tiles.
+  std::optional<std::string> crs;
+};
+
+/// Cuts rows into square tiles, each a file in a folder, with a manifest.json that lists them. The
+/// tile of a point is floor(x / size), floor(y / size) of its position in the upright world, so
+/// that tiles of different runs fit together. Rows stand in order of arrival in each tile.
+///
+/// Rows wait in files of their own in the folder, some megabytes of them in memory, and at most one
+/// file is open at a time, however many tiles there are.
+class TileSink : public RowSink {
+ public:
+  /// More tiles than this are refused: they would be a mistake of units.
+  static constexpr std::size_t kMostTiles = 100'000;
+
+  /// @throws DataError if the folder cannot be made; UsageError for an extension that is unknown
+  TileSink(const std::filesystem::path& folder, const RecordLayout& layout, Tiling tiling);
+  void add(const ScanRows& rows) override;
+  void finish() override;
+  void commit_with(Replacements& together) override { folder_.commit_with(together); }
+
+ private:
+  using Place = std::array<std::int64_t, 2>;
+  struct Tile {
+    std::string waiting;        ///< Rows that are not in the tile's file yet.
+    std::uint64_t spooled = 0;  ///< Bytes in that file.
+    std::uint64_t points = 0;
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
+    Eigen::Vector3d high = Eigen::Vector3d::Constant(-1e300);
+  };
+  [[nodiscard]] Place place_of(const Eigen::Vector3d& world) const;
+  [[nodiscard]] std::filesystem::path spool_of(const Place& place) const;
+  Tile& tile_at(const Place& place);
+  void spool_all();
+  void write_tile(const Place& place, Tile& tile) const;
+  void write_manifest() const;
+
+  OutputFolder folder_;
+  RecordLayout layout_;
+  Tiling tiling_;
+  std::map<Place, Tile> tiles_;
+  std::size_t waiting_ = 0;  ///< Bytes of all tiles.
+};
+
+}  // namespace raymoval

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/scan/voxel_key.h"
+
+namespace raymoval {
+
+/// Numbers voxels 0, 1, 2, ... in the order in which they come, and finds their numbers again. The
+/// keys stand elsewhere, by number, so that the table takes 5 to 8 bytes a voxel.
+///
+/// `key_of(number)` says the key of a number that was given.
+class VoxelNumbers {
+ public:
+  using Number = std::uint32_t;
+  static constexpr Number kNone = std::numeric_limits<Number>::max();
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// Forgets all voxels and keeps the room.
+  void clear() {
+    if (size_ > 0) std::fill(table_.begin(), table_.end(), kNone);
+    size_ = 0;
+  }
+
+  /// The number of a voxel; `kNone` if it has none.
+  template <class KeyOf>
+  [[nodiscard]] Number find(VoxelKey key, KeyOf&& key_of) const {
+    return table_.empty() ? kNone : table_[place_of(key, key_of)];
+  }
+
+  /// The number of a voxel. One that has none gets the next one, which is `size()` till then; the
+  /// caller puts its key where `key_of` finds it.
+  template <class KeyOf>
+  Number add(VoxelKey key, KeyOf&& key_of) {
+    if (5 * (std::size_t{size_} + 1) > 4 * table_.size()) {
+      grow(table_.size() + table_.size() / 4, key_of);
+    }
+    Number& found = table_[place_of(key, key_of)];
+    if (found == kNone) found = size_++;
+    return found;
+  }
+
+  /// Makes room for so many voxels at once: for each of them two places, so that it is quick to say
+  /// that a voxel is not there.
+  template <class KeyOf>
+  void reserve(std::size_t voxels, KeyOf&& key_of) {
+    if (2 * voxels > table_.size()) grow(2 * voxels, key_of);
+  }
+
+ private:
+  static constexpr std::size_t kFewestPlaces = 1024;
+
+  /// Where a voxel stands in the table, or where it would.
+  template <class KeyOf>
+  [[nodiscard]] std::size_t place_of(VoxelKey key, KeyOf&& key_of) const {
+    std::size_t at = first_place(key);
+    while (table_[at] != kNone && key_of(table_[at]) != key) at = next(at);
+    return at;
+  }
+  [[nodiscard]] std::size_t first_place(VoxelKey key) const {
+    return static_cast<std::size_t>((VoxelKeyHash{}(key) >> 32) * table_.size() >> 32);
+  }
+  [[nodiscard]] std::size_t next(std::size_t at) const {
+    return at + 1 == table_.size() ? 0 : at + 1;
+  }
+
+  template <class KeyOf>
+  void grow(std::size_t places, KeyOf&& key_of) {
+    table_ = {};  // Gives its memory back before it asks for more.
+    table_.assign(std::max(places, kFewestPlaces), kNone);
+    for (Number number = 0; number < size_; ++number) {
+      std::size_t at = first_place(key_of(number));
+      while (table_[at] != kNone) at = next(at);
+      table_[at] = number;
+    }
+  }
+
+  Number size_ = 0;
+  std::vector<Number> table_;  ///< `kNone` where there is no voxel.
+};
+
+}  // namespace raymoval

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/bag_scans/chain_motion.h"
+#include "datasets/bags/bag.h"
+#include "datasets/bags/messages/pose_messages.h"
+
+namespace raymoval {
+
+/// Adds up messages that could not be used, and says so in one sentence.
+class SkippedMessages {
+ public:
+  /// @param reason why it could not be used, with its place
+  void add(const std::string& reason);
+  /// "3 messages of /tf could not be read, the first: ..." Empty if there is none.
+  [[nodiscard]] std::string sentence() const;
+
+ private:
+  std::size_t count_ = 0;
+  std::string first_;
+};
+
+/// The poses of all messages of a topic, one message after another. Messages that cannot be read
+/// are skipped. @throws UnreadableError if the disk fails
+void for_each_pose_message(
+    const Bag& bag, std::size_t topic, SkippedMessages& skipped,
+    const std::function<void(std::size_t message, std::vector<PoseMessage>&&)>& call);
+
+/// The frames of a recording as tf and tf_static tell of them: each has a parent, and a pose in it
+/// that is fixed or changes over time. What tf_static says holds at all times, also before it was
+/// said. Only who is whose parent is in memory.
+class FrameTree {
+ public:
+  /// Reads all tf topics. @throws UnreadableError
+  explicit FrameTree(const Bag& bag);
+
+  [[nodiscard]] bool empty() const { return edges_.empty(); }
+  [[nodiscard]] bool knows(const std::string& frame) const;
+  /// `frame`, its parent, the parent's and so on up to the root.
+  /// @throws DataError if the frames go in a circle, or one of them has two parents
+  [[nodiscard]] std::vector<std::string> chain(const std::string& frame) const;
+  /// Whether the pose of `frame` in its parent may change: it is not from tf_static.
+  [[nodiscard]] bool is_dynamic(const std::string& frame) const;
+  /// The steps from frame `from` to frame `to`: their product is T_from_to. Reads the transforms
+  /// that it takes. Nothing if no chain of frames connects them.
+  /// @throws DataError as `chain`, and if a transform is no rigid motion
+  [[nodiscard]] std::optional<std::vector<ChainLink>> links(const std::string& from,
+                                                            const std::string& to) const;
+  /// Sentences on messages that could not be read.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+ private:
+  struct Edge {
+    std::string parent, other_parent;  ///< The second is empty, unless there are two.
+    bool dynamic = false;              ///< Told by tf.
+    bool moves = false;                ///< It did change.
+    PoseMessage last;
+  };
+  void add(const PoseMessage& pose, bool dynamic);
+  void read_links(std::map<std::string, ChainLink>& links) const;
+
+  const Bag& bag_;
+  std::vector<std::size_t> topics_;
+  std::map<std::string, Edge> edges_;  ///< By the child's name.
+  mutable SkippedMessages skipped_;
+};
+
+}  // namespace raymoval

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/bags/mcap/mcap_file.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/bags/chunks/checksum.h"
+#include "datasets/bags/chunks/zstandard.h"
+
+namespace raymoval {
+namespace {
+
+constexpr std::uint64_t kMostContent = std::uint64_t{1} << 30;
+/// A chunk's head with the longest name of a compression that is looked at.
+constexpr std::uint64_t kChunkHeadSize = 8 + 8 + 8 + 4 + 4 + 64 + 8;
+
+[[noreturn]] void throw_too_large(const std::string& where, std::uint64_t size) {
+  throw DataError(where + " of " + grouped_text(size) +
+                  " bytes; at most 1 GiB is expected, so the file looks damaged. Copy it again.");
+}
+
+Unpacked unpack_by(const std::string& compression, std::string packed, std::uint64_t stated,
+                   const std::string& where) {
+  if (compression == "zstd") return unpack_zstd(packed, stated, where);
+  if (compression == "lz4") return unpack_lz4(packed, stated, where);
+  std::string problem;
+  if (packed.size() != stated) {
+    problem = "it has " + grouped_text(packed.size()) + " of the " + grouped_text(stated) +
+              " bytes that it is said to have";
+  }
+  return {std::move(packed), problem};
+}
+
+}  // namespace
+
+std::string_view mcap_op_name(McapOp op) {
+  static constexpr std::array<std::string_view, 16> kNames = {
+      "record of type 0", "header",     "footer",        "schema",         "channel",
+      "message",          "chunk",      "message index", "chunk index",    "attachment",
+      "attachment index", "statistics", "metadata",      "metadata index", "summary offset",
+      "end of data"};
+  const auto number = static_cast<std::size_t>(op);
+  return number < kNames.size() ? kNames[number] : "record of an unknown type";
+}
+
+McapFile::McapFile(const std::filesystem::path& path) : bytes_(path) {
+  if (bytes_.read_up_to(0, kMcapMagic.size()) == kMcapMagic) return;
+  throw DataError(path.string() +
+                  ": does not begin as a MCAP file (89 4D 43 41 50 30 0D 0A); it is damaged or "
+                  "something else. Copy it again.");
+}
+
+std::string McapFile::where(const McapPlace& record) const {
+  return bytes_.place(record.begin) + ": " + std::string(mcap_op_name(record.op));
+}
+
+McapPlace McapFile::record(std::uint64_t offset) const {
+  const std::string head = bytes_.read(offset, kMcapHeadSize);
+  McapFields fields(head, bytes_.place(offset));
+  McapPlace record;
+  record.op = static_cast<McapOp>(fields.u8());
+  record.begin = offset;
+  record.size = fields.u64();
+  if (record.op != McapOp::kInvalid) return record;
+  throw DataError(bytes_.place(offset) +
+                  ": a record of type 0 begins here, which does not exist; the file is damaged. "
+                  "Copy it again.");
+}
+
+bool McapFile::is_whole(const McapPlace& record) const {
+  return record.content() <= bytes_.size() && record.size <= bytes_.size() - record.content();
+}
+
+std::string McapFile::content(const McapPlace& record) const {
+  if (record.size <= kMostContent) return bytes_.read(record.content(), record.size);
+  throw_too_large(where(record), record.size);
+}
+
+std::string McapFile::beginning(const McapPlace& record, std::uint64_t most) const {
+  return bytes_.read_up_to(record.content(), std::min(record.size, most));
+}
+
+McapChunkPlace McapFile::chunk(const McapPlace& record) const {
+  McapChunkPlace chunk;
+  chunk.where = where(record);
+  chunk.head = read_mcap_chunk(beginning(record, kChunkHeadSize), chunk.where);
+  const std::string& compression = chunk.head.compression;
+  if (!compression.empty() && compression != "lz4" && compression != "zstd") {
+    throw DataError(chunk.where + " is packed by '" + compression +
+                    "'; expected lz4, zstd or nothing. Write the file again by `mcap compress "
+                    "--compression zstd`.");
+  }
+  if (chunk.head.packed_size > record.size - chunk.head.packed_at) {
+    throw DataError(chunk.where + " is said to hold " + grouped_text(chunk.head.packed_size) +
+                    " bytes of records, more than it has; the file is damaged. Copy it again.");
+  }
+  chunk.packed = record.content() + chunk.head.packed_at;
+  return chunk;
+}
+
+Unpacked McapFile::unpack(const McapChunkPlace& chunk) const {
+  const McapChunkHead& head = chunk.head;
+  if (head.packed_size > kMostContent) throw_too_large(chunk.where, head.packed_size);
+  std::string packed = bytes_.read_up_to(chunk.packed, head.packed_size);
+  const bool is_cut = packed.size() < head.packed_size;
+  check_unpacked_size(head.packed_size, head.unpacked_size, chunk.where);
+  // The limit looks at what is there: what is missing cannot be unpacked.
+  const std::uint64_t most = std::min(head.unpacked_size, most_unpacked_size(packed.size()));
+  Unpacked unpacked = unpack_by(head.compression, std::move(packed), most, chunk.where);
+  if (is_cut) unpacked.problem = "the file ends in the middle of it";
+  if (unpacked.problem.empty() && head.crc != 0 && crc32_of(unpacked.bytes) != head.crc) {
+    return {"", "its bytes do not have the checksum that is stored with it"};
+  }
+  return unpacked;
+}
+
+}  // namespace raymoval

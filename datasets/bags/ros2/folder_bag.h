@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "datasets/bags/bag.h"
+#include "datasets/bags/chunks/message_table.h"
+#include "datasets/bags/damage_notes.h"
+#include "datasets/bags/ros2/metadata.h"
+
+namespace raymoval {
+
+/// A recording of ROS 2 in a folder with metadata.yaml: one file or several, which are one
+/// recording. Its index takes 32 bytes a message.
+class Ros2FolderBag : public Bag {
+ public:
+  /// Opens a file of the folder.
+  using Open = std::function<std::unique_ptr<Bag>(const std::filesystem::path&)>;
+  /// @throws DataError if metadata.yaml is damaged or none of its files is there; UsageError for a
+  ///   form that is not read; UnreadableError
+  Ros2FolderBag(std::filesystem::path folder, const Open& open);
+
+  [[nodiscard]] const std::filesystem::path& path() const override { return folder_; }
+  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return table_.topics(); }
+  [[nodiscard]] Nanoseconds recorded(std::size_t topic, std::size_t index) const override {
+    return table_.at(topic, index).recorded;
+  }
+  [[nodiscard]] std::string message(std::size_t topic, std::size_t index) const override;
+  [[nodiscard]] std::vector<std::string> damage() const override;
+
+  [[nodiscard]] const Ros2Metadata& metadata() const { return metadata_; }
+  /// A file of the recording that could be opened.
+  struct Part {
+    std::size_t file = 0;  ///< In `metadata().files`.
+    std::unique_ptr<Bag> bag;
+    std::vector<std::size_t> topics;  ///< The number here of each of its topics.
+  };
+  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  /// The number of a message in its topic here. @param index in its topic in the part
+  [[nodiscard]] std::size_t index_of(std::size_t part, std::size_t topic, std::size_t index) const;
+
+ private:
+  void add_part(std::size_t file, const Open& open);
+  void check_counts();
+
+  std::filesystem::path folder_;
+  Ros2Metadata metadata_;
+  DamageNotes damage_;
+  std::vector<Part> parts_;
+  MessageTable table_;
+};
+
+}  // namespace raymoval

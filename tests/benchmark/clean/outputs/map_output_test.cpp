@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/clean/clean_outputs.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "datasets/clouds/record_file.h"
+#include "tests/benchmark/clean/recorded_scans.h"
+#include "tests/datasets/temporary_folder.h"
+
+using namespace raymoval;
+using namespace raymoval::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// One scan of four points on the x axis, seen from (10, 0, 0), with the ring 0 to 3. The last two
+/// are removed.
+std::shared_ptr<RecordedScans> four_points(const RecordLayout& layout = driver_layout()) {
+  std::vector<std::vector<double>> values;
+  for (const double x : {0.1, 0.3, 5.0, -150.0}) {
+    values.push_back({x, 0, 0, 0.5, static_cast<double>(values.size())});
+  }
+  return std::make_shared<RecordedScans>(std::vector{records_of(layout, values)},
+                                         std::vector{Pose(Eigen::Translation3d(10.0, 0.0, 0.0))});
+}
+const Mask kTwoRemoved = {0, 0, 1, 1};
+
+/// Writes `paths` of one scan. @return the notes
+std::vector<std::string> write(const CleanPaths& paths, const std::shared_ptr<RecordedScans>& scans,
+                               const CleanWriting& writing = {}, const Mask& mask = kTwoRemoved) {
+  const Sequence sequence = sequence_of(scans);
+  CleanOutputs outputs(paths, writing, sequence, no_progress(), kGoOn);
+  outputs.add(scans->load(0), mask);
+  outputs.commit();
+  return outputs.notes();
+}
+
+std::vector<double> column(const PointRecords& rows, const std::string& name) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < rows.size(); ++i) values.push_back(value_of(rows, i, name));
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("Each map has its points, with all fields") {
+  const TemporaryFolder folder;
+  for (const char* extension : {".pcd", ".ply"}) {
+    CleanPaths paths;
+    paths.map = folder.path() / ("map" + std::string(extension));
+    paths.removed = folder.path() / ("removed" + std::string(extension));
+    paths.labelled = folder.path() / ("labelled" + std::string(extension));
+    CHECK(write(paths, four_points()).empty());
+    CHECK(column(read_records(paths.map), "ring") == std::vector<double>{0, 1});
+    CHECK(column(read_records(paths.removed), "ring") == std::vector<double>{2, 3});
+    const PointRecords labelled = read_records(paths.labelled);
+    CHECK(column(labelled, "ring") == std::vector<double>{0, 1, 2, 3});
+    CHECK(column(labelled, "label") == std::vector<double>{9, 9, 251, 251});
+    CHECK(column(labelled, "x")[2] == 15.0);
+  }
+}
+
+TEST_CASE("What is in no output is in no map") {
+  const TemporaryFolder folder;
+  CleanPaths paths;
+  paths.map = folder.path() / "map.pcd";
+  paths.labelled = folder.path() / "labelled.pcd";
+  write(paths, four_points(), {}, {2, 0, 1, 2});
+  CHECK(column(read_records(paths.map), "ring") == std::vector<double>{1});
+  CHECK(column(read_records(paths.labelled), "ring") == std::vector<double>{1, 2});
+}
+
+TEST_CASE("A field `label` of the input stays, and ours has another name") {
+  const TemporaryFolder folder;
+  RecordLayout layout = driver_layout();
+  layout.fields[4].name = "label";
+  CleanPaths paths;
+  paths.labelled = folder.path() / "map.pcd";
+  write(paths, four_points(layout));
+  const PointRecords rows = read_records(paths.labelled);
+  CHECK(column(rows, "label") == std::vector<double>{0, 1, 2, 3});
+  CHECK(column(rows, "raymoval_label") == std::vector<double>{9, 9, 251, 251});
+}
+
+TEST_CASE("A labelled map of voxels keeps what was removed apart") {
+  const TemporaryFolder folder;
+  CleanPaths paths;
+  paths.labelled = folder.path() / "map.pcd";
+  CleanWriting writing;
+  writing.voxel_size = 1000.0;
+  write(paths, four_points(), writing);
+  const PointRecords rows = read_records(paths.labelled);
+  CHECK(column(rows, "label") == std::vector<double>{9, 251, 251});
+  CHECK(column(rows, "x")[0] == Approx(10.2));
+}
+
+TEST_CASE("A map of nothing is a whole file without points") {
+  const TemporaryFolder folder;
+  for (const double voxel : {0.0, 0.5}) {
+    CleanPaths paths;
+    paths.map = folder.path() / "map.pcd";
+    CleanWriting writing;
+    writing.voxel_size = voxel;
+    write(paths, four_points(), writing, {1, 1, 1, 1});
+    CHECK(read_records(paths.map).size() == 0);
+  }
+}
+
+TEST_CASE("Tiles are squares of the world, listed with their bounds") {
+  const TemporaryFolder folder;
+  CleanPaths paths;
+  paths.map = folder.path() / "tiles";
+  paths.tiled = true;
+  CleanWriting writing;
+  writing.tile_size = 5.0;
+  write(paths, four_points(), writing, {0, 0, 0, 0});
+  const auto manifest = nlohmann::json::parse(read_text(paths.map / "manifest.json"));
+  CHECK(manifest["points"] == 4);
+  CHECK(manifest["tile_size_m"] == 5.0);
+  REQUIRE(manifest["tiles"].size() == 3);  // x of -140; 10.1 and 10.3; 15.
+  CHECK(manifest["tiles"][0]["tile"] == std::vector<int>{-28, 0});
+  CHECK(manifest["tiles"][1]["file"] == "tile_2_0.pcd");
+  CHECK(manifest["tiles"][1]["points"] == 2);
+  CHECK(manifest["tiles"][1]["max"][0].get<double>() == Approx(10.3));
+  CHECK(column(read_records(paths.map / "tile_2_0.pcd"), "ring") == std::vector<double>{0, 1});
+  CHECK(column(read_records(paths.map / "tile_3_0.pcd"), "x") == std::vector<double>{15.0});
+  CHECK(entries_of(paths.map).size() == 4);
+}
+
+TEST_CASE("Tiles lie in the plane that is level, whatever axis is up") {
+  const TemporaryFolder folder;
+  const auto scans = four_points();
+  Sequence sequence = sequence_of(scans);
+  sequence.up_choice = std::make_shared<UpChoice>(Eigen::Vector3d(1.0, 0.0, 0.0));
+  CleanPaths paths;
+  paths.map = folder.path() / "tiles";
+  paths.tiled = true;
+  CleanWriting writing;
+  writing.tile_size = 5.0;
+  CleanOutputs outputs(paths, writing, sequence, no_progress(), kGoOn);
+  outputs.add(scans->load(0), kTwoRemoved);
+  outputs.commit();
+  // All points lie on the line upwards.
+  CHECK(nlohmann::json::parse(read_text(paths.map / "manifest.json"))["tiles"].size() == 1);
+}
+
+TEST_CASE("What a format cannot hold is said, or refused, before anything is written") {
+  const TemporaryFolder folder;
+  CleanPaths paths;
+  paths.map = folder.path() / "map.bin";
+  const std::vector<std::string> notes = write(paths, four_points());
+  REQUIRE(notes.size() == 1);
+  CHECK_THAT(notes[0], Contains("-o: ") && Contains(".bin"));
+  const auto far =
+      std::make_shared<RecordedScans>(std::vector{four_points()->records(0)},
+                                      std::vector{Pose(Eigen::Translation3d(691000.0, 0.0, 0.0))});
+  paths.map = folder.path() / "far.bin";
+  CHECK_THROWS_WITH(write(paths, far), Contains("float32") && Contains(".pcd"));
+  paths.map = folder.path() / "map.pcd";
+  CleanWriting writing;
+  writing.crs = "EPSG:32632";
+  CHECK_THROWS_AS(write(paths, four_points(), writing), UsageError);
+  CHECK(entries_of(folder.path()).size() == 1);
+}

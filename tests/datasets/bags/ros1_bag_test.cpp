@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/bags/ros1/ros1_bag.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/text.h"
+#include "datasets/bags/messages/point_cloud.h"
+#include "datasets/bags/messages/pose_messages.h"
+#include "datasets/bags/ros1/ros1_writer.h"
+#include "tests/datasets/temporary_folder.h"
+
+namespace raymoval::test {
+namespace {
+
+const std::vector<std::string> kWrittenByRos = {"rosbag_none", "rosbag_bz2", "rosbag_lz4"};
+
+/// The bytes of a bag that ROS's own rosbag wrote, see make_ros1_bags.py.
+std::string written_by_ros(const std::string& name) {
+  return read_text(std::filesystem::path(RAYMOVAL_SOURCE_DIR) / "tests/fuzz/corpus/bag_ros1" /
+                   (name + ".bag"));
+}
+
+std::size_t topic_of(const Bag& bag, const std::string& name) {
+  for (std::size_t i = 0; i < bag.topics().size(); ++i) {
+    if (bag.topics()[i].name == name) return i;
+  }
+  return bag.topics().size();
+}
+
+std::uint64_t message_count(const Bag& bag) {
+  std::uint64_t count = 0;
+  for (const BagTopic& topic : bag.topics()) count += topic.messages;
+  return count;
+}
+
+/// All messages of a bag: topic, time, bytes.
+using AllMessages = std::vector<std::tuple<std::string, Nanoseconds, std::string>>;
+AllMessages all_messages(const Bag& bag) {
+  AllMessages all;
+  for (std::size_t topic = 0; topic < bag.topics().size(); ++topic) {
+    for (std::size_t i = 0; i < bag.topics()[topic].messages; ++i) {
+      all.emplace_back(bag.topics()[topic].name, bag.recorded(topic, i), bag.message(topic, i));
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+Ros1Connection connection(std::uint32_t id, const std::string& topic,
+                          const std::string& md5 = "m") {
+  const auto field = [](const std::string& text) {
+    return words({static_cast<std::uint32_t>(text.size())}) + text;
+  };
+  return {id, topic, "std_msgs/String", md5,
+          field("topic=" + topic) + field("type=std_msgs/String") + field("md5sum=" + md5)};
+}
+
+/// A bag of `chunks` chunks, each with `messages` messages of 20 bytes on /a and /b in turn.
+std::filesystem::path write_bag(const TemporaryFolder& folder, int chunks, int messages,
+                                Ros1Compression compression = Ros1Compression::kNone) {
+  FileWriter file(folder / "made.bag");
+  Ros1Writer writer(file);
+  for (int chunk = 0; chunk < chunks; ++chunk) {
+    writer.begin_chunk(compression);
+    for (int i = 0; i < messages; ++i) {
+      const int number = chunk * messages + i;
+      writer.message(connection(i % 2, i % 2 == 0 ? "/a" : "/b"), 1'000'000'000LL * number,
+                     std::string(20, static_cast<char>('a' + number % 26)));
+    }
+    writer.end_chunk();
+  }
+  writer.finish();
+  file.commit();
+  return folder / "made.bag";
+}
+
+TEST_CASE("Bags that ROS wrote are read with every compression", "[bags]") {
+  const TemporaryFolder folder;
+  for (const std::string& name : kWrittenByRos) {
+    const Ros1Bag bag(folder.write(name + ".bag", written_by_ros(name)));
+    CHECK(bag.damage().empty());
+    REQUIRE(bag.topics().size() == 2);
+    const std::size_t points = topic_of(bag, "/points"), odometry = topic_of(bag, "/odom");
+    CHECK(bag.topics()[points].type == "sensor_msgs/PointCloud2");
+    CHECK(bag.topics()[points].encoding == MessageEncoding::kRos1);
+    REQUIRE(bag.topics()[points].messages == 3);
+    REQUIRE(bag.topics()[odometry].messages == 2);
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(bag.recorded(points, i) ==
+            1'000'100'000'000 + 100'000'000 * static_cast<Nanoseconds>(i));
+      const std::string message = bag.message(points, i);
+      const PointRecords cloud =
+          read_points(message, bag.topics()[points].type, MessageEncoding::kRos1, name);
+      REQUIRE(cloud.size() == 2);
+      CHECK(cloud.value(0, *cloud.layout.find({"x"})) == static_cast<double>(i + 1));
+      CHECK(cloud.value(1, *cloud.layout.find({"ring"})) == 8);
+      CHECK(bag.message_head(points, i, 10) == message.substr(0, 10));
+    }
+    const auto poses =
+        read_poses(bag.message(odometry, 1), "nav_msgs/Odometry", MessageEncoding::kRos1, name);
+    CHECK(poses.at(0).position.x() == 1);
+    CHECK(poses.at(0).child == "lidar");
+  }
+}
+
+TEST_CASE("A bag cut at any byte is read as far as it goes, and says so", "[bags]") {
+  const TemporaryFolder folder;
+  for (const std::string& name : kWrittenByRos) {
+    const std::string bytes = written_by_ros(name);
+    const AllMessages whole = all_messages(Ros1Bag(folder.write("whole.bag", bytes)));
+    std::uint64_t before = 0;
+    for (std::size_t size = 0; size < bytes.size(); size += size < 4000 ? 497 : 7) {
+      const auto path = folder.write("cut.bag", bytes.substr(0, size));
+      if (size < 90) {
+        CHECK_THROWS_AS(Ros1Bag(path), DataError);
+        continue;
+      }
+      const Ros1Bag bag(path);
+      REQUIRE_FALSE(bag.damage().empty());
+      CHECK_THAT(bag.damage()[0], Catch::Contains("cut.bag"));
+      const AllMessages cut = all_messages(bag);
+      REQUIRE(std::includes(whole.begin(), whole.end(), cut.begin(), cut.end()));
+      REQUIRE(cut.size() >= before);
+      before = cut.size();
+    }
+    CHECK(before == whole.size());
+  }
+}
+
+TEST_CASE("Of a cut chunk that is packed, what comes before the cut is read", "[bags]") {
+  const TemporaryFolder folder;
+  const std::string bytes = read_text(write_bag(folder, 1, 50, Ros1Compression::kNone));
+  const auto path = folder.write("cut.bag", bytes.substr(0, 4117 + 1500));
+  const Ros1Bag bag(path);
+  CHECK(message_count(bag) > 10);
+  CHECK(message_count(bag) < 50);
+  check_says(join(bag.damage(), " "), {"cut.bag", "it is cut", "a chunk is cut", "can be read"});
+}
+
+TEST_CASE("A bag that was never closed is read whole", "[bags]") {
+  const TemporaryFolder folder;
+  for (const std::string& name : kWrittenByRos) {
+    std::string bytes = written_by_ros(name);
+    const AllMessages whole = all_messages(Ros1Bag(folder.write("whole.bag", bytes)));
+    const std::size_t place = bytes.find("index_pos=") + 10;
+    bytes.replace(place, 8, std::string(8, '\0'));
+    const Ros1Bag bag(folder.write("open.bag", bytes));
+    CHECK(all_messages(bag) == whole);
+    check_says(bag.damage().at(0), {"never closed", "rosbag reindex"});
+  }
+}
+
+TEST_CASE("An index that does not fit its chunk is not believed", "[bags]") {
+  const TemporaryFolder folder;
+  const std::string bytes = read_text(write_bag(folder, 2, 6));
+  const AllMessages whole = all_messages(Ros1Bag(folder / "made.bag"));
+  REQUIRE(whole.size() == 12);
+  // Each record of an index behind a chunk, one at a time.
+  for (std::size_t at = bytes.find("count="); at != std::string::npos;
+       at = bytes.find("count=", at + 1)) {
+    std::string wrong = bytes;
+    wrong[at + 6] = static_cast<char>(wrong[at + 6] + 1);
+    const Ros1Bag bag(folder.write("wrong.bag", wrong));
+    CHECK(all_messages(bag) == whole);
+  }
+}
+
+TEST_CASE("A message that the index places wrong is an error and no other message", "[bags]") {
+  const TemporaryFolder folder;
+  std::string bytes = read_text(write_bag(folder, 1, 2));
+  // The two entries of the index differ in nothing but their times and places: the first gets the
+  // place of the second.
+  const Ros1Bag right(folder / "made.bag");
+  const std::size_t chunk_end = right.chunks()[0].data_begin + right.chunks()[0].size;
+  const std::size_t first = bytes.find(std::string("ver=\1\0\0\0", 8), chunk_end) + 12;
+  const std::size_t second = bytes.find(std::string("ver=\1\0\0\0", 8), first) + 12;
+  bytes.replace(first + 8, 4, bytes.substr(second + 8, 4));
+  const Ros1Bag bag(folder.write("wrong.bag", bytes));
+  check_says(message_of<DataError>([&] { (void)bag.message(topic_of(bag, "/a"), 0); }),
+             {"wrong.bag", "another topic", "rosbag reindex"});
+}
+
+TEST_CASE("Topics of one name with another type are kept apart", "[bags]") {
+  const TemporaryFolder folder;
+  FileWriter file(folder / "two.bag");
+  Ros1Writer writer(file);
+  writer.begin_chunk(Ros1Compression::kBz2);
+  writer.message(connection(0, "/a", "one"), 2, "first");
+  writer.message(connection(1, "/a", "two"), 3, "second");
+  writer.message(connection(2, "/a", "one"), 1, "third");
+  writer.finish();
+  file.commit();
+  const Ros1Bag bag(folder / "two.bag");
+  REQUIRE(bag.topics().size() == 2);
+  CHECK(bag.topics()[0].messages == 2);
+  CHECK(bag.message(0, 0) == "third");  // In the order of their times.
+  CHECK(bag.message(0, 1) == "first");
+  CHECK(bag.message(1, 0) == "second");
+}
+
+TEST_CASE("What is written reads back, chunk by chunk, with every compression", "[bags]") {
+  const TemporaryFolder folder;
+  for (const auto compression :
+       {Ros1Compression::kNone, Ros1Compression::kBz2, Ros1Compression::kLz4}) {
+    const Ros1Bag bag(write_bag(folder, 3, 10, compression));
+    CHECK(bag.damage().empty());
+    REQUIRE(bag.chunks().size() == 3);
+    CHECK(bag.chunks()[1].compression == compression);
+    int number = 10;
+    bag.for_each_message(1, [&](const Ros1Bag::StoredMessage& message) {
+      CHECK(message.recorded == 1'000'000'000LL * number);
+      CHECK(message.bytes == std::string(20, static_cast<char>('a' + number % 26)));
+      ++number;
+    });
+    CHECK(number == 20);
+  }
+  // ROS 1's own decoder reads lz4 frames of independent blocks with a checksum, and no others.
+  CHECK(
+      read_text(folder / "made.bag").at(Ros1Bag(folder / "made.bag").chunks()[0].data_begin + 4) ==
+      0x64);
+  // rosbag appends to a bag only if the first chunk begins here.
+  CHECK(Ros1Bag(folder / "made.bag").chunks()[0].begin == 4117);
+}
+
+TEST_CASE("Times that ROS 1 cannot hold are refused", "[bags]") {
+  const TemporaryFolder folder;
+  FileWriter file(folder / "made.bag");
+  Ros1Writer writer(file);
+  writer.begin_chunk(Ros1Compression::kNone);
+  CHECK_THROWS_AS(writer.message(connection(0, "/a"), -1, ""), DataError);
+  CHECK_THROWS_AS(writer.message(connection(0, "/a"), 4294967296'000'000'000, ""), DataError);
+}
+
+TEST_CASE("A file that is no bag of version 2.0 is refused", "[bags]") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& bytes) {
+    return message_of<DataError>([&] { Ros1Bag(folder.write("x.bag", bytes)); });
+  };
+  check_says(refused("#ROSBAG V1.2\n"), {"x.bag", "version 2.0"});
+  check_says(refused(""), {"x.bag"});
+  std::string encrypted = written_by_ros("rosbag_none");
+  // rosbag writes the name of an encryptor into the header; here in place of a count.
+  const std::size_t at = encrypted.find("conn_count=");
+  encrypted.replace(at, 15, "encryptor=aescb");
+  check_says(refused(encrypted), {"encrypted", "rosbag decrypt"});
+}
+
+TEST_CASE("Lengths that lie ask for no memory", "[bags]") {
+  const TemporaryFolder folder;
+  const std::string bytes = read_text(write_bag(folder, 1, 2, Ros1Compression::kLz4));
+  const auto at_chunk = [&](const char* field) { return bytes.find(field, 4117) + 5; };
+  std::string size = bytes;
+  size.replace(at_chunk("size="), 4, "\xFF\xFF\xFF\x7F");
+  CHECK_THAT(Ros1Bag(folder.write("x.bag", size)).damage().at(0),
+             Catch::Contains("beyond the limit of 1 GiB"));
+  for (std::size_t place = 4117; place + 4 < bytes.size(); ++place) {
+    std::string wrong = bytes;
+    wrong.replace(place, 4, "\xFF\xFF\xFF\xFF");
+    try {
+      const Ros1Bag bag(folder.write("x.bag", wrong));
+      (void)all_messages(bag);
+    } catch (const DataError& error) {
+      CHECK_THAT(error.what(), Catch::Contains("x.bag"));
+    }
+  }
+}
+
+TEST_CASE("Notes on damage stay few", "[bags]") {
+  DamageNotes notes;
+  CHECK(notes.empty());
+  for (int i = 0; i < 1000; ++i) notes.add("note " + std::to_string(i));
+  notes.add("note 3");
+  REQUIRE(notes.sentences().size() == DamageNotes::kMost + 1);
+  CHECK(notes.sentences()[0] == "note 0");
+  CHECK_THAT(notes.sentences().back(), Catch::Contains("992 places"));
+}
+
+}  // namespace
+}  // namespace raymoval::test
