@@ -5,7 +5,7 @@ find_package(CLI11 2.1 REQUIRED)
 # Messages: fmt::format, by <fmt/format.h>.
 find_package(fmt 9 REQUIRED)
 find_package(TBB REQUIRED)
-# Deflates the points of a report.
+# Deflates the points of a report; unpacks clouds (.gz, .npz).
 find_package(ZLIB REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(tsl-robin-map REQUIRED)

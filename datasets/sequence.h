@@ -108,6 +108,8 @@ struct Sequence {
 
 /// The source that leaves out the own vehicle of `sequence`. Null if nothing does.
 const EgoFreeSource* ego_free_source(const Sequence& sequence);
+/// The scans of `sequence` as they are stored, with the own vehicle.
+const ScanSource& stored_source(const Sequence& sequence);
 /// The files that `sequence` is read from. Null if it is not read from files.
 const FileScanSource* file_source(const Sequence& sequence);
 

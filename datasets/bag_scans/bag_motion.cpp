@@ -20,10 +20,6 @@ constexpr const char* kOdometry = "nav_msgs/Odometry";
 constexpr const char* kPath = "nav_msgs/Path";
 constexpr const char* kPoseOption = "--pose-topic";
 
-std::string bag_name(const Bag& bag) {
-  return bag.path().filename().string();
-}
-
 /// The poses of a topic, all between the same two frames.
 struct TopicPoses {
   std::string frame, child;

@@ -23,7 +23,7 @@ struct BagScan {
 
 /// Scans that are messages of a bag, with all their fields. Points that are no returns are left out
 /// (see `read_returns`). Only the scans that are asked for are read.
-class BagScanSource : public ScanSource, public RecordSource {
+class BagScanSource : public ScanSource, public RecordSource, public TalliedSource {
  public:
   BagScanSource(std::shared_ptr<const Bag> bag, std::size_t topic, std::vector<BagScan> scans,
                 PointFrame point_frame, const std::optional<std::string>& sensor);
@@ -39,8 +39,7 @@ class BagScanSource : public ScanSource, public RecordSource {
   [[nodiscard]] const Bag& bag() const { return *bag_; }
   [[nodiscard]] std::size_t topic() const { return topic_; }
   [[nodiscard]] std::size_t message(std::size_t index) const { return scan(index).message; }
-  /// Missing returns of the scans read so far.
-  [[nodiscard]] const LeftOutTally& tally() const { return tally_; }
+  [[nodiscard]] const LeftOutTally& tally() const override { return tally_; }
 
  private:
   [[nodiscard]] const BagScan& scan(std::size_t index) const;

@@ -99,8 +99,9 @@ FoundScanPoses poses_of_bag(const Bag& bag, const ScanHeads& heads, std::uint64_
   return found;
 }
 
-void take(std::vector<std::string>& notes, std::vector<std::string> more) {
-  for (std::string& note : more) notes.push_back(std::move(note));
+template <class Value>
+void take(std::vector<Value>& all, std::vector<Value> more) {
+  for (Value& value : more) all.push_back(std::move(value));
 }
 
 Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
@@ -114,6 +115,9 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   const ScanHeads heads = read_scan_heads(*bag, topic, settings.frames, context.cancel);
 
   Sequence sequence = make_sequence(settings, bags_layout(), heads.range);
+  // Nothing that is written may take the place of the recording, or of a file of it.
+  sequence.input_files.push_back(path);
+  if (is_folder(path)) take(sequence.input_files, entries_of(path));
   const PoseSettings pose_settings =
       raymoval::pose_settings(settings, folder, sequence.input_files);
   FoundScanPoses found =

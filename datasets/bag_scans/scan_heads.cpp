@@ -68,8 +68,7 @@ ChosenFrames choose_messages(const Bag& bag, std::size_t topic, const FrameRange
   for (std::uint64_t i = 0; i < bag.topics()[topic].messages; ++i) {
     all.push_back({static_cast<long>(i), {}});
   }
-  return choose_frames(all, range,
-                       bag.path().filename().string() + ": " + bag.topics()[topic].name);
+  return choose_frames(all, range, bag_name(bag) + ": " + bag.topics()[topic].name);
 }
 
 }  // namespace
@@ -97,7 +96,7 @@ ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& r
     heads.stamps.push_back(head->header.stamp);
   }
   if (left_out.all() > 0) {
-    heads.notes.push_back(bag.path().filename().string() + ": " + bag.topics()[topic].name + ": " +
+    heads.notes.push_back(bag_name(bag) + ": " + bag.topics()[topic].name + ": " +
                           counted_text(left_out.all(), "message") + " of " +
                           grouped_text(chosen.files.size()) + " left out: " + left_out.text());
     if (2 * left_out.all() >= chosen.files.size()) throw DataError(heads.notes.back());

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "datasets/clouds/bin/bin_file.h"
+#include "datasets/clouds/format/deflate.h"
 #include "datasets/clouds/format/point_layout.h"
 #include "datasets/clouds/pcd/pcd_header.h"
 #include "datasets/clouds/poses.h"
@@ -12,8 +13,14 @@
 namespace raymoval {
 namespace {
 
-std::string_view text_of(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+/// Calls `read` with the content of a file of points, unpacked.
+template <class Read>
+auto read_unpacked(const std::filesystem::path& path, const RecordReading& reading, Read&& read) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!is_packed(path)) return read(CloudBytes{path, text, reading});
+  const std::string unpacked = unpack_gzip(text, path.string());
+  return read(CloudBytes{path, unpacked, reading});
 }
 
 }  // namespace
@@ -21,14 +28,14 @@ std::string_view text_of(const std::vector<std::byte>& bytes) {
 Cloud read_cloud(const std::filesystem::path& path, const Eigen::Vector3d& origin,
                  const RecordReading& reading) {
   const CloudFormat& format = format_read(path);
-  const std::vector<std::byte> bytes = read_bytes(path);
-  return format.read_cloud({path, text_of(bytes), reading}, origin);
+  return read_unpacked(path, reading,
+                       [&](const CloudBytes& file) { return format.read_cloud(file, origin); });
 }
 
 PointRecords read_records(const std::filesystem::path& path, const RecordReading& reading) {
   const CloudFormat& format = format_read(path);
-  const std::vector<std::byte> bytes = read_bytes(path);
-  return format.read_records({path, text_of(bytes), reading});
+  return read_unpacked(path, reading,
+                       [&](const CloudBytes& file) { return format.read_records(file); });
 }
 
 void check_bin_size(const std::filesystem::path& path, std::uintmax_t bytes,

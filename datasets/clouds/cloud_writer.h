@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/files/file_writer.h"
+#include "datasets/clouds/record_file.h"
 
 namespace raymoval {
 
@@ -18,18 +18,16 @@ enum class Coordinates { kFloat, kDouble };
 /// @throws UsageError naming the file and the remedy
 void check_coordinates(const std::filesystem::path& path, Coordinates coordinates);
 
-/// Writes a cloud piece by piece as .pcd (binary), .ply (binary, little-endian) or .bin (float32
-/// x y z reflectance); only the piece at hand is in memory. The file appears at `commit`, whole.
-///
-/// The head of .pcd and .ply names the count of points, which is known at the end only: a comment
-/// in it gives room for the digits, so that it always has the same length.
+/// Writes positions and strengths of points piece by piece, in any format that
+/// `PointRecordWriter` writes; only the piece at hand is in memory. The file appears at `commit`,
+/// whole.
 class CloudWriter {
  public:
   /// Opens the file. @throws UsageError for another extension, DataError if it cannot be written
-  explicit CloudWriter(const std::filesystem::path& path);
+  explicit CloudWriter(const std::filesystem::path& path) : file_(path) {}
 
   /// To be called before `add`.
-  /// @param with_intensity whether .pcd and .ply have a field for it; .bin always has
+  /// @param with_intensity whether there is a field for it; .bin always has one
   /// @param coordinates float32, or float64 for points far from the origin
   /// @throws UsageError for float64 in a .bin file, which has none
   void start(bool with_intensity, Coordinates coordinates = Coordinates::kFloat);
@@ -40,27 +38,25 @@ class CloudWriter {
   /// The same for points in double precision.
   void add_exact(const std::vector<Eigen::Vector3d>& points, const std::vector<float>& intensity);
   /// Ends the file and puts it on the disk, still without its name.
-  void finish();
+  void finish() { file_.finish(); }
   /// Gives it its name, after `finish`.
   void commit() { file_.commit(); }
   /// The same together with others.
   void commit_with(Replacements& together) { file_.commit_with(together); }
 
  private:
-  [[nodiscard]] std::string header() const;
   template <class Point>
   void add_points(const std::vector<Point>& points, const std::vector<float>& intensity);
 
-  FileWriter file_;
-  std::string extension_;
+  PointRecordWriter file_;
+  PointRecords rows_;  ///< The piece at hand.
   bool with_intensity_ = false;
   Coordinates coordinates_ = Coordinates::kFloat;
-  std::uint64_t points_ = 0;
 };
 
-/// Writes .pcd (binary), .ply (binary, little-endian) or .bin, atomically.
-/// @param intensity as long as `points`, or empty: then .pcd and .ply have no such field, and .bin
-///   holds zeros
+/// Writes a whole file, atomically.
+/// @param intensity as long as `points`, or empty: then there is no such field, and .bin holds
+/// zeros
 void write_cloud(const std::filesystem::path& path, const std::vector<Eigen::Vector3f>& points,
                  const std::vector<float>& intensity = {});
 

@@ -25,6 +25,9 @@ std::string cloud_extension(const std::filesystem::path& path);
 /// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.gz.
 std::string cloud_stem(const std::filesystem::path& path);
 
+/// Whether `path` names a file of points that is packed with gzip.
+bool is_packed(const std::filesystem::path& path);
+
 /// @throws UsageError naming the known endings if that of `path` is none, or is that of a format
 ///   that is known and not read
 const CloudFormat& format_read(const std::filesystem::path& path);

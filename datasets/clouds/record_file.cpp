@@ -16,10 +16,24 @@ std::vector<std::string> what_is_lost(const std::filesystem::path& path,
   return format_written(path).lost(layout);
 }
 
+namespace {
+
+std::unique_ptr<RecordEncoder> encoder_for(const std::filesystem::path& path,
+                                           const RecordWriting& writing) {
+  const CloudFormat& format = format_written(path);
+  if (writing.crs && !format.holds_reference_system) {
+    throw UsageError(path.string() + ": '" + format.extension +
+                     "' holds no coordinate reference system; only .las does.");
+  }
+  return format.encoder(path, writing);
+}
+
+}  // namespace
+
 class PointRecordWriter::Format {
  public:
   Format(const std::filesystem::path& path, const RecordWriting& writing)
-      : encoder_(format_written(path).encoder(path, writing)), file_(path) {}
+      : encoder_(encoder_for(path, writing)), file_(path) {}
 
   void start(const RecordLayout& layout) {
     (void)position_fields(layout, file_.path().string());

@@ -66,7 +66,7 @@ StampColumn scan_stamps(const fs::path& folder, const std::vector<NumberedFile>&
                     "; expected a time for each scan in the order of the names.");
   }
   std::vector<std::string> stems;
-  for (const NumberedFile& file : files) stems.push_back(file.path.stem().string());
+  for (const NumberedFile& file : files) stems.push_back(cloud_stem(file.path));
   StampColumn column;
   column.stamps = stamps_in_names(stems).value_or(std::vector<Nanoseconds>());
   for (const Nanoseconds stamp : column.stamps) {
@@ -151,8 +151,8 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
 Layout files_layout() {
   Layout layout;
   layout.name = "files";
-  layout.expected = "a folder of .pcd, .ply or .bin scans with poses.txt";
-  layout.forms = {{"FOLDER", "a folder of .pcd, .ply or .bin scans with poses.txt"}};
+  layout.expected = "a folder of .pcd, .ply, .bin, .las or .npy scans with poses.txt";
+  layout.forms = {{"FOLDER", "a folder of .pcd, .ply, .bin, .las or .npy scans with poses.txt"}};
   layout.pose_place = PosePlace::kRowOfScan;
   layout.class_names = semantickitti_class_names();
   layout.recognise = [](Layout::Path path) {

@@ -162,7 +162,7 @@ TEST_CASE("what is written reads back bit by bit", "[cloud]") {
     intensity.push_back(normal(random));
   }
   points[7].x() = std::numeric_limits<float>::infinity();
-  for (const std::string& extension : cloud_extensions()) {
+  for (const std::string extension : {".pcd", ".ply", ".bin", ".npy"}) {
     const auto path = folder / ("cloud" + extension);
     write_cloud(path, points, intensity);
     CHECK(read_cloud(path).points == points);
@@ -174,7 +174,7 @@ TEST_CASE("what is written reads back bit by bit", "[cloud]") {
     write_cloud(path, {});
     CHECK(read_cloud(path).points.empty());
   }
-  CHECK_THROWS_AS(write_cloud(folder / "cloud.las", points), UsageError);
+  CHECK_THROWS_AS(write_cloud(folder / "cloud.xyz", points), UsageError);
   CHECK_THROWS_AS(write_cloud(folder / "cloud.bin", points, {1.0F}), InternalError);
 }
 

@@ -19,7 +19,7 @@ const std::vector<float> kIntensity = {0.5F, 252.0F, -1.0F};
 
 TEST_CASE("A cloud written in pieces reads back as one, in every format", "[cloud]") {
   const TemporaryFolder folder;
-  for (const std::string& extension : cloud_extensions()) {
+  for (const std::string extension : {".pcd", ".ply", ".bin", ".npy"}) {
     const auto path = folder / ("map" + extension);
     CloudWriter writer(path);
     writer.start(true);
@@ -79,7 +79,7 @@ TEST_CASE("The head has the same length for any count of points", "[cloud]") {
 
 TEST_CASE("An unknown format is refused before anything is made", "[cloud]") {
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(CloudWriter(folder / "map.las"), UsageError);
+  CHECK_THROWS_AS(CloudWriter(folder / "map.xyz"), UsageError);
   CHECK_THROWS_AS(CloudWriter(folder / "no/map.pcd"), DataError);
   CHECK(std::filesystem::is_empty(folder.text()));
 }

@@ -49,7 +49,10 @@ void pack_zstd_file(const std::filesystem::path& file, FileWriter& output) {
 
 std::string pack_lz4(std::string_view bytes) {
   LZ4F_preferences_t preferences = LZ4F_INIT_PREFERENCES;
-  preferences.frameInfo.contentSize = bytes.size();
+  // What ROS 1 reads and writes: its own decoder takes no other kind of frame.
+  preferences.frameInfo.blockMode = LZ4F_blockIndependent;
+  preferences.frameInfo.blockSizeID = LZ4F_max1MB;
+  preferences.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
   std::string packed(LZ4F_compressFrameBound(bytes.size(), &preferences), '\0');
   const std::size_t size =
       LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), &preferences);

@@ -5,12 +5,33 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datasets/clouds/format/cloud_bytes.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
+
+/// How the points of a file that is written are organised: as the one piece they come in, if they
+/// do.
+class WrittenShape {
+ public:
+  void add(const PointRecords& rows) {
+    if (rows.size() == 0) return;
+    ++pieces_;
+    width_ = rows.width;
+    height_ = rows.height;
+  }
+  /// Width and height of a file of `points` points.
+  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> of(std::uint64_t points) const {
+    if (pieces_ == 1 && width_ * height_ == points) return {width_, height_};
+    return {points, 1};
+  }
+
+ private:
+  std::uint64_t pieces_ = 0, width_ = 0, height_ = 1;
+};
 
 /// Makes the bytes of a file of one format of rows of points. A file is its head and, behind that,
 /// what `rows` gives of each piece.
@@ -36,6 +57,7 @@ struct CloudFormat {
                                             const RecordWriting& writing) = nullptr;
   /// As `what_is_lost`.
   std::vector<std::string> (*lost)(const RecordLayout& layout) = nullptr;
+  bool holds_reference_system = false;
 };
 
 }  // namespace raymoval

@@ -44,8 +44,8 @@ std::optional<PointField> parsed_type(std::string_view type) {
 
 }  // namespace
 
-RecordLayout parse_point_layout(std::string_view text) {
-  RecordLayout layout;
+std::vector<PointField> point_layout_fields(std::string_view text) {
+  std::vector<PointField> fields;
   std::unordered_set<std::string_view> names;
   for (const std::string_view word : split_blanks(text)) {
     const std::string_view name = word.substr(0, word.find(':'));
@@ -57,11 +57,22 @@ RecordLayout parse_point_layout(std::string_view text) {
       field = *typed;
     }
     if (name != "_" && !names.insert(name).second) fail(text, word, "stands there twice");
-    if (layout.row_bytes + field.bytes() > kLargestRow) fail(text, word, "makes a point too large");
-    if (name == "_") {
+    field.name = name;
+    fields.push_back(field);
+  }
+  return fields;
+}
+
+RecordLayout parse_point_layout(std::string_view text) {
+  RecordLayout layout;
+  for (const PointField& field : point_layout_fields(text)) {
+    if (layout.row_bytes + field.bytes() > kLargestRow) {
+      fail(text, field.name, "makes a point too large");
+    }
+    if (field.name == "_") {
       layout.row_bytes += field.bytes();
     } else {
-      layout.add(std::string(name), field.type, field.size, field.count);
+      layout.add(field.name, field.type, field.size, field.count);
     }
   }
   for (const char* axis : {"x", "y", "z"}) {

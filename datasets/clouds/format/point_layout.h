@@ -4,10 +4,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
+
+/// The words of a point layout as fields in their order, also those named "_". Offsets are not
+/// set. @throws UsageError naming the word that is wrong, or for a name that stands there twice
+std::vector<PointField> point_layout_fields(std::string_view text);
 
 /// The fields of a point as a user names them: words NAME, NAME:TYPE or NAME:TYPE[COUNT], such as
 /// "x y z intensity ring:u2 t:f8". Types are f4 (where none is given) f8 i1 i2 i4 i8 u1 u2 u4 u8.

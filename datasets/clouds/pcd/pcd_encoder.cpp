@@ -78,9 +78,8 @@ class PcdEncoder : public RecordEncoder {
   }
 
   std::string head(std::uint64_t points) const override {
-    const bool organised = pieces_ == 1 && width_ * height_ == points;
-    const std::string width = std::to_string(organised ? width_ : points);
-    const std::string height = std::to_string(organised ? height_ : 1);
+    const std::string width = std::to_string(shape_.of(points).first);
+    const std::string height = std::to_string(shape_.of(points).second);
     const std::string count = std::to_string(points);
     const std::size_t used = viewpoint_.size() + width.size() + height.size() + count.size();
     // Blanks in a comment give room for the digits, so that the head always has the same length.
@@ -91,11 +90,9 @@ class PcdEncoder : public RecordEncoder {
   }
 
   std::string rows(const PointRecords& more) override {
-    if (more.size() > 0) {
-      ++pieces_;
-      width_ = more.width;
-      height_ = more.height;
-      if (more.viewpoint && viewpoint_text(*more.viewpoint) != viewpoint_) viewpoint_ = kNone;
+    shape_.add(more);
+    if (more.size() > 0 && more.viewpoint && viewpoint_text(*more.viewpoint) != viewpoint_) {
+      viewpoint_ = kNone;
     }
     return {reinterpret_cast<const char*>(more.bytes.data()), more.bytes.size()};
   }
@@ -105,7 +102,7 @@ class PcdEncoder : public RecordEncoder {
   std::string fields_;
   std::string viewpoint_ = kNone;  ///< Never longer than the first one.
   std::size_t room_ = 0;
-  std::uint64_t pieces_ = 0, width_ = 0, height_ = 1;
+  WrittenShape shape_;
 };
 
 }  // namespace

@@ -202,7 +202,8 @@ TEST_CASE("A bag without poses names what there is, and ways to poses", "[bags]"
   const Sequence by_time = open_sequence(path, options);
   CHECK(position(by_time, 1).isApprox(Eigen::Vector3d(3, 0, 0), 1e-9));
   CHECK(by_time.poses_file == "traj.txt");
-  REQUIRE(by_time.input_files.size() == 1);
+  REQUIRE(by_time.input_files.size() == 2);
+  CHECK(by_time.input_files[0] == path);
 }
 
 TEST_CASE("Of several topics of a kind one is to be named", "[bags]") {

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/clouds/las/las_encoder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/clouds/format/field_names.h"
+#include "datasets/clouds/las/extra_bytes.h"
+#include "datasets/clouds/las/las_grid.h"
+#include "datasets/clouds/las/las_mapping.h"
+#include "datasets/clouds/las/las_notes.h"
+#include "datasets/clouds/las/reference_system.h"
+
+namespace raymoval {
+namespace {
+
+constexpr std::size_t kHeadBytes = 375, kRecordHead = 54;
+
+/// Bytes with numbers written to places in them, as the public header block of LAS has them.
+struct HeadBytes {
+  std::string bytes;
+  template <class Number>
+  void put(std::size_t at, Number number) {
+    std::memcpy(bytes.data() + at, &number, sizeof number);
+  }
+  void put_text(std::size_t at, std::string_view text) { bytes.replace(at, text.size(), text); }
+};
+
+std::string variable_record(std::string_view user, std::uint16_t id, std::string_view content) {
+  HeadBytes head{std::string(kRecordHead, '\0')};
+  head.put_text(2, user);
+  head.put<std::uint16_t>(18, id);
+  head.put<std::uint16_t>(20, static_cast<std::uint16_t>(content.size()));
+  return head.bytes + std::string(content);
+}
+
+class LasEncoder : public RecordEncoder {
+ public:
+  LasEncoder(const std::filesystem::path& path, const RecordWriting& writing)
+      : path_(path), intensity_scale_(writing.intensity_scale) {
+    if (writing.crs) reference_system_ = reference_system_text(*writing.crs);
+  }
+
+  void start(const PointRecords& first) override {
+    layout_ = first.layout;
+    mapping_ = map_to_las(layout_);
+    position_ = position_fields(layout_, path_.string());
+    if (mapping_.extra.size() > kMostExtraFields ||
+        mapping_.record_bytes > std::numeric_limits<std::uint16_t>::max()) {
+      throw DataError(path_.string() + ": points of " + grouped_text(mapping_.extra.size()) +
+                      " values that LAS has no place for, " + grouped_text(mapping_.record_bytes) +
+                      " bytes in all; a LAS point has at most 341 and 65,535. Write .pcd or .npy.");
+    }
+    const LasNotes* notes = first.las.get();
+    grid_.emplace(path_.string(), first, notes);
+    if (notes != nullptr) gps_standard_ = notes->standard_gps_time;
+    if (notes != nullptr && reference_system_.empty()) reference_system_ = notes->reference_system;
+    records_ = variable_records(notes);
+  }
+
+  std::string head(std::uint64_t points) const override {
+    HeadBytes head{std::string(kHeadBytes, '\0')};
+    head.put_text(0, "LASF");
+    constexpr unsigned kWkt = 16;
+    head.put<std::uint16_t>(6, static_cast<std::uint16_t>(kWkt | (gps_standard_ ? 1U : 0U)));
+    head.put<std::uint8_t>(24, 1);
+    head.put<std::uint8_t>(25, 4);
+    head.put_text(26, "raymoval");
+    head.put_text(58, "raymoval");
+    head.put<std::uint16_t>(94, kHeadBytes);
+    head.put<std::uint32_t>(96, static_cast<std::uint32_t>(kHeadBytes + records_.size()));
+    head.put<std::uint32_t>(100, record_count_);
+    head.put<std::uint8_t>(104, static_cast<std::uint8_t>(mapping_.format));
+    head.put<std::uint16_t>(105, static_cast<std::uint16_t>(mapping_.record_bytes));
+    // The counts at 107 and 111 are of the formats 0 to 5 and stay 0.
+    grid_->put_into(head.bytes);
+    head.put<std::uint64_t>(247, points);
+    for (std::size_t i = 0; i < returns_.size(); ++i) head.put(255 + 8 * i, returns_[i]);
+    return head.bytes + records_;
+  }
+
+  std::string rows(const PointRecords& more) override {
+    std::string bytes(more.size() * mapping_.record_bytes, '\0');
+    for (std::size_t i = 0; i < more.size(); ++i) {
+      encode(more, i, bytes.data() + i * mapping_.record_bytes);
+    }
+    points_ += more.size();
+    return bytes;
+  }
+
+ private:
+  std::string variable_records(const LasNotes* notes) {
+    std::string records;
+    if (!reference_system_.empty()) {
+      records += variable_record("LASF_Projection", 2112, reference_system_ + '\0');
+      ++record_count_;
+    }
+    std::string descriptions;
+    for (const LasMapping::Extra& extra : mapping_.extra) {
+      std::string known;
+      if (notes != nullptr && notes->extra_bytes.contains(extra.of)) {
+        known = notes->extra_bytes.at(extra.of);
+      }
+      descriptions += extra_description(extra.from, extra.name, known);
+    }
+    if (!descriptions.empty()) {
+      records += variable_record("LASF_Spec", 4, descriptions);
+      ++record_count_;
+    }
+    return records;
+  }
+
+  void encode(const PointRecords& rows, std::size_t point, char* to) {
+    const Eigen::Vector3d place(rows.value(point, position_.x), rows.value(point, position_.y),
+                                rows.value(point, position_.z));
+    grid_->encode(place, points_ + point, to);
+    to[14] = static_cast<char>(mapping_.assumed_returns);
+    for (const LasMapping::Standard& field : mapping_.standard)
+      put_standard(rows, point, field, to);
+    if (mapping_.shown_intensity != nullptr) put_intensity(rows, point, to);
+    if (mapping_.shown_colour != nullptr) put_colour(rows, point, to);
+    if (mapping_.shown_angle != nullptr) {
+      // From degrees to steps of 0.006 degrees.
+      const double steps = rows.value(point, *mapping_.shown_angle) / 0.006;
+      put<std::int16_t>(to + 18, static_cast<std::int16_t>(std::lround(steps)));
+    }
+    std::size_t at = las_record_bytes(mapping_.format);
+    for (const LasMapping::Extra& extra : mapping_.extra) {
+      std::memcpy(to + at, rows.row(point) + extra.from.offset, extra.from.bytes());
+      at += extra.from.bytes();
+    }
+    const unsigned number = static_cast<unsigned char>(to[14]) & 0xFU;
+    if (number > 0) ++returns_[number - 1];
+  }
+
+  template <class Number>
+  static void put(char* to, Number number) {
+    std::memcpy(to, &number, sizeof number);
+  }
+
+  void put_standard(const PointRecords& rows, std::size_t point, const LasMapping::Standard& field,
+                    char* to) const {
+    const std::byte* from = rows.row(point) + field.from.offset;
+    const auto size = static_cast<std::size_t>(field.from.size);
+    if (field.to.bits == 0) {
+      // Little-endian: a smaller whole number leaves the upper bytes, which a sign fills.
+      std::memcpy(to + field.to.at, from, size);
+      const bool negative =
+          field.from.type == 'I' && (from[size - 1] & std::byte{0x80}) != std::byte{};
+      for (std::size_t i = size; i < static_cast<std::size_t>(field.to.size); ++i) {
+        to[field.to.at + i] = static_cast<char>(negative ? 0xFF : 0);
+      }
+      return;
+    }
+    const auto value = std::to_integer<unsigned>(*from);
+    if ((value >> field.to.bits) != 0) {
+      throw DataError(path_.string() + ": point " + grouped_text(points_ + point) + " has " +
+                      field.from.name + " " + std::to_string(value) + ", but LAS has only " +
+                      std::to_string(field.to.bits) +
+                      " bits for it. Nothing was changed; write .pcd or .npy.");
+    }
+    to[field.to.at] =
+        static_cast<char>(static_cast<unsigned char>(to[field.to.at]) | (value << field.to.bit));
+  }
+
+  void put_intensity(const PointRecords& rows, std::size_t point, char* to) const {
+    const PointField& field = *mapping_.shown_intensity;
+    const double value = rows.value(point, field) * (field.type == 'F' ? intensity_scale_ : 1.0);
+    const double shown = std::isnan(value) ? 0.0 : std::clamp(std::nearbyint(value), 0.0, 65535.0);
+    put(to + 12, static_cast<std::uint16_t>(shown));
+  }
+
+  void put_colour(const PointRecords& rows, std::size_t point, char* to) const {
+    std::array<std::uint8_t, 4> colour;  // Blue, green, red, alpha.
+    std::memcpy(colour.data(), rows.row(point) + mapping_.shown_colour->offset, sizeof colour);
+    for (std::size_t i = 0; i < 3; ++i) {
+      put(to + las_record_bytes(6) + 2 * i, static_cast<std::uint16_t>(257U * colour[2 - i]));
+    }
+  }
+
+  std::filesystem::path path_;
+  double intensity_scale_;
+  std::string reference_system_;
+  RecordLayout layout_;
+  LasMapping mapping_;
+  PositionFields position_;
+  std::optional<LasGrid> grid_;
+  bool gps_standard_ = false;
+  std::string records_;
+  std::uint32_t record_count_ = 0;
+  std::uint64_t points_ = 0;
+  std::array<std::uint64_t, 15> returns_{};
+};
+
+}  // namespace
+
+std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path,
+                                           const RecordWriting& writing) {
+  return std::make_unique<LasEncoder>(path, writing);
+}
+
+std::vector<std::string> lost_in_las(const RecordLayout& layout) {
+  const LasMapping mapping = map_to_las(layout);
+  std::vector<std::string> sentences = {
+      "x, y and z are rounded to whole multiples of 0.001 m, or of the scale of the LAS file that "
+      "the points come from."};
+  for (const LasMapping::Standard& field : mapping.standard) {
+    if (field.from.size == field.to.size) continue;
+    sentences.push_back("The field '" + field.from.name + "' is written with " +
+                        std::to_string(8 * field.to.size) + " bits instead of " +
+                        std::to_string(8 * field.from.size) + ".");
+  }
+  for (const LasMapping::Extra& extra : mapping.extra) {
+    if (extra.name == extra.of) continue;
+    sentences.push_back("The field '" + extra.of + "' is written as '" + extra.name +
+                        "' in the extra bytes.");
+  }
+  return sentences;
+}
+
+}  // namespace raymoval
