@@ -26,7 +26,7 @@ constexpr const char* kSettings = "sequence.json";
 constexpr const char* kOwnPoses = "poses.txt";
 
 /// Settings that are about poses or frames, which a pose file of our own takes the place of.
-constexpr std::array kPoseSettings = {"poses",       "frames",    "T_sensor",       "time_offset",
+constexpr std::array kPoseSettings = {"poses",       "frames",    "T_sensor",       "time_offset_s",
                                       "pose_format", "max_gap_s", "poses_are_lidar"};
 
 /// `path` relative to `root`; nothing if it stands elsewhere.
