@@ -30,6 +30,7 @@ for page in "$pages"/*.md; do
     quick=(--quiet)
     [[ ${words[0]} != clean ]] || quick+=(--method raymoval:online)
     expect 0 "" "${words[@]}" "${quick[@]}"
+    cp out.txt said.txt
     for ((i = 1; i + 1 < ${#words[@]}; ++i)); do
       case ${words[i]} in
         -o | --dynamic | --labelled | --scans | --html | --picture)
@@ -37,7 +38,7 @@ for page in "$pages"/*.md; do
       esac
     done
     if [[ " ${words[*]} " == *" --scans "* && ${words[0]} == clean ]]; then
-      opened=$(grep -oP '(?<=open with: raymoval ).*' out.txt)
+      opened=$(grep -oP '(?<=open with: raymoval ).*' said.txt)
       expect 0 "0 findings" $opened --quiet
       expect 0 "" clean ${opened#inspect } --method noop --quiet -o again.ply
     fi
