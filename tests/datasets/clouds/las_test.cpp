@@ -393,7 +393,7 @@ TEST_CASE("what LAS cannot hold is an error before the file appears", "[las]") {
     return message;
   };
   made.set_value(1, made.layout.fields[0], 3e6);
-  check_says(says(), {"point 1 has x = 3000000", "2147483.647 m", "Nothing was changed"});
+  check_says(says(), {"point 1 has x = 3e+06", "2147483.647 m", "Nothing was changed"});
   made.set_value(1, made.layout.fields[0], std::nan(""));
   check_says(says(), {"x = nan", "not finite"});
   made.set_value(1, made.layout.fields[0], 0);
