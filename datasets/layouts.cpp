@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "datasets/bag_scans/bags_layout.h"
 #include "datasets/dynamicmap/dynamicmap.h"
 #include "datasets/files/files.h"
 #include "datasets/semantickitti/semantickitti.h"
@@ -20,6 +21,7 @@ std::list<Layout>& registry() {
     std::list<Layout> list;
     list.push_back(street_layout());
     list.push_back(scenes_layout());
+    list.push_back(bags_layout());
     list.push_back(semantickitti_layout());
     list.push_back(dynamicmap_layout());
     list.push_back(files_layout());

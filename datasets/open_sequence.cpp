@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/deskew/deskewed_source.h"
 #include "datasets/ego/ego_free_source.h"
 #include "datasets/layouts.h"
 
@@ -70,6 +71,22 @@ const SceneNames* scenes_of(const std::string& path) {
   return nullptr;
 }
 
+DeskewInput deskew_input(const Sequence& sequence) {
+  return {sequence.records, sequence.motion, sequence.stamps};
+}
+
+/// How the points of a sequence are timed; `sequence` gets what is to be said of it.
+PointClock point_clock_of(Sequence& sequence) {
+  if (sequence.records == nullptr || sequence.motion == nullptr) {
+    throw UsageError("--deskew cannot be used on sequence " + sequence.name +
+                     ": its points have no times. Leave it out.");
+  }
+  PointClock clock =
+      find_point_clock(*sequence.scans, deskew_input(sequence), sequence.point_time_unit);
+  sequence.notes.insert(sequence.notes.end(), clock.notes.begin(), clock.notes.end());
+  return clock;
+}
+
 }  // namespace
 
 Sequence open_sequence(const std::string& path, const SequenceOptions& options,
@@ -78,8 +95,15 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   if (layout == nullptr) throw_unrecognised(path);
   if (!layout->scenes && layout->scan_folder.empty()) check_not_part(path, options);
   Sequence sequence = layout->open(path, options, context);
+  std::optional<PointClock> clock;
+  if (sequence.deskew) clock = point_clock_of(sequence);
   if (sequence.drop_ego.kind != EgoRegion::Kind::kNone) {
     sequence.scans = std::make_shared<EgoFreeSource>(sequence.scans, sequence.drop_ego);
+  }
+  // The own vehicle stands still in the frame of the sensor, so it is left out before.
+  if (clock) {
+    sequence.scans =
+        std::make_shared<DeskewedSource>(sequence.scans, deskew_input(sequence), *clock);
   }
   sequence.opened = sequence.scans;
   return sequence;

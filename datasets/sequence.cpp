@@ -2,6 +2,7 @@
 #include "datasets/sequence.h"
 
 #include "core/scan/local_frame.h"
+#include "datasets/deskew/deskewed_source.h"
 #include "datasets/ego/ego_free_source.h"
 #include "datasets/world_axes/gravity.h"
 
@@ -42,15 +43,28 @@ DataRecord Sequence::record() const {
   return data;
 }
 
+namespace {
+
+/// The scans as they were opened, before motion within them is taken out.
+const ScanSource* skewed_source(const Sequence& sequence) {
+  const ScanSource* source = (sequence.opened ? sequence.opened : sequence.scans).get();
+  const auto* deskewed = dynamic_cast<const DeskewedSource*>(source);
+  return deskewed != nullptr ? &deskewed->whole() : source;
+}
+
+}  // namespace
+
 const EgoFreeSource* ego_free_source(const Sequence& sequence) {
-  return dynamic_cast<const EgoFreeSource*>(
-      (sequence.opened ? sequence.opened : sequence.scans).get());
+  return dynamic_cast<const EgoFreeSource*>(skewed_source(sequence));
+}
+
+const ScanSource& stored_source(const Sequence& sequence) {
+  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) return without_ego->whole();
+  return *skewed_source(sequence);
 }
 
 const FileScanSource* file_source(const Sequence& sequence) {
-  const ScanSource* source = (sequence.opened ? sequence.opened : sequence.scans).get();
-  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) source = &without_ego->whole();
-  return dynamic_cast<const FileScanSource*>(source);
+  return dynamic_cast<const FileScanSource*>(&stored_source(sequence));
 }
 
 }  // namespace raymoval

@@ -38,6 +38,7 @@ struct SequenceOptions {
   std::optional<EgoRegion> drop_ego;  ///< Points of the own vehicle that are left out.
   std::optional<std::string> name;    ///< Name in results.
   std::optional<std::string> topic;   ///< Topic of a bag with the scans.
+  std::optional<std::string> pose_topic;    ///< Topic of a bag with the poses of these scans.
   std::optional<std::string> point_layout;  ///< Fields of .bin and .npy files, "x y z intensity".
   std::optional<PointFrame> points;         ///< The frame that points are stored in.
   std::optional<std::string> T_sensor;  ///< Sensor in the frame of the poses: a file, or 7 numbers.
@@ -107,6 +108,8 @@ struct Sequence {
 
 /// The source that leaves out the own vehicle of `sequence`. Null if nothing does.
 const EgoFreeSource* ego_free_source(const Sequence& sequence);
+/// The scans of `sequence` as they are stored, with the own vehicle.
+const ScanSource& stored_source(const Sequence& sequence);
 /// The files that `sequence` is read from. Null if it is not read from files.
 const FileScanSource* file_source(const Sequence& sequence);
 

@@ -47,16 +47,6 @@ std::optional<std::string> sensor_value(const std::string& name) {
   return name;
 }
 
-/// A text that `parse_point_layout` can read.
-std::string point_layout_value(const std::string& text, const std::string& where) {
-  try {
-    (void)parse_point_layout(text);
-  } catch (const UsageError& error) {
-    throw ConfigurationError(where + ": " + error.what());
-  }
-  return text;
-}
-
 std::optional<std::string> text_value(const Fields& file, const std::string& key) {
   return file.has(key) ? std::optional(file.text(key)) : std::nullopt;
 }
@@ -77,12 +67,22 @@ void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
   }
 }
 
+/// A text that `parse_point_layout` can read.
+std::string point_layout_value(const std::string& text, const std::string& where) {
+  try {
+    (void)parse_point_layout(text);
+  } catch (const UsageError& error) {
+    throw ConfigurationError(where + ": " + error.what());
+  }
+  return text;
+}
+
 void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
   const json content = read_json(path);
   const Fields file(content, path.string(),
                     "name source sensor up scan_period_s poses poses_are_lidar range_m labels "
-                    "drop_ego point_layout pose_format "
-                    "T_sensor time_offset_s max_gap_s points deskew point_time_unit");
+                    "drop_ego point_layout pose_format T_sensor time_offset_s max_gap_s points "
+                    "deskew point_time_unit");
   settings.name = file.text("name", settings.name);
   settings.source = file.text("source", settings.source);
   if (file.has("sensor")) settings.sensor = sensor_value(file.text("sensor", ""));
@@ -90,11 +90,11 @@ void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
   if (file.has("drop_ego")) {
     settings.drop_ego = ego_region_value(file.member("drop_ego"), file.place("drop_ego"));
   }
+  apply_pose_keys(file, settings);
   if (file.has("point_layout")) {
     settings.point_layout =
         point_layout_value(file.text("point_layout"), file.place("point_layout"));
   }
-  apply_pose_keys(file, settings);
   if (file.has("scan_period_s")) {
     settings.scan_period_s = file.number("scan_period_s", 0.0);
     if (!(*settings.scan_period_s > 0.0)) file.fail("scan_period_s", "a number above 0");
@@ -182,6 +182,14 @@ EgoRegion ego_region_value(const json& value, const std::string& where) {
   } catch (const UsageError& error) {
     throw ConfigurationError(where + ": " + error.what());
   }
+}
+
+std::string first_pose_setting(const SequenceSettings& settings) {
+  if (settings.poses) return "--poses";
+  if (settings.pose_format) return "--pose-format";
+  if (settings.T_sensor) return "--T-sensor";
+  if (settings.time_offset_s) return "--time-offset";
+  return settings.max_gap_s ? "--max-gap" : "";
 }
 
 PointFrame parse_point_frame(const std::string& option, const std::string& text) {

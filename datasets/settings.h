@@ -55,6 +55,10 @@ SequenceSettings read_settings(const std::filesystem::path& folder, const Sequen
 PoseSettings pose_settings(const SequenceSettings& settings, const std::filesystem::path& folder,
                            std::vector<std::filesystem::path>& input_files);
 
+/// The first option about poses or their times that `settings` has, "--T-sensor"; empty if there is
+/// none.
+std::string first_pose_setting(const SequenceSettings& settings);
+
 /// "sensor" or "world". @param option for the message @throws UsageError
 PointFrame parse_point_frame(const std::string& option, const std::string& text);
 

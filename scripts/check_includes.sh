@@ -13,7 +13,7 @@
 rooms="core datasets|methods|eval benchmark"
 folders="
 core                   . files process scan simd
-datasets               records clouds|fields|geometry trajectories bags ego|world_axes
+datasets               records clouds|fields|geometry trajectories bags ego|world_axes|deskew
 datasets               sequence_record sequence reading|settings layout
 datasets               semantickitti|dynamicmap|files|bag_scans
 datasets               simulation layouts open_sequence inspection

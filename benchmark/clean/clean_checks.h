@@ -19,8 +19,8 @@ namespace raymoval {
 /// @param cancel the check is given up when this becomes true
 /// @return the findings in spite of which the map is made
 /// @throws DataError with the findings for which it would be wrong; Cancelled
-std::vector<Finding> check_data(const Sequence& sequence, const std::string& path, bool force, Progress& progress,
-                                const std::atomic<bool>& cancel);
+std::vector<Finding> check_data(const Sequence& sequence, const std::string& path, bool force,
+                                Progress& progress, const std::atomic<bool>& cancel);
 
 /// Warns on standard error if no point was removed, or more than half of them.
 void check_removed(std::uint64_t removed, std::uint64_t points, const std::string& path);

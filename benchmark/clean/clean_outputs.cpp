@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "benchmark/clean/outputs/bag_copy.h"
 #include "benchmark/clean/outputs/label_folder.h"
 #include "benchmark/clean/outputs/map_output.h"
 #include "benchmark/clean/outputs/map_views.h"
 #include "benchmark/clean/outputs/scan_folder.h"
 #include "benchmark/clean/outputs/tile_sink.h"
 #include "benchmark/picture/maps/map_picture.h"
+#include "core/error.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 
@@ -25,6 +27,16 @@ MapContent content_of(const OutputPath& output) {
   return {};
 }
 
+/// @throws UsageError if --scans names a recording, which scans in files cannot become
+ScanFolderPlan planned_scans(const std::vector<OutputPath>& outputs, const Sequence& sequence) {
+  for (const OutputPath& output : outputs) {
+    if (output.kind != OutputKind::kBag) continue;
+    throw UsageError(output.path.string() + ": names a recording, but the scans of '" +
+                     sequence.name + "' are no recording. Name a folder with --scans.");
+  }
+  return plan_scan_folder(sequence);
+}
+
 }  // namespace
 
 CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
@@ -36,8 +48,10 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
   const bool needs_rows = std::any_of(all.begin(), all.end(), [](const OutputPath& output) {
     return output.kind != OutputKind::kLabels;
   });
+  const bool is_bag = bag_source(sequence) != nullptr;
   std::optional<ScanFolderPlan> plan;
-  if (!paths.scans.empty()) plan = plan_scan_folder(sequence);
+  if (!paths.scans.empty() && is_bag) check_bag_copy(sequence, paths.scans);
+  if (!paths.scans.empty() && !is_bag) plan = planned_scans(all, sequence);
   if (needs_rows) rows_.emplace(sequence, precision.coordinates, progress, cancel);
   for (const OutputPath& output : all) {
     if (is_map(output)) add_map(output, paths, writing, precision.origin);
@@ -47,6 +61,9 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
         "The map lies more than 8 km from the world's origin: its coordinates are float64.");
   }
   if (!paths.labels.empty()) outputs_.push_back(std::make_unique<LabelFolder>(paths.labels));
+  if (!paths.scans.empty() && is_bag) {
+    outputs_.push_back(std::make_unique<BagCopy>(paths.scans, sequence, cancel));
+  }
   if (plan) {
     has_own_poses_ = plan->own_poses;
     auto scans = std::make_unique<ScanFolder>(paths.scans, sequence, std::move(*plan));
@@ -66,10 +83,8 @@ void CleanOutputs::note_losses(const OutputPath& output, const std::string& name
 void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
                            const CleanWriting& writing, const Eigen::Vector3d& voxel_origin) {
   const MapContent content = content_of(output);
-  const RecordLayout layout =
-      content.labelled ? labelled_layout(rows_->layout()) : rows_->layout();
-  const std::string name =
-      paths.tiled ? "tile" + writing.tile_extension : output.path.string();
+  const RecordLayout layout = content.labelled ? labelled_layout(rows_->layout()) : rows_->layout();
+  const std::string name = paths.tiled ? "tile" + writing.tile_extension : output.path.string();
   if (rows_->is_widened()) check_coordinates(name, Coordinates::kDouble);
   note_losses(output, name, layout);
   std::unique_ptr<RowSink> sink;
@@ -89,8 +104,7 @@ void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
 void CleanOutputs::add_views(const CleanPaths& paths, const CleanWriting& writing) {
   const ViewTexts texts{sequence_.name, writing.method};
   if (!paths.page.empty()) {
-    outputs_.push_back(
-        std::make_unique<MapPageFile>(paths.page, texts, sequence_.upright_frame()));
+    outputs_.push_back(std::make_unique<MapPageFile>(paths.page, texts, sequence_.upright_frame()));
   }
   if (paths.picture.empty()) return;
   const LocalFrameSource upright(*sequence_.scans, sequence_.upright_frame());

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "benchmark/clean/outputs/scan_folder.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
@@ -38,16 +39,10 @@ bool is_within(const fs::path& path, const fs::path& folder) {
   return end == folder.end();
 }
 
-/// What tells a file from all others, whatever its names; nothing if there is none.
-std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return std::pair{status.st_dev, status.st_ino};
-}
-
 std::vector<std::string> extensions_of(OutputKind kind) {
   if (kind == OutputKind::kPicture) return {".png"};
   if (kind == OutputKind::kPage) return {".html", ".htm"};
+  if (kind == OutputKind::kBag) return {".bag", ".mcap", ".db3"};
   return written_extensions();
 }
 
@@ -72,7 +67,8 @@ void check_file(const OutputPath& output, bool overwrite) {
 std::optional<std::set<std::string>> recorded_files(const fs::path& folder, OutputKind kind) {
   return if_whole([&] {
     std::set<std::string> files = {record_name(kind)};
-    const auto record = nlohmann::json::parse(read_text(folder / record_name(kind)), nullptr, false);
+    const auto record =
+        nlohmann::json::parse(read_text(folder / record_name(kind)), nullptr, false);
     const char* key = kind == OutputKind::kTiles ? "tiles" : "files";
     if (!record.is_object() || !record.contains("written_by") || !record.contains(key) ||
         !record[key].is_array()) {
@@ -117,15 +113,18 @@ void check_folder(const OutputPath& output, bool overwrite) {
   }
   for (const fs::path& entry : all) {
     if (is_ours(entry, path, output.kind, recorded)) continue;
-    throw UsageError(entry.string() + ": was not written by `clean " + output.option +
-                     "`, and --overwrite replaces the whole folder; choose a new one.");
+    throw UsageError(entry.string() +
+                     (output.kind == OutputKind::kLabels
+                          ? ": is no label file"
+                          : ": was not written by `clean " + output.option + "`") +
+                     ", and --overwrite replaces the whole folder; choose a new one.");
   }
 }
 
 /// All files that a sequence is read from, as far as it says so.
 std::vector<fs::path> files_of(const Sequence& sequence) {
   std::vector<fs::path> files = sequence.input_files;
-  if (const FileScanSource* source = file_source(sequence)) {
+  if (const FileScanSource* source = stored_files(sequence)) {
     for (const FrameEntry& frame : source->frames()) {
       files.push_back(frame.path);
       if (!frame.label_path.empty()) files.push_back(frame.label_path);
@@ -134,7 +133,8 @@ std::vector<fs::path> files_of(const Sequence& sequence) {
   return files;
 }
 
-void check_inputs_stay(const std::vector<fs::path>& inputs, const std::vector<OutputPath>& outputs) {
+void check_inputs_stay(const std::vector<fs::path>& inputs,
+                       const std::vector<OutputPath>& outputs) {
   std::set<std::pair<dev_t, ino_t>> identities;
   std::set<fs::path> folders;
   for (const fs::path& input : inputs) {
@@ -157,19 +157,28 @@ void check_inputs_stay(const std::vector<fs::path>& inputs, const std::vector<Ou
 
 }  // namespace
 
+std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return std::pair{status.st_dev, status.st_ino};
+}
+
 bool is_folder_output(OutputKind kind) {
   return kind == OutputKind::kLabels || kind == OutputKind::kTiles || kind == OutputKind::kScans;
 }
 
 std::vector<OutputPath> CleanPaths::all() const {
+  const std::vector<std::string> bags = extensions_of(OutputKind::kBag);
+  const bool is_bag = std::find(bags.begin(), bags.end(), scans.extension()) != bags.end();
   const OutputKind maps = tiled ? OutputKind::kTiles : OutputKind::kCloud;
-  std::vector<OutputPath> outputs = {{"-o", map, maps},
-                                     {"--dynamic", removed, maps},
-                                     {"--labelled", labelled, maps},
-                                     {"--labels", labels, OutputKind::kLabels},
-                                     {"--scans", scans, OutputKind::kScans},
-                                     {"--html", page, OutputKind::kPage},
-                                     {"--picture", picture, OutputKind::kPicture}};
+  std::vector<OutputPath> outputs = {
+      {"-o", map, maps},
+      {"--dynamic", removed, maps},
+      {"--labelled", labelled, maps},
+      {"--labels", labels, OutputKind::kLabels},
+      {"--scans", scans, is_bag ? OutputKind::kBag : OutputKind::kScans},
+      {"--html", page, OutputKind::kPage},
+      {"--picture", picture, OutputKind::kPicture}};
   std::erase_if(outputs, [](const OutputPath& output) { return output.path.empty(); });
   return outputs;
 }
@@ -198,8 +207,9 @@ void check_paths(const CleanPaths& paths) {
         throw UsageError(both + " name the same file.");
       }
       if (is_within(first, second) || is_within(second, first)) {
-        throw UsageError(both + " name places of which one is in the other; choose two that are "
-                                "beside each other.");
+        throw UsageError(both +
+                         " name places of which one is in the other; choose two that are "
+                         "beside each other.");
       }
     }
   }
@@ -210,7 +220,7 @@ void check_apart_from(const Sequence& sequence, const CleanPaths& paths,
   std::vector<fs::path> all = files_of(sequence);
   all.insert(all.end(), inputs.begin(), inputs.end());
   const std::vector<OutputPath> outputs = paths.all();
-  const auto* files = file_source(sequence);
+  const FileScanSource* files = stored_files(sequence);
   if (files != nullptr && !files->frames().empty()) {
     const fs::path scans = plain(files->frames().front().path).parent_path();
     for (const OutputPath& output : outputs) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datasets/sequence.h"
@@ -17,6 +21,7 @@ enum class OutputKind {
   kLabels,   ///< A folder of label files.
   kTiles,    ///< A folder of tiles with a manifest.json.
   kScans,    ///< A folder of scans with a cleaned.json.
+  kBag,      ///< A file that is a recording.
 };
 
 bool is_folder_output(OutputKind kind);
@@ -34,7 +39,7 @@ struct CleanPaths {
   std::filesystem::path removed = {};   ///< Removed points as a map.
   std::filesystem::path labelled = {};  ///< All points with a field that says what became of them.
   std::filesystem::path labels = {};    ///< Folder for a label file for each scan.
-  std::filesystem::path scans = {};     ///< Folder for the scans without the removed points.
+  std::filesystem::path scans = {};     ///< Folder or recording of scans without removed points.
   std::filesystem::path page = {};      ///< HTML page with a 3-D view.
   std::filesystem::path picture = {};   ///< PNG from above.
   bool tiled = false;                   ///< Whether maps are folders of tiles.
@@ -47,6 +52,10 @@ struct CleanPaths {
     return !map.empty() ? map : !removed.empty() ? removed : labelled;
   }
 };
+
+/// What tells the file or folder at `path` from all others, whatever its names; nothing if there is
+/// none.
+std::optional<std::pair<dev_t, ino_t>> identity_of(const std::filesystem::path& path);
 
 /// The record that stands in a folder of tiles or of scans and lists its files; else empty. Only
 /// such a folder is replaced.

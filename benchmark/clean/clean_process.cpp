@@ -2,12 +2,10 @@
 #include "benchmark/clean/clean_process.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <exception>
-#include <optional>
 #include <set>
 #include <system_error>
 #include <vector>
@@ -70,13 +68,6 @@ class LeftOvers {
   std::set<fs::path> before_;
   std::vector<fs::path> had_;
 };
-
-/// What tells the file at `path` from one that takes its place; nothing if there is no file.
-std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return std::pair{status.st_dev, status.st_ino};
-}
 
 ExitCode answer_of(const ChildEnd& end, double limit_mib) {
   if (asking_signal(end) != 0) {

@@ -31,7 +31,8 @@ void RangeShares::add(const Scan& scan, const Mask& mask) {
 }
 
 std::string RangeShares::table() const {
-  std::string text = fmt::format("{:>9} {:>15} {:>13} {:>9}\n", "range", "points", "removed", "share");
+  std::string text =
+      fmt::format("{:>9} {:>15} {:>13} {:>9}\n", "range", "points", "removed", "share");
   for (std::size_t band = 0; band < kBands.size(); ++band) {
     const Count& count = counts_[band];
     if (count.points == 0) continue;
@@ -46,7 +47,7 @@ std::string RangeShares::table() const {
 
 std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points,
                                      const std::string& path, const std::string& method,
-                                     const std::vector<Finding>& warned) {
+                                     const std::vector<Finding>& warned, bool is_seen) {
   std::vector<std::string> advice;
   if (!warned.empty()) {
     std::vector<std::string> names;
@@ -57,18 +58,22 @@ std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points
     }
     advice.push_back("first mend what was said of the data: " + join(names) + ".");
   }
-  const auto share = static_cast<double>(removed) / static_cast<double>(std::max<std::uint64_t>(points, 1));
+  const auto share =
+      static_cast<double>(removed) / static_cast<double>(std::max<std::uint64_t>(points, 1));
   if (share < kFew && method != "raymoval_plus:offline") {
-    advice.push_back("little was removed: if moving things are left, try --method "
-                     "raymoval_plus:offline, which removes most.");
+    advice.push_back(
+        "little was removed: if moving things are left, try --method "
+        "raymoval_plus:offline, which removes most.");
   } else if (share < kFew) {
-    advice.push_back("little was removed: if moving things are left, look at the poses and units "
-                     "(`raymoval inspect " + path + "`).");
+    advice.push_back(
+        "little was removed: if moving things are left, look at the poses and units "
+        "(`raymoval inspect " +
+        path + "`).");
   }
   advice.push_back(
       "if walls or ground are gone, the poses are off in most cases: `raymoval inspect " + path +
       "`; if points of the own vehicle are left, try --drop-ego auto.");
-  advice.push_back("look at it with --html map.html or --picture map.png.");
+  if (!is_seen) advice.push_back("look at it with --html map.html or --picture map.png.");
   return advice;
 }
 

@@ -31,8 +31,9 @@ class RangeShares {
 
 /// What to try if the map does not look right, in whole sentences.
 /// @param warned findings about the data in spite of which it was cleaned
+/// @param is_seen whether there is a picture or a page of it already
 std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points,
                                      const std::string& path, const std::string& method,
-                                     const std::vector<Finding>& warned);
+                                     const std::vector<Finding>& warned, bool is_seen);
 
 }  // namespace raymoval

@@ -47,8 +47,13 @@ const MethodRegistry& program_methods();
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {
   std::string frames, poses, label_rule, range, sensor, up, drop_ego, point_layout, name;
+  std::string pose_format, T_sensor, time_offset, max_gap, points, point_time_unit;
+  bool deskew = false;
+  std::string topic, pose_topic;
 
   void add_to(CommandOptions& options);
+  /// Those about poses, frames and the motion within scans; `add_to` adds them too.
+  void add_poses_to(CommandOptions& options);
   /// The sequence that a command is about, which may be given with --sequence or without it.
   static void add_place_to(CommandOptions& options, std::string& place);
   /// @throws UsageError for an ill-formed value

@@ -11,8 +11,8 @@ namespace raymoval {
 
 /// Chooses the points of a cleaned map that a page shows, scan by scan: what was kept and what was
 /// removed, without labels. At most `limit` points are held. One is shown in each cell of
-/// `kPageVoxel`, or of larger cells if `limit` asks for it; removed points have up to four tenths of
-/// the room, and one in each cell and scan.
+/// `kPageVoxel`, or of larger cells if `limit` asks for it; removed points have up to four tenths
+/// of the room, and one in each cell and scan.
 class MapSceneBuilder {
  public:
   /// @param method the name that the page gives to what was removed

@@ -194,8 +194,8 @@ Page make_page(const PageRequest& request) {
                      "</p></header>\n" + navigation_html(sections) + "<main id=\"main\">\n" +
                      facts_html(request.content);
   for (const PageSection& section : sections) html += html_section(section);
-  html += "</main>\n" + footer_html(!points.scenes.empty()) + scripts_html(points.scenes, points.streams) +
-          "</body>\n</html>\n";
+  html += "</main>\n" + footer_html(!points.scenes.empty()) +
+          scripts_html(points.scenes, points.streams) + "</body>\n</html>\n";
   return {std::move(html), std::move(points.warnings)};
 }
 

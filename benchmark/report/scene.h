@@ -52,7 +52,7 @@ struct Scene {
   /// Cells by which points were thinned, in steps; 0: not. Where nothing is labelled, those of the
   /// removed and of the kept ones.
   int error_cell = 0, other_cell = 0;
-  std::vector<ShownPoint> points;      ///< In the order of a Morton curve.
+  std::vector<ShownPoint> points;  ///< In the order of a Morton curve.
   /// For each cell a byte for each point. Bit 0 is set if the point was removed; the bits above it
   /// hold the reason's code plus 1, or 0 if there is no reason.
   std::vector<std::vector<std::uint8_t>> verdicts;

@@ -80,14 +80,31 @@ std::string sequence_path(const std::string& path, Places& places, const std::st
   return located(path, places);
 }
 
+/// What is said of poses, frames and the motion within scans.
+void read_pose_options(const Fields& object, SequenceOptions& options) {
+  options.pose_format = text_of(object, "pose_format");
+  options.T_sensor = text_of(object, "T_sensor");
+  options.point_time_unit = text_of(object, "point_time_unit");
+  if (object.has("time_offset_s")) options.time_offset_s = object.number("time_offset_s", 0.0);
+  if (object.has("max_gap_s")) options.max_gap_s = object.positive("max_gap_s", 1.0);
+  if (object.has("deskew")) options.deskew = object.flag("deskew", false);
+  if (const auto points = text_of(object, "points")) {
+    options.points = parse_point_frame(object.place("points"), *points);
+  }
+}
+
 SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
   if (item.is_string()) return {sequence_path(item.get<std::string>(), places, where), {}};
   const Fields object(item, where,
-                      "path name frames poses label_rule range_m sensor up drop_ego point_layout");
+                      "path name frames poses topic pose_topic label_rule range_m sensor up "
+                      "drop_ego point_layout pose_format "
+                      "T_sensor time_offset_s max_gap_s points deskew point_time_unit");
   SequenceRequest request{sequence_path(object.text("path"), places, where), {}};
   SequenceOptions& options = request.options;
   options.name = text_of(object, "name");
   options.poses = text_of(object, "poses");
+  options.topic = text_of(object, "topic");
+  options.pose_topic = text_of(object, "pose_topic");
   options.sensor = text_of(object, "sensor");
   options.up = text_of(object, "up");
   options.point_layout = text_of(object, "point_layout");
@@ -96,6 +113,7 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
   if (object.has("drop_ego")) {
     options.drop_ego = ego_region_value(object.member("drop_ego"), where + ".drop_ego");
   }
+  read_pose_options(object, options);
   if (object.has("range_m")) {
     options.range_m = range_of(Fields(object.member("range_m"), where + ".range_m", "min max"));
   }
@@ -274,12 +292,21 @@ ordered_json to_json(const SequenceRequest& place) {
   };
   if (options.frames) add("frames", frame_range_text(*options.frames));
   add("poses", options.poses);
+  add("topic", options.topic);
+  add("pose_topic", options.pose_topic);
   if (options.label_rule) add("label_rule", options.label_rule->string());
   add("sensor", options.sensor);
   add("up", options.up);
   add("point_layout", options.point_layout);
   if (options.drop_ego) add("drop_ego", ego_region_text(*options.drop_ego));
   add("name", options.name);
+  add("pose_format", options.pose_format);
+  add("T_sensor", options.T_sensor);
+  add("point_time_unit", options.point_time_unit);
+  if (options.time_offset_s) add("time_offset_s", number_text(*options.time_offset_s));
+  if (options.max_gap_s) add("max_gap_s", number_text(*options.max_gap_s));
+  if (options.points) add("points", *options.points == PointFrame::kWorld ? "world" : "sensor");
+  if (options.deskew) add("deskew", *options.deskew ? "true" : "false");
   if (!options.range_m) return json;
   add("range_min", number_text(options.range_m->min));  // A text: the limit may be infinite.
   add("range_max", number_text(options.range_m->max));
@@ -294,12 +321,21 @@ SequenceRequest place_from(const ordered_json& json) {
     const auto text = value.get<std::string>();
     if (key == "frames") options.frames = parse_frame_range(text);
     if (key == "poses") options.poses = text;
+    if (key == "topic") options.topic = text;
+    if (key == "pose_topic") options.pose_topic = text;
     if (key == "label_rule") options.label_rule = text;
     if (key == "sensor") options.sensor = text;
     if (key == "up") options.up = text;
     if (key == "point_layout") options.point_layout = text;
     if (key == "drop_ego") options.drop_ego = parse_ego_region(text);
     if (key == "name") options.name = text;
+    if (key == "pose_format") options.pose_format = text;
+    if (key == "T_sensor") options.T_sensor = text;
+    if (key == "point_time_unit") options.point_time_unit = text;
+    if (key == "time_offset_s") options.time_offset_s = parse_number<double>(text).value();
+    if (key == "max_gap_s") options.max_gap_s = parse_number<double>(text).value();
+    if (key == "points") options.points = parse_point_frame(key, text);
+    if (key == "deskew") options.deskew = text == "true";
     if (!key.starts_with("range_")) continue;
     if (!options.range_m) options.range_m.emplace();
     const double metres = parse_number<double>(text).value();

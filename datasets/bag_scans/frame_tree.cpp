@@ -88,7 +88,7 @@ bool FrameTree::is_dynamic(const std::string& frame) const {
 }
 
 std::vector<std::string> FrameTree::chain(const std::string& frame) const {
-  const std::string where = bag_.path().filename().string() + ": tf: ";
+  const std::string where = bag_name(bag_) + ": tf: ";
   std::vector<std::string> frames = {frame};
   for (auto found = edges_.find(frame); found != edges_.end(); found = edges_.find(frames.back())) {
     const Edge& edge = found->second;
@@ -134,7 +134,7 @@ std::optional<std::vector<ChainLink>> FrameTree::links(const std::string& from,
 /// Fills in the transforms of the frames in `links`.
 void FrameTree::read_links(std::map<std::string, ChainLink>& links) const {
   std::map<std::string, std::vector<StampedPose>> moving;
-  const std::string where = bag_.path().filename().string() + ": tf";
+  const std::string where = bag_name(bag_) + ": tf";
   for (auto& [frame, link] : links) {
     const Edge& edge = edges_.at(frame);
     if (edge.moves) {
@@ -166,7 +166,7 @@ void FrameTree::read_links(std::map<std::string, ChainLink>& links) const {
 std::vector<std::string> FrameTree::notes() const {
   const std::string sentence = skipped_.sentence();
   if (sentence.empty()) return {};
-  return {bag_.path().filename().string() + ": tf: " + sentence};
+  return {bag_name(bag_) + ": tf: " + sentence};
 }
 
 }  // namespace raymoval

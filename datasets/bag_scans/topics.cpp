@@ -10,10 +10,6 @@
 namespace raymoval {
 namespace {
 
-std::string bag_name(const Bag& bag) {
-  return bag.path().filename().string();
-}
-
 std::vector<std::string> texts_of(const Bag& bag, const std::vector<std::size_t>& topics) {
   std::vector<std::string> texts;
   for (const std::size_t topic : topics) texts.push_back(topic_text(bag.topics()[topic]));
@@ -48,6 +44,10 @@ std::size_t named_topic(const Bag& bag, const std::string& name, const TopicWish
 }
 
 }  // namespace
+
+std::string bag_name(const Bag& bag) {
+  return bag.path().filename().string();
+}
 
 std::string topic_text(const BagTopic& topic) {
   return topic.name + " (" + topic.type + ", " + counted_text(topic.messages, "message") + ")";

@@ -10,6 +10,8 @@
 
 namespace raymoval {
 
+/// "drive.bag", to begin messages.
+std::string bag_name(const Bag& bag);
 /// "/points (sensor_msgs/PointCloud2, 1,200 messages)".
 std::string topic_text(const BagTopic& topic);
 /// The topics of a bag for messages, the first thirty by name: "It has /imu (...), /points (...)."

@@ -9,6 +9,7 @@
 #include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/format/point_layout.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/record_file.h"
 #include "datasets/clouds/returns.h"
@@ -71,6 +72,14 @@ Pose FileScanSource::pose(std::size_t index) const {
 
 PointRecords FileScanSource::records(std::size_t index) const {
   return read_records(frame_of(frames_, index).path, traits_.reading);
+}
+
+RecordLayout FileScanSource::layout(std::size_t index) const {
+  if (frame_of(frames_, index).path.extension() != ".bin") return records(index).layout;
+  // Such a file says nothing of itself.
+  RecordLayout layout = bin_layout(traits_.reading.point_layout);
+  layout.unnamed = true;
+  return layout;
 }
 
 std::string FileScanSource::place(std::size_t index) const {

@@ -65,9 +65,17 @@ class LeftOutTally {
   mutable std::vector<std::pair<std::uint64_t, std::uint64_t>> scans_;
 };
 
+/// Scans that count their missing returns.
+class TalliedSource {
+ public:
+  virtual ~TalliedSource() = default;
+  /// Missing returns of the scans read so far.
+  [[nodiscard]] virtual const LeftOutTally& tally() const = 0;
+};
+
 /// Scans in files of their own, in any of `cloud_formats`, and what is stored of them. Points that
 /// are no returns are left out (see `read_returns`); `tally` counts them. `load` throws as that.
-class FileScanSource : public ScanSource, public RecordSource {
+class FileScanSource : public ScanSource, public RecordSource, public TalliedSource {
  public:
   struct Traits {
     PointFrame point_frame = PointFrame::kSensor;
@@ -86,11 +94,11 @@ class FileScanSource : public ScanSource, public RecordSource {
   [[nodiscard]] Pose pose(std::size_t index) const override;
   [[nodiscard]] const SensorModel& sensor() const override;
   [[nodiscard]] PointRecords records(std::size_t index) const override;
+  [[nodiscard]] RecordLayout layout(std::size_t index) const override;
   [[nodiscard]] PointFrame point_frame() const override { return traits_.point_frame; }
   [[nodiscard]] std::string place(std::size_t index) const override;
   [[nodiscard]] const std::vector<FrameEntry>& frames() const { return frames_; }
-  /// Missing returns of the scans read so far.
-  [[nodiscard]] const LeftOutTally& tally() const { return tally_; }
+  [[nodiscard]] const LeftOutTally& tally() const override { return tally_; }
 
  private:
   std::vector<FrameEntry> frames_;

@@ -18,26 +18,40 @@ ClassNames class_names() {
   return names;
 }
 
+/// Poses and frame are those that the files say.
+void check_no_pose_settings(const SequenceSettings& settings, const std::filesystem::path& folder) {
+  const std::string why =
+      " cannot be used: the points of this layout stand in the world frame of the poses in the "
+      "VIEWPOINT of each .pcd file. ";
+  if (settings.poses) {
+    throw UsageError(folder.string() + ": a pose file ('" + *settings.poses + "')" + why +
+                     "Leave --poses out.");
+  }
+  std::string given = first_pose_setting(settings);
+  if (given.empty() && settings.points == PointFrame::kSensor) given = "--points sensor";
+  if (given.empty()) return;
+  throw UsageError(folder.string() + ": " + given + why + "Leave it out.");
+}
+
 Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
   const std::filesystem::path folder = path;
   SequenceSettings defaults;
   defaults.label_rule = {"dynamicmap", {1}, {}};
   const SequenceSettings settings = read_settings(folder, options, defaults);
-  if (settings.poses) {
-    throw UsageError(folder.string() + ": a pose file ('" + *settings.poses +
-                     "') cannot be used: the points of this layout stand in the world frame of the "
-                     "poses in the VIEWPOINT of each .pcd file. Leave --poses out.");
-  }
+  check_no_pose_settings(settings, folder);
   const auto files = list_numbered_files(folder / "pcd", ".pcd");
   const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
+  Sequence sequence = make_sequence(settings, dynamicmap_layout(), chosen.range);
   std::vector<FrameEntry> entries;
+  std::vector<std::optional<Pose>> poses;
   for (const NumberedFile& file : chosen.files) {
     const double time = static_cast<double>(file.number - files.front().number) *
                         settings.scan_period_s.value_or(kUsualScanPeriod);
     entries.push_back({file.path, "", file.path.stem().string(), time, read_viewpoint(file.path)});
+    poses.emplace_back(entries.back().T_world_sensor);
+    sequence.stamps.push_back(from_seconds(time));
   }
 
-  Sequence sequence = make_sequence(settings, dynamicmap_layout(), chosen.range);
   sequence.poses_file = "VIEWPOINT";
   if (settings.label_rule_given) sequence.labels = std::make_shared<IntensityLabelSource>(entries);
   FileScanSource::Traits traits;
@@ -47,6 +61,7 @@ Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, cons
       std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
   sequence.scans = source;
   sequence.records = source;
+  sequence.motion = motion_along(sequence.stamps, poses);
   return sequence;
 }
 

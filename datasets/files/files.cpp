@@ -66,7 +66,7 @@ StampColumn scan_stamps(const fs::path& folder, const std::vector<NumberedFile>&
                     "; expected a time for each scan in the order of the names.");
   }
   std::vector<std::string> stems;
-  for (const NumberedFile& file : files) stems.push_back(file.path.stem().string());
+  for (const NumberedFile& file : files) stems.push_back(cloud_stem(file.path));
   StampColumn column;
   column.stamps = stamps_in_names(stems).value_or(std::vector<Nanoseconds>());
   for (const Nanoseconds stamp : column.stamps) {

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "datasets/bag_scans/bag_source.h"
+#include "datasets/bag_scans/topics.h"
 #include "datasets/inspection/checks/checks.h"
 #include "datasets/inspection/unopenable.h"
 
@@ -51,6 +53,10 @@ InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* canc
     for (Finding& finding : check.look(samples)) {
       report.findings.push_back(completed(std::move(finding), check, samples));
     }
+  }
+  report.notes = sequence.notes;
+  if (const auto* scans = dynamic_cast<const BagScanSource*>(&stored_source(sequence))) {
+    report.notes.push_back(bag_name(scans->bag()) + ": " + topics_sentence(scans->bag()));
   }
   report.sensor = inspection::sensor_text(samples);
   report.measures = std::move(samples.measures);

@@ -52,8 +52,12 @@ Finding count_finding(const fs::path& poses, std::size_t rows, const fs::path& f
 std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
                                  const SequenceOptions& options) {
   const auto settings = read_settings(folder, options, {});
+  if (settings.poses == kStandingSensor) return {};
   const auto path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
-  const std::size_t rows = read_pose_file(path).rows.size();
+  const PoseFile file = read_pose_file(path, {settings.pose_format});
+  // Poses that go by time, and one pose for all scans, may be of any number.
+  if (file.stamped() || file.rows.size() == 1) return {};
+  const std::size_t rows = file.rows.size();
   std::size_t least = 0, most = SIZE_MAX;
   if (layout.pose_place == PosePlace::kRowOfFrameNumber) {
     const auto files = list_numbered_files(folder / layout.scan_folder, ".bin");

@@ -40,8 +40,8 @@ LeftOutPoints left_out_points(const Sequence& sequence) {
   if (const EgoFreeSource* without_ego = ego_free_source(sequence)) {
     std::tie(points.looked_at, points.own_vehicle) = without_ego->tally().total();
   }
-  if (const FileScanSource* files = file_source(sequence)) {
-    std::tie(points.stored, points.no_returns) = files->tally().total();
+  if (const auto* tallied = dynamic_cast<const TalliedSource*>(&stored_source(sequence))) {
+    std::tie(points.stored, points.no_returns) = tallied->tally().total();
   }
   return points;
 }

@@ -50,7 +50,6 @@ std::optional<PoseColumns> euroc_columns(std::size_t count) {
   PoseColumns columns;
   columns.count = count;
   columns.time = 0;
-  columns.unit = TimeUnit::kNanoseconds;
   columns.position = {1, 2, 3};
   columns.turn = {5, 6, 7, 4};
   return columns;

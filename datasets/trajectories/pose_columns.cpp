@@ -85,7 +85,9 @@ void set_stamps(PoseFile& file, const std::vector<std::string_view>& words,
   const auto place = [&](std::size_t i) { return file.place(i); };
   const StampColumn column = parse_stamps(words, unit, place);
   for (std::size_t i = 0; i < words.size(); ++i) file.rows[i].stamp = column.stamps[i];
-  if (!unit && column.unit != TimeUnit::kSeconds) {
+  constexpr Nanoseconds kCertain = 100'000'000'000'000'000;  // Only times since 1970 are as large.
+  const bool guessed = !unit && column.unit != TimeUnit::kSeconds;
+  if (guessed && std::abs(column.stamps.front()) < kCertain) {
     file.notes.push_back(file.path.string() + ": the times are taken for " +
                          time_unit_name(column.unit) + ", by their size.");
   }

@@ -87,6 +87,24 @@ void check_name(const std::string& name) {
   throw UsageError("there is no pose format '" + name + "'." + suggestion(name, names));
 }
 
+/// Takes ":inverse" off the name of a format. @return whether it was there
+bool take_inverse(std::optional<std::string>& format) {
+  constexpr std::string_view kInverse = "inverse";
+  if (!format || !format->ends_with(kInverse)) return false;
+  format->resize(format->size() - kInverse.size());
+  if (format->ends_with(':')) format->pop_back();
+  if (format->empty()) format.reset();
+  return true;
+}
+
+/// Of a rigid motion. What is none stays none, for `rigid_pose` to say so.
+Eigen::Matrix<double, 3, 4> inverse_of(const Eigen::Matrix<double, 3, 4>& pose) {
+  Eigen::Matrix<double, 3, 4> inverse;
+  inverse.leftCols<3>() = pose.leftCols<3>().transpose();
+  inverse.col(3) = -(inverse.leftCols<3>() * pose.col(3));
+  return inverse;
+}
+
 }  // namespace
 
 std::string PoseFile::place(std::size_t row) const {
@@ -102,7 +120,9 @@ std::vector<PoseFormatName> pose_format_names() {
   return names;
 }
 
-PoseFile read_pose_file(const std::filesystem::path& path, const PoseReading& reading) {
+PoseFile read_pose_file(const std::filesystem::path& path, const PoseReading& asked) {
+  PoseReading reading = asked;
+  const bool inverse = take_inverse(reading.format);
   if (reading.format) check_name(*reading.format);
   auto binary = pose_formats::read_binary_poses(path, reading);
   if (!binary) {
@@ -116,6 +136,9 @@ PoseFile read_pose_file(const std::filesystem::path& path, const PoseReading& re
     throw DataError(path.string() + ": holds no pose; expected one a row. " + kList);
   }
   check_times(file);
+  for (PoseFile::Row& row : file.rows) {
+    if (inverse) row.matrix = inverse_of(row.matrix);
+  }
   return std::move(file);
 }
 

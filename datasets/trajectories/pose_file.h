@@ -44,7 +44,8 @@ std::vector<PoseFormatName> pose_format_names();
 
 /// What a file does not say of itself.
 struct PoseReading {
-  /// Name of a format; nothing: it is told by the content.
+  /// Name of a format; nothing: it is told by the content. ":inverse" behind it, or "inverse"
+  /// alone, says that the poses take the world to the body.
   std::optional<std::string> format;
 };
 

@@ -10,22 +10,6 @@
 namespace raymoval {
 namespace {
 
-/// Motion along poses that belong to scans by their order. All gaps are bridged: which time passed
-/// between scans may only be assumed.
-std::shared_ptr<const SensorMotion> motion_along(const std::vector<Nanoseconds>& stamps,
-                                                 const std::vector<std::optional<Pose>>& poses) {
-  BodyMotion body;
-  body.max_gap = std::numeric_limits<Nanoseconds>::max();
-  std::vector<StampedPose> stamped;
-  for (std::size_t i = 0; i < stamps.size(); ++i) {
-    const bool later = stamped.empty() || stamps[i] > stamped.back().stamp;
-    if (poses[i] && later) stamped.push_back({stamps[i], *poses[i]});
-  }
-  if (stamped.empty()) return nullptr;
-  body.trajectory = Trajectory(std::move(stamped));
-  return std::make_shared<TrajectoryMotion>(std::move(body));
-}
-
 /// The pose of the sensor, of a pose in the file.
 Pose sensor_pose(const Pose& pose, const PoseSettings& settings) {
   if (settings.T_camera_lidar) {
@@ -106,6 +90,20 @@ ScanPoses one_for_all(const Pose& pose, const ScanKeys& scans) {
 }
 
 }  // namespace
+
+std::shared_ptr<const SensorMotion> motion_along(const std::vector<Nanoseconds>& stamps,
+                                                 const std::vector<std::optional<Pose>>& poses) {
+  BodyMotion body;
+  body.max_gap = std::numeric_limits<Nanoseconds>::max();
+  std::vector<StampedPose> stamped;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const bool later = stamped.empty() || stamps[i] > stamped.back().stamp;
+    if (poses[i] && later) stamped.push_back({stamps[i], *poses[i]});
+  }
+  if (stamped.empty()) return nullptr;
+  body.trajectory = Trajectory(std::move(stamped));
+  return std::make_shared<TrajectoryMotion>(std::move(body));
+}
 
 bool fits_rows(const PoseFile& file, const ScanKeys& scans) {
   return scans.more_rows ? file.rows.size() >= scans.row_count

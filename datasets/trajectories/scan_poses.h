@@ -58,6 +58,12 @@ ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSett
 /// The same for a sensor that stands at the origin of the world all the time.
 ScanPoses standing_poses(const ScanKeys& scans, const PoseSettings& settings);
 
+/// Motion along poses that belong to scans by their order. All gaps are bridged, because which time
+/// passed between such scans is often assumed. Null if there is no pose.
+/// @param stamps of the scans; a scan that is not later than the one before gives no pose
+std::shared_ptr<const SensorMotion> motion_along(const std::vector<Nanoseconds>& stamps,
+                                                 const std::vector<std::optional<Pose>>& poses);
+
 /// What to do where there are no poses: sentences that name programs which find them.
 std::string ways_to_poses();
 

@@ -9,6 +9,7 @@ raymoval=$(readlink -f "$1")
 source_folder=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../..")
 source "$source_folder/tests/cli/checks.sh"
 mapfile -t pages < <(cd "$source_folder" && ls README.md docs/*.md)
+mapfile -t recipes < <(cd "$source_folder" && ls docs/recipes/*.md)  # recipes_test.sh runs them.
 page_text() { cat "$source_folder/$1"; }
 
 # --- links ---
@@ -16,7 +17,7 @@ page_text() { cat "$source_folder/$1"; }
 anchors() {
   sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'
 }
-for page in "${pages[@]}" CONTRIBUTING.md methods/README.md examples/cpp_method/README.md; do
+for page in "${pages[@]}" "${recipes[@]}" CONTRIBUTING.md methods/README.md examples/cpp_method/README.md; do
   while read -r link; do
     target=$source_folder/$(dirname "$page")/${link%%#*}
     [[ $link != \#* ]] || target=$source_folder/$page
@@ -33,7 +34,7 @@ holds "README.md is short" test "$(page_text README.md | grep -v '^|' | wc -w)" 
 # --- options: each is one of the program's or of a script's, or known to be another program's ---
 commands=$("$raymoval" --help | sed -n '/^Subcommands:/,/^$/p' | awk 'NR > 1 && NF { print $1 }')
 for command in $commands; do
-  "$raymoval" "$command" --help | grep -oE '^  (-[a-zA-Z],)?--[a-z-]+|^  -[a-zA-Z] ' |
+  "$raymoval" "$command" --help | grep -oE '^  (-[a-zA-Z],)?--[a-z-]+(,--[a-z-]+)*|^  -[a-zA-Z] ' |
     tr ',' '\n' | tr -d ' ' >"options.$command"
 done
 {

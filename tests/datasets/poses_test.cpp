@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/trajectories/pose_file.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -60,8 +61,10 @@ TEST_CASE("TUM and KITTI rows of one pose are equal", "[poses]") {
   const PoseFile b = read_pose_file(folder.write("tum.txt", tum));
   REQUIRE(a.rows.size() == 20);
   REQUIRE(b.rows.size() == 20);
-  CHECK_FALSE(a.rows[3].time_s);
-  CHECK(b.rows[3].time_s == 103.0);
+  CHECK_FALSE(a.stamped());
+  CHECK(b.rows[3].stamp == 103'000'000'000);
+  CHECK(a.format == "kitti");
+  CHECK(b.format == "tum");
   for (std::size_t i = 0; i < 20; ++i) {
     CHECK((rigid_pose(a, i).matrix() - rigid_pose(b, i).matrix()).norm() < 1e-12);
   }
@@ -94,12 +97,12 @@ TEST_CASE("what is no rotation is named with its line and deviation", "[poses]")
 TEST_CASE("garbage in a pose file is named by line and column", "[poses]") {
   check_says(pose_error(kIdentityRow + "1 0 0 0 0 1x 0 0 0 0 1 0\n"),
              {"poses.txt: line 2, column 11", "'1x'"});
-  check_says(pose_error("1,0,0,0,0,1,0,0,0,0,1,0\n"), {"line 1, column 1"});
+  check_says(pose_error("1;0,0\n"), {"line 1, column 3", "'0,0'", "semicolons"});
   check_says(pose_error("1 0 0 0 0 1 0 0 0 0 1\n"),
              {"line 1", "11 numbers", "12 (KITTI", "8 (TUM"});
   check_says(pose_error(kIdentityRow + "1 0 0\n"), {"line 2", "3 numbers", "expected 12 as in"});
   check_says(pose_error("# nothing\n\n"), {"holds no pose"});
-  check_says(pose_error("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), {"line 2", "time 1", "before"});
+  check_says(pose_error("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), {"line 2", "time 1.000000000 s", "before"});
 }
 
 TEST_CASE("a calibration row is found by its key", "[poses]") {

@@ -15,6 +15,8 @@
 #include "core/files/files.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/poses.h"
+#include "datasets/trajectories/pose_file.h"
+#include "datasets/trajectories/stamps.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -151,7 +153,7 @@ TEST_CASE("readers of what stands beside scans need a bounded number of times th
   check_poses(text("blank.txt", "\n"));
   check_poses(text("line.txt", "0 "));
   const auto times = text("times.txt", "0\n");
-  check_memory(times, 32, [&] { (void)read_number_column(times); });
+  check_memory(times, 32, [&] { (void)read_stamp_file(times); });
   for (const std::string line : {":\n", "a:\n", "\n", "Tr: ", "Tr: 0\n"}) {
     const auto file = text("calib.txt", line);
     check_memory(file, 100, [&] { (void)read_calibration(file, "Tr"); });

@@ -175,7 +175,7 @@ TEST_CASE("times.txt gives seconds since frame 0", "[semantickitti]") {
   folder.write("times.txt", "0\n1\n");
   check_says(open_error(folder.text()), {"times.txt", "2 times", "3 scans"});
   folder.write("times.txt", "0\n1 2\n3\n");
-  check_says(open_error(folder.text()), {"times.txt: line 2", "one finite number"});
+  check_says(open_error(folder.text()), {"times.txt: line 2", "expected a time"});
 }
 
 TEST_CASE("labels have to fit their scan", "[semantickitti]") {

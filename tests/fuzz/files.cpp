@@ -8,6 +8,9 @@
 #include "core/scan/label_rule.h"
 #include "datasets/clouds/poses.h"
 #include "datasets/settings.h"
+#include "datasets/trajectories/body_sensor.h"
+#include "datasets/trajectories/pose_file.h"
+#include "datasets/trajectories/stamps.h"
 #include "datasets/simulation/sensor/sensor_file.h"
 #include "datasets/simulation/world/world.h"
 #include "datasets/simulation/world/world_file.h"
@@ -39,7 +42,9 @@ RAYMOVAL_FUZZ_TARGET(calibration) {
 
 RAYMOVAL_FUZZ_TARGET(times) {
   may_refuse([&] {
-    for (const double time : read_number_column(input_file("times.txt", bytes))) {
+    const StampColumn column = read_stamp_file(input_file("times.txt", bytes));
+    require(column.stamps.size() == column.since_first.size(), "a time is lost");
+    for (const double time : column.since_first) {
       require(std::isfinite(time), "a time is not finite");
     }
   });

@@ -23,9 +23,9 @@ MapOutput::MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, 
       labelled_(content.labelled),
       has_cells_(voxel_size > 0.0) {
   const auto add_side = [&](std::uint8_t mask) {
-    sides_.push_back({mask, has_cells_ ? std::make_unique<VoxelRows>(layout, voxel_size,
-                                                                     voxel_origin)
-                                       : nullptr});
+    sides_.push_back({mask, has_cells_
+                                ? std::make_unique<VoxelRows>(layout, voxel_size, voxel_origin)
+                                : nullptr});
   };
   if (content.kept) add_side(0);
   if (content.removed) add_side(1);

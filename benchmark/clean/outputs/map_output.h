@@ -22,9 +22,9 @@ struct MapContent {
 /// called `label`, or `raymoval_label` if there is a field of that name, which stays as it is.
 RecordLayout labelled_layout(const RecordLayout& layout);
 
-/// A map in the world frame. With a voxel size it holds a row for each occupied cell, so that memory
-/// is bounded by the map. Without one it passes rows on as they come, and memory is bounded by a
-/// scan.
+/// A map in the world frame. With a voxel size it holds a row for each occupied cell, so that
+/// memory is bounded by the map. Without one it passes rows on as they come, and memory is bounded
+/// by a scan.
 class MapOutput : public CleanOutput {
  public:
   /// @param layout of all rows, without a label

@@ -50,7 +50,8 @@ void MapPictureFile::finish() {
   Canvas canvas(width + 2 * kPictureMargin,
                 top + raster_.height() + kLegendHeight + kPictureMargin);
   canvas.text(kPictureMargin, kPictureMargin + 16,
-              canvas.fitted(texts_.sequence + ", cleaned by " + texts_.method, 16, width), 16, kInk);
+              canvas.fitted(texts_.sequence + ", cleaned by " + texts_.method, 16, width), 16,
+              kInk);
   raster_.draw(canvas, kPictureMargin, top);
   canvas.frame(kPictureMargin, top, raster_.width(), raster_.height(), kBorder);
   draw_scale_bar(canvas, kPictureMargin + 10, top + raster_.height() - 12, resolution_,
@@ -80,12 +81,11 @@ void MapPageFile::finish() {
   const Scene scene = scene_.finish();
   const VerdictCounts& counts = scene.counts.front();
   const std::uint64_t removed = counts.true_positive;
-  file_.append(map_page(
-      scene, texts_.sequence + ", cleaned by " + texts_.method,
-      {counted_text(scene.scans.size(), "scan") + " with " +
-           counted_text(scene.points_in_range, "point") + ".",
-       texts_.method + " removed " + grouped_text(removed) + " of them and kept " +
-           grouped_text(counts.kept_static) + "."}));
+  file_.append(map_page(scene, texts_.sequence + ", cleaned by " + texts_.method,
+                        {counted_text(scene.scans.size(), "scan") + " with " +
+                             counted_text(scene.points_in_range, "point") + ".",
+                         texts_.method + " removed " + grouped_text(removed) +
+                             " of them and kept " + grouped_text(counts.kept_static) + "."}));
   file_.sync();
 }
 

@@ -27,8 +27,7 @@ void keep_rights(const fs::path& made, const fs::path& before) {
   const bool same_owner = now.st_uid == then.st_uid && now.st_gid == then.st_gid;
   const bool owned = same_owner || ::lchown(made.c_str(), then.st_uid, then.st_gid) == 0;
   // Rights of a group or of others that belonged with another owner are given to nobody.
-  [[maybe_unused]] const int kept =
-      ::chmod(made.c_str(), then.st_mode & (owned ? 0777U : 0700U));
+  [[maybe_unused]] const int kept = ::chmod(made.c_str(), then.st_mode & (owned ? 0777U : 0700U));
 }
 
 }  // namespace

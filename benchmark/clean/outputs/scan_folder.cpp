@@ -11,8 +11,8 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "datasets/clouds/formats.h"
 #include "datasets/clouds/file_source.h"
+#include "datasets/clouds/formats.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/record_file.h"
 #include "datasets/layouts.h"
@@ -26,7 +26,7 @@ constexpr const char* kSettings = "sequence.json";
 constexpr const char* kOwnPoses = "poses.txt";
 
 /// Settings that are about poses or frames, which a pose file of our own takes the place of.
-constexpr std::array kPoseSettings = {"poses",       "frames",  "T_sensor",   "time_offset",
+constexpr std::array kPoseSettings = {"poses",       "frames",  "T_sensor",       "time_offset",
                                       "pose_format", "max_gap", "poses_are_lidar"};
 
 /// `path` relative to `root`; nothing if it stands elsewhere.
@@ -82,11 +82,17 @@ std::vector<std::uint8_t> kept_rows(const CleanedScan& scan) {
 
 }  // namespace
 
+const FileScanSource* stored_files(const Sequence& sequence) {
+  const auto* files = dynamic_cast<const FileScanSource*>(sequence.records.get());
+  return files != nullptr ? files : file_source(sequence);
+}
+
 ScanFolderPlan plan_scan_folder(const Sequence& sequence) {
-  const FileScanSource* source = file_source(sequence);
+  const FileScanSource* source = stored_files(sequence);
   if (source == nullptr || sequence.records == nullptr) {
     throw UsageError("--scans writes scans in the format in which they are stored, but those of '" +
-                     sequence.name + "' are not stored in files of their own. Write a map with -o.");
+                     sequence.name +
+                     "' are not stored in files of their own. Write a map with -o.");
   }
   ScanFolderPlan plan;
   plan.root = source->frames().front().path.parent_path();
@@ -149,7 +155,7 @@ void ScanFolder::write_labels(const fs::path& labels, const std::vector<std::uin
 }
 
 void ScanFolder::add(const CleanedScan& scan) {
-  const FrameEntry& frame = file_source(sequence_)->frames()[scan.scan.index];
+  const FrameEntry& frame = stored_files(sequence_)->frames()[scan.scan.index];
   const std::vector<std::uint8_t> keep = kept_rows(scan);
   const PointRecords kept = scan.stored->chosen(keep);
   if (kept.size() == 0) empty_.push_back(scan.scan.name);

@@ -11,6 +11,12 @@
 
 namespace raymoval {
 
+class FileScanSource;
+
+/// The files that the scans of `sequence` are stored in, whatever is done with them when they are
+/// read. Null if they are not read from files.
+const FileScanSource* stored_files(const Sequence& sequence);
+
 /// How the cleaned scans of a sequence are laid out in a folder, so that it opens as the sequence
 /// does.
 struct ScanFolderPlan {

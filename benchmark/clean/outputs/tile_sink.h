@@ -41,8 +41,8 @@ class TileSink : public RowSink {
  private:
   using Place = std::array<std::int64_t, 2>;
   struct Tile {
-    std::string waiting;           ///< Rows that are not in the tile's file yet.
-    std::uint64_t spooled = 0;     ///< Bytes in that file.
+    std::string waiting;        ///< Rows that are not in the tile's file yet.
+    std::uint64_t spooled = 0;  ///< Bytes in that file.
     std::uint64_t points = 0;
     Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
     Eigen::Vector3d high = Eigen::Vector3d::Constant(-1e300);

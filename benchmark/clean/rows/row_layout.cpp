@@ -75,8 +75,8 @@ std::string field_difference(const RecordLayout& layout, const RecordLayout& exp
 
 std::vector<NormalFields> normal_fields(const RecordLayout& layout) {
   std::vector<NormalFields> normals;
-  for (const auto& names : {std::array{"normal_x", "normal_y", "normal_z"},
-                            std::array{"nx", "ny", "nz"}}) {
+  for (const auto& names :
+       {std::array{"normal_x", "normal_y", "normal_z"}, std::array{"nx", "ny", "nz"}}) {
     const PointField *x = layout.find({names[0]}), *y = layout.find({names[1]}),
                      *z = layout.find({names[2]});
     if (is_real(x, 1) && is_real(y, 1) && is_real(z, 1)) normals.push_back({*x, *y, *z});
@@ -110,7 +110,8 @@ RowCopy::RowCopy(const RecordLayout& from, const RecordLayout& to) {
     const PointField* source = named(from, field.name);
     if (source == nullptr || !same_kind(*source, field)) continue;
     const Piece piece{source->offset, field.offset, field.bytes()};
-    const bool goes_on = !pieces_.empty() && pieces_.back().from + pieces_.back().bytes == piece.from &&
+    const bool goes_on = !pieces_.empty() &&
+                         pieces_.back().from + pieces_.back().bytes == piece.from &&
                          pieces_.back().to + pieces_.back().bytes == piece.to;
     if (goes_on) {
       pieces_.back().bytes += piece.bytes;

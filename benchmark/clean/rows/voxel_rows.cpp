@@ -8,7 +8,7 @@ namespace raymoval {
 namespace {
 
 constexpr std::uint64_t kRowsPerBlock = 16384;
-constexpr std::size_t kRowsPerPiece = 65536;
+constexpr std::size_t kCellsPerPiece = 65536;
 
 }  // namespace
 
@@ -74,9 +74,9 @@ void VoxelRows::take(const std::function<void(const ScanRows& piece)>& give) {
   keys.reserve(cells_.size());
   for (const auto& [key, cell] : cells_) keys.push_back(key);
   std::sort(keys.begin(), keys.end());
-  for (std::size_t first = 0; first < keys.size(); first += kRowsPerPiece) {
+  for (std::size_t first = 0; first < keys.size(); first += kCellsPerPiece) {
     ScanRows piece{{layout_, {}, 0, 1}, {}};
-    const std::size_t end = std::min(keys.size(), first + kRowsPerPiece);
+    const std::size_t end = std::min(keys.size(), first + kCellsPerPiece);
     piece.rows.bytes.reserve((end - first) * layout_.row_bytes);
     for (std::size_t i = first; i < end; ++i) append(cells_.at(keys[i]), piece);
     give(piece);

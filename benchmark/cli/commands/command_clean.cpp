@@ -176,8 +176,9 @@ std::vector<std::string> arguments_of_child() {
 /// The arguments that say how the sequence is read, so that its cleaned scans are read in the same
 /// way. @param own_poses leaves out those that are about poses
 std::string reading_arguments(bool own_poses) {
-  constexpr std::array kReading = {"--sensor", "--up", "--label-rule", "--points", "--point-layout",
-                                   "--point-time-unit", "--deskew"};
+  constexpr std::array kReading = {"--sensor", "--up",           "--label-rule",
+                                   "--points", "--point-layout", "--point-time-unit",
+                                   "--deskew"};
   constexpr std::array kPoses = {"--frames",      "--poses",   "--T-sensor",
                                  "--time-offset", "--max-gap", "--pose-format"};
   const auto is_one = [](const auto& names, const std::string& word) {
@@ -198,7 +199,7 @@ std::string reading_arguments(bool own_poses) {
 std::string outputs_summary(const CleanPaths& paths, const CleanOutputs& outputs) {
   std::string text;
   for (const OutputPath& output : paths.all()) {
-    if (output.kind != OutputKind::kScans) continue;
+    if (output.kind != OutputKind::kScans && output.kind != OutputKind::kBag) continue;
     text += "The cleaned scans open with: raymoval inspect " + output.path.string() +
             reading_arguments(outputs.has_own_poses()) + "\n";
   }
@@ -226,8 +227,9 @@ std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& me
   for (const std::string& line : sequence.notes) text += line + '\n';
   text += outputs_summary(paths, outputs);
   text += "It took " + fixed_text(facts.seconds, 1) + " s.\nIf the map does not look right:\n";
-  for (const std::string& line : what_to_try(masks.removed_count(), masks.point_count(), flags.path,
-                                             method.full_name(), facts.warned)) {
+  for (const std::string& line :
+       what_to_try(masks.removed_count(), masks.point_count(), flags.path, method.full_name(),
+                   facts.warned, !paths.page.empty() || !paths.picture.empty())) {
     text += "  - " + line + '\n';
   }
   return text;
@@ -287,7 +289,8 @@ Command add_clean_command(CommandParser& program) {
   SequenceFlags::add_place_to(options, flags->path);
   options.add("-o,--output,--static", "FILE", flags->output,
               "The cleaned map in the world frame, with all fields of the scans: a file that ends "
-              "in " + join(written_extensions(), ", "));
+              "in " +
+                  join(written_extensions(), ", "));
   options.add("--dynamic", "FILE", flags->dynamic, "Also write what was removed, as a map");
   options.add("--labelled", "FILE", flags->labelled,
               "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
@@ -297,7 +300,7 @@ Command add_clean_command(CommandParser& program) {
       "out)");
   options.add("--scans", "DIR", flags->scans,
               "Also write the scans without the removed points, one by one in their own format, "
-              "into a folder that opens as the sequence does");
+              "into a folder that opens as the sequence does; of a recording, another recording");
   options.add("--tiles", "METRES", flags->tiles,
               "Cut maps into square tiles of this size: -o, --dynamic and --labelled then name "
               "folders");
@@ -308,7 +311,8 @@ Command add_clean_command(CommandParser& program) {
   options.add("--html", "FILE", flags->page,
               "Also write a page with a 3-D view of what was kept and removed (.html)");
   options.add("--picture", "FILE", flags->picture, "Also write the map from above (.png)");
-  options.add("--voxel", "METRES", flags->voxel, "Write one point for each cell of this size: the mean of its points and of their "
+  options.add("--voxel", "METRES", flags->voxel,
+              "Write one point for each cell of this size: the mean of its points and of their "
               "intensity, with the other fields of the point nearest to the middle of the cell");
   options.add("--method", "NAME", flags->method,
               "The method (default: raymoval_plus:offline, which is the best)");

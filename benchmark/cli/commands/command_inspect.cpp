@@ -25,6 +25,7 @@ std::string finding_line(const Finding& finding) {
 
 std::string report_text(const InspectionReport& report) {
   std::string text;
+  for (const std::string& note : report.notes) text += note + "\n";
   for (const Finding& finding : report.findings) text += finding_line(finding);
   const auto notes = static_cast<std::size_t>(
       std::count_if(report.findings.begin(), report.findings.end(),

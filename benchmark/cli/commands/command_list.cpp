@@ -9,6 +9,7 @@
 #include "datasets/layouts.h"
 #include "datasets/simulation/scene/library.h"
 #include "datasets/simulation/scene/scene_text.h"
+#include "datasets/trajectories/pose_file.h"
 #include "eval/columns/columns.h"
 #include "eval/protocol_registry.h"
 
@@ -75,6 +76,14 @@ Lines sequence_lines() {
   return lines;
 }
 
+Lines pose_format_lines() {
+  Lines lines;
+  for (const PoseFormatName& format : pose_format_names()) {
+    lines.emplace_back(format.name, format.sentence);
+  }
+  return lines;
+}
+
 Lines column_lines() {
   Lines lines;
   for (const Column& column : general_columns()) {
@@ -114,6 +123,7 @@ ExitCode list(const std::string& what) {
       {"columns", column_lines},
       {"sensors", sensor_lines},
       {"sequences", sequence_lines},
+      {"pose-formats", pose_format_lines},
       {"scenes", scene_lines},
       {"simulated-sensors", simulated_sensor_lines},
       {"suites", suite_lines}};
@@ -136,7 +146,7 @@ Command add_list_command(CommandParser& program) {
   CommandOptions options =
       program.add_command("list", "Lists methods, protocols, sensors, scenes, suites");
   options.add("what", "WHAT", *what,
-              "methods, variants, protocols, columns, sensors, sequences, scenes, "
+              "methods, variants, protocols, columns, sensors, sequences, pose-formats, scenes, "
               "simulated-sensors or suites; all if empty");
   options.set_footer("Examples:\n  raymoval list\n  raymoval list variants");
   return {options.name(), [what] { return list(*what); }};

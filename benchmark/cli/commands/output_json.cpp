@@ -97,10 +97,10 @@ ordered_json to_json(const InspectionReport& report) {
   for (const Finding& finding : report.findings) findings.push_back(finding_json(finding));
   ordered_json measures = ordered_json::object();
   for (const auto& [name, value] : report.measures) measures[name] = value;
-  return {{"sequence", report.sequence},    {"layout", report.layout},
-          {"scans", report.scans},          {"scans_read", report.scans_read},
-          {"sensor", report.sensor},        {"findings", std::move(findings)},
-          {"measures", std::move(measures)}};
+  return {{"sequence", report.sequence},     {"layout", report.layout},
+          {"scans", report.scans},           {"scans_read", report.scans_read},
+          {"sensor", report.sensor},         {"notes", report.notes},
+          {"findings", std::move(findings)}, {"measures", std::move(measures)}};
 }
 
 ordered_json to_json(const ScoreRecord& record) {

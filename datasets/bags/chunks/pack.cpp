@@ -6,9 +6,11 @@
 #include <zstd.h>
 
 #include <limits>
+#include <memory>
 #include <new>
 
 #include "core/error.h"
+#include "datasets/bags/chunks/bag_file.h"
 
 namespace raymoval {
 
@@ -21,9 +23,36 @@ std::string pack_zstd(std::string_view bytes) {
   return packed;
 }
 
+void pack_zstd_file(const std::filesystem::path& file, FileWriter& output) {
+  const BagFile bytes(file);
+  const auto free_stream = [](ZSTD_CStream* stream) { ZSTD_freeCStream(stream); };
+  const std::unique_ptr<ZSTD_CStream, decltype(free_stream)> stream(ZSTD_createCStream());
+  if (!stream) throw std::bad_alloc();
+  ZSTD_CCtx_setPledgedSrcSize(stream.get(), bytes.size());
+  std::string piece(ZSTD_CStreamOutSize(), '\0');
+  constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
+  for (std::uint64_t at = 0, left = 1; left > 0; at += kPiece) {
+    const std::string plain = bytes.read_up_to(at, kPiece);
+    const bool is_last = at + kPiece >= bytes.size();
+    ZSTD_inBuffer in{plain.data(), plain.size(), 0};
+    do {
+      ZSTD_outBuffer out{piece.data(), piece.size(), 0};
+      const auto mode = is_last ? ZSTD_e_end : ZSTD_e_continue;
+      left = ZSTD_compressStream2(stream.get(), &out, &in, mode);
+      // It fails only if the file has another size by now.
+      if (ZSTD_isError(left) != 0) throw DataError(file.string() + ": changes while it is packed.");
+      output.append(std::string_view(piece).substr(0, out.pos));
+    } while (is_last ? left > 0 : in.pos < in.size);
+    if (!is_last) left = 1;
+  }
+}
+
 std::string pack_lz4(std::string_view bytes) {
   LZ4F_preferences_t preferences = LZ4F_INIT_PREFERENCES;
-  preferences.frameInfo.contentSize = bytes.size();
+  // What ROS 1 reads and writes: its own decoder takes no other kind of frame.
+  preferences.frameInfo.blockMode = LZ4F_blockIndependent;
+  preferences.frameInfo.blockSizeID = LZ4F_max1MB;
+  preferences.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
   std::string packed(LZ4F_compressFrameBound(bytes.size(), &preferences), '\0');
   const std::size_t size =
       LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), &preferences);

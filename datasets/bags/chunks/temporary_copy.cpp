@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/bags/chunks/temporary_copy.h"
 
-#include <stdlib.h>
 #include <sys/statvfs.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
 
-#include "core/error.h"
 #include "core/files/file_writer.h"
-#include "core/text.h"
 #include "datasets/bags/chunks/zstandard.h"
 
 namespace raymoval {
@@ -20,16 +15,6 @@ namespace fs = std::filesystem;
 
 /// What is left free for others.
 constexpr std::uint64_t kSpare = std::uint64_t{64} << 20;
-
-fs::path private_folder() {
-  const char* named = ::getenv("TMPDIR");
-  const fs::path root = named != nullptr && *named != '\0' ? named : "/tmp";
-  std::string folder = (root / "raymoval-XXXXXX").string();
-  if (::mkdtemp(folder.data()) != nullptr) return folder;
-  throw DataError(root.string() + ": no folder can be made here to unpack a recording to (" +
-                  std::generic_category().message(errno) +
-                  "). Set TMPDIR to a folder with room for it.");
-}
 
 /// How much may be written to `folder`.
 std::uint64_t room_in(const fs::path& folder) {
@@ -46,25 +31,13 @@ fs::path without_zstd_ending(const fs::path& name) {
   return ends ? name.parent_path() / name.stem() : name;
 }
 
-TemporaryCopy::TemporaryCopy(const BagFile& packed) : folder_(private_folder()) {
-  try {
-    path_ = folder_ / without_zstd_ending(packed.path().filename());
-    const std::uint64_t counted = std::min(packed.size(), std::uint64_t{1} << 50U);
-    const std::uint64_t most = std::min(room_in(folder_), 1000 * counted + (1U << 20U));
-    FileWriter writer(path_);
-    problem_ =
-        unpack_zstd_file(packed, most, [&](std::string_view piece) { writer.append(piece); });
-    writer.commit();
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-    throw;
-  }
-}
-
-TemporaryCopy::~TemporaryCopy() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
+TemporaryCopy::TemporaryCopy(const BagFile& packed)
+    : path_(folder_.path() / without_zstd_ending(packed.path().filename())) {
+  const std::uint64_t counted = std::min(packed.size(), std::uint64_t{1} << 50U);
+  const std::uint64_t most = std::min(room_in(folder_.path()), 1000 * counted + (1U << 20U));
+  FileWriter writer(path_);
+  problem_ = unpack_zstd_file(packed, most, [&](std::string_view piece) { writer.append(piece); });
+  writer.commit();
 }
 
 }  // namespace raymoval

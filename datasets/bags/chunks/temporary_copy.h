@@ -5,19 +5,16 @@
 #include <string>
 
 #include "datasets/bags/chunks/bag_file.h"
+#include "datasets/bags/chunks/private_folder.h"
 
 namespace raymoval {
 
-/// What a file packed by Zstandard unpacks to, in a folder that only this user can enter and that
-/// goes with this object. It stands below TMPDIR, or /tmp if that is not set.
+/// What a file packed by Zstandard unpacks to, in a private folder that goes with this object.
 class TemporaryCopy {
  public:
   /// @throws DataError if the disk has no room for it, or if it unpacks to more than 1,000 times
   ///   its bytes and 1 MiB; UnreadableError if the disk fails
   explicit TemporaryCopy(const BagFile& packed);
-  ~TemporaryCopy();
-  TemporaryCopy(const TemporaryCopy&) = delete;
-  TemporaryCopy& operator=(const TemporaryCopy&) = delete;
 
   /// It has the name of the packed file, without the ending that says how it is packed.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -25,7 +22,8 @@ class TemporaryCopy {
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:
-  std::filesystem::path folder_, path_;
+  PrivateFolder folder_;
+  std::filesystem::path path_;
   std::string problem_;
 };
 

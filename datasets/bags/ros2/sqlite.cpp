@@ -161,6 +161,17 @@ std::string SqliteStatement::text(int column) const {
   return {reinterpret_cast<const char*>(text), static_cast<std::size_t>(size)};
 }
 
+std::string SqliteStatement::blob(int column) const {
+  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column));
+  const int size = sqlite3_column_bytes(handle_.get(), column);
+  return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(size));
+}
+
+void SqliteStatement::bind(int place, std::int64_t number) {
+  const int code = sqlite3_bind_int64(handle_.get(), place, number);
+  if (code != SQLITE_OK) database_.fail(code);
+}
+
 void SqliteStatement::bind(int place, sqlite3_value* value) {
   const int code = sqlite3_bind_value(handle_.get(), place, value);
   if (code != SQLITE_OK) database_.fail(code);

@@ -58,7 +58,14 @@ class SqliteStatement {
   [[nodiscard]] sqlite3_value* value(int column) const {
     return sqlite3_column_value(handle_.get(), column);
   }
+  [[nodiscard]] std::string blob(int column) const;
+  [[nodiscard]] std::string_view name(int column) const {
+    return sqlite3_column_name(handle_.get(), column);
+  }
+  /// Makes it ready to be run from its beginning, with the values that are bound.
+  void reset() { sqlite3_reset(handle_.get()); }
   /// Places are numbered from 1 on.
+  void bind(int place, std::int64_t number);
   void bind(int place, sqlite3_value* value);
   void bind(int place, std::string_view blob);
 

@@ -65,12 +65,15 @@ std::vector<Check> pose_checks() {
   const std::string agree = "scans that lie on each other under T_world_sensor of each";
   return {
       verdict_check("poses-inverted", "poses take the world to the sensor (T_sensor_world)", agree,
-                    "Invert each pose: R^T and -R^T t."),
-      verdict_check("camera-frame", "poses or points are in camera axes, not in the LiDAR's",
-                    "LiDAR axes: x ahead, y left, z up, in points and poses alike",
-                    "Poses of a camera: take them to the LiDAR with T = Tr^-1 P Tr (in "
-                    "SemanticKITTI layout put 'Tr:' into calib.txt and leave \"poses_are_lidar\" "
-                    "out). Points of a camera frame: bring them to the LiDAR with Tr^-1."),
+                    "Invert each pose: R^T and -R^T t. For a pose file, --pose-format inverse does "
+                    "that."),
+      verdict_check(
+          "camera-frame", "poses or points are in camera axes, not in the LiDAR's",
+          "LiDAR axes: x ahead, y left, z up, in points and poses alike",
+          "Poses of a camera: take them to the LiDAR with T = Tr^-1 P Tr (in "
+          "SemanticKITTI layout put 'Tr:' into calib.txt and leave \"poses_are_lidar\" "
+          "out; elsewhere say --T-sensor with the pose of the LiDAR in the camera's frame). "
+          "Points of a camera frame: bring them to the LiDAR with Tr^-1."),
       verdict_check("lidar-poses-as-camera",
                     "poses of the LiDAR are read as those of a camera (or the points, not the "
                     "poses, are in camera axes)",
@@ -80,9 +83,11 @@ std::vector<Check> pose_checks() {
                     agree, "Multiply the angles by pi/180 before the rotations are made."),
       verdict_check("radians-for-degrees", "rotations are made from radians as if from degrees",
                     agree, "Multiply the angles by 180/pi before the rotations are made."),
-      verdict_check("quaternion-order", "the quaternion's numbers stand in another order",
-                    "TUM rows: t x y z qx qy qz qw; VIEWPOINT: tx ty tz qw qx qy qz",
-                    "Reorder the columns."),
+      verdict_check(
+          "quaternion-order", "the quaternion's numbers stand in another order",
+          "TUM rows: t x y z qx qy qz qw; VIEWPOINT: tx ty tz qw qx qy qz",
+          "For a pose file say --pose-format euroc if w is the first of the four numbers, or "
+          "--pose-format tum if it is the last. Else reorder the columns."),
       verdict_check("poses-in-millimetres", "positions of the poses are millimetres", "metres",
                     "Divide the positions by 1,000."),
       verdict_check("poses-in-kilometres", "positions of the poses are kilometres", "metres",
@@ -105,13 +110,16 @@ std::vector<Check> pose_checks() {
        "Write the pose of the sensor at each scan into its VIEWPOINT.", look_for_sensor,
        Consequence::kRefused},
       verdict_check("points-in-world", "points stand in the world frame though there are poses",
-                    "points in the frame of the sensor",
-                    "Take the points back to the sensor with the inverse of each pose, or use the "
-                    "DynamicMap layout (pcd/*.pcd with VIEWPOINT)."),
-      verdict_check("poses-shifted", "poses are those of the scan before or after", agree,
-                    "Shift the rows of the pose file by one, so that row N belongs to scan N."),
-      verdict_check("poses-of-another-sequence", "poses do not belong to these scans", agree,
-                    "Take the pose file that belongs to these scans (--poses FILE)."),
+                    "points in the frame of the sensor", "Say --points world."),
+      verdict_check(
+          "poses-shifted", "poses are those of the scan before or after", agree,
+          "Shift the rows of the pose file by one, so that row N belongs to scan N. If poses "
+          "and scans have times, say --time-offset with the time of a scan, or its negative."),
+      verdict_check(
+          "poses-of-another-sequence", "poses do not belong to these scans", agree,
+          "Take the pose file that belongs to these scans (--poses FILE). If its poses are "
+          "those of a body that carries the sensor, say where the sensor is on it "
+          "(--T-sensor). If its clock is another one, say --time-offset."),
   };
 }
 

@@ -232,11 +232,12 @@ std::vector<Finding> look_for_skew(Samples& samples) {
 }  // namespace
 
 std::vector<Check> skew_checks() {
-  return {{"skewed-scans", "points are not corrected for the motion of the sensor during a scan",
-           "all points of a scan in the sensor's frame at one time",
-           "Correct each point with the motion between its time and that of the scan (deskewing, "
-           "as LiDAR odometry programs do).",
-           look_for_skew}};
+  return {
+      {"skewed-scans", "points are not corrected for the motion of the sensor during a scan",
+       "all points of a scan in the sensor's frame at one time",
+       "If points have times, say --deskew. Else correct each point with the motion between its "
+       "time and that of the scan (deskewing, as LiDAR odometry programs do).",
+       look_for_skew}};
 }
 
 }  // namespace raymoval::inspection

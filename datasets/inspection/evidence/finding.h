@@ -44,6 +44,8 @@ struct InspectionReport {
   std::size_t scans_read = 0;
   std::string sensor;  ///< What it is called, and what the scans show of it; empty if unknown.
   std::vector<Finding> findings;
+  /// How it was opened, and the topics of a recording, in whole sentences.
+  std::vector<std::string> notes = {};
   /// Numbers behind the findings, in a fixed order.
   std::vector<std::pair<std::string, double>> measures;
 

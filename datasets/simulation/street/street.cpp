@@ -249,6 +249,10 @@ Sequence make_street(const StreetParameters& parameters, const std::vector<Stree
   defaults.source = "built-in procedural scene";
   defaults.scan_period_s = parameters.scan_period_s;
   const SequenceSettings settings = apply_options(options, defaults);
+  const std::string given = settings.points ? "--points" : first_pose_setting(settings);
+  if (!given.empty()) {
+    throw UsageError("street: " + given + " cannot be used on a scene in memory. Leave it out.");
+  }
 
   std::vector<NumberedFile> all;
   for (std::size_t i = 0; i < parameters.scans; ++i) all.push_back({static_cast<long>(i), {}});

@@ -216,6 +216,10 @@ TEST_CASE("What is written reads back, chunk by chunk, with every compression", 
     });
     CHECK(number == 20);
   }
+  // ROS 1's own decoder reads lz4 frames of independent blocks with a checksum, and no others.
+  CHECK(
+      read_text(folder / "made.bag").at(Ros1Bag(folder / "made.bag").chunks()[0].data_begin + 4) ==
+      0x64);
   // rosbag appends to a bag only if the first chunk begins here.
   CHECK(Ros1Bag(folder / "made.bag").chunks()[0].begin == 4117);
 }

@@ -5,6 +5,8 @@
 #include "core/error.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/poses.h"
+#include "datasets/trajectories/pose_file.h"
+#include "datasets/trajectories/stamps.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -48,11 +50,10 @@ TEST_CASE("a rotation may deviate by a thousandth", "[poses]") {
   check_says(message_of<DataError>([&] { stretched(0.0006); }), {"no rotation", "0.0012"});
 }
 
-TEST_CASE("times of poses are finite and may stand, but not go back", "[poses]") {
-  const TemporaryFolder folder;
+TEST_CASE("times of poses are finite and increase", "[poses]") {
   const std::string rest = " 0 0 0 0 0 0 1\n";
-  CHECK(read_pose_file(folder.write("p.txt", "5" + rest + "5" + rest)).rows.size() == 2);
-  check_says(tum_says("1" + rest + "5" + rest + "3" + rest), {"line 3: time 3 is before"});
+  check_says(tum_says("5" + rest + "5" + rest), {"line 2: time 5.000000000 s is that of the row"});
+  check_says(tum_says("1" + rest + "5" + rest + "3" + rest), {"line 3: time 3.000000000 s is before"});
   check_says(tum_says("nan" + rest), {"line 1", "not finite"});
   check_says(tum_says("5" + rest + "inf" + rest), {"line 2", "not finite"});
   check_says(tum_says("0 0 0 0 nan 0 0 1\n"), {"line 1: the pose holds a number that is not"});
@@ -73,12 +74,13 @@ TEST_CASE("a calibration row needs a colon and no blank behind it", "[poses]") {
 
 TEST_CASE("a column of numbers is finite and may begin with a carriage return", "[poses]") {
   const TemporaryFolder folder;
-  CHECK(read_number_column(folder.write("t.txt", "\r12\n# none\n34\r\n")) ==
-        std::vector<double>{12, 34});
+  const StampColumn column = read_stamp_file(folder.write("t.txt", "\r12\n# none\n34\r\n"));
+  CHECK(column.stamps == std::vector<Nanoseconds>{12'000'000'000, 34'000'000'000});
+  CHECK(column.since_first == std::vector<double>{0, 22});
   for (const char* text : {"1\nnan\n", "1\ninf\n", "1\n2 3\n"}) {
     const auto path = folder.write("t.txt", text);
-    check_says(message_of<DataError>([&] { read_number_column(path); }),
-               {"line 2", "one finite number"});
+    check_says(message_of<DataError>([&] { read_stamp_file(path); }),
+               {"line 2", "expected a time"});
   }
 }
 

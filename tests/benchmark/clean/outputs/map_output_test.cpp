@@ -155,9 +155,9 @@ TEST_CASE("What a format cannot hold is said, or refused, before anything is wri
   const std::vector<std::string> notes = write(paths, four_points());
   REQUIRE(notes.size() == 1);
   CHECK_THAT(notes[0], Contains("-o: ") && Contains(".bin"));
-  const auto far = std::make_shared<RecordedScans>(
-      std::vector{four_points()->records(0)},
-      std::vector{Pose(Eigen::Translation3d(691000.0, 0.0, 0.0))});
+  const auto far =
+      std::make_shared<RecordedScans>(std::vector{four_points()->records(0)},
+                                      std::vector{Pose(Eigen::Translation3d(691000.0, 0.0, 0.0))});
   paths.map = folder.path() / "far.bin";
   CHECK_THROWS_WITH(write(paths, far), Contains("float32") && Contains(".pcd"));
   paths.map = folder.path() / "map.pcd";

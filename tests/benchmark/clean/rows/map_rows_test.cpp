@@ -32,7 +32,8 @@ ScanRows rows_of(const Sequence& sequence, std::size_t scan,
 TEST_CASE("All fields but the position go through bit for bit") {
   const double time = 1317384506.4000001;
   const auto scans = std::make_shared<RecordedScans>(
-      std::vector{records_of(driver_layout(), {{1, 2, 3, 0.5, 65535, time}})}, std::vector{turned()});
+      std::vector{records_of(driver_layout(), {{1, 2, 3, 0.5, 65535, time}})},
+      std::vector{turned()});
   const ScanRows made = rows_of(sequence_of(scans), 0);
   CHECK(made.rows.layout == driver_layout());
   CHECK(made.world[0] == Eigen::Vector3d(8.0, 21.0, 3.0));
@@ -72,9 +73,9 @@ TEST_CASE("Stored doubles keep their digits, but for points that were moved") {
   RecordLayout layout;
   for (const char* axis : {"x", "y", "z"}) layout.add(axis, 'F', 8);
   const double x = 1.1234567890123;
-  const auto scans = std::make_shared<RecordedScans>(
-      std::vector{records_of(layout, {{x, 0, 0}, {x, 0, 0}})},
-      std::vector{Pose(Eigen::Translation3d(1.0, 0.0, 0.0))});
+  const auto scans =
+      std::make_shared<RecordedScans>(std::vector{records_of(layout, {{x, 0, 0}, {x, 0, 0}})},
+                                      std::vector{Pose(Eigen::Translation3d(1.0, 0.0, 0.0))});
   const Sequence sequence = sequence_of(scans);
   const MapRows rows(sequence, Coordinates::kFloat, no_progress(), kGoOn);
   Scan scan = scans->load(0);
@@ -94,8 +95,8 @@ TEST_CASE("Normals turn with their scan, and stay in the world frame") {
   PointRecords rows = records_of(layout, {{0, 0, 0, 1, 0, 0}});
   for (int axis = 0; axis < 3; ++axis) rows.set_value(0, layout.fields[6], axis == 1 ? 1 : 0, axis);
   const auto made = [&](PointFrame frame) {
-    return rows_of(sequence_of(std::make_shared<RecordedScans>(
-                       std::vector{rows}, std::vector{turned()}, frame)),
+    return rows_of(sequence_of(std::make_shared<RecordedScans>(std::vector{rows},
+                                                               std::vector{turned()}, frame)),
                    0)
         .rows;
   };
@@ -108,7 +109,8 @@ TEST_CASE("Normals turn with their scan, and stay in the world frame") {
 
 TEST_CASE("Rows are those of the points that a scan has") {
   const auto scans = std::make_shared<RecordedScans>(
-      std::vector{records_of(driver_layout(), {{1, 0, 0, 0, 1, 0}, {NAN, 0, 0, 0, 2, 0}, {3, 0, 0, 0, 3, 0}})},
+      std::vector{records_of(driver_layout(),
+                             {{1, 0, 0, 0, 1, 0}, {NAN, 0, 0, 0, 2, 0}, {3, 0, 0, 0, 3, 0}})},
       std::vector<Pose>{Pose::Identity()});
   const Sequence sequence = sequence_of(scans);
   const MapRows rows(sequence, Coordinates::kFloat, no_progress(), kGoOn);
@@ -136,8 +138,8 @@ TEST_CASE("A scan with other fields is an error that names them; their order doe
   CHECK(value_of(rows_of(sequence(other), 1).rows, 0, "ring") == 5.0);
   RecordLayout more = driver_layout();
   more.add("rgb", 'F', 4);
-  CHECK_THROWS_WITH(rows_of(sequence(more), 0), Contains("scan1.pcd: has a field 'rgb' as well") &&
-                                                    Contains("--frames"));
+  CHECK_THROWS_WITH(rows_of(sequence(more), 0),
+                    Contains("scan1.pcd: has a field 'rgb' as well") && Contains("--frames"));
   RecordLayout fewer = driver_layout();
   fewer.fields.pop_back();
   CHECK_THROWS_WITH(rows_of(sequence(fewer), 0), Contains("has no field 'time'"));

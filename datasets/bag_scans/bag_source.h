@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scan/scan_source.h"
+#include "datasets/bags/bag.h"
+#include "datasets/clouds/file_source.h"
+#include "datasets/records/record_source.h"
+
+namespace raymoval {
+
+/// A message with a scan, and what is known of it without its points.
+struct BagScan {
+  std::size_t message = 0;  ///< Its number in the topic.
+  double time_s = 0.0;      ///< Since the topic's first message.
+  Pose T_world_sensor = Pose::Identity();
+};
+
+/// Scans that are messages of a bag, with all their fields. Points that are no returns are left out
+/// (see `read_returns`). Only the scans that are asked for are read.
+class BagScanSource : public ScanSource, public RecordSource, public TalliedSource {
+ public:
+  BagScanSource(std::shared_ptr<const Bag> bag, std::size_t topic, std::vector<BagScan> scans,
+                PointFrame point_frame, const std::optional<std::string>& sensor);
+
+  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
+  [[nodiscard]] Scan load(std::size_t index) const override;
+  [[nodiscard]] Pose pose(std::size_t index) const override { return scan(index).T_world_sensor; }
+  [[nodiscard]] const SensorModel& sensor() const override;
+  [[nodiscard]] PointRecords records(std::size_t index) const override;
+  [[nodiscard]] PointFrame point_frame() const override { return point_frame_; }
+  [[nodiscard]] std::string place(std::size_t index) const override;
+  /// For those who write the bag again: its topic, and the message of scan `index` there.
+  [[nodiscard]] const Bag& bag() const { return *bag_; }
+  [[nodiscard]] std::size_t topic() const { return topic_; }
+  [[nodiscard]] std::size_t message(std::size_t index) const { return scan(index).message; }
+  [[nodiscard]] const LeftOutTally& tally() const override { return tally_; }
+
+ private:
+  [[nodiscard]] const BagScan& scan(std::size_t index) const;
+
+  std::shared_ptr<const Bag> bag_;
+  std::size_t topic_;
+  std::vector<BagScan> scans_;
+  PointFrame point_frame_;
+  SensorChoice sensor_;
+  LeftOutTally tally_;
+};
+
+/// "000012".
+std::string scan_name(std::size_t message);
+
+}  // namespace raymoval

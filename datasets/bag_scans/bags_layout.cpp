@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/bag_scans/bags_layout.h"
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/text.h"
+#include "datasets/bag_scans/bag_motion.h"
+#include "datasets/bag_scans/bag_source.h"
+#include "datasets/bag_scans/scan_heads.h"
+#include "datasets/bag_scans/topics.h"
+#include "datasets/bags/bag.h"
+#include "datasets/bags/messages/point_cloud.h"
+#include "datasets/bags/messages/pose_messages.h"
+#include "datasets/settings.h"
+#include "datasets/trajectories/pose_file.h"
+#include "datasets/trajectories/scan_poses.h"
+
+namespace raymoval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder may have a sequence.json; for a file the options say all.
+SequenceSettings settings_of(const fs::path& path, const SequenceOptions& options) {
+  if (is_folder(path)) return read_settings(path, options, {});
+  SequenceSettings defaults;
+  defaults.name = path.stem().string();
+  return apply_options(options, defaults);
+}
+
+std::size_t scan_topic(const Bag& bag, const std::optional<std::string>& named) {
+  const TopicWish wish{"--topic", "with scans (sensor_msgs/PointCloud2 or a Livox CustomMsg)",
+                       [](const BagTopic& topic) { return has_points(topic.type); }};
+  if (const auto topic = choose_topic(bag, named, wish)) return *topic;
+  throw UsageError(bag.path().string() +
+                   ": no topic has scans, which are of type "
+                   "sensor_msgs/PointCloud2 or livox_ros_driver/CustomMsg. " +
+                   topics_sentence(bag) +
+                   " Packets of a driver are made into clouds by replaying the bag with it.");
+}
+
+/// The poses of the scans, and where they are from.
+struct FoundScanPoses {
+  ScanPoses poses;
+  std::string name;  ///< A file's name, a topic, or frames of tf.
+  PointFrame point_frame = PointFrame::kSensor;
+};
+
+FoundScanPoses poses_of_file(const ScanHeads& heads, std::uint64_t messages,
+                             const SequenceSettings& settings, const fs::path& folder,
+                             const PoseSettings& pose_settings, Sequence& sequence) {
+  ScanKeys keys;
+  keys.rows = heads.messages;
+  keys.row_count = messages;
+  keys.stamps = heads.stamps;
+  for (const Nanoseconds stamp : heads.stamps) {
+    keys.times_s.push_back(to_seconds(stamp - heads.first_stamp));
+  }
+  FoundScanPoses found;
+  found.point_frame = settings.points.value_or(PointFrame::kSensor);
+  found.name = kStandingSensor;
+  if (settings.poses == kStandingSensor) {
+    found.poses = standing_poses(keys, pose_settings);
+    return found;
+  }
+  const fs::path path = find_pose_file(folder, settings.poses);
+  sequence.input_files.push_back(path);
+  found.poses = scan_poses(read_pose_file(path, {settings.pose_format}), keys, pose_settings);
+  found.name = path.filename().string();
+  return found;
+}
+
+FoundScanPoses poses_of_bag(const Bag& bag, const ScanHeads& heads, std::uint64_t messages,
+                            const SequenceSettings& settings,
+                            const std::optional<std::string>& pose_topic,
+                            const PoseSettings& pose_settings) {
+  BagPoseQuery query;
+  query.cloud_frame = frame_name(heads.frame);
+  query.scans = messages;
+  query.pose_topic = pose_topic;
+  if (settings.T_sensor) query.T_body_sensor = pose_settings.T_body_sensor;
+  query.point_frame = settings.points;
+  query.time_offset = pose_settings.time_offset;
+  query.max_gap = pose_settings.max_gap;
+  BagMotion motion = find_bag_motion(bag, query);
+  FoundPoses looked_up = look_up_poses(heads.stamps, *motion.motion, motion.where);
+  FoundScanPoses found;
+  found.name = motion.name;
+  found.point_frame = motion.point_frame;
+  found.poses.poses = std::move(looked_up.poses);
+  found.poses.stamps = heads.stamps;
+  found.poses.motion = motion.motion;
+  found.poses.notes = std::move(motion.notes);
+  for (std::string& note : looked_up.notes) found.poses.notes.push_back(std::move(note));
+  return found;
+}
+
+template <class Value>
+void take(std::vector<Value>& all, std::vector<Value> more) {
+  for (Value& value : more) all.push_back(std::move(value));
+}
+
+Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
+                           const OpenContext& context) {
+  const fs::path path = text;
+  const SequenceSettings settings = settings_of(path, options);
+  const fs::path folder = is_folder(path) ? path : folder_of(path);
+  const std::shared_ptr<const Bag> bag = open_bag(path);
+  const std::size_t topic = scan_topic(*bag, options.topic);
+  const std::uint64_t messages = bag->topics()[topic].messages;
+  const ScanHeads heads = read_scan_heads(*bag, topic, settings.frames, context.cancel);
+
+  Sequence sequence = make_sequence(settings, bags_layout(), heads.range);
+  // Nothing that is written may take the place of the recording, or of a file of it.
+  sequence.input_files.push_back(path);
+  if (is_folder(path)) take(sequence.input_files, entries_of(path));
+  const PoseSettings pose_settings =
+      raymoval::pose_settings(settings, folder, sequence.input_files);
+  FoundScanPoses found =
+      settings.poses
+          ? poses_of_file(heads, messages, settings, folder, pose_settings, sequence)
+          : poses_of_bag(*bag, heads, messages, settings, options.pose_topic, pose_settings);
+  std::vector<BagScan> scans;
+  for (std::size_t i = 0; i < heads.messages.size(); ++i) {
+    if (!found.poses.poses[i]) continue;
+    scans.push_back({heads.messages[i], to_seconds(heads.stamps[i] - heads.first_stamp),
+                     *found.poses.poses[i]});
+    sequence.stamps.push_back(found.poses.stamps[i]);
+  }
+  sequence.poses_file = found.name;
+  sequence.motion = found.poses.motion;
+  take(sequence.notes, bag->damage());
+  sequence.notes.push_back(path.filename().string() + ": the scans are those of " +
+                           topic_text(bag->topics()[topic]) + ", the poses those of " + found.name +
+                           ".");
+  take(sequence.notes, heads.notes);
+  take(sequence.notes, std::move(found.poses.notes));
+  const auto source = std::make_shared<BagScanSource>(bag, topic, std::move(scans),
+                                                      found.point_frame, settings.sensor);
+  sequence.scans = source;
+  sequence.records = source;
+  return sequence;
+}
+
+}  // namespace
+
+Layout bags_layout() {
+  Layout layout;
+  layout.name = "bags";
+  layout.expected = "a recording of ROS messages (.bag, .mcap, .db3, or the folder of ROS 2)";
+  layout.forms = {{"FILE.bag", "a ROS 1 bag with clouds and poses (see --topic, --pose-topic)"},
+                  {"FILE.mcap", "the same as MCAP, of ROS 1 or ROS 2"},
+                  {"FOLDER", "a recording of ROS 2 with its metadata.yaml"}};
+  layout.recognise = [](Layout::Path path) { return is_bag(path); };
+  layout.open = open_bag_sequence;
+  return layout;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/deskew/point_times.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace raymoval {
+namespace {
+
+/// Seconds that a scan takes. The longest is less than a thousand times the shortest, so that at
+/// most one of s, ms, us and ns fits.
+constexpr double kShortest = 0.002, kLongest = 1.9;
+
+const PointField& time_field(const RecordLayout& layout, const std::string& place) {
+  const PointField* field = layout.find(time_names());
+  if (field != nullptr && field->count == 1) return *field;
+  std::vector<std::string> there;
+  for (const PointField& found : layout.fields) there.push_back(found.name);
+  std::vector<std::string> wanted;
+  for (const std::string_view name : time_names()) wanted.emplace_back(name);
+  throw DataError(place + ": --deskew needs the time of each point, a field " + join(wanted, ", ") +
+                  "; found " + (there.empty() ? "no field" : join(there)) +
+                  ". Take scans that have it, or leave --deskew out.");
+}
+
+/// The least and the greatest time of the points of a scan, in units of the field.
+struct Extent {
+  double least = std::numeric_limits<double>::max();
+  double most = std::numeric_limits<double>::lowest();
+  [[nodiscard]] double span() const { return most - least; }
+  [[nodiscard]] double middle() const { return least + 0.5 * span(); }
+};
+
+double time_of(const TimedScan& timed, const PointField& field, std::size_t point) {
+  const double time = timed.records.value(timed.scan.stored_position(point), field);
+  if (std::isfinite(time)) return time;
+  throw DataError(timed.place + ": the time of point " +
+                  grouped_text(timed.scan.stored_position(point)) +
+                  " is not finite, although the point is a return.");
+}
+
+Extent extent_of(const TimedScan& timed, const PointField& field) {
+  Extent extent;
+  for (std::size_t i = 0; i < timed.scan.size(); ++i) {
+    const double time = time_of(timed, field, i);
+    extent.least = std::min(extent.least, time);
+    extent.most = std::max(extent.most, time);
+  }
+  return extent;
+}
+
+double parse_unit(const std::string& text) {
+  const std::pair<const char*, double> units[] = {
+      {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+  for (const auto& [name, seconds] : units) {
+    if (text == name) return seconds;
+  }
+  const auto number = parse_number<double>(text);
+  if (number && *number > 0.0 && *number <= 1.0) return *number;
+  throw UsageError("--point-time-unit " + text +
+                   ": expected s, ms, us, ns, or a number of seconds above 0 and up to 1.");
+}
+
+/// The unit under which the longest scan takes a time that scans take.
+double usual_unit(double span, const PointClock& clock, const std::string& place) {
+  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
+    if (span * unit >= kShortest && span * unit <= kLongest) return unit;
+  }
+  throw DataError(place + ": the times of its points ('" + clock.field + "') span " +
+                  number_text(span) + ", which is no time of a scan in s, ms, us or ns (2 ms to " +
+                  "1.9 s). Say what one of it is: --point-time-unit SECONDS.");
+}
+
+/// A float32 that counts from 1970 has steps of minutes.
+void check_digits(const PointField& field, const Extent& extent, double unit,
+                  const std::string& place) {
+  if (field.type != 'F' || field.size != 4) return;
+  const auto largest = static_cast<float>(std::max(std::abs(extent.least), std::abs(extent.most)));
+  const double step =
+      static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::max()) - largest);
+  if (step * unit <= 1e-3) return;
+  throw DataError(place + ": the times of its points are float32 in steps of " +
+                  number_text(step * unit) + " s, which is too coarse for --deskew; write '" +
+                  field.name + "' as float64, or as the time since the begin of the scan.");
+}
+
+/// Chooses what the times count from: what the middles of the scans deviate from least.
+PointClock::Zero zero_of(const std::vector<TimedScan>& scans, const std::vector<Extent>& extents,
+                         double unit) {
+  double from_scan = 0.0, from_clock = 0.0;
+  bool near_scan = true, near_clock = true;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const double middle = extents[i].middle() * unit;
+    const double apart = middle - to_seconds(scans[i].stamp);
+    from_scan += std::abs(middle);
+    from_clock += std::abs(apart);
+    near_scan = near_scan && std::abs(middle) <= kLongest;
+    near_clock = near_clock && std::abs(apart) <= kLongest;
+  }
+  if (near_scan && (!near_clock || from_scan <= from_clock)) return PointClock::Zero::kScanTime;
+  return near_clock ? PointClock::Zero::kClock : PointClock::Zero::kFirstPoint;
+}
+
+std::string unit_text(double unit) {
+  if (unit == 1.0) return "seconds";
+  if (unit == 1e-3) return "milliseconds";
+  if (unit == 1e-6) return "microseconds";
+  if (unit == 1e-9) return "nanoseconds";
+  return "steps of " + number_text(unit) + " s";
+}
+
+std::string zero_text(PointClock::Zero zero) {
+  switch (zero) {
+    case PointClock::Zero::kScanTime:
+      return "from the time of the scan";
+    case PointClock::Zero::kClock:
+      return "on the clock of the scans";
+    case PointClock::Zero::kFirstPoint:
+      return "on another clock than the scans, whose time is taken for that of the earliest point";
+  }
+  return "";
+}
+
+}  // namespace
+
+PointClock find_point_clock(const std::vector<TimedScan>& scans,
+                            const std::optional<std::string>& unit) {
+  PointClock clock;
+  std::vector<Extent> extents;
+  double span = 0.0;
+  for (const TimedScan& timed : scans) {
+    extents.push_back(extent_of(timed, time_field(timed.records.layout, timed.place)));
+    span = std::max(span, extents.back().span());
+  }
+  const std::string& place = scans.front().place;
+  const PointField& field = time_field(scans.front().records.layout, place);
+  clock.field = field.name;
+  if (!(span > 0.0)) {
+    throw DataError(place + ": all points of a scan have the same time ('" + clock.field +
+                    "'), so there is no motion to take out. Leave --deskew out.");
+  }
+  clock.unit_s = unit ? parse_unit(*unit) : usual_unit(span, clock, place);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    check_digits(field, extents[i], clock.unit_s, scans[i].place);
+  }
+  clock.zero = zero_of(scans, extents, clock.unit_s);
+  clock.longest_s = span * clock.unit_s;
+  clock.notes.push_back("--deskew: the times of points ('" + clock.field + "') are read as " +
+                        unit_text(clock.unit_s) + " " + zero_text(clock.zero) + ".");
+  return clock;
+}
+
+std::vector<double> point_times(const TimedScan& timed, const PointClock& clock) {
+  const PointField& field = time_field(timed.records.layout, timed.place);
+  double zero = 0.0;
+  if (clock.zero == PointClock::Zero::kClock) zero = to_seconds(timed.stamp) / clock.unit_s;
+  if (clock.zero == PointClock::Zero::kFirstPoint) zero = extent_of(timed, field).least;
+  std::vector<double> times;
+  times.reserve(timed.scan.size());
+  for (std::size_t i = 0; i < timed.scan.size(); ++i) {
+    const double time = (time_of(timed, field, i) - zero) * clock.unit_s;
+    if (std::abs(time) > 2.0 * kLongest) {
+      throw DataError(timed.place + ": point " + grouped_text(timed.scan.stored_position(i)) +
+                      " was taken " + number_text(time) +
+                      " s from the time of its scan. Repair its time, or say what one of '" +
+                      clock.field + "' is: --point-time-unit.");
+    }
+    times.push_back(time);
+  }
+  return times;
+}
+
+}  // namespace raymoval

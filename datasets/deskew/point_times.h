@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scan/scan.h"
+#include "datasets/records/point_records.h"
+#include "datasets/trajectories/trajectory.h"
+
+namespace raymoval {
+
+/// How the times of the points of a sequence are to be read.
+struct PointClock {
+  /// What the times count from.
+  enum class Zero {
+    kScanTime,    ///< The time of the scan.
+    kClock,       ///< The zero of the clock that scans have their times on.
+    kFirstPoint,  ///< Another clock: the earliest point was taken at the time of the scan.
+  };
+  std::string field;    ///< Its name in the records.
+  double unit_s = 1.0;  ///< Seconds for one of it.
+  Zero zero = Zero::kScanTime;
+  double longest_s = 0.0;          ///< Seconds from the earliest to the latest point of a scan.
+  std::vector<std::string> notes;  ///< What was concluded, in whole sentences.
+};
+
+/// A scan and what is stored of it.
+struct TimedScan {
+  Scan scan;
+  PointRecords records;
+  Nanoseconds stamp = 0;
+  std::string place;  ///< For messages.
+};
+
+/// Finds out how points are timed, from some scans of a sequence. The unit is that under which the
+/// points of a scan were taken within 2 ms to 1.9 s, unless a user says it.
+/// @param unit s, ms, us, ns, or a number of seconds
+/// @throws DataError if there is no field of times (naming those there are), if all points have one
+///   time, if no unit fits, or if the type of the field has too few digits; UsageError for a bad
+///   `unit`
+PointClock find_point_clock(const std::vector<TimedScan>& scans,
+                            const std::optional<std::string>& unit);
+
+/// When the points of a scan were taken, in seconds from the time of the scan, for each point that
+/// the scan has. @throws DataError for a time that is not finite or too far from that of the scan
+std::vector<double> point_times(const TimedScan& timed, const PointClock& clock);
+
+}  // namespace raymoval

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/bags/ros1/ros1_writer.h"
+#include "datasets/open_sequence.h"
+#include "tests/datasets/bags/message_bytes.h"
+#include "tests/datasets/temporary_folder.h"
+
+namespace raymoval::test {
+namespace {
+
+const std::vector<double> kAtOrigin = {0, 0, 0, 0, 0, 0, 1};
+
+MessageBytes ros1() {
+  return MessageBytes(MessageEncoding::kRos1);
+}
+
+/// A motion to (x, y, z) without a turn.
+std::vector<double> shift(double x, double y = 0, double z = 0) {
+  return {x, y, z, 0, 0, 0, 1};
+}
+
+/// A bag of ROS 1 that is made message by message. Each message is recorded 5 s after its stamp,
+/// so that whoever takes one time for the other is found out.
+class MadeBag {
+ public:
+  explicit MadeBag(const std::filesystem::path& path) : path_(path), file_(path), writer_(file_) {
+    writer_.begin_chunk(Ros1Compression::kLz4);
+  }
+  void add(const std::string& topic, const std::string& type, double seconds,
+           const std::string& message) {
+    const auto id = static_cast<std::uint32_t>(std::find(topics_.begin(), topics_.end(), topic) -
+                                               topics_.begin());
+    if (id == topics_.size()) topics_.push_back(topic);
+    const auto field = [](const std::string& text) {
+      return words({static_cast<std::uint32_t>(text.size())}) + text;
+    };
+    writer_.message({id, topic, type, "", field("type=" + type)}, from_seconds(seconds + 5),
+                    message);
+  }
+  /// Two points, (10, y, 1) with `y` = 1000 * the time, and one without a return.
+  void cloud(double seconds, const std::string& frame = "lidar",
+             const std::string& topic = "/points") {
+    CloudHead head;
+    std::tie(head.seconds, head.nanoseconds) = stamp_of(seconds);
+    head.frame = frame;
+    head.width = 2;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    add(topic, "sensor_msgs/PointCloud2", seconds,
+        cloud_message(ros1(), head, floats({10, static_cast<float>(seconds), 1, nan, nan, nan})));
+  }
+  void odometry(double seconds, const std::vector<double>& motion,
+                const std::string& child = "lidar", const std::string& topic = "/odom") {
+    const auto [whole, part] = stamp_of(seconds);
+    add(topic, "nav_msgs/Odometry", seconds,
+        ros1().header(whole, part, "odom").text(child).motion(motion).bytes());
+  }
+  void tf(double seconds, const std::string& parent, const std::string& child,
+          const std::vector<double>& motion, const std::string& topic = "/tf") {
+    const auto [whole, part] = stamp_of(seconds);
+    MessageBytes message = ros1();
+    message.u32(1).header(whole, part, parent).text(child).motion(motion);
+    add(topic, "tf2_msgs/TFMessage", seconds, message.bytes());
+  }
+  std::string finish() {
+    writer_.finish();
+    file_.commit();
+    return path_.string();
+  }
+
+ private:
+  static std::pair<std::uint32_t, std::uint32_t> stamp_of(double seconds) {
+    const Nanoseconds stamp = from_seconds(seconds);
+    return {static_cast<std::uint32_t>(stamp / 1'000'000'000),
+            static_cast<std::uint32_t>(stamp % 1'000'000'000)};
+  }
+  std::filesystem::path path_;
+  FileWriter file_;
+  Ros1Writer writer_;
+  std::vector<std::string> topics_;
+};
+
+/// Four clouds from 100.1 s on, each 0.2 s later than the one before.
+void add_clouds(MadeBag& bag, const std::string& frame = "lidar") {
+  for (int i = 0; i < 4; ++i) bag.cloud(100.1 + 0.2 * i, frame);
+}
+
+Eigen::Vector3d position(const Sequence& sequence, std::size_t scan) {
+  return sequence.scans->pose(scan).translation();
+}
+
+std::string usage_error(const std::string& path, const SequenceOptions& options = {}) {
+  return message_of<UsageError>([&] { (void)open_sequence(path, options); });
+}
+
+std::string notes_of(const Sequence& sequence) {
+  return join(sequence.notes, "\n");
+}
+
+TEST_CASE("A bag is a sequence: its clouds at the poses of its odometry", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100, shift(0));
+  add_clouds(bag);
+  bag.odometry(101, shift(10));
+  const Sequence sequence = open_sequence(bag.finish(), {});
+  CHECK(sequence.name == "drive");
+  CHECK(sequence.layout == "bags");
+  CHECK(sequence.frames == "0:3:1");
+  CHECK(sequence.poses_file == "/odom");
+  REQUIRE(sequence.scans->size() == 4);
+  // Between the poses, by the stamps of the messages and not by the time of recording.
+  CHECK(position(sequence, 0).isApprox(Eigen::Vector3d(1, 0, 0), 1e-9));
+  CHECK(position(sequence, 3).isApprox(Eigen::Vector3d(7, 0, 0), 1e-9));
+  const Scan scan = sequence.scans->load(2);
+  CHECK(scan.name == "000002");
+  CHECK(scan.time_s == Approx(0.4));
+  REQUIRE(scan.size() == 1);  // The other point is no return.
+  CHECK(scan.points[0] == Eigen::Vector3f(10, 100.5F, 1));
+  CHECK(scan.stored_point_count == 2);
+  CHECK(sequence.records->records(2).size() == 2);
+  CHECK(sequence.records->place(2) == "drive.bag: /points, message 2");
+  CHECK(sequence.records->point_frame() == PointFrame::kSensor);
+  REQUIRE(sequence.motion != nullptr);
+  CHECK(sequence.motion->at(from_seconds(100.2))->translation().x() == Approx(2));
+  CHECK(sequence.stamps.at(1) == from_seconds(100.3));
+  check_says(notes_of(sequence), {"/points (sensor_msgs/PointCloud2, 4 messages)", "/odom"});
+}
+
+TEST_CASE("Frames of a bag are numbers of messages", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100, shift(0));
+  add_clouds(bag);
+  bag.odometry(101, shift(10));
+  const std::string path = bag.finish();
+  SequenceOptions options;
+  options.frames = parse_frame_range("1:3:2");
+  const Sequence sequence = open_sequence(path, options);
+  REQUIRE(sequence.scans->size() == 2);
+  CHECK(sequence.scans->load(1).name == "000003");
+  CHECK(sequence.scans->load(0).time_s == Approx(0.2));  // Since the first of all.
+  options.frames = parse_frame_range("2:9");
+  check_says(message_of<DataError>([&] { (void)open_sequence(path, options); }),
+             {"/points", "4 frames from 0 to 3"});
+}
+
+TEST_CASE("Poses of another frame go on by tf_static, also one that comes late", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  // The body turns from 0 to 90 degrees to the left; the sensor is 2 m ahead of it.
+  bag.odometry(100, kAtOrigin, "base");
+  add_clouds(bag);
+  bag.odometry(100.2, {0, 0, 0, 0, 0, std::sqrt(0.5), std::sqrt(0.5)}, "base");
+  bag.odometry(101, {0, 0, 0, 0, 0, std::sqrt(0.5), std::sqrt(0.5)}, "base");
+  bag.tf(200, "base", "mount", shift(1.5), "/tf_static");
+  bag.tf(200, "mount", "/lidar", shift(0.5), "/tf_static");
+  const Sequence sequence = open_sequence(bag.finish(), {});
+  const double half = std::sqrt(2.0);
+  CHECK(position(sequence, 0).isApprox(Eigen::Vector3d(half, half, 0), 1e-9));
+  CHECK(position(sequence, 1).isApprox(Eigen::Vector3d(0, 2, 0), 1e-9));
+  check_says(notes_of(sequence), {"'base'", "'lidar'", "taken from tf"});
+}
+
+TEST_CASE("Without odometry the frames of tf are followed from the root to the sensor", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.tf(0, "base", "lidar", shift(0, 0, 2), "/tf_static");
+  // The map corrects the odometry slowly; each step is interpolated on its own.
+  bag.tf(99, "map", "odom", shift(0, 10));
+  bag.tf(100, "odom", "base", shift(0));
+  bag.tf(100, "base", "wheel", shift(7));
+  add_clouds(bag);
+  bag.tf(101, "odom", "base", shift(10));
+  bag.tf(101, "map", "odom", shift(0, 14));
+  bag.tf(101, "odom", "base", shift(10));  // What several publishers say twice counts once.
+  SequenceOptions options;
+  options.max_gap_s = 5;
+  const Sequence sequence = open_sequence(bag.finish(), options);
+  CHECK(sequence.poses_file == "tf map -> lidar");
+  CHECK(position(sequence, 0).isApprox(Eigen::Vector3d(1, 12.2, 2), 1e-9));
+  CHECK(sequence.motion->span().first == from_seconds(100));
+}
+
+TEST_CASE("A bag without poses names what there is, and ways to poses", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  add_clouds(bag);
+  bag.tf(0, "base", "lidar", shift(0, 0, 2), "/tf_static");
+  const std::string path = bag.finish();
+  check_says(usage_error(path), {"drive.bag: there are no poses", "fixed in 'base'",
+                                 "/points (sensor_msgs/PointCloud2", "--pose-topic", "KISS-ICP",
+                                 "GLIM", "FAST-LIO", "docs/poses.md", "identity"});
+  SequenceOptions options;
+  options.poses = "identity";
+  const Sequence sequence = open_sequence(path, options);
+  CHECK(position(sequence, 3).isZero());
+  // A trajectory of another program, by time.
+  options.poses = folder.write("traj.txt", "100 0 0 0 0 0 0 1\n101 10 0 0 0 0 0 1\n").string();
+  const Sequence by_time = open_sequence(path, options);
+  CHECK(position(by_time, 1).isApprox(Eigen::Vector3d(3, 0, 0), 1e-9));
+  CHECK(by_time.poses_file == "traj.txt");
+  REQUIRE(by_time.input_files.size() == 2);
+  CHECK(by_time.input_files[0] == path);
+}
+
+TEST_CASE("Of several topics of a kind one is to be named", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100, shift(0), "lidar", "/a");
+  bag.odometry(100, shift(1), "lidar", "/b");
+  add_clouds(bag);
+  bag.cloud(100.5, "rear", "/rear_points");
+  bag.odometry(101, shift(10), "lidar", "/a");
+  bag.odometry(101, shift(11), "lidar", "/b");
+  const std::string path = bag.finish();
+  check_says(usage_error(path), {"/points (", "/rear_points (", "--topic"});
+  SequenceOptions options;
+  options.topic = "/poinst";
+  check_says(usage_error(path, options), {"--topic /poinst", "Did you mean '/points'?"});
+  options.topic = "/a";
+  check_says(usage_error(path, options), {"no topic with scans", "nav_msgs/Odometry"});
+  options.topic = "points";
+  check_says(usage_error(path, options), {"/a (", "/b (", "--pose-topic"});
+  options.pose_topic = "/b";
+  CHECK(position(open_sequence(path, options), 0).isApprox(Eigen::Vector3d(2, 0, 0), 1e-9));
+}
+
+TEST_CASE("Frames that do not fit are errors that name them", "[bags]") {
+  const TemporaryFolder folder;
+  SequenceOptions options;
+  {
+    MadeBag bag(folder / "unknown.bag");
+    bag.odometry(100, shift(0), "base");
+    add_clouds(bag);
+    bag.odometry(101, shift(10), "base");
+    const std::string path = bag.finish();
+    check_says(usage_error(path), {"/odom", "'base'", "'lidar'", "--T-sensor"});
+    options.T_sensor = "0,0,3,0,0,0,1";
+    CHECK(position(open_sequence(path, options), 0).isApprox(Eigen::Vector3d(1, 0, 3), 1e-9));
+  }
+  const auto data_error = [](const std::string& path) {
+    return message_of<DataError>([&] { (void)open_sequence(path, {}); });
+  };
+  {
+    MadeBag bag(folder / "mixed.bag");
+    bag.odometry(100, shift(0), "lidar");
+    bag.odometry(101, shift(1), "base");
+    add_clouds(bag);
+    check_says(data_error(bag.finish()), {"/odom, message 1", "'base'", "'lidar'"});
+  }
+  {
+    MadeBag bag(folder / "clouds.bag");
+    add_clouds(bag);
+    bag.cloud(100.9, "other");
+    check_says(data_error(bag.finish()), {"/points, message 4", "'other'", "'lidar'"});
+  }
+  {
+    MadeBag bag(folder / "parents.bag");
+    bag.tf(100, "odom", "lidar", shift(0));
+    bag.tf(100, "map", "lidar", shift(0));
+    add_clouds(bag);
+    check_says(data_error(bag.finish()), {"frame lidar", "odom", "map", "one parent"});
+  }
+  {
+    MadeBag bag(folder / "circle.bag");
+    bag.tf(100, "odom", "lidar", shift(0));
+    bag.tf(100, "lidar", "odom", shift(0));
+    add_clouds(bag);
+    check_says(data_error(bag.finish()), {"above itself"});
+  }
+}
+
+TEST_CASE("Scans without a pose, and messages without a point, are left out and said", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100.2, shift(0));
+  add_clouds(bag);
+  bag.add("/points", "sensor_msgs/PointCloud2", 100.8, cloud_message(ros1(), CloudHead{}, ""));
+  bag.add("/points", "sensor_msgs/PointCloud2", 100.9, "damaged");
+  bag.cloud(100.95);
+  bag.odometry(101, shift(10));
+  const Sequence sequence = open_sequence(bag.finish(), {});
+  REQUIRE(sequence.scans->size() == 4);
+  CHECK(sequence.scans->load(0).name == "000001");
+  CHECK(sequence.scans->load(3).name == "000006");
+  check_says(notes_of(sequence), {"2 messages of 7 left out", "1 without a point",
+                                  "1 that cannot be read, the first:", "message 5",
+                                  "1 of 5 scans have no pose: 1 before the first pose"});
+}
+
+TEST_CASE("Points in the frame that the poses are told in stand in the world", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100, shift(0), "body");
+  add_clouds(bag, "odom");
+  bag.odometry(101, shift(10), "body");
+  const std::string path = bag.finish();
+  const Sequence sequence = open_sequence(path, {});
+  CHECK(sequence.records->point_frame() == PointFrame::kWorld);
+  CHECK(sequence.scans->load(0).points.at(0).isApprox(Eigen::Vector3f(9, 100.1F, 1), 1e-5F));
+  check_says(notes_of(sequence), {"'odom'", "stand in the world", "--points sensor"});
+}
+
+TEST_CASE("A bag that was cut opens with what is there, and says so", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100, shift(0));
+  bag.odometry(101, shift(10));
+  add_clouds(bag);
+  const std::string path = bag.finish();
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 300);
+  const Sequence sequence = open_sequence(path, {});
+  CHECK(sequence.scans->size() == 4);
+  check_says(sequence.notes.at(0), {"drive.bag", "cut"});
+}
+
+}  // namespace
+}  // namespace raymoval::test

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/trajectories/stamps.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "tests/datasets/temporary_folder.h"
+
+using namespace raymoval;
+using namespace raymoval::test;
+
+TEST_CASE("times keep every digit of their text", "[trajectories]") {
+  CHECK(parse_stamp("1317384506.400000123") == 1317384506400000123);
+  CHECK(parse_stamp("1.317384506400000123e+09") == 1317384506400000123);
+  CHECK(parse_stamp("-0.5") == -500000000);
+  CHECK(parse_stamp("0.1234567895") == 123456790);
+  CHECK(parse_stamp(".5") == 500000000);
+  CHECK(parse_stamp("7.") == 7000000000);
+  CHECK(parse_stamp("1317384506400000123", TimeUnit::kNanoseconds) == 1317384506400000123);
+  CHECK(parse_stamp("1317384506400.25", TimeUnit::kMilliseconds) == 1317384506400250000);
+  CHECK(parse_stamp("25e-1", TimeUnit::kMicroseconds) == 2500);
+  CHECK(parse_stamp("0e999") == 0);
+  CHECK(parse_stamp("1e-999") == 0);
+}
+
+TEST_CASE("what is no time, or too far, is none", "[trajectories]") {
+  for (const char* text :
+       {"", ".", "-", "1x", "nan", "inf", "1e", "1.2.3", "0x10", "--1", "1e9999"}) {
+    INFO(text);
+    CHECK_FALSE(parse_stamp(text));
+  }
+  CHECK_FALSE(parse_stamp("1317384506400000123"));  // As seconds.
+  CHECK(parse_stamp("4400000000") == kMostStamp);
+  CHECK_FALSE(parse_stamp("4400000000.1"));
+  CHECK_FALSE(parse_stamp("-4400000001"));
+  CHECK_FALSE(parse_stamp("1e300"));
+}
+
+TEST_CASE("a stamp and its text are one", "[trajectories]") {
+  for (const Nanoseconds stamp : {Nanoseconds{0}, Nanoseconds{1}, Nanoseconds{-1},
+                                  Nanoseconds{-1500000000}, Nanoseconds{1317384506400000123}}) {
+    CHECK(parse_stamp(stamp_text(stamp)) == stamp);
+  }
+}
+
+TEST_CASE("the unit of times is told by their size, else by their spacing", "[trajectories]") {
+  CHECK(usual_time_unit(1317384506.4, 0.1) == TimeUnit::kSeconds);
+  CHECK(usual_time_unit(1317384506400.0, 100) == TimeUnit::kMilliseconds);
+  CHECK(usual_time_unit(1.3173845064e15, 1e5) == TimeUnit::kMicroseconds);
+  CHECK(usual_time_unit(1.3173845064e18, 1e8) == TimeUnit::kNanoseconds);
+  CHECK(usual_time_unit(0.0, 0.1) == TimeUnit::kSeconds);
+  CHECK(usual_time_unit(0.0, 100.0) == TimeUnit::kMilliseconds);
+  CHECK(usual_time_unit(0.0, 1e5) == TimeUnit::kMicroseconds);
+  // 2 s from the begin, which as seconds would be in 2033, but then poses were years apart.
+  CHECK(usual_time_unit(2e9, 1e8) == TimeUnit::kNanoseconds);
+  CHECK(usual_time_unit(0.0, 0.0) == TimeUnit::kSeconds);
+}
+
+TEST_CASE("names are times only if all of them look like times", "[trajectories]") {
+  using Stamps = std::vector<Nanoseconds>;
+  CHECK(stamps_in_names({"1317384506.400000123", "1317384506.500000000"}) ==
+        Stamps{1317384506400000123, 1317384506500000000});
+  CHECK(stamps_in_names({"1317384506.4", "1317384506.5"}) ==
+        Stamps{1317384506400000000, 1317384506500000000});
+  CHECK(stamps_in_names({"1317384506400000123"}) == Stamps{1317384506400000123});
+  CHECK(stamps_in_names({"1317384506_5000000", "1317384506_400000123"}) ==
+        Stamps{1317384506005000000, 1317384506400000123});
+  // Nanoseconds without leading zeros: as decimals these would run backwards.
+  CHECK(stamps_in_names({"1317384506.5000000", "1317384506.400000123"}) ==
+        Stamps{1317384506005000000, 1317384506400000123});
+  CHECK(stamps_in_names({"0.000000000", "0.100000000"}) == Stamps{0, 100000000});
+  for (const char* name : {"000123", "frame1.10", "1.10", "scan_7", "12345678901234567890", "",
+                           "1317384506.", ".5", "1317384506.4x", "2011_09_26"}) {
+    INFO(name);
+    CHECK_FALSE(stamps_in_names({name}));
+  }
+  CHECK_FALSE(stamps_in_names({"1317384506.400000000", "000001"}));
+  CHECK_FALSE(stamps_in_names({}));
+}
+
+TEST_CASE("files of times hold numbers or the dates of KITTI's raw data", "[trajectories]") {
+  const TemporaryFolder folder;
+  const auto dates = folder.write("timestamps.txt",
+                                  "2011-09-26 13:02:25.964389445\n2011-09-26 13:02:26.067698956\n");
+  // date -u -d "2011-09-26 13:02:25" +%s gives 1317042145.
+  CHECK(read_stamp_file(dates).stamps ==
+        std::vector<Nanoseconds>{1317042145964389445, 1317042146067698956});
+  const auto nanoseconds = folder.write("ns.txt", "1317384506400000123\n1317384506500000123\n");
+  CHECK(read_stamp_file(nanoseconds).stamps.back() == 1317384506500000123);
+  CHECK(read_stamp_file(nanoseconds).since_first.back() == 0.1);
+  const auto mixed = folder.write("mixed.txt", "2011-09-26 13:02:25.9\n# none\n7.5\n");
+  check_says(message_of<DataError>([&] { read_stamp_file(mixed); }),
+             {"mixed.txt: line 3", "'7.5' is no date"});
+  const auto bad = folder.write("bad.txt", "2011-13-26 13:02:25.9\n");
+  check_says(message_of<DataError>([&] { read_stamp_file(bad); }), {"bad.txt: line 1"});
+}
