@@ -27,8 +27,8 @@ std::string allowed_name(std::string name, const NameRules& rules) {
   return cut(name, rules.most_bytes);
 }
 
-/// The digits and the '_' that are put behind a name.
-constexpr std::size_t kSuffix = 12;
+/// Room for the '_' and the digits that are put behind a name.
+constexpr std::size_t kSuffix = 6;
 
 }  // namespace
 

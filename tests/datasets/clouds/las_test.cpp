@@ -5,11 +5,9 @@
 #include <random>
 
 #include "core/error.h"
-#include "core/files/files.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/las/las_layout.h"
 #include "datasets/clouds/las/las_notes.h"
-#include "datasets/clouds/las/reference_system.h"
 #include "tests/datasets/clouds/record_files.h"
 
 using namespace raymoval;
@@ -298,121 +296,4 @@ TEST_CASE("any cut and any flipped byte of a LAS file gives points or a DataErro
       }
     }
   }
-}
-
-TEST_CASE("any layout goes through .las, coordinates to the millimetre", "[las]") {
-  const TemporaryFolder folder;
-  std::mt19937 random(11);
-  for (int i = 0; i < 30; ++i) {
-    const PointRecords made = random_records(random);
-    write_records(folder / "a.las", made);
-    const PointRecords las = read_records(folder / "a.las");
-    REQUIRE(las.size() == made.size());
-    // Multiples of a quarter are multiples of a millimetre, save for what float64 rounds.
-    for (const char* axis : {"x", "y", "z"}) {
-      for (std::size_t point = 0; point < made.size(); ++point) {
-        CHECK(std::abs(column(las, axis)[point] - column(made, axis)[point]) < 1e-9);
-      }
-    }
-    for (const PointField& field : made.layout.fields) {
-      if (field.name.size() == 1 && field.name != "t") continue;
-      INFO(field.text());
-      const bool bytes = field.type == 'U' && field.size == 1;
-      const bool slot = field.name == "intensity" && field.count == 1 && field.type == 'U';
-      if (slot && field.size <= 2) {
-        CHECK(column(las, "intensity") == column(made, "intensity"));
-      } else if (field.count == 1 || bytes) {
-        CHECK(same_bytes(las, made, field.name == "intensity" ? "intensity_1" : field.name,
-                         field.name));
-      } else {
-        CHECK(las.layout.find({field.name + "_0"}) != nullptr);
-      }
-    }
-  }
-}
-
-TEST_CASE("LAS that is written says counts, bounds and offsets", "[las]") {
-  const TemporaryFolder folder;
-  PointRecords made;
-  for (const char* axis : {"x", "y", "z"}) made.layout.add(axis, 'F', 8);
-  made.layout.add("return_number", 'U', 1);
-  made.layout.add("intensity", 'F', 4);
-  const auto add = [&](double x, double y, double z, std::uint8_t number, float intensity) {
-    for (const double value : {x, y, z}) {
-      const auto* raw = reinterpret_cast<const std::byte*>(&value);
-      made.bytes.insert(made.bytes.end(), raw, raw + sizeof value);
-    }
-    made.bytes.push_back(static_cast<std::byte>(number));
-    const auto* raw = reinterpret_cast<const std::byte*>(&intensity);
-    made.bytes.insert(made.bytes.end(), raw, raw + sizeof intensity);
-    made.width = made.size();
-  };
-  add(691000.25, 5336000.5, -3, 1, 0.5F);
-  add(691001.25, 5336001.5, 4, 2, 0.25F);
-  add(691000.5, 5336000.75, 0, 2, 2.0F);
-  write_records(folder / "a.las", made, {.crs = "EPSG:32632", .intensity_scale = 100});
-  const std::string bytes = read_text(folder / "a.las");
-  const auto number = [&](std::size_t at, auto zero) {
-    std::memcpy(&zero, bytes.data() + at, sizeof zero);
-    return zero;
-  };
-  CHECK(number(6, std::uint16_t{}) == 16);  // WKT.
-  CHECK(number(104, std::uint8_t{}) == 6);
-  CHECK(number(107, std::uint32_t{}) == 0);  // Counts of the old formats.
-  CHECK(number(247, std::uint64_t{}) == 3);
-  CHECK(number(255, std::uint64_t{}) == 1);
-  CHECK(number(263, std::uint64_t{}) == 2);
-  CHECK(number(131, 0.0) == 0.001);
-  CHECK(number(155, 0.0) == 0);  // Near enough to 0.
-  CHECK(number(163, 0.0) == 5336000);
-  CHECK(std::abs(number(179, 0.0) - 691001.25) < 1e-6);
-  CHECK(std::abs(number(187, 0.0) - 691000.25) < 1e-6);
-  CHECK(std::abs(number(211, 0.0) - 4) < 1e-9);
-  CHECK(std::abs(number(219, 0.0) + 3) < 1e-9);
-  const PointRecords las = read_records(folder / "a.las");
-  CHECK(las.las->reference_system == *epsg_text(32632));
-  CHECK(column(las, "intensity") == std::vector<double>{50, 25, 200});
-  CHECK(column(las, "intensity_1") == std::vector<double>{0.5, 0.25, 2});
-  CHECK(column(las, "y") == column(made, "y"));
-  // What is written of a LAS file keeps its scale and reference system.
-  write_records(folder / "b.las", las);
-  CHECK(read_records(folder / "b.las").las->reference_system == *epsg_text(32632));
-  CHECK(read_records(folder / "b.las").bytes == las.bytes);
-}
-
-TEST_CASE("what LAS cannot hold is an error before the file appears", "[las]") {
-  const TemporaryFolder folder;
-  PointRecords made;
-  for (const char* axis : {"x", "y", "z"}) made.layout.add(axis, 'F', 8);
-  made.layout.add("return_number", 'U', 1);
-  made.bytes.resize(2 * made.layout.row_bytes);
-  const auto says = [&] {
-    const std::string message =
-        message_of<DataError>([&] { write_records(folder / "a.las", made); });
-    CHECK_FALSE(std::filesystem::exists(folder / "a.las"));
-    return message;
-  };
-  made.set_value(1, made.layout.fields[0], 3e6);
-  check_says(says(), {"point 1 has x = 3000000", "2147483.647 m", "Nothing was changed"});
-  made.set_value(1, made.layout.fields[0], std::nan(""));
-  check_says(says(), {"x = nan", "not finite"});
-  made.set_value(1, made.layout.fields[0], 0);
-  made.set_value(1, made.layout.fields[3], 16);
-  check_says(says(), {"point 1 has return_number 16", "4 bits"});
-}
-
-TEST_CASE("a reference system is a zone, WKT or a file with it", "[las]") {
-  const TemporaryFolder folder;
-  check_says(*epsg_text(32701), {"WGS 84 / UTM zone 1S", "\"central_meridian\",-177", "10000000"});
-  check_says(*epsg_text(25833), {"ETRS89 / UTM zone 33N", "\"central_meridian\",15", "4258"});
-  CHECK(reference_system_text("EPSG:32632") == *epsg_text(32632));
-  const std::string wkt = "LOCAL_CS[\"mine\",UNIT[\"metre\",1]]";
-  CHECK(reference_system_text(wkt) == wkt);
-  CHECK(reference_system_text(folder.write("a.wkt", wkt).string()) == wkt);
-  check_says(message_of<UsageError>([] { reference_system_text("EPSG:31468"); }),
-             {"'EPSG:31468'", "gdalsrsinfo -o wkt1 EPSG:31468"});
-  check_says(message_of<UsageError>([] { reference_system_text("utm"); }), {"'utm' is no"});
-  check_says(message_of<UsageError>(
-                 [&] { reference_system_text(folder.write("b.wkt", "none").string()); }),
-             {"b.wkt", "WKT"});
 }
