@@ -23,24 +23,28 @@ TEST_CASE("MCAP that is cut at any byte is read as far as it goes, and says so",
   const std::string name = GENERATE("chunks", "zstd", "no_chunks");
   const std::string whole = test::file_bytes(test::recording("bag_mcap/" + name + ".mcap"));
   const TemporaryFolder folder;
-  std::uint64_t before = 0;
-  for (std::size_t size = 0; size < whole.size(); ++size) {
+  // The file gets shorter and shorter, which is quicker than to write it again.
+  const auto path = folder.write("cut.mcap", whole);
+  std::uint64_t before = 5;
+  for (std::size_t size = whole.size(); size-- > 0;) {
     CAPTURE(name, size);
-    const std::uint64_t count = test::read_damaged(folder.write("cut.mcap", whole.substr(0, size)));
-    CHECK(count >= before);  // More bytes never give fewer messages.
+    std::filesystem::resize_file(path, size);
+    const std::uint64_t count = test::read_damaged(path);
+    CHECK(count <= before);  // Fewer bytes never give more messages.
     before = count;
+    if (size == whole.size() - 1) CHECK(count == 5);
   }
-  CHECK(before == 5);
+  CHECK(before == 0);
 }
 
 TEST_CASE("A false byte in a MCAP file never gives a message that was not published",
           "[bags][mcap]") {
   const std::string whole = test::file_bytes(test::recording("bag_mcap/chunks.mcap"));
   const TemporaryFolder folder;
-  for (std::size_t at = 0; at < whole.size(); at += 3) {
+  for (std::size_t at = 0; at < whole.size(); at += 11) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
-    const auto path = folder.write("damaged.mcap", damaged);
+    const auto path = folder.write("damaged_" + std::to_string(at) + ".mcap", damaged);
     try {
       const auto bag = open_bag(path);
       for (std::size_t topic = 0; topic < bag->topics().size(); ++topic) {

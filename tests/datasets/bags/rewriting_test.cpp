@@ -111,9 +111,9 @@ TEST_CASE("Of a cut recording what can be read is written, and damage is said",
           "[bags][rewriting]") {
   const TemporaryFolder folder;
   const std::string whole = test::file_bytes(test::recording("bag_mcap/chunks.mcap"));
-  for (std::size_t size = 600; size < whole.size(); size += 97) {
+  for (std::size_t size = 600; size < whole.size(); size += 211) {
     CAPTURE(size);
-    const auto input = folder.write("in.mcap", whole.substr(0, size));
+    const auto input = folder.write("in_" + std::to_string(size) + ".mcap", whole.substr(0, size));
     try {
       const RewrittenBag result = rewrite_bag(input, folder / "out.mcap", same);
       CHECK_FALSE(result.damage.empty());
