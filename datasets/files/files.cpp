@@ -76,10 +76,12 @@ StampColumn scan_stamps(const fs::path& folder, const std::vector<NumberedFile>&
 }
 
 /// What is known of the chosen scans.
-ScanKeys scan_keys(const std::vector<NumberedFile>& chosen, std::size_t all,
+ScanKeys scan_keys(const std::vector<NumberedFile>& chosen, const std::vector<NumberedFile>& all,
                    const StampColumn& times, double period_s) {
   ScanKeys keys;
-  keys.row_count = all;
+  keys.row_count = all.size();
+  keys.extent = counted_text(all.size(), "scan") + ", " + all.front().path.filename().string() +
+                " to " + all.back().path.filename().string();
   for (const NumberedFile& file : chosen) {
     const auto row = static_cast<std::size_t>(file.number);
     keys.rows.push_back(row);
@@ -114,8 +116,8 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
   const auto files = scan_files(folder, input_files);
   const StampColumn times = scan_stamps(folder, files, input_files);
   const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
-  const ScanKeys keys = scan_keys(chosen.files, files.size(), times,
-                                  settings.scan_period_s.value_or(kUsualScanPeriod));
+  const ScanKeys keys =
+      scan_keys(chosen.files, files, times, settings.scan_period_s.value_or(kUsualScanPeriod));
   std::optional<PoseFile> file;
   if (place.file) file = read_pose_file(*place.file, {settings.pose_format});
   const ScanPoses poses =

@@ -61,6 +61,8 @@ ScanKeys scan_keys(const std::vector<NumberedFile>& files, const std::vector<Num
   ScanKeys keys;
   keys.row_count = static_cast<std::size_t>(files.back().number) + 1;
   keys.more_rows = true;
+  keys.extent =
+      counted_text(files.size(), "scan") + " up to frame " + std::to_string(files.back().number);
   for (const NumberedFile& file : chosen) {
     const auto row = static_cast<std::size_t>(file.number);
     keys.rows.push_back(row);

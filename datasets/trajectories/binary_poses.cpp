@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/trajectories/binary_poses.h"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/clouds/numpy/npy_array.h"
 #include "datasets/clouds/record_file.h"
 #include "datasets/trajectories/pose_columns.h"
 
@@ -15,56 +15,6 @@ namespace raymoval::pose_formats {
 namespace {
 
 constexpr std::string_view kNumpyMagic = "\x93NUMPY";
-
-/// What the head of an .npy file says, as far as arrays of matrices need it.
-struct ArrayHead {
-  std::string type;  ///< "<f8".
-  bool fortran_order = false;
-  std::vector<std::size_t> shape;
-  std::size_t data = 0;  ///< First byte of the values.
-};
-
-[[noreturn]] void throw_head(const std::filesystem::path& path) {
-  throw DataError(path.string() +
-                  ": the head of the .npy file is damaged; write it again with "
-                  "numpy.save.");
-}
-
-/// The text behind `key` in the head, up to `end`.
-std::string value_of(const std::string& head, const std::string& key, char begin, char end,
-                     const std::filesystem::path& path) {
-  const std::size_t at = head.find("'" + key + "'");
-  const std::size_t colon = at == std::string::npos ? at : head.find(':', at);
-  const std::size_t from = colon == std::string::npos ? colon : head.find(begin, colon);
-  const std::size_t to = from == std::string::npos ? from : head.find(end, from + 1);
-  if (to == std::string::npos) throw_head(path);
-  return head.substr(from + 1, to - from - 1);
-}
-
-ArrayHead parse_head(const std::string& bytes, const std::filesystem::path& path) {
-  const auto byte = [&](std::size_t at) {
-    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at]));
-  };
-  if (bytes.size() < 12) throw_head(path);
-  const bool first_version = byte(6) == 1;
-  const std::size_t begin = first_version ? 10 : 12;
-  const std::size_t length =
-      byte(8) + 256 * byte(9) + (first_version ? 0 : 65536 * (byte(10) + 256 * byte(11)));
-  if (length > bytes.size() - begin) throw_head(path);
-  const std::string head = bytes.substr(begin, length);
-  ArrayHead array;
-  array.data = begin + length;
-  array.type = value_of(head, "descr", '\'', '\'', path);
-  array.fortran_order = value_of(head, "fortran_order", ' ', ',', path).starts_with("True");
-  for (const std::string_view size : split(value_of(head, "shape", '(', ')', path), ',')) {
-    const auto words = split_blanks(size);
-    if (words.empty()) continue;
-    const auto number = parse_number<std::size_t>(words.front());
-    if (!number) throw_head(path);
-    array.shape.push_back(*number);
-  }
-  return array;
-}
 
 double number_at(const char* bytes, std::size_t size, bool big_endian) {
   char place[8];
@@ -79,31 +29,36 @@ double number_at(const char* bytes, std::size_t size, bool big_endian) {
   return number;
 }
 
-/// An array N x 4 x 4, N x 3 x 4, N x 12 or N x 16.
-PoseFile read_array(const std::filesystem::path& path) {
-  const auto raw = read_bytes(path);
-  const std::string bytes(reinterpret_cast<const char*>(raw.data()), raw.size());
-  const ArrayHead head = parse_head(bytes, path);
-  std::size_t numbers = 1;
-  for (std::size_t i = 1; i < head.shape.size(); ++i) {
-    numbers = head.shape[i] > 16 ? 17 : std::min<std::size_t>(numbers * head.shape[i], 17);
-  }
-  const bool form = head.shape.size() == 2 || (head.shape.size() == 3 && head.shape[2] == 4);
-  if (!form || (numbers != 12 && numbers != 16)) {
-    std::vector<std::string> sizes;
-    for (const std::size_t size : head.shape) sizes.push_back(std::to_string(size));
-    throw DataError(path.string() + ": is an array of " + join(sizes, " x ") +
+/// How many numbers a pose has in an array N x 4 x 4, N x 3 x 4, N x 12 or N x 16.
+/// @throws DataError for arrays of another shape or type
+std::size_t numbers_of_pose(const NpyHead& head, const std::string& where) {
+  const std::vector<std::uint64_t>& shape = head.shape;
+  const bool plane = shape.size() == 2 && (shape[1] == 12 || shape[1] == 16);
+  const bool matrices = shape.size() == 3 && (shape[1] == 3 || shape[1] == 4) && shape[2] == 4;
+  if (!plane && !matrices) {
+    throw DataError(where + ": is an array of " + head.shape_text() +
                     "; expected N x 4 x 4 or N x 3 x 4 matrices.");
   }
-  const std::string kind = head.type.size() == 3 ? head.type.substr(1) : "";
-  if ((kind != "f8" && kind != "f4") || head.fortran_order) {
-    throw DataError(path.string() + ": holds numbers of type '" + head.type +
-                    (head.fortran_order ? "' in Fortran order" : "'") +
-                    "; expected float64 or float32 in C order.");
+  const bool real = !head.type.structured && head.type.fields.front().field.type == 'F';
+  if (!real || head.type.fields.front().field.count != 1 || head.by_columns) {
+    throw DataError(
+        where +
+        (head.by_columns ? ": is stored in Fortran order" : ": does not hold real numbers") +
+        "; expected float64 or float32 in C order.");
   }
-  const std::size_t size = kind == "f8" ? 8 : 4, row = numbers * size;
-  const std::size_t count = (bytes.size() - head.data) / row;
-  if (head.shape.front() != count || (bytes.size() - head.data) % row != 0) {
+  return static_cast<std::size_t>(plane ? shape[1] : 4 * shape[1]);
+}
+
+PoseFile read_array(const std::filesystem::path& path) {
+  const auto raw = read_bytes(path);
+  const std::string_view bytes(reinterpret_cast<const char*>(raw.data()), raw.size());
+  const RecordReading reading;
+  const NpyHead head = npy_head({path, bytes, reading});
+  const std::size_t numbers = numbers_of_pose(head, path.string());
+  const NpyField& number = head.type.fields.front();
+  const auto size = static_cast<std::size_t>(number.field.size);
+  const std::size_t count = head.body.size() / (numbers * size);
+  if (head.shape.front() != count || head.body.size() % (numbers * size) != 0) {
     throw DataError(path.string() + ": says that it holds " + grouped_text(head.shape.front()) +
                     " poses, but has the bytes of " + grouped_text(count) +
                     "; the file looks cut.");
@@ -116,8 +71,7 @@ PoseFile read_array(const std::filesystem::path& path) {
   std::vector<double> values(numbers);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < numbers; ++k) {
-      values[k] =
-          number_at(bytes.data() + head.data + i * row + k * size, size, head.type.front() == '>');
+      values[k] = number_at(head.body.data() + (i * numbers + k) * size, size, number.big_endian);
     }
     PoseFile::Row pose;
     pose.line = i + 1;
@@ -185,7 +139,6 @@ std::optional<PoseFile> read_binary_poses(const std::filesystem::path& path,
     return file;
   };
   if (given == "npy" || (given.empty() && head.starts_with(kNumpyMagic))) {
-    if (!head.starts_with(kNumpyMagic)) throw_head(path);
     return name(read_array(path), "npy");
   }
   const bool is_pcd =

@@ -84,9 +84,11 @@ ScanPoses one_for_all(const Pose& pose, const ScanKeys& scans) {
                        "times.txt (a time a line), or name their files by time."
                      : " Take the file that belongs to these scans.";
   throw DataError(file.path.string() + ": holds " + grouped_text(file.rows.size()) +
-                  " poses; expected one for each scan, which is " +
-                  (scans.more_rows ? "at least " : "") + grouped_text(scans.row_count) + "." +
-                  remedy);
+                  " poses, but there are " +
+                  (scans.extent.empty() ? counted_text(scans.row_count, "scan") : scans.extent) +
+                  (scans.more_rows ? "; expected a row for each frame number from 0, at least "
+                                   : "; expected a row for each scan in the order of the names, ") +
+                  grouped_text(scans.row_count) + "." + remedy);
 }
 
 }  // namespace

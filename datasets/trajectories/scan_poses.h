@@ -29,6 +29,7 @@ struct ScanKeys {
   std::vector<std::size_t> rows;
   std::size_t row_count = 0;  ///< Rows that the file has at least then; the highest of `rows` + 1.
   bool more_rows = false;     ///< Whether the file may have more of them.
+  std::string extent;         ///< For messages: "2 scans, a.pcd to b.pcd".
   /// The time of each scan, on a clock of its own. Empty if scans have no times.
   std::vector<Nanoseconds> stamps;
   /// Seconds since the first scan of the data set, of each scan; assumed if nobody knows them.

@@ -30,6 +30,7 @@ for page in "$pages"/*.md; do
     quick=(--quiet)
     [[ ${words[0]} != clean ]] || quick+=(--method raymoval:online)
     expect 0 "" "${words[@]}" "${quick[@]}"
+    cp out.txt said.txt
     for ((i = 1; i + 1 < ${#words[@]}; ++i)); do
       case ${words[i]} in
         -o | --dynamic | --labelled | --scans | --html | --picture)
@@ -37,11 +38,14 @@ for page in "$pages"/*.md; do
       esac
     done
     if [[ " ${words[*]} " == *" --scans "* && ${words[0]} == clean ]]; then
-      opened=$(grep -oP '(?<=open with: raymoval ).*' out.txt)
+      opened=$(grep -oP '(?<=open with: raymoval ).*' said.txt)
       expect 0 "0 findings" $opened --quiet
+      expect 0 "" clean ${opened#inspect } --method noop --quiet -o again.ply
     fi
   done < <(lines "$page")
   kept=$(ls static.* 2>/dev/null) removed=$(ls removed.* 2>/dev/null)
+  [[ ! -e again.ply ]] || holds "$name: the cleaned scans have what the map has" \
+    test "$(points again.ply)" -eq "$(points "$kept")"
   holds "$name: no point is lost" test "$(($(points "$kept") + $(points "$removed")))" -eq "$all"
   cd "$work" || exit 1
 done

@@ -223,7 +223,7 @@ TEST_CASE("points in the world frame are named", "[inspect]") {
   EditedSequence drive = good_drive();
   drive.each_point(
       [](const Scan& scan, const Eigen::Vector3d& p) { return scan.T_world_sensor * p; });
-  check_finds(drive.inspected(), "points-in-world", "inverse of each pose");
+  check_finds(drive.inspected(), "points-in-world", "--points world");
 }
 
 TEST_CASE("poses of another sequence are named", "[inspect]") {

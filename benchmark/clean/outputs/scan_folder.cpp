@@ -26,8 +26,8 @@ constexpr const char* kSettings = "sequence.json";
 constexpr const char* kOwnPoses = "poses.txt";
 
 /// Settings that are about poses or frames, which a pose file of our own takes the place of.
-constexpr std::array kPoseSettings = {"poses",       "frames",  "T_sensor",       "time_offset",
-                                      "pose_format", "max_gap", "poses_are_lidar"};
+constexpr std::array kPoseSettings = {"poses",       "frames",    "T_sensor",       "time_offset_s",
+                                      "pose_format", "max_gap_s", "poses_are_lidar"};
 
 /// `path` relative to `root`; nothing if it stands elsewhere.
 std::optional<fs::path> relative_to(const fs::path& path, const fs::path& root) {

@@ -80,9 +80,7 @@ MapRows::MapRows(const Sequence& sequence, Coordinates coordinates, Progress& pr
                  const std::atomic<bool>& cancel)
     : sequence_(sequence) {
   if (sequence.records == nullptr) {
-    const bool with_intensity =
-        sequence.scans->size() > 0 && !sequence.scans->load(0).reflectance.empty();
-    layout_ = plain_layout(with_intensity, coordinates);
+    layout_ = plain_layout(coordinates);
     is_widened_ = coordinates == Coordinates::kDouble;
     return;
   }

@@ -23,7 +23,8 @@ struct ScanRows {
 /// - x, y and z are those of the world frame. Points that are stored in the world frame stay as
 ///   they are.
 /// - normals of points that are stored in the sensor frame are turned with their scan.
-/// Points that have no records, such as those of a scene in memory, have x, y, z and intensity.
+/// Points that have no records, such as those of a scene in memory, have x, y, z and intensity (0
+/// in scans without reflectance).
 class MapRows {
  public:
   /// Looks at the fields of all scans. Those of the first scan count.

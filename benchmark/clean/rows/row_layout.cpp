@@ -52,12 +52,12 @@ RecordLayout map_layout(const RecordLayout& stored, PointFrame frame, Coordinate
   return layout;
 }
 
-RecordLayout plain_layout(bool with_intensity, Coordinates coordinates) {
+RecordLayout plain_layout(Coordinates coordinates) {
   RecordLayout layout;
   for (const char* axis : {"x", "y", "z"}) {
     layout.add(axis, 'F', coordinates == Coordinates::kDouble ? 8 : 4);
   }
-  if (with_intensity) layout.add("intensity", 'F', 4);
+  layout.add("intensity", 'F', 4);
   return layout;
 }
 

@@ -20,8 +20,8 @@ namespace raymoval {
 RecordLayout map_layout(const RecordLayout& stored, PointFrame frame, Coordinates coordinates,
                         const std::string& where);
 
-/// The layout of a map of points that have no records: x y z, and intensity if they have it.
-RecordLayout plain_layout(bool with_intensity, Coordinates coordinates);
+/// The layout of a map of points that have no records: x y z intensity.
+RecordLayout plain_layout(Coordinates coordinates);
 
 /// What tells the fields of `layout` from those of `expected`, without regard of their order and
 /// place: "has no field ring", "has the field rgb as well". Empty if they are the same.

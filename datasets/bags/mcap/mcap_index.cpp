@@ -54,7 +54,7 @@ class McapIndex::Walk {
     }
     for (std::uint64_t at = kMcapMagic.size(); at != 0;) at = step(at);
     for (const auto& [id, channel] : channels_) topic(channel);
-    if (!summary_ && !has_end_ && damage_.empty()) note_no_end();
+    if (damage_.empty() && !(has_end_ && has_mcap_footer(file_))) note_no_end();
     const std::uint64_t found = index_.messages_.size();
     if (summary_ && summary_->messages && *summary_->messages != found) {
       if (used_indexes_) return false;
@@ -97,7 +97,7 @@ class McapIndex::Walk {
   void note_no_end() {
     damage_.add(file_.bytes().path().string() + ": ends at byte " +
                 grouped_text(file_.bytes().size()) +
-                " without a record that ends it: it is cut, or its recorder was stopped; what "
+                " without the footer of a MCAP file: it is cut, or its recorder was stopped; what "
                 "stands before is read.");
   }
 

@@ -34,6 +34,9 @@ struct McapSummary {
   std::uint64_t begin = 0;                         ///< Where it begins.
 };
 
+/// Whether the file ends with a footer, as one does that was written to its end.
+bool has_mcap_footer(const McapFile& file);
+
 /// @return nothing if the file has no summary, or one that is damaged. @throws UnreadableError
 std::optional<McapSummary> read_mcap_summary(const McapFile& file);
 

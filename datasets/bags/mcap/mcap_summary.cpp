@@ -29,13 +29,10 @@ void add_record(McapSummary& summary, const McapRecord& record, const std::strin
 McapSummary read_summary(const McapFile& file) {
   const BagFile& bytes = file.bytes();
   const std::string name = bytes.path().string();
-  if (bytes.size() < kMcapMagic.size() + kMcapEndSize) throw DataError(name + ": has no end.");
+  if (!has_mcap_footer(file)) throw DataError(name + ": has no footer.");
   const std::uint64_t footer_begin = bytes.size() - kMcapEndSize;
   const std::string end = bytes.read(footer_begin, kMcapEndSize);
   const McapPlace place = file.record(footer_begin);
-  if (!end.ends_with(kMcapMagic) || place.op != McapOp::kFooter || place.size != 20) {
-    throw DataError(name + ": has no footer.");
-  }
   const McapFooter footer = read_mcap_footer(file.content(place), file.where(place));
   if (footer.summary_start < kMcapMagic.size() || footer.summary_start >= footer_begin) {
     throw DataError(name + ": has no summary.");
@@ -59,6 +56,14 @@ McapSummary read_summary(const McapFile& file) {
 }
 
 }  // namespace
+
+bool has_mcap_footer(const McapFile& file) {
+  const BagFile& bytes = file.bytes();
+  if (bytes.size() < kMcapMagic.size() + kMcapEndSize) return false;
+  const auto footer = if_whole([&] { return file.record(bytes.size() - kMcapEndSize); });
+  return footer && footer->op == McapOp::kFooter && footer->size == 20 &&
+         bytes.read(bytes.size() - kMcapMagic.size(), kMcapMagic.size()) == kMcapMagic;
+}
 
 std::optional<McapSummary> read_mcap_summary(const McapFile& file) {
   return if_whole([&] { return read_summary(file); });

@@ -15,19 +15,6 @@ namespace {
 
 using Kind = PythonValue::Kind;
 
-struct NpyHead {
-  NpyType type;
-  bool by_columns = false;  ///< Fortran order.
-  std::vector<std::uint64_t> shape;
-  std::string_view body;
-
-  [[nodiscard]] std::string shape_text() const {
-    std::vector<std::string> lengths;
-    for (const std::uint64_t length : shape) lengths.push_back(grouped_text(length));
-    return lengths.empty() ? "a single value" : join(lengths, " x ");
-  }
-};
-
 /// The text of the head, and what follows it.
 std::pair<std::string_view, std::string_view> head_and_body(const CloudBytes& file) {
   const std::string where = file.path.string();
@@ -51,7 +38,15 @@ std::pair<std::string_view, std::string_view> head_and_body(const CloudBytes& fi
   return {file.text.substr(8 + bytes, length), file.text.substr(8 + bytes + length)};
 }
 
-NpyHead read_head(const CloudBytes& file) {
+}  // namespace
+
+std::string NpyHead::shape_text() const {
+  std::vector<std::string> lengths;
+  for (const std::uint64_t length : shape) lengths.push_back(grouped_text(length));
+  return lengths.empty() ? "a single value" : join(lengths, " x ");
+}
+
+NpyHead npy_head(const CloudBytes& file) {
   const std::string where = file.path.string();
   const auto [text, body] = head_and_body(file);
   const PythonValue head = parse_python_value(text, where);
@@ -70,6 +65,8 @@ NpyHead read_head(const CloudBytes& file) {
   }
   return result;
 }
+
+namespace {
 
 /// The names and counts of `columns` columns of an array.
 std::vector<PointField> column_fields(const CloudBytes& file, std::uint64_t columns) {
@@ -136,7 +133,7 @@ void check_bytes(const CloudBytes& file, const NpyHead& head, std::uint64_t poin
 }  // namespace
 
 NpyPoints npy_points(const CloudBytes& file) {
-  const NpyHead head = read_head(file);
+  const NpyHead head = npy_head(file);
   const bool structured = head.type.structured;
   std::vector<std::uint64_t> lengths = head.shape;
   std::uint64_t columns = 1;

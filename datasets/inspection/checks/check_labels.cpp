@@ -13,7 +13,6 @@
 #include "core/files/files.h"
 #include "core/scan/voxel_key.h"
 #include "core/text.h"
-#include "datasets/clouds/cloud_file.h"
 #include "datasets/inspection/checks/checks.h"
 
 namespace raymoval::inspection {
@@ -184,13 +183,16 @@ std::vector<float> stored_intensity(const Samples& samples) {
   std::vector<float> all;
   const std::size_t last = samples.size() - 1;
   for (const std::size_t scan : std::set<std::size_t>{0, last / 2, last}) {
-    std::vector<float> values;
-    if (!samples.files().empty()) {
-      values = read_cloud(samples.files()[scan].path).intensity;
+    if (samples.sequence().records != nullptr) {
+      const PointRecords records = samples.sequence().records->records(scan);
+      const PointField* intensity = records.layout.find(intensity_names());
+      for (std::size_t i = 0; intensity != nullptr && i < records.size(); ++i) {
+        all.push_back(static_cast<float>(records.value(i, *intensity)));
+      }
     } else if (samples.scans().count(scan) > 0) {
-      values = samples.scans().at(scan).reflectance;
+      const std::vector<float>& values = samples.scans().at(scan).reflectance;
+      all.insert(all.end(), values.begin(), values.end());
     }
-    all.insert(all.end(), values.begin(), values.end());
   }
   return all;
 }

@@ -46,7 +46,7 @@ TEST_CASE("a folder of scans inside a sequence leads to the sequence", "[layouts
   CHECK(open_sequence(drive + "/velodyne", {}).layout == "files");
   // Scans below a folder of another name belong to nothing.
   write_cloud(folder / "loose.bin", {{1, 2, 3}});
-  check_says(path_error(folder.text()), {"there is no pose file 'poses.txt'", "no .txt file"});
+  check_says(path_error(folder.text()), {"there is no pose file 'poses.txt'", "found no .txt"});
 }
 
 TEST_CASE("a name near that of a scene is told", "[layouts]") {

@@ -53,7 +53,8 @@ TEST_CASE("a rotation may deviate by a thousandth", "[poses]") {
 TEST_CASE("times of poses are finite and increase", "[poses]") {
   const std::string rest = " 0 0 0 0 0 0 1\n";
   check_says(tum_says("5" + rest + "5" + rest), {"line 2: time 5.000000000 s is that of the row"});
-  check_says(tum_says("1" + rest + "5" + rest + "3" + rest), {"line 3: time 3.000000000 s is before"});
+  check_says(tum_says("1" + rest + "5" + rest + "3" + rest),
+             {"line 3: time 3.000000000 s is before"});
   check_says(tum_says("nan" + rest), {"line 1", "not finite"});
   check_says(tum_says("5" + rest + "inf" + rest), {"line 2", "not finite"});
   check_says(tum_says("0 0 0 0 nan 0 0 1\n"), {"line 1: the pose holds a number that is not"});

@@ -14,7 +14,7 @@ using namespace raymoval::test;
 
 namespace {
 
-constexpr double kSpeed = 10.0, kTurning = 0.5, kPeriod = 0.1, kWall = 100.0;
+constexpr double kSpeed = 10.0, kTurning = -0.2, kPeriod = 0.1, kWall = 100.0;
 constexpr int kScans = 5, kPoints = 50;
 constexpr double kStart = 1600000000.0;
 

@@ -96,7 +96,7 @@ TEST_CASE("stamped poses without times of scans go by row", "[trajectories]") {
   CHECK(positions(sequence) == std::vector<double>{1, 2});
   CHECK(sequence.scans->load(1).time_s == 0.5);
   folder.write("poses.txt", trajectory());
-  check_says(open_error(folder), {"holds 11 poses", "which is 2", "times.txt", "name their files"});
+  check_says(open_error(folder), {"holds 11 poses", "2 scans", "times.txt", "name their files"});
   SequenceOptions options;
   options.time_offset_s = 1.0;
   folder.write("poses.txt", kIdentityRow + kIdentityRow);
@@ -127,7 +127,9 @@ TEST_CASE("poses of a body are taken to its sensor", "[trajectories]") {
   SequenceOptions options;
   options.T_sensor = "2,0,0,0,0,0,1";
   const auto position = [&] {
-    return open_sequence(folder.text(), options).scans->pose(0).translation();
+    const Sequence sequence = open_sequence(folder.text(), options);
+    const Pose pose = sequence.scans->pose(0);
+    return Eigen::Vector3d(pose.translation());
   };
   CHECK((position() - Eigen::Vector3d(1, 2, 0)).norm() < 1e-12);
   folder.write("T.txt", "# of the LiDAR\n1 0 0 2\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");

@@ -8,6 +8,7 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "datasets/clouds/record_file.h"
+#include "datasets/world_axes/gravity.h"
 #include "tests/benchmark/clean/recorded_scans.h"
 #include "tests/datasets/temporary_folder.h"
 

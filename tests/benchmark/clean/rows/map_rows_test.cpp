@@ -149,12 +149,15 @@ TEST_CASE("A scan with other fields is an error that names them; their order doe
                     Contains("has uint8 ring in place of uint16 ring"));
 }
 
-TEST_CASE("Without records a map has x, y, z and the reflectance of the first scan") {
+TEST_CASE("Without records a map has x, y, z and intensity") {
   auto scans = std::make_shared<RecordedScans>(
       std::vector{records_of(driver_layout(), {{1, 2, 3, 0.5, 7, 9}})}, std::vector{turned()});
   Sequence sequence = sequence_of(scans);
   sequence.records = nullptr;
   const MapRows rows(sequence, Coordinates::kFloat, no_progress(), kGoOn);
-  CHECK(rows.layout().fields.size() == 3);
-  CHECK(value_of(rows.rows(scans->load(0), nullptr).rows, 0, "x") == 8.0);
+  Scan scan = scans->load(0);
+  CHECK(value_of(rows.rows(scan, nullptr).rows, 0, "x") == 8.0);
+  CHECK(value_of(rows.rows(scan, nullptr).rows, 0, "intensity") == 0.0);
+  scan.reflectance = {0.75F};
+  CHECK(value_of(rows.rows(scan, nullptr).rows, 0, "intensity") == 0.75);
 }

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "datasets/bags/mcap/mcap_bag.h"
+#include "datasets/bags/mcap/mcap_records.h"
+#include "tests/datasets/bags/recordings.h"
+#include "tests/datasets/temporary_folder.h"
+
+namespace raymoval {
+namespace {
+
+using test::TemporaryFolder;
+
+TEST_CASE("MCAP that another program wrote is read, whatever it leaves out", "[bags][mcap]") {
+  const std::string name = GENERATE("chunks", "zstd", "lz4", "no_chunks", "no_statistics",
+                                    "no_schemas", "no_message_index", "bare");
+  CAPTURE(name);
+  test::check_content(*open_bag(test::recording("bag_mcap/" + name + ".mcap")));
+}
+
+TEST_CASE("MCAP that is cut at any byte is read as far as it goes, and says so", "[bags][mcap]") {
+  const std::string name = GENERATE("chunks", "zstd", "no_chunks");
+  const std::string whole = test::file_bytes(test::recording("bag_mcap/" + name + ".mcap"));
+  const TemporaryFolder folder;
+  std::uint64_t before = 0;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    CAPTURE(name, size);
+    const std::uint64_t count = test::read_damaged(folder.write("cut.mcap", whole.substr(0, size)));
+    CHECK(count >= before);  // More bytes never give fewer messages.
+    before = count;
+  }
+  CHECK(before == 5);
+}
+
+TEST_CASE("A false byte in a MCAP file never gives a message that was not published",
+          "[bags][mcap]") {
+  const std::string whole = test::file_bytes(test::recording("bag_mcap/chunks.mcap"));
+  const TemporaryFolder folder;
+  for (std::size_t at = 0; at < whole.size(); at += 3) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+    const auto path = folder.write("damaged.mcap", damaged);
+    try {
+      const auto bag = open_bag(path);
+      for (std::size_t topic = 0; topic < bag->topics().size(); ++topic) {
+        for (std::size_t i = 0; i < bag->topics()[topic].messages; ++i) {
+          const std::string text = bag->message(topic, i);
+          CAPTURE(at);
+          CHECK((text.substr(4).starts_with("po") || text.empty()));
+        }
+      }
+    } catch (const DataError& error) {
+      CHECK(std::string(error.what()).size() > 20);
+    }
+  }
+}
+
+/// A file of records, without a summary.
+std::string mcap_of(const std::vector<std::pair<McapOp, std::string>>& records) {
+  std::string bytes(kMcapMagic);
+  for (const auto& [op, content] : records) put_record(bytes, op, content);
+  put_record(bytes, McapOp::kFooter, std::string(20, '\0'));
+  return bytes + std::string(kMcapMagic);
+}
+
+std::string schema(std::uint16_t id, std::string_view name) {
+  std::string content;
+  put_u16(content, id);
+  put_text(content, name);
+  put_text(content, "ros2msg");
+  put_text(content, "");
+  return content;
+}
+
+std::string channel(std::uint16_t id, std::uint16_t of, std::string_view topic,
+                    std::string_view encoding) {
+  std::string content;
+  put_u16(content, id);
+  put_u16(content, of);
+  put_text(content, topic);
+  put_text(content, encoding);
+  put_text(content, "");
+  return content;
+}
+
+std::string message(std::uint16_t of, std::uint64_t time, std::string_view text) {
+  std::string content;
+  put_u16(content, of);
+  put_u32(content, 0);
+  put_u64(content, time);
+  put_u64(content, time);
+  return content + std::string(text);
+}
+
+std::string chunk(std::string_view compression, std::uint64_t unpacked, std::uint32_t crc,
+                  std::string_view packed) {
+  std::string content;
+  put_u64(content, 0);
+  put_u64(content, 0);
+  put_u64(content, unpacked);
+  put_u32(content, crc);
+  put_text(content, compression);
+  put_u64(content, packed.size());
+  return content + std::string(packed);
+}
+
+TEST_CASE("Records of unknown kinds are passed over, and one of kind 0 is damage", "[bags][mcap]") {
+  const TemporaryFolder folder;
+  const auto written = [&](McapOp odd) {
+    return folder.write("odd.mcap", mcap_of({{McapOp::kHeader, std::string(8, '\0')},
+                                             {McapOp::kChannel, channel(7, 0, "/a", "ros1")},
+                                             {McapOp::kMessage, message(7, 1, "first")},
+                                             {odd, "?"},
+                                             {McapOp::kMessage, message(7, 2, "second")},
+                                             {McapOp::kDataEnd, std::string(4, '\0')}}));
+  };
+  const auto passed = open_bag(written(static_cast<McapOp>(0x9F)));
+  CHECK(passed->topics().front().messages == 2);
+  CHECK(passed->topics().front().encoding == MessageEncoding::kRos1);
+  CHECK(passed->message(0, 1) == "second");
+  CHECK(passed->damage().empty());
+  const auto damaged = open_bag(written(McapOp::kInvalid));
+  CHECK(damaged->topics().front().messages == 1);
+  CHECK_THAT(damaged->damage().at(0), Catch::Contains("type 0"));
+}
+
+TEST_CASE("Channels of one topic are one topic if their types agree", "[bags][mcap]") {
+  const TemporaryFolder folder;
+  const auto bag =
+      open_bag(folder.write("topics.mcap", mcap_of({{McapOp::kSchema, schema(1, "a_msgs/msg/A")},
+                                                    {McapOp::kSchema, schema(2, "a_msgs/msg/B")},
+                                                    {McapOp::kChannel, channel(1, 1, "/t", "cdr")},
+                                                    {McapOp::kChannel, channel(2, 1, "/t", "cdr")},
+                                                    {McapOp::kChannel, channel(3, 2, "/t", "cdr")},
+                                                    {McapOp::kMessage, message(2, 5, "later")},
+                                                    {McapOp::kMessage, message(1, 4, "earlier")},
+                                                    {McapOp::kMessage, message(3, 4, "other")},
+                                                    {McapOp::kDataEnd, std::string(4, '\0')}})));
+  REQUIRE(bag->topics().size() == 2);
+  CHECK(bag->topics()[0].messages == 2);
+  CHECK(bag->message(0, 0) == "earlier");
+  CHECK(bag->topics()[1].type == "a_msgs/B");
+}
+
+TEST_CASE("A chunk that claims more than it can hold is refused before memory is asked for",
+          "[bags][mcap]") {
+  const TemporaryFolder folder;
+  const auto damage = [&](const std::string& content) {
+    const auto path =
+        folder.write("claims.mcap", mcap_of({{McapOp::kChannel, channel(1, 0, "/t", "cdr")},
+                                             {McapOp::kChunk, content},
+                                             {McapOp::kMessage, message(1, 4, "behind")},
+                                             {McapOp::kDataEnd, std::string(4, '\0')}}));
+    return McapBag(path).damage().at(0);
+  };
+  CHECK_THAT(damage(chunk("zstd", 1U << 29U, 0, "abc")), Catch::Contains("1,000 times"));
+  CHECK_THAT(damage(chunk("lz4", 100, 0, "abc")), Catch::Contains("lz4"));
+  CHECK_THAT(damage(chunk("snappy", 3, 0, "abc")), Catch::Contains("mcap compress"));
+  CHECK_THAT(damage(chunk("", 99, 0, "abc")), Catch::Contains("99"));
+  CHECK_THAT(damage(chunk("", 3, 77, "abc")), Catch::Contains("checksum"));
+}
+
+TEST_CASE("Chunks are not unpacked again for each of their messages", "[bags]") {
+  ChunkStore store(10);
+  int unpacked = 0;
+  const auto six = [&] {
+    ++unpacked;
+    return std::string("123456");
+  };
+  CHECK(*store.get(1, six) == "123456");
+  store.get(1, six);
+  CHECK(unpacked == 1);
+  store.get(2, six);  // Both together have more than 10 bytes.
+  store.get(2, six);
+  CHECK(unpacked == 2);
+  store.get(1, six);
+  CHECK(unpacked == 3);
+  CHECK_THROWS_AS(store.get(3, []() -> std::string { throw DataError("damaged"); }), DataError);
+  CHECK(*store.get(3, six) == "123456");
+}
+
+}  // namespace
+}  // namespace raymoval

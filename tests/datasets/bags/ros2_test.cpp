@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "core/error.h"
+#include "datasets/bags/chunks/pack.h"
+#include "datasets/bags/ros2/block_yaml.h"
+#include "datasets/bags/ros2/sqlite.h"
+#include "tests/datasets/bags/recordings.h"
+#include "tests/datasets/temporary_folder.h"
+
+namespace raymoval {
+namespace {
+
+using test::TemporaryFolder;
+
+std::string db3_bytes() {
+  return test::file_bytes(test::recording("bag_db3/small.db3"));
+}
+
+TEST_CASE("A database that another program wrote is read", "[bags][ros2]") {
+  test::check_content(*open_bag(test::recording("bag_db3/small.db3")));
+}
+
+TEST_CASE("A database that is cut at any byte is read as far as it goes", "[bags][ros2]") {
+  const TemporaryFolder folder;
+  const std::string whole = test::file_bytes(test::recording("bag_db3/overflow.db3"));
+  for (std::size_t size = 0; size < whole.size(); size += 122) {
+    CAPTURE(size);
+    try {
+      const auto bag = open_bag(folder.write("cut.db3", whole.substr(0, size)));
+      CHECK_FALSE(bag->damage().empty());
+      for (std::size_t i = 0; i < bag->topics()[0].messages; ++i) {
+        try {
+          const std::string text = bag->message(0, i);
+          CHECK_THAT(text.substr(4), Catch::StartsWith("points "));
+        } catch (const DataError& error) {
+          CHECK(std::string(error.what()).size() > 20);
+        }
+      }
+    } catch (const DataError& error) {
+      CHECK(std::string(error.what()).size() > 20);
+    }
+  }
+}
+
+TEST_CASE("A database whose pages contain each other does not hang", "[bags][ros2]") {
+  const TemporaryFolder folder;
+  const std::string whole = test::file_bytes(test::recording("bag_db3/overflow.db3"));
+  for (std::size_t at = 100; at < whole.size(); at += 41) {
+    std::string damaged = whole;
+    for (std::size_t i = at; i < std::min(at + 4, damaged.size()); ++i) damaged[i] = 0x02;
+    try {
+      const auto bag = open_bag(folder.write("damaged.db3", damaged));
+      for (std::size_t topic = 0; topic < bag->topics().size(); ++topic) {
+        for (std::size_t i = 0; i < bag->topics()[topic].messages; ++i) {
+          try {
+            const std::string text = bag->message(topic, i);
+            CHECK(text.size() <= whole.size());
+          } catch (const DataError& error) {
+            CHECK(std::string(error.what()).size() > 20);
+          }
+        }
+      }
+    } catch (const DataError& error) {
+      CHECK(std::string(error.what()).size() > 20);
+    }
+  }
+}
+
+TEST_CASE("What a recorder left beside a database is not passed over", "[bags][ros2]") {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.db3", db3_bytes());
+  folder.write("a.db3-wal", "");
+  folder.write("a.db3-journal", std::string(600, '\0'));  // One that was ended has zeros.
+  CHECK_NOTHROW(open_bag(path));
+  folder.write("a.db3-journal", "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7 and pages");
+  CHECK_THROWS_WITH(open_bag(path), Catch::Contains("a.db3-journal"));
+  folder.write("a.db3-journal", "");
+  folder.write("a.db3-wal", "pages");
+  CHECK_THROWS_WITH(open_bag(path), Catch::Contains("wal_checkpoint"));
+}
+
+TEST_CASE("A database without the tables of a recording is refused", "[bags][ros2]") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& sql) {
+    const auto path = folder.write("other.db3", "");
+    {
+      const SqliteDatabase database = SqliteDatabase::to_write(path);
+      sqlite3_set_authorizer(database.handle(), nullptr, nullptr);
+      REQUIRE(sqlite3_exec(database.handle(), sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+    }
+    CHECK_THROWS_WITH(open_bag(path), Catch::Contains("no table"));
+  };
+  const std::string topics = "CREATE TABLE topics(id INTEGER PRIMARY KEY, name, type, x);";
+  refused(topics);
+  refused(topics +
+          "CREATE VIEW messages AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x+1 "
+          "FROM c) SELECT x AS id, 1 AS topic_id, x AS timestamp, x AS data FROM c");
+  refused(topics +
+          "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data BLOB "
+          "AS (zeroblob(1000000000)))");
+}
+
+std::string metadata(const std::string& version, const std::string& files,
+                     const std::string& more = "") {
+  return "rosbag2_bagfile_information:\n  version: " + version +
+         "\n  storage_identifier: sqlite3\n  duration:\n    nanoseconds: 2000\n"
+         "  topics_with_message_count:\n    - topic_metadata:\n        name: /points\n"
+         "        type: sensor_msgs/msg/PointCloud2\n        serialization_format: cdr\n"
+         "        offered_qos_profiles: \"- history: 3\\n  depth: 0\"\n      message_count: 3\n" +
+         more + "  relative_file_paths:\n" + files;
+}
+
+TEST_CASE("A folder is read by its metadata, of old and new versions", "[bags][ros2]") {
+  const TemporaryFolder folder;
+  folder.write("drive/drive_0.db3", db3_bytes());
+  const std::string version = GENERATE("1", "2", "3", "4", "5", "9");
+  const std::string prefix = version < "4" ? "another_name/" : "";
+  folder.write("drive/metadata.yaml",
+               metadata(version, "    - " + prefix + "drive_0.db3\n", "  message_count: 5\n"));
+  CAPTURE(version);
+  REQUIRE(is_bag(folder / "drive"));
+  test::check_content(*open_bag(folder / "drive"));
+}
+
+TEST_CASE("Several files are one recording, and what is wrong with them is said", "[bags][ros2]") {
+  const TemporaryFolder folder;
+  folder.write("drive/a.db3", db3_bytes());
+  folder.write("drive/b.mcap", test::file_bytes(test::recording("bag_mcap/zstd.mcap")));
+  folder.write("drive/metadata.yaml",
+               metadata("5", "    - a.db3\n    - b.mcap\n    - a.db3\n    - gone.db3\n",
+                        "  message_count: 11\n"));
+  const auto bag = open_bag(folder / "drive");
+  CHECK(test::texts_of(*bag, "/pose") ==
+        std::vector<std::string>{"pose 0", "pose 1", "pose 0", "pose 1"});
+  CHECK(test::texts_of(*bag, "/points").size() == 6);
+  const auto damage = bag->damage();
+  REQUIRE(damage.size() == 3);
+  CHECK_THAT(damage[0], Catch::Contains("a.db3 twice"));
+  CHECK_THAT(damage[1], Catch::Contains("gone.db3"));
+  CHECK_THAT(damage[2], Catch::Contains("11 messages") && Catch::Contains("10 can"));
+}
+
+TEST_CASE("Packed files and packed messages are unpacked", "[bags][ros2]") {
+  const TemporaryFolder folder;
+  const std::string packed = "  compression_format: zstd\n  compression_mode: ";
+  folder.write("drive/a.db3.zstd", pack_zstd(db3_bytes()));
+  folder.write("drive/metadata.yaml", metadata("5", "    - a.db3.zstd\n", packed + "FILE\n"));
+  test::check_content(*open_bag(folder / "drive"));
+  test::check_content(*open_bag(folder / "drive/a.db3.zstd"));
+  folder.write("drive/metadata.yaml", metadata("5", "    - a.db3.zstd\n", packed + "OTHER\n"));
+  CHECK_THROWS_AS(open_bag(folder / "drive"), UsageError);
+
+  // A message of 8 bytes says of itself that it unpacks to 1 GiB.
+  const std::string bomb("\x28\xb5\x2f\xfd\xa0\x00\x00\x00\x40\x03\x00\x00", 12);
+  folder.write("bomb.mcap.zst", bomb);
+  CHECK_THROWS_AS(open_bag(folder / "bomb.mcap.zst"), DataError);
+}
+
+TEST_CASE("Recordings that are known and not read are refused with a remedy", "[bags]") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(open_bag(folder.write("old.bag", "#ROSBAG V1.2\nabc")),
+                    Catch::Contains("rosbag fix"));
+  CHECK_THROWS_WITH(open_bag(folder.write("a.bag.active", "#ROSBAG V2.0\n")),
+                    Catch::Contains("rosbag reindex"));
+  CHECK_THROWS_WITH(open_bag(folder.write("a.mcap", "nothing of the kind")),
+                    Catch::Contains("does not begin as a recording"));
+  folder.write("drive/a.db3", db3_bytes());
+  CHECK_THROWS_WITH(open_bag(folder / "drive"), Catch::Contains("ros2 bag reindex"));
+  std::string other = metadata("5", "    - a.db3\n");
+  other.replace(other.find("sqlite3"), 7, "my_store");
+  folder.write("drive/metadata.yaml", other);
+  CHECK_THROWS_WITH(open_bag(folder / "drive"), Catch::Contains("my_store"));
+  folder.write("drive/metadata.yaml", metadata("5", "    - ../../etc/passwd\n"));
+  CHECK_THROWS_WITH(open_bag(folder / "drive"), Catch::Contains("none of the files"));
+  CHECK_FALSE(is_bag(folder.path()));
+}
+
+TEST_CASE("Values of metadata are read in all the ways in which they are written", "[bags][ros2]") {
+  const std::string text =
+      "a: plain # comment\n"
+      "b: 'it''s'\n"
+      "c: \"x\\ny: \\\"z\\\"\"\n"
+      "list:\n- 1\n-   k: v\n    w: 2\n"
+      "flow: [p, \"q r\"]\n"
+      "block: |\n  any: thing\n   here\n"
+      "last: end\n";
+  const YamlNode root = parse_block_yaml(text, "metadata.yaml");
+  CHECK(root.find("a")->value == "plain");
+  CHECK(root.find("b")->value == "it's");
+  CHECK(root.find("c")->value == "x\ny: \"z\"");
+  REQUIRE(root.find("list")->children.size() == 2);
+  CHECK(root.find("list")->children[1].find("w")->value == "2");
+  CHECK(root.find("flow")->children.at(1).value == "q r");
+  CHECK(root.find("last")->value == "end");
+  CHECK(text.substr(root.find("b")->begin, 7) == "'it''s'");
+  CHECK_THROWS_WITH(parse_block_yaml("a: 1\n   b: 2\nc\n", "m"), Catch::Contains("m:3"));
+  std::string deep;
+  for (int i = 0; i < 40; ++i) deep += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
+  CHECK_THROWS_WITH(parse_block_yaml(deep, "m"), Catch::Contains("32 levels"));
+}
+
+}  // namespace
+}  // namespace raymoval
