@@ -38,6 +38,12 @@ PointRecords read_records(const std::filesystem::path& path, const RecordReading
                        [&](const CloudBytes& file) { return format.read_records(file); });
 }
 
+RecordLayout read_layout(const std::filesystem::path& path, const RecordReading& reading) {
+  const CloudFormat& format = format_read(path);
+  const bool by_itself = format.read_layout != nullptr && !is_packed(path);
+  return by_itself ? format.read_layout(path, reading) : read_records(path, reading).layout;
+}
+
 void check_bin_size(const std::filesystem::path& path, std::uintmax_t bytes,
                     const RecordReading& reading) {
   check_bin_rows(path, bytes, bin_layout(reading.point_layout));

@@ -9,7 +9,6 @@
 #include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/format/point_layout.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/record_file.h"
 #include "datasets/clouds/returns.h"
@@ -75,11 +74,7 @@ PointRecords FileScanSource::records(std::size_t index) const {
 }
 
 RecordLayout FileScanSource::layout(std::size_t index) const {
-  if (frame_of(frames_, index).path.extension() != ".bin") return records(index).layout;
-  // Such a file says nothing of itself.
-  RecordLayout layout = bin_layout(traits_.reading.point_layout);
-  layout.unnamed = true;
-  return layout;
+  return read_layout(frame_of(frames_, index).path, traits_.reading);
 }
 
 std::string FileScanSource::place(std::size_t index) const {

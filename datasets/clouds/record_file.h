@@ -17,6 +17,11 @@ namespace raymoval {
 ///   unknown extension
 PointRecords read_records(const std::filesystem::path& path, const RecordReading& reading = {});
 
+/// The layout of what `read_records` gives, where the format allows that without reading the
+/// points.
+/// @throws as `read_records`, save that points are not looked at
+RecordLayout read_layout(const std::filesystem::path& path, const RecordReading& reading = {});
+
 /// What the format of `path` cannot hold of points of `layout`, in whole sentences that name the
 /// fields; none if every field goes through bit for bit. @throws UsageError for an unknown
 /// extension

@@ -80,7 +80,11 @@ CloudFormat bin_format() {
                           const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
     return std::make_unique<BinEncoder>();
   };
-  return {".bin", read_bin_cloud, read_bin_records, encoder, lost_in_bin};
+  CloudFormat format{".bin", read_bin_cloud, read_bin_records, encoder, lost_in_bin};
+  format.read_layout = [](const std::filesystem::path&, const RecordReading& reading) {
+    return bin_layout(reading.point_layout);
+  };
+  return format;
 }
 
 }  // namespace raymoval

@@ -58,6 +58,9 @@ struct CloudFormat {
   /// As `what_is_lost`.
   std::vector<std::string> (*lost)(const RecordLayout& layout) = nullptr;
   bool holds_reference_system = false;
+  /// The layout of the records of a file without reading its points; null if it takes as much.
+  RecordLayout (*read_layout)(const std::filesystem::path& path,
+                              const RecordReading& reading) = nullptr;
 };
 
 }  // namespace raymoval

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/clouds/pcd/pcd_file.h"
 
-#include "core/error.h"
-#include "core/text.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
 #include "datasets/clouds/format/ascii_rows.h"
 #include "datasets/clouds/format/header_rows.h"
 #include "datasets/clouds/format/stored_points.h"
@@ -64,13 +64,31 @@ PointRecords read_pcd_records(const CloudBytes& file) {
   return records;
 }
 
+RecordLayout read_pcd_layout(const std::filesystem::path& path, const RecordReading&) {
+  constexpr std::size_t kUsualHead = 4096;
+  std::string text = read_piece(path, 0, kUsualHead);
+  auto header = if_whole([&] { return parse_pcd_header(text, path); });
+  if (!header) {
+    text = read_text(path);
+    header = parse_pcd_header(text, path);
+  }
+  RecordLayout layout;
+  layout.row_bytes = header->row_bytes();
+  for (const PointField& field : header->fields) {
+    if (!is_padding(field)) layout.fields.push_back(field);
+  }
+  return layout;
+}
+
 }  // namespace
 
 CloudFormat pcd_format() {
   const auto encoder = [](const std::filesystem::path&, const RecordWriting&) {
     return pcd_encoder();
   };
-  return {".pcd", read_pcd_cloud, read_pcd_records, encoder, lost_in_pcd};
+  CloudFormat format{".pcd", read_pcd_cloud, read_pcd_records, encoder, lost_in_pcd};
+  format.read_layout = read_pcd_layout;
+  return format;
 }
 
 }  // namespace raymoval

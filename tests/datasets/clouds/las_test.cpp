@@ -276,7 +276,7 @@ TEST_CASE("heads of LAS that cannot be are named", "[las]") {
   check_says(las_error(unknown.file()), {"'a' have the unknown type 31"});
 }
 
-TEST_CASE("any cut and any flipped byte of a LAS file gives points or a DataError", "[las]") {
+TEST_CASE("cuts and flipped bytes of a LAS file give points or a DataError", "[las]") {
   const TemporaryFolder folder;
   LasMaker las;
   las.add_record("LASF_Spec", 4, extra_field(9, "a") + extra_field(0, "b", 2));
@@ -284,7 +284,7 @@ TEST_CASE("any cut and any flipped byte of a LAS file gives points or a DataErro
   las.points = las_point(36, 1, 2, 3) + las_point(36, 4, 5, 6);
   const std::string good = las.file();
   std::mt19937 random(5);
-  for (std::size_t i = 0; i < good.size(); i += 1 + i / 300) {
+  for (std::size_t i = 0; i < good.size(); i += 3 + i / 300) {
     std::string flipped = good;
     flipped[i] = static_cast<char>(random());
     for (const std::string& damaged : {good.substr(0, i), flipped}) {

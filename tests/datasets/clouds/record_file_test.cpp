@@ -82,6 +82,26 @@ TEST_CASE("any layout goes through .ply value by value", "[records]") {
   }
 }
 
+TEST_CASE("the layout of a file is that of its records", "[records]") {
+  const TemporaryFolder folder;
+  std::mt19937 random(12);
+  for (int i = 0; i < 5; ++i) {
+    const PointRecords made = random_records(random);
+    const RecordReading reading{point_layout_text(made.layout)};
+    for (const char* name : {"a.pcd", "a.ply", "a.bin", "a.las", "a.npy"}) {
+      CAPTURE(name);
+      write_records(folder / name, made);
+      CHECK(read_layout(folder / name, reading) == read_records(folder / name, reading).layout);
+    }
+  }
+  // A head that is longer than usual.
+  const std::string comment = "#" + std::string(5000, 'c') + "\n";
+  const auto path = folder.write("b.pcd", comment +
+                                              "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 0\n"
+                                              "HEIGHT 1\nDATA ascii\n");
+  CHECK(read_layout(path) == parse_point_layout("x y z"));
+}
+
 TEST_CASE("what PLY rounds is said, and is the nearest double", "[records]") {
   const TemporaryFolder folder;
   PointRecords records;
