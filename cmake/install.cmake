@@ -32,7 +32,7 @@ endif()
 install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SECURITY.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-     docs/*.md methods/README.md methods/*/*.md datasets/*/README.md
+     docs/*.md docs/recipes/*.md methods/README.md methods/*/*.md datasets/*/README.md
      results/pictures/*.png results/schema/*.json)
 foreach(page ${pages})
   get_filename_component(folder ${page} DIRECTORY)

@@ -17,12 +17,12 @@ bool is_g2o_word(std::string_view word) {
          word.starts_with("PARAMS_");
 }
 
-Match match(const PoseText& text) {
+Match match_g2o(const PoseText& text) {
   const auto& words = text.first().words;
   return !words.empty() && is_g2o_word(words.front()) ? Match::kYes : Match::kNo;
 }
 
-PoseFile read(const PoseText& text) {
+PoseFile read_g2o(const PoseText& text) {
   // Tag, id, x y z qx qy qz qw.
   PoseColumns columns;
   columns.count = 9;
@@ -66,8 +66,8 @@ PoseFile read(const PoseText& text) {
 
 TextFormat g2o_format() {
   return {{"g2o", "vertices VERTEX_SE3:QUAT of a pose graph, in the order of their ids; no times"},
-          match,
-          read};
+          match_g2o,
+          read_g2o};
 }
 
 }  // namespace raymoval::pose_formats

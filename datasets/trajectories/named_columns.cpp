@@ -134,7 +134,7 @@ std::optional<PoseColumns> columns_of(const PoseText& text) {
   return columns;
 }
 
-Match match(const PoseText& text) {
+Match match_named_columns(const PoseText& text) {
   const auto columns = columns_of(text);
   // A comment that has the same count of words only by chance names no columns.
   const bool fits = columns && text.first().words.size() == columns->count;
@@ -159,7 +159,7 @@ void check_angles(const PoseText& text, PoseColumns& columns, std::vector<std::s
                   "size.");
 }
 
-PoseFile read(const PoseText& text) {
+PoseFile read_named_columns(const PoseText& text) {
   auto columns = columns_of(text);
   if (!columns) {
     std::vector<std::string> names(text.names().begin(), text.names().end());
@@ -180,8 +180,8 @@ TextFormat named_columns_format() {
   return {{"csv",
            "columns in any order with a line of names above them: a time (or sec and nsec), x y z, "
            "qx qy qz qw or roll pitch yaw"},
-          match,
-          read};
+          match_named_columns,
+          read_named_columns};
 }
 
 }  // namespace raymoval::pose_formats

@@ -103,6 +103,11 @@ awk 'function times(a, b, c,    i, j) {  # c = a b
        times(inverse, p, half); times(half, tr, lidar)
        for (i = 0; i < 12; ++i) printf "%.9g%s", lidar[i], i < 11 ? " " : "\n"
      }' data/05/calib.txt data/05/poses.txt >my_scans/poses.txt
+# What docs/poses.md is about: recordings and the trajectories that other programs made of them.
+for recipe in glim livox; do
+  holds "there is data for $recipe" python3 -B "$source_folder/tests/cli/recipe_data.py" data/05 $recipe .
+done
+mv dump/traj_lidar.txt .
 # The suite of the page, on small data.
 sed -n '/^    {$/,/^    }$/p' "$source_folder/docs/compare-methods.md" |
   sed 's/scans=60/scans=3,sensor=vlp16/; s/0:200:2/0:6:2/; s/"repeats": 3/"repeats": 2/' >my_suite.json

@@ -156,7 +156,8 @@ def livox_message(stamp, points):
     message.put("I", len(points))
     message.put("B", 0, 0, 0, 0)
     message.put("I", len(points))
-    message.body += b"".join(struct.pack("<I3f3B", 0, *p[:3], min(255, int(255 * p[3])), 16, i % 6)
+    message.body += b"".join(struct.pack("<I3f3B", i * 99_000_000 // len(points), *p[:3],
+                                         min(255, int(255 * p[3])), 16, i % 6)
                              for i, p in enumerate(points))
     return message.done()
 

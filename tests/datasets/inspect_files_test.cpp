@@ -161,7 +161,7 @@ TEST_CASE("a good folder of scans is silent; labels where methods look are named
 TEST_CASE("a pose file with another count is named before anything is opened", "[inspect]") {
   const TemporaryFolder folder;
   write_files(folder, good_drive());
-  const std::string row = "1 0 0 0 0 0 0 1\n";
+  const std::string row = "1 0 0 0 0 1 0 0 0 0 1 0\n";
   folder.write("other.txt", row + row);
   SequenceOptions options;
   options.poses = "other.txt";

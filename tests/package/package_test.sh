@@ -67,7 +67,7 @@ done
 dead_links() {
   local page link
   find "$1" -name '*.md' | while read -r page; do
-    grep -oE '\]\([^)#: ]+' "$page" | sed 's/^](//' | while read -r link; do
+    grep -oE '\]\([^)#: ]+' "$page" | sed 's/^](//' | grep -vx 'https\?' | while read -r link; do
       [[ -e $(dirname "$page")/$link ]] || echo "$page: $link"
     done
   done

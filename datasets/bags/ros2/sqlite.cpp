@@ -15,7 +15,7 @@ namespace {
 constexpr int kStepsAtOnce = 1000;
 /// What reading the list of tables takes at most.
 constexpr std::int64_t kStepsOfSchema = 5'000'000;
-constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;
+constexpr std::int64_t kMostValueBytes = std::int64_t{1} << 30;
 
 int count_steps(void* left) {
   auto* steps = static_cast<std::int64_t*>(left);
@@ -78,8 +78,8 @@ SqliteDatabase::SqliteDatabase(std::filesystem::path path, const std::string& ur
 
 SqliteDatabase SqliteDatabase::to_read(const std::filesystem::path& path, bool is_cut) {
   SqliteDatabase database(path, uri_of(path, "?mode=ro&immutable=1"), SQLITE_OPEN_READONLY);
-  const auto most =
-      std::min<std::int64_t>(kMostBytes, static_cast<std::int64_t>(plain_file_size(path)) + 1024);
+  const auto most = std::min<std::int64_t>(kMostValueBytes,
+                                           static_cast<std::int64_t>(plain_file_size(path)) + 1024);
   sqlite3_limit(database.handle(), SQLITE_LIMIT_LENGTH, static_cast<int>(most));
   database.run("PRAGMA cell_size_check=ON");
   // So the library opens what has fewer pages than it says. Nothing is written in any case.

@@ -17,7 +17,7 @@
 namespace raymoval {
 namespace {
 
-constexpr std::uint64_t kRecordHead = 54, kExtendedHead = 60;
+constexpr std::uint64_t kRecordHeadBytes = 54, kExtendedHead = 60;
 constexpr std::uint16_t kExtraBytesId = 4, kWktId = 2112, kGeoKeysId = 34735;
 
 class LasHeadReader {
@@ -93,10 +93,10 @@ class LasHeadReader {
   void read_records() {
     std::uint64_t place = at<std::uint16_t>(94);
     for (auto left = at<std::uint32_t>(100); left > 0; --left) {
-      (void)piece(place, kRecordHead);
+      (void)piece(place, kRecordHeadBytes);
       const std::uint64_t length = at<std::uint16_t>(place + 20);
-      read_record(place, piece(place + kRecordHead, length));
-      place += kRecordHead + length;
+      read_record(place, piece(place + kRecordHeadBytes, length));
+      place += kRecordHeadBytes + length;
     }
     if (place > head_.first_point) {
       fail("its records reach beyond where its points begin (byte " +

@@ -58,11 +58,11 @@ class PlyEncoder : public RecordEncoder {
   }
 
   std::string head(std::uint64_t points) const override {
-    constexpr std::size_t kMostDigits = 10;
+    constexpr std::size_t kCountDigits = 10;
     const std::string count = std::to_string(points);
     // Blanks in a comment give room for the digits, so that the head always has the same length.
     return "ply\nformat binary_little_endian 1.0\ncomment Written by raymoval" +
-           std::string(kMostDigits - count.size(), ' ') + "\nelement vertex " + count + "\n" +
+           std::string(kCountDigits - count.size(), ' ') + "\nelement vertex " + count + "\n" +
            properties_ + "end_header\n";
   }
 
