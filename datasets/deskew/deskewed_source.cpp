@@ -8,18 +8,10 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/trajectories/trajectory.h"
 
 namespace raymoval {
 namespace {
-
-/// Share `part` of a motion, which may be below 0 or above 1.
-Pose part_of(const Pose& motion, double part) {
-  const Eigen::AngleAxisd turn(motion.linear());
-  Pose result = Pose::Identity();
-  result.linear() = Eigen::AngleAxisd(part * turn.angle(), turn.axis()).toRotationMatrix();
-  result.translation() = part * motion.translation();
-  return result;
-}
 
 /// Where a sensor was around the time of one scan.
 class MotionAround {

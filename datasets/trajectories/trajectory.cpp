@@ -65,6 +65,14 @@ std::optional<Nanoseconds> Trajectory::gap_at(Nanoseconds stamp) const {
   return after->stamp - (after - 1)->stamp;
 }
 
+Pose part_of(const Pose& motion, double part) {
+  const Eigen::AngleAxisd turn(motion.linear());
+  Pose result = Pose::Identity();
+  result.linear() = Eigen::AngleAxisd(part * turn.angle(), turn.axis()).toRotationMatrix();
+  result.translation() = part * motion.translation();
+  return result;
+}
+
 Pose interpolated(const Pose& a, const Pose& b, double t) {
   Pose pose = Pose::Identity();
   pose.translation() = (1.0 - t) * a.translation() + t * b.translation();

@@ -60,6 +60,9 @@ class Trajectory {
   std::vector<StampedPose> poses_;
 };
 
+/// Share `part` of a motion, which may be below 0 or above 1.
+Pose part_of(const Pose& motion, double part);
+
 /// The pose at share `t` (0 to 1) of the way from `a` to `b`.
 Pose interpolated(const Pose& a, const Pose& b, double t);
 

@@ -15,6 +15,7 @@
 #include "datasets/inspection/checks/checks.h"
 #include "datasets/inspection/evidence/overlap.h"
 #include "datasets/inspection/evidence/pose_fit.h"
+#include "datasets/trajectories/trajectory.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -96,15 +97,6 @@ class Sweeps {
 
   std::map<std::size_t, Overlap> overlaps_;  ///< Of all scans, or none.
 };
-
-/// Share `part` of a motion.
-Pose part_of(const Pose& motion, double part) {
-  const Eigen::AngleAxisd turn(motion.linear());
-  Pose result = Pose::Identity();
-  result.linear() = Eigen::AngleAxisd(part * turn.angle(), turn.axis()).toRotationMatrix();
-  result.translation() = part * motion.translation();
-  return result;
-}
 
 /// Surfels of a scan as they would be without motion during the sweep.
 std::vector<Surfel> unskewed(std::vector<Surfel> surfels, const Pose& motion, const Sweep& sweep) {
