@@ -37,6 +37,25 @@ ScanFolderPlan planned_scans(const std::vector<OutputPath>& outputs, const Seque
   return plan_scan_folder(sequence);
 }
 
+/// What decides about the format of a map's file or files.
+std::string format_name(const OutputPath& output, const CleanPaths& paths,
+                        const CleanWriting& writing) {
+  return paths.tiled ? "tile" + writing.tile_extension : output.path.string();
+}
+
+/// @throws UsageError if a reference system is given that no map can hold
+void check_reference_system(const std::vector<OutputPath>& outputs, const CleanPaths& paths,
+                            const CleanWriting& writing) {
+  if (!writing.crs) return;
+  const bool is_held = std::any_of(outputs.begin(), outputs.end(), [&](const OutputPath& output) {
+    return is_map(output) && holds_reference_system(format_name(output, paths, writing));
+  });
+  if (is_held) return;
+  throw UsageError("--crs " + *writing.crs +
+                   ": none of the maps that are written holds a coordinate reference system; only "
+                   ".las does. Name one with -o, or leave --crs out.");
+}
+
 }  // namespace
 
 CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
@@ -44,6 +63,7 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
                            const std::atomic<bool>& cancel)
     : sequence_(sequence) {
   const std::vector<OutputPath> all = paths.all();
+  check_reference_system(all, paths, writing);
   const MapPrecision precision = map_precision(*sequence.scans);
   const bool needs_rows = std::any_of(all.begin(), all.end(), [](const OutputPath& output) {
     return output.kind != OutputKind::kLabels;
@@ -84,16 +104,22 @@ void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
                            const CleanWriting& writing, const Eigen::Vector3d& voxel_origin) {
   const MapContent content = content_of(output);
   const RecordLayout layout = content.labelled ? labelled_layout(rows_->layout()) : rows_->layout();
-  const std::string name = paths.tiled ? "tile" + writing.tile_extension : output.path.string();
+  const std::string name = format_name(output, paths, writing);
   if (rows_->is_widened()) check_coordinates(name, Coordinates::kDouble);
   note_losses(output, name, layout);
+  std::optional<std::string> crs = writing.crs;
+  if (crs && !holds_reference_system(name)) {
+    notes_.push_back(output.option + ": the file does not say that it is in " + *crs +
+                     "; only .las does.");
+    crs.reset();
+  }
   std::unique_ptr<RowSink> sink;
   if (paths.tiled) {
     sink = std::make_unique<TileSink>(
         output.path, layout,
-        Tiling{writing.tile_size, sequence_.upright_frame(), writing.tile_extension, writing.crs});
+        Tiling{writing.tile_size, sequence_.upright_frame(), writing.tile_extension, crs});
   } else {
-    sink = std::make_unique<FileSink>(output.path, layout, writing.crs);
+    sink = std::make_unique<FileSink>(output.path, layout, crs);
   }
   auto map = std::make_unique<MapOutput>(std::move(sink), rows_->layout(), content,
                                          writing.voxel_size, voxel_origin);

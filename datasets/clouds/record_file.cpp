@@ -16,6 +16,10 @@ std::vector<std::string> what_is_lost(const std::filesystem::path& path,
   return format_written(path).lost(layout);
 }
 
+bool holds_reference_system(const std::filesystem::path& path) {
+  return format_written(path).holds_reference_system;
+}
+
 namespace {
 
 std::unique_ptr<RecordEncoder> encoder_for(const std::filesystem::path& path,

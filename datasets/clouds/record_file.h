@@ -28,6 +28,10 @@ RecordLayout read_layout(const std::filesystem::path& path, const RecordReading&
 std::vector<std::string> what_is_lost(const std::filesystem::path& path,
                                       const RecordLayout& layout);
 
+/// Whether files of the format of `path` say which coordinate reference system they are in.
+/// @throws UsageError for an unknown extension
+bool holds_reference_system(const std::filesystem::path& path);
+
 /// Writes points with all their fields piece by piece; only the piece at hand is in memory. The
 /// format is that of the extension. The file appears at `commit`, whole.
 class PointRecordWriter {

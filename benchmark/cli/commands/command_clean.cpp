@@ -307,7 +307,8 @@ Command add_clean_command(CommandParser& program) {
   options.add("--tile-format", "FORMAT", flags->tile_format,
               "The format of the tiles, such as ply (default: pcd)");
   options.add("--crs", "CRS", flags->crs,
-              "Coordinate reference system that is written into LAS files");
+              "Coordinate reference system that LAS files say: EPSG:CODE (UTM zones), WKT, or a "
+              "file with WKT");
   options.add("--html", "FILE", flags->page,
               "Also write a page with a 3-D view of what was kept and removed (.html)");
   options.add("--picture", "FILE", flags->picture, "Also write the map from above (.png)");
