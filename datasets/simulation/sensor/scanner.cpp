@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "datasets/simulation/shapes/random.h"
 
@@ -91,8 +92,50 @@ Isometry3d Scanner::motion_at(const Aim& aim, double time_s) const {
 /// Light that comes back, in units of a white target at 1 m. Rough surfaces fall off slower with
 /// the angle than Lambert's law: the square root fits how far KITTI's sensor sees the road.
 double Scanner::signal(const Hit& hit) const {
-  return properties(hit.material).reflectivity * std::sqrt(hit.cosine) /
+  // The extinction that leaves 5 % of light over the visibility, there and back.
+  const double air = std::exp(2.0 * std::log(0.05) * hit.range / world_.air().visibility_m);
+  return air * properties(hit.material).reflectivity * std::sqrt(hit.cosine) /
          std::max(1.0, hit.range * hit.range);
+}
+
+/// Shots that a pane lets through go on to what stands behind it.
+void Scanner::pass_glass(const RayTracer::Moment& moment, const std::vector<Ray>& rays,
+                         std::size_t index, std::uint64_t salt, std::vector<Hit>& hits) const {
+  constexpr double kBehind = 1e-4;  // metres; the pane itself is not met again
+  constexpr std::size_t kMostPanes = 8;
+  if (world_.air().glass_through <= 0.0) return;
+  std::vector<std::size_t> at(hits.size());
+  std::iota(at.begin(), at.end(), std::size_t{0});
+  for (std::size_t pane = 0; pane < kMostPanes && !at.empty(); ++pane) {
+    std::erase_if(at, [&](std::size_t i) {
+      if (!hits[i].found() || hits[i].material != Material::kGlass) return true;
+      const std::uint64_t random = word(options_, Purpose::kGlass, index, mix_all({salt, pane, i}));
+      return to_unit(random) >= world_.air().glass_through;
+    });
+    std::vector<Ray> onward;
+    for (const std::size_t i : at) {
+      onward.push_back(rays[i]);
+      onward.back().origin += (hits[i].range + kBehind) * rays[i].direction;
+    }
+    std::vector<Hit> behind(at.size());
+    moment.trace(onward, behind);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const double before = hits[at[k]].range + kBehind;
+      hits[at[k]] = behind[k];
+      if (behind[k].found()) hits[at[k]].range += before;
+    }
+  }
+}
+
+/// Range of a drop before `hit` that is taken for a surface, if there is one.
+std::optional<double> Scanner::echo(const Hit& hit, std::size_t index, std::size_t shot) const {
+  const Air& air = world_.air();
+  if (options_.noise_free || air.echo_share <= 0.0) return std::nullopt;
+  const std::uint64_t random = word(options_, Purpose::kEcho, index, shot);
+  if (to_unit(random) >= air.echo_share) return std::nullopt;
+  const double range = sensor_.range_m.low - air.echo_range_m * std::log1p(-to_unit(mix(random)));
+  if (range > sensor_.range_m.high || (hit.found() && range >= hit.range)) return std::nullopt;
+  return range;
 }
 
 bool Scanner::returns(const Hit& hit, std::uint64_t random) const {
@@ -155,6 +198,7 @@ void Scanner::widen(const RayTracer::Moment& moment, const Aim& aim, std::size_t
   }
   std::vector<Hit> extra(rays.size());
   moment.trace(rays, extra);
+  pass_glass(moment, rays, index, 1, extra);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     std::array<Hit, kExtraBeams + 1> beams;
     beams[0] = hits[edges[e]];
@@ -162,6 +206,13 @@ void Scanner::widen(const RayTracer::Moment& moment, const Aim& aim, std::size_t
                 beams.begin() + 1);
     hits[edges[e]] = blend(beams.data(), beams.size());
   }
+}
+
+/// A shot's point at `range`, in the frame that the sweep's points are in.
+Vector3d Scanner::point_of(const Aim& aim, std::size_t shot, double range) const {
+  const Vector3d point = aim.shots[shot].direction * range;
+  if (options_.rolling != Rolling::kCorrected) return point;
+  return motion_at(aim, aim.shots[shot].time_s) * point;
 }
 
 Sweep Scanner::sweep(std::size_t index) const {
@@ -178,22 +229,25 @@ Sweep Scanner::sweep(std::size_t index) const {
   const RayTracer::Moment moment(tracer_, centre, world_.parts(times, time, centre, reach));
   std::vector<Hit> hits(aim.rays.size());
   moment.trace(aim.rays, hits);
+  pass_glass(moment, aim.rays, index, 0, hits);
   if (!options_.noise_free && sensor_.divergence > 0.0) widen(moment, aim, index, hits);
 
   Sweep sweep;
   sweep.points.reserve(hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Hit& hit = hits[i];
+    if (const auto drop = echo(hit, index, i)) {
+      sweep.points.push_back(point_of(aim, i, *drop).cast<float>());
+      sweep.reflectance.push_back(0.01F);
+      sweep.labels.push_back(kLabelOutlier);
+      continue;
+    }
     if (!hit.found() || !returns(hit, word(options_, Purpose::kDrop, index, i))) continue;
     const std::uint64_t random = word(options_, Purpose::kRange, index, i);
     const double noise = options_.noise_free ? 0.0 : sensor_.noise_m * to_normal(random);
-    Vector3d point = aim.shots[i].direction * (hit.range + noise);
-    if (options_.rolling == Rolling::kCorrected) {
-      point = motion_at(aim, aim.shots[i].time_s) * point;
-    }
     const double shine = properties(hit.material).reflectivity * (0.4 + 0.6 * hit.cosine) *
                          (1.0 + (options_.noise_free ? 0.0 : 0.15 * to_normal(mix(random))));
-    sweep.points.push_back(point.cast<float>());
+    sweep.points.push_back(point_of(aim, i, hit.range + noise).cast<float>());
     // KITTI stores hundredths.
     sweep.reflectance.push_back(
         static_cast<float>(std::round(100.0 * std::clamp(shine, 0.0, 1.0)) / 100.0));

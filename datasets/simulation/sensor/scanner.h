@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "datasets/simulation/sensor/ray_tracer.h"
@@ -44,8 +45,13 @@ class Scanner {
   };
   [[nodiscard]] Aim aim(std::size_t index) const;
   [[nodiscard]] Eigen::Isometry3d motion_at(const Aim& aim, double time_s) const;
+  [[nodiscard]] Eigen::Vector3d point_of(const Aim& aim, std::size_t shot, double range) const;
   void widen(const RayTracer::Moment& moment, const Aim& aim, std::size_t index,
              std::vector<Hit>& hits) const;
+  void pass_glass(const RayTracer::Moment& moment, const std::vector<Ray>& rays, std::size_t index,
+                  std::uint64_t salt, std::vector<Hit>& hits) const;
+  [[nodiscard]] std::optional<double> echo(const Hit& hit, std::size_t index,
+                                           std::size_t shot) const;
   [[nodiscard]] Hit blend(const Hit* beams, std::size_t count) const;
   [[nodiscard]] double signal(const Hit& hit) const;
   [[nodiscard]] bool returns(const Hit& hit, std::uint64_t word) const;

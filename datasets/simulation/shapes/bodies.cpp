@@ -56,6 +56,15 @@ void add_cabin(Mesh& mesh, const Cabin& c, Paint roof) {
     const double middle = 0.5 * (c.roof_back + c.roof_front);
     bar(middle, c.floor_z, middle, c.roof_z, c.floor_half, c.roof_half);
   }
+  // Two rows of seats, which are seen only through panes that let light through.
+  for (const double share : {0.28, 0.62}) {
+    const double x = c.roof_back + share * (c.roof_front - c.roof_back);
+    for (const double side : {-1.0, 1.0}) {
+      const double y = 0.5 * side * c.roof_half;
+      add_box(mesh, paint_of(Material::kCloth), {x - 0.06, y - 0.2, c.floor_z + 0.01},
+              {x + 0.06, y + 0.2, c.floor_z + 0.3});
+    }
+  }
 }
 
 Body make_car(Random& random) {
@@ -166,6 +175,30 @@ Body make_tram(Random& random) {
   return body;
 }
 
+/// A counterbalanced truck: body, overhead guard, mast, fork and its driver.
+Body make_forklift(Random& random) {
+  Body body = body_of(kLabelOtherVehicle, kLabelMovingOtherVehicle, 3.4, 1.2);
+  Mesh& mesh = body.parts[0].mesh;
+  const Paint paint = random_paint(random);
+  const Paint steel = paint_of(Material::kMetal);
+  add_box(mesh, paint, {-1.2, -0.58, 0.2}, {0.0, 0.58, 1.05});
+  add_box(mesh, paint, {0.0, -0.5, 0.2}, {0.7, 0.5, 0.5});
+  for (const double side : {-1.0, 1.0}) {
+    add_tube(mesh, steel, {-0.9, 0.5 * side, 1.05}, {-0.5, 0.5 * side, 2.1}, 0.04, 0.04, 5);
+    add_tube(mesh, steel, {0.6, 0.5 * side, 0.5}, {0.3, 0.5 * side, 2.1}, 0.04, 0.04, 5);
+    add_box(mesh, steel, {0.72, 0.35 * side - 0.06, 0.1}, {0.85, 0.35 * side + 0.06, 2.2});
+    add_box(mesh, steel, {0.85, 0.3 * side - 0.06, 0.08}, {1.95, 0.3 * side + 0.06, 0.13});
+  }
+  add_box(mesh, steel, {-0.6, -0.5, 2.1}, {0.4, 0.5, 2.15});
+  add_box(mesh, paint_of(Material::kCloth), {-0.35, -0.22, 1.05}, {-0.05, 0.22, 1.6});
+  if (random.chance(0.5)) {  // a pallet with goods
+    const double height = random.between(0.6, 1.4);
+    add_box(mesh, paint_of(Material::kWood), {0.87, -0.55, 0.14}, {1.9, 0.55, height});
+  }
+  add_wheels(mesh, {-0.9, 0.45}, 0.58, 0.25);
+  return body;
+}
+
 }  // namespace
 
 Body body_of(std::uint16_t standing, std::uint16_t moving, double length, double width) {
@@ -179,8 +212,9 @@ Body body_of(std::uint16_t standing, std::uint16_t moving, double length, double
 }
 
 const std::vector<std::string>& body_kinds() {
-  static const std::vector<std::string> kinds = {"car",  "van",        "truck",   "bus",
-                                                 "tram", "motorcycle", "cyclist", "pedestrian"};
+  static const std::vector<std::string> kinds = {"car",        "van",        "truck",   "bus",
+                                                 "tram",       "motorcycle", "scooter", "cyclist",
+                                                 "pedestrian", "forklift"};
   return kinds;
 }
 
@@ -191,6 +225,8 @@ Body make_body(const std::string& kind, Random& random) {
   if (kind == "bus") return make_bus(random);
   if (kind == "tram") return make_tram(random);
   if (kind == "motorcycle") return make_motorcyclist(random);
+  if (kind == "scooter") return make_scooter_rider(random);
+  if (kind == "forklift") return make_forklift(random);
   if (kind == "cyclist") return make_cyclist(random);
   if (kind == "pedestrian") return make_person(random);
   throw ConfigurationError("unknown kind of mover '" + kind + "'." +

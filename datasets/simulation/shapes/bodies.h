@@ -36,7 +36,7 @@ struct Body {
   double pace_mps = 1.3;  ///< Speed at which limbs swing fully.
 };
 
-/// Names that `make_body` knows: car, van, truck, bus, tram, motorcycle, cyclist, pedestrian.
+/// Names that `make_body` knows, such as car, scooter and pedestrian.
 const std::vector<std::string>& body_kinds();
 
 /// One individual of `kind`; size, shape and paint vary with `random`.
@@ -57,5 +57,7 @@ void add_bicycle(Mesh& mesh);
 Body make_person(Random& random);
 Body make_cyclist(Random& random);
 Body make_motorcyclist(Random& random);
+/// A motor scooter: smaller than a motorcycle, with a board for the feet.
+Body make_scooter_rider(Random& random);
 
 }  // namespace raymoval::simulated

@@ -216,6 +216,10 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"container", plain(container)},
       {"heap", plain(heap)},
       {"bridge", plain(bridge)},
+      {"stall", plain(make_stall)},
+      {"rack", plain(make_rack)},
+      {"pillar", plain(make_pillar)},
+      {"ceiling", plain(make_ceiling)},
       {"parked_car", vehicle("car")},
       {"parked_van", vehicle("van")},
       {"parked_truck", vehicle("truck")},
@@ -250,7 +254,7 @@ double footprint_radius(const PartSpec& spec) {
   if (spec.part == "block") return 0.5 * (spec.length_m > 0 ? spec.length_m : 16.0) + 1.0;
   if (spec.part == "house") return 0.5 * (spec.length_m > 0 ? spec.length_m : 12.0) + 1.0;
   if (is_continuous(spec.part)) return 0.5 * std::max(spec.length_m, 2.0) + 1.5;
-  if (spec.part == "bridge") return -1000.0;
+  if (spec.part == "bridge" || spec.part == "ceiling") return -1000.0;
   if (spec.part == "parked_car" || spec.part == "parked_van") return 6.0;
   if (spec.part == "parked_truck" || spec.part == "garage") return 7.0;
   return 0.5;

@@ -43,6 +43,14 @@ Mesh make_bush(const PartSpec& spec, Random& random);
 /// A strip of grass and weeds, knee-high.
 Mesh make_tall_grass(const PartSpec& spec, Random& random);
 
+/// A market stall: a counter with goods under an awning. Customers stand at -y.
+Mesh make_stall(const PartSpec& spec, Random& random);
+/// A pallet rack with goods on most of its places.
+Mesh make_rack(const PartSpec& spec, Random& random);
+Mesh make_pillar(const PartSpec& spec, Random& random);
+/// A slab with beams over a place: `length_m` by `width_m` around it, `height_m` above the ground.
+Mesh make_ceiling(const PartSpec& spec, Random& random);
+
 /// Does a part fill the whole length of its place in a row (fence, hedge), or stand in it?
 bool is_continuous(const std::string& part);
 /// Room it needs around its place, to keep it off other roads.

@@ -128,4 +128,26 @@ Body make_motorcyclist(Random& random) {
   return body;
 }
 
+Body make_scooter_rider(Random& random) {
+  Body body = body_of(kLabelMotorcyclist, kLabelMovingMotorcyclist, 1.8, 0.65);
+  Mesh& mesh = body.parts[0].mesh;
+  const Paint rubber = paint_of(Material::kRubber);
+  add_tube(mesh, rubber, {-0.6, -0.06, 0.24}, {-0.6, 0.06, 0.24}, 0.24, 0.24, 12);
+  add_tube(mesh, rubber, {0.63, -0.05, 0.24}, {0.63, 0.05, 0.24}, 0.24, 0.24, 12);
+  const Paint paint = paint_of(random.chance(0.5) ? Material::kBrightPaint : Material::kDarkPaint);
+  add_box(mesh, paint, {-0.82, -0.16, 0.32}, {-0.12, 0.16, 0.76});
+  add_box(mesh, paint, {-0.12, -0.2, 0.24}, {0.36, 0.2, 0.32});
+  add_box(mesh, paint, {0.36, -0.22, 0.26}, {0.46, 0.22, 0.85});
+  add_tube(mesh, paint_of(Material::kMetal), {0.62, 0, 0.24}, {0.42, 0, 1.0}, 0.06, 0.05, 6);
+  add_tube(mesh, paint_of(Material::kMetal), {0.38, -0.32, 1.0}, {0.38, 0.32, 1.0}, 0.03, 0.03, 5);
+  add_rider(body, 0.8, random.between(0.0, 0.15), 0.5);
+  for (const double side : {-1.0, 1.0}) {
+    add_tube(mesh, paint_of(Material::kCloth), {-0.2, 0.12 * side, 0.8}, {0.22, 0.14 * side, 0.76},
+             0.1, 0.08, 6);
+    add_tube(mesh, paint_of(Material::kCloth), {0.22, 0.14 * side, 0.76}, {0.15, 0.14 * side, 0.33},
+             0.08, 0.06, 6);
+  }
+  return body;
+}
+
 }  // namespace raymoval::simulated

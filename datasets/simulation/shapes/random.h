@@ -19,6 +19,10 @@ enum class Purpose : std::uint64_t {
   kDrift,
   kJitter,
   kPhase,
+  kQueue,
+  kPause,
+  kGlass,
+  kEcho,
 };
 
 /// The finaliser of splitmix64 (Steele, Lea, Flood 2014): a bijection that mixes all bits.

@@ -86,6 +86,27 @@ double wobble(double time, double size, double phase) {
                  0.25 * std::sin(2 * kPi * 11.3 * time + 3.7 * phase));
 }
 
+/// How a walking person carries a sensor, about a point on the ground: up and down with each step,
+/// aside and rolling with each second one, and turned slowly to what there is to see.
+Isometry3d gait(const EgoSpec& spec, double time) {
+  const double step = 2.0 * kPi * spec.step_hz * time;
+  // No two steps are alike.
+  const double vigour = 0.8 + 0.2 * std::sin(0.37 * step + 0.6);
+  const double roll = spec.sway_rad * vigour * std::sin(0.5 * step + 0.4);
+  const double pitch = 0.6 * spec.sway_rad * vigour * std::sin(step + 1.3);
+  const double yaw = spec.sway_rad * (std::sin(2.0 * kPi * 0.23 * time + 0.9) +
+                                      0.6 * std::sin(2.0 * kPi * 0.61 * time));
+  Isometry3d motion = Isometry3d::Identity();
+  motion.translation() =
+      Vector3d(0.3 * spec.sway_m * std::sin(step + 0.2), spec.sway_m * std::sin(0.5 * step),
+               spec.sway_m * vigour * std::cos(step));
+  motion.linear() =
+      (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()) *
+       Eigen::AngleAxisd(roll, Vector3d::UnitX()))
+          .toRotationMatrix();
+  return motion;
+}
+
 /// Angles of an excavator at one instant, radians.
 struct ArmAngles {
   double swing;   ///< Of the upper carriage about the vertical.
@@ -138,6 +159,7 @@ Isometry3d Ego::base(double time) const {
   shake.linear() = (Eigen::AngleAxisd(wobble(time, spec_.vibration_rad, 1.1), Vector3d::UnitY()) *
                     Eigen::AngleAxisd(wobble(time, spec_.vibration_rad, 2.3), Vector3d::UnitX()))
                        .toRotationMatrix();
+  if (spec_.sway_m > 0.0 || spec_.sway_rad > 0.0) base = base * gait(spec_, time);
   return base * shake;
 }
 
@@ -145,7 +167,9 @@ Isometry3d Ego::sensor_pose(double time) const {
   Isometry3d mount = Isometry3d::Identity();
   mount.translation() =
       Vector3d(spec_.sensor_forward_m, spec_.sensor_left_m, spec_.sensor_height_m);
-  mount.linear() = Eigen::AngleAxisd(spec_.sensor_pitch_rad, Vector3d::UnitY()).toRotationMatrix();
+  mount.linear() = (Eigen::AngleAxisd(spec_.sensor_pitch_rad, Vector3d::UnitY()) *
+                    Eigen::AngleAxisd(spec_.sensor_roll_rad, Vector3d::UnitX()))
+                       .toRotationMatrix();
   return base(time) * mount;
 }
 

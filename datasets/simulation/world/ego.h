@@ -17,6 +17,11 @@ struct EgoSpec {
   double sensor_forward_m = 0.0;
   double sensor_left_m = 0.0;
   double sensor_pitch_rad = 0.0;  ///< Positive = looking down.
+  double sensor_roll_rad = 0.0;   ///< Positive = leaning to the right.
+  /// A person's gait: the body bobs and rocks at the steps, and looks about between them.
+  double sway_m = 0.0;
+  double sway_rad = 0.0;
+  double step_hz = 1.9;
   double vibration_m = 0.0;
   double vibration_rad = 0.0;
   double dig_period_s = 18.0;  ///< Of an excavator: one dig, swing, dump, swing back.

@@ -107,7 +107,9 @@ double Ground::clearance(const Vector2d& p, const Road* except) const {
 double Ground::hills(const Vector2d& p) const {
   double height = 0.0;
   for (const Wave& wave : waves_) height += std::sin(wave.per_metre.dot(p) + wave.phase);
-  return waves_.empty() ? 0.0 : terrain_.hills_m * height / static_cast<double>(waves_.size());
+  const double rise = terrain_.slope.dot(p);
+  if (waves_.empty()) return rise;
+  return rise + terrain_.hills_m * height / static_cast<double>(waves_.size());
 }
 
 double Ground::height(const Vector2d& p) const {

@@ -34,7 +34,8 @@ struct Terrain {
   double margin_m = 70.0;  ///< How far from a road there is land.
   double roughness_m = 0.04;
   double grid_m = 2.0;
-  bool paved = false;  ///< Paved or soil instead of grass.
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< Rise of all the land, metres per metre.
+  bool paved = false;                               ///< Paved or soil instead of grass.
   bool soil = false;
 };
 

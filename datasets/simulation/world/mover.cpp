@@ -51,17 +51,19 @@ Isometry3d Track::frame(double s, double left, double wheelbase, double gauge) c
   return frame;
 }
 
-Mover::Mover(std::string kind, Body body, Track track, double left, std::uint16_t instance)
+Mover::Mover(std::string kind, Body body, Track track, double left, std::uint16_t instance,
+             Presence presence)
     : kind_(std::move(kind)),
       body_(std::move(body)),
       track_(std::move(track)),
       left_(left),
-      instance_(instance) {
+      instance_(instance),
+      presence_(presence) {
   set_label(0.0);
 }
 
 bool Mover::present(double time) const {
-  return track_.reaches(track_.along(time));
+  return presence_.holds(time) && track_.reaches(track_.along(time));
 }
 
 Isometry3d Mover::pose(double time) const {
@@ -94,7 +96,7 @@ void Mover::set_label(double duration) {
   constexpr double kStill = 0.05;  // metres
   constexpr int kLooks = 400;
   const double start = track_.along(0.0);
-  moves_ = false;
+  moves_ = presence_.from_s > 0.0 || presence_.until_s < duration;
   for (int i = 1; i <= kLooks && !moves_; ++i) {
     moves_ = std::abs(track_.along(duration * i / kLooks) - start) > kStill;
   }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,14 @@ struct Route {
   std::vector<Eigen::Vector2d> points;  ///< In the plane of the world, metres.
   double start_m = 0.0;                 ///< Distance along the route at time 0.
   SpeedProfile speed;
+};
+
+/// When something is in the world at all, seconds.
+struct Presence {
+  double from_s = -std::numeric_limits<double>::infinity();
+  double until_s = std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool holds(double time) const { return time >= from_s && time < until_s; }
+  [[nodiscard]] bool is_limited() const { return std::isfinite(from_s) || std::isfinite(until_s); }
 };
 
 /// A route made ready: knows where one is at a time and how one stands on the ground there.
@@ -58,15 +68,17 @@ class Track {
 /// Something that follows a track.
 class Mover {
  public:
-  Mover(std::string kind, Body body, Track track, double left, std::uint16_t instance);
+  Mover(std::string kind, Body body, Track track, double left, std::uint16_t instance,
+        Presence presence = {});
 
-  /// False before a route begins and after it ends: the mover is not in the world then.
+  /// False before a route begins and after it ends, and outside its presence: the mover is not in
+  /// the world then.
   [[nodiscard]] bool present(double time) const;
   [[nodiscard]] Eigen::Isometry3d pose(double time) const;
   /// Its parts at `time`, present or not.
   void place(double time, std::vector<PlacedPart>& parts) const;
-  /// Gives the label: an object that moves at any time from 0 to `duration` (seconds) is labelled
-  /// moving throughout.
+  /// Gives the label: an object that moves at any time from 0 to `duration` (seconds), or that
+  /// comes or goes unseen meanwhile, is labelled moving throughout.
   void set_label(double duration);
 
   [[nodiscard]] bool moves() const { return moves_; }
@@ -83,6 +95,7 @@ class Mover {
   Track track_;
   double left_;
   std::uint16_t instance_;
+  Presence presence_;
   std::uint32_t label_ = 0;
   bool moves_ = false;
 };

@@ -19,15 +19,35 @@ using Eigen::Vector3d;
 
 constexpr double kTile = 96.0;  // metres
 
-const std::string& chosen_kind(const FlowSpec& flow, Random& random) {
+const std::string& chosen_kind(const std::vector<std::pair<std::string, double>>& kinds,
+                               Random& random) {
   double sum = 0.0;
-  for (const auto& [kind, weight] : flow.kinds) sum += weight;
+  for (const auto& [kind, weight] : kinds) sum += weight;
   double pick = random.unit() * sum;
-  for (const auto& [kind, weight] : flow.kinds) {
+  for (const auto& [kind, weight] : kinds) {
     pick -= weight;
     if (pick < 0.0) return kind;
   }
-  return flow.kinds.back().first;
+  return kinds.back().first;
+}
+
+/// A steady `speed`, or one that rests now and then as the flow says.
+SpeedProfile paced(const FlowSpec& flow, double speed, double duration, Random random) {
+  if (!(flow.stop_every_s.high > 0.0)) return SpeedProfile({{0.0, speed}});
+  constexpr double kRamp = 0.5;  // seconds from standing to walking
+  std::vector<std::pair<double, double>> knots;
+  // Somewhere in the first stretch, so that not all stop together.
+  double time = -random.unit() * flow.stop_every_s.high;
+  while (time < duration) {
+    knots.emplace_back(time, speed);
+    time += random.between(flow.stop_every_s.low, flow.stop_every_s.high);
+    knots.emplace_back(time, speed);
+    knots.emplace_back(time += kRamp, 0.0);
+    knots.emplace_back(time += kRamp + random.between(flow.stop_for_s.low, flow.stop_for_s.high),
+                       0.0);
+    time += kRamp;
+  }
+  return SpeedProfile(std::move(knots));
 }
 
 bool keeps_lane(const std::string& kind) {
@@ -46,6 +66,8 @@ World::World(const WorldFile& file, std::uint64_t seed, double duration)
   for (const PlaceSpec& place : file.places) add_place(place, file.seed, ++number);
   for (const MoverSpec& mover : file.movers) add_movers(mover, seed, ++number);
   for (const FlowSpec& flow : file.flows) add_flow(flow, seed, ++number, duration);
+  for (const QueueSpec& queue : file.queues) add_queue(queue, seed, ++number);
+  air_ = file.air;
   for (const auto& mover : movers_) mover->set_label(duration);
   ego_.emplace(file.ego, *ground_);
   finish();
@@ -102,6 +124,12 @@ void World::add_row(const RowSpec& row, std::uint64_t seed, std::uint64_t number
       if (ground_->clearance(middle, &road) < footprint_radius(part)) continue;
       const Vector2d along = side * road.path.direction(s + 0.5 * spacing);
       const double yaw = std::atan2(along.y(), along.x()) + row.turn_rad;
+      if (row.presence.is_limited()) {
+        const Vector2d ahead(std::cos(yaw), std::sin(yaw));
+        add_parked(part.part.substr(std::string("parked_").size()), row.presence, at, ahead,
+                   random);
+        continue;
+      }
       const std::uint16_t instance = part.part.starts_with("parked") ? next_instance() : 0;
       add_standing(make_part(part, instance, random),
                    placed(at.x(), at.y(), ground_->height(at), yaw));
@@ -124,7 +152,43 @@ void World::add_movers(const MoverSpec& spec, std::uint64_t seed, std::uint64_t 
     if (i > 0) route.start_m += random.between(-0.4, 0.4) - 0.7 * row;
     const double left = 0.75 * column * (i % 2 == 0 ? 1.0 : -1.0) * (i == 0 ? 0.0 : 1.0);
     add_mover(Mover(spec.kind, make_body(spec.kind, random), Track(route, *ground_), left,
-                    next_instance()));
+                    next_instance(), spec.presence));
+  }
+}
+
+/// A vehicle that stands at `at` for as long as it is there.
+void World::add_parked(const std::string& kind, const Presence& presence, const Vector2d& at,
+                       const Vector2d& along, Random& random) {
+  Route route;
+  route.points = {at - along, at + along};
+  route.start_m = 1.0;
+  if (random.chance(0.5)) std::swap(route.points[0], route.points[1]);
+  Body body = make_body(kind, random);
+  add_mover(Mover(kind, std::move(body), Track(route, *ground_), 0.0, next_instance(), presence));
+}
+
+void World::add_queue(const QueueSpec& queue, std::uint64_t seed, std::uint64_t number) {
+  for (std::size_t lane = 0; lane < queue.lanes_m.size(); ++lane) {
+    Random random(seed, Purpose::kQueue, number, lane);
+    std::vector<std::string> kinds;
+    std::vector<Body> bodies;
+    std::vector<double> lengths;
+    for (int i = 0; i < queue.count; ++i) {
+      kinds.push_back(chosen_kind(queue.kinds, random));
+      bodies.push_back(make_body(kinds.back(), random));
+      lengths.push_back(bodies.back().length_m);
+    }
+    const std::vector<QueuePlace> places = queue_places(queue, lengths, random);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      Route route;
+      route.road = queue.road;
+      route.reverse = queue.reverse;
+      route.lane_m = queue.lanes_m[lane];
+      route.start_m = places[i].start_m;
+      route.speed = places[i].speed;
+      add_mover(Mover(kinds[i], std::move(bodies[i]), Track(route, *ground_), places[i].left_m,
+                      next_instance()));
+    }
   }
 }
 
@@ -140,13 +204,16 @@ void World::add_flow(const FlowSpec& flow, std::uint64_t seed, std::uint64_t num
   std::uint64_t place = 0;
   for (double s = end; s > begin;) {
     Random random(seed, Purpose::kFlow, number, ++place);
-    const std::string kind = chosen_kind(flow, random);
+    const std::string kind = chosen_kind(flow.kinds, random);
     const bool lane = keeps_lane(kind);
     const double speed = lane ? mean : random.between(flow.speed_mps.low, flow.speed_mps.high);
     const int members = 1 + (lane ? 0 : random.below(flow.group));
     for (int i = 0; i < members; ++i) {
       route.start_m = s + (i == 0 ? 0.0 : random.between(-0.5, 0.5));
-      route.speed = SpeedProfile({{0.0, speed}});
+      route.speed =
+          lane ? SpeedProfile({{0.0, speed}})
+               : paced(flow, speed, duration,
+                       Random(seed, Purpose::kPause, number, place * 64 + std::uint64_t(i)));
       const double left = lane ? random.between(-0.2, 0.2) : random.between(-0.2, 0.2) - 0.7 * i;
       Body body = make_body(kind, random);
       s -= i == 0 ? body.length_m : 0.0;

@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "datasets/simulation/shapes/mesh.h"
+#include "datasets/simulation/shapes/random.h"
+#include "datasets/simulation/world/air.h"
 #include "datasets/simulation/world/ego.h"
 #include "datasets/simulation/world/ground.h"
 #include "datasets/simulation/world/mover.h"
@@ -17,6 +20,7 @@ namespace raymoval::simulated {
 struct FlowSpec;
 struct MoverSpec;
 struct PlaceSpec;
+struct QueueSpec;
 struct RowSpec;
 struct WorldFile;
 
@@ -43,11 +47,13 @@ class World {
   /// Puts a standing mesh into the tile of its origin.
   void add_standing(const Mesh& mesh, const Eigen::Isometry3d& T_world_mesh);
   void add_mover(Mover mover) { movers_.push_back(std::make_unique<Mover>(std::move(mover))); }
+  void set_air(const Air& air) { air_ = air; }
   /// Fixes the tiles' bounds; call it once, after the last `add_standing`.
   void finish();
 
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Mover>>& movers() const { return movers_; }
+  [[nodiscard]] const Air& air() const { return air_; }
   [[nodiscard]] const std::optional<Ego>& ego() const { return ego_; }
   [[nodiscard]] const Ground* ground() const { return ground_.get(); }
   /// All parts that do not stand, once for each of `times` and each time in the same order: those
@@ -62,12 +68,16 @@ class World {
   void add_place(const PlaceSpec& place, std::uint64_t seed, std::uint64_t number);
   void add_movers(const MoverSpec& spec, std::uint64_t seed, std::uint64_t number);
   void add_flow(const FlowSpec& flow, std::uint64_t seed, std::uint64_t number, double duration);
+  void add_queue(const QueueSpec& queue, std::uint64_t seed, std::uint64_t number);
+  void add_parked(const std::string& kind, const Presence& presence, const Eigen::Vector2d& at,
+                  const Eigen::Vector2d& along, Random& random);
   std::uint16_t next_instance();
 
   std::unique_ptr<Ground> ground_;
   std::vector<Tile> tiles_;
   std::vector<std::unique_ptr<Mover>> movers_;
   std::optional<Ego> ego_;
+  Air air_;
   std::uint16_t instances_ = 0;
 };
 

@@ -26,13 +26,20 @@ auto at_place(const std::string& where, Make make) {
 }
 
 Terrain read_terrain(const nlohmann::json& json, const std::string& where) {
-  const Fields f(json, where, "hills_m wavelength_m margin_m roughness_m grid_m cover");
+  const Fields f(json, where, "hills_m wavelength_m margin_m roughness_m grid_m cover slope");
   Terrain t;
   t.hills_m = f.number("hills_m", t.hills_m, 0.0, 30.0);
   t.wavelength_m = f.number("wavelength_m", t.wavelength_m, 20.0, 5000.0);
   t.margin_m = f.number("margin_m", t.margin_m, 10.0, 300.0);
   t.roughness_m = f.number("roughness_m", t.roughness_m, 0.0, 1.0);
   t.grid_m = f.number("grid_m", t.grid_m, 0.25, 16.0);
+  if (f.has("slope")) {
+    const std::vector<double> slope = f.numbers("slope");
+    if (slope.size() != 2 || std::hypot(slope[0], slope[1]) > 0.7) {
+      f.fail("slope", "[along x, along y] in metres a metre, at most 0.7 together");
+    }
+    t.slope = {slope[0], slope[1]};
+  }
   const std::string cover = f.choice("cover", "grass", {"grass", "paved", "soil"});
   t.paved = cover == "paved";
   t.soil = cover == "soil";
@@ -85,6 +92,28 @@ Route read_route(const Fields& f, const std::string& speed_key) {
   return route;
 }
 
+const std::string kPresenceKeys = "present_from_s present_until_s ";
+
+Presence read_presence(const Fields& f) {
+  Presence presence;
+  presence.from_s = f.number("present_from_s", presence.from_s);
+  presence.until_s = f.number("present_until_s", presence.until_s);
+  if (!(presence.from_s < presence.until_s)) {
+    f.fail("present_until_s", "a time after 'present_from_s'");
+  }
+  return presence;
+}
+
+std::vector<std::pair<std::string, double>> read_kinds(const Fields& f) {
+  const Fields weights(f.member("kinds"), f.place("kinds"), join(body_kinds(), " "));
+  std::vector<std::pair<std::string, double>> kinds;
+  for (const std::string& kind : weights.names()) {
+    kinds.emplace_back(kind, weights.number(kind, 1.0, 0.0, 1e6));
+  }
+  if (kinds.empty()) f.fail("kinds", "at least one kind with its weight");
+  return kinds;
+}
+
 PartSpec read_part(const Fields& f) {
   PartSpec part;
   static_cast<void>(f.member("part"));
@@ -97,8 +126,9 @@ PartSpec read_part(const Fields& f) {
 
 RowSpec read_row(const nlohmann::json& json, const std::string& where) {
   const Fields f(json, where,
-                 "road side from_m to_m offset_m spacing_m share turn_deg part length_m "
-                 "width_m height_m");
+                 kPresenceKeys +
+                     "road side from_m to_m offset_m spacing_m share turn_deg part length_m "
+                     "width_m height_m");
   RowSpec row;
   row.road = f.text("road", "");
   const std::string side = f.choice("side", "both", {"left", "right", "both"});
@@ -111,6 +141,10 @@ RowSpec read_row(const nlohmann::json& json, const std::string& where) {
   row.share = f.number("share", 1.0, 0.0, 1.0);
   row.turn_rad = f.number("turn_deg", 0.0, -360.0, 360.0) * kDegree;
   row.part = read_part(f);
+  row.presence = read_presence(f);
+  if (row.presence.is_limited() && !row.part.part.starts_with("parked")) {
+    f.fail("present_from_s", "a part that is parked: others stand for ever");
+  }
   return row;
 }
 
@@ -128,36 +162,75 @@ PlaceSpec read_place(const nlohmann::json& json, const std::string& where) {
 }
 
 MoverSpec read_mover(const nlohmann::json& json, const std::string& where) {
-  const Fields f(json, where, kRouteKeys + "kind speed group");
+  const Fields f(json, where, kRouteKeys + kPresenceKeys + "kind speed group");
   MoverSpec mover;
   mover.kind = f.choice("kind", "car", body_kinds());
   mover.group = f.integer("group", 1, 1, 20);
   mover.route = read_route(f, "speed");
+  mover.presence = read_presence(f);
   return mover;
 }
 
 FlowSpec read_flow(const nlohmann::json& json, const std::string& where) {
-  const Fields f(json, where, kRouteKeys + "kinds speed_mps gap_m group from_m to_m");
+  const Fields f(json, where,
+                 kRouteKeys + "kinds speed_mps gap_m group from_m to_m stop_every_s stop_for_s");
   FlowSpec flow;
   flow.route = read_route(f, "");
   flow.speed_mps = f.interval("speed_mps", {8.0, 8.0}, 0.0, 100.0);
-  flow.gap_m = f.interval("gap_m", {20.0, 60.0}, 1.0, kWorldReach);
+  flow.gap_m = f.interval("gap_m", {20.0, 60.0}, 0.3, kWorldReach);
   flow.group = f.integer("group", 1, 1, 20);
   if (f.has("from_m")) flow.from_m = f.number("from_m", 0.0, -1e5, 1e5);
   flow.to_m = f.number("to_m", -1.0, -1.0, 1e5);
-  const Fields weights(f.member("kinds"), f.place("kinds"), join(body_kinds(), " "));
-  for (const std::string& kind : weights.names()) {
-    flow.kinds.emplace_back(kind, weights.number(kind, 1.0, 0.0, 1e6));
+  flow.stop_every_s = f.interval("stop_every_s", {0.0, 0.0}, 0.0, 1e5);
+  flow.stop_for_s = f.interval("stop_for_s", {0.0, 0.0}, 0.0, 1e5);
+  if (f.has("stop_every_s") && flow.stop_every_s.low < 1.0) {
+    f.fail("stop_every_s", "at least 1 s on the way");
   }
-  if (flow.kinds.empty()) f.fail("kinds", "at least one kind with its weight");
+  flow.kinds = read_kinds(f);
   return flow;
 }
 
-EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
+QueueSpec read_queue(const nlohmann::json& json, const std::string& where) {
   const Fields f(json, where,
-                 kRouteKeys +
-                     "speed body sensor_height_m sensor_forward_m sensor_left_m sensor_pitch_deg "
-                     "vibration_m vibration_deg dig_period_s");
+                 "road reverse lanes_m line_m count gap_m side_m kinds arrived start_s reaction_s "
+                 "speed_mps acceleration_mps2");
+  QueueSpec queue;
+  queue.road = f.text("road");
+  queue.reverse = f.flag("reverse", false);
+  queue.lanes_m = f.numbers("lanes_m");
+  for (const double lane : queue.lanes_m) {
+    if (!(std::abs(lane) <= 200.0)) f.fail("lanes_m", "offsets of at most 200 m");
+  }
+  if (queue.lanes_m.empty()) f.fail("lanes_m", "at least one lane");
+  queue.line_m = f.number("line_m", 0.0, -1e5, 1e5);
+  queue.count = f.integer("count", queue.count, 1, 1000);
+  queue.gap_m = f.interval("gap_m", queue.gap_m, 0.1, 100.0);
+  queue.side_m = f.interval("side_m", queue.side_m, -5.0, 5.0);
+  queue.kinds = read_kinds(f);
+  queue.arrived = f.number("arrived", queue.arrived, 0.0, 1.0);
+  queue.start_s = f.number("start_s", queue.start_s, 1.0, 1e5);
+  queue.reaction_s = f.interval("reaction_s", queue.reaction_s, 0.0, 60.0);
+  queue.speed_mps = f.number("speed_mps", queue.speed_mps, 0.1, 60.0);
+  queue.acceleration_mps2 = f.number("acceleration_mps2", queue.acceleration_mps2, 0.1, 20.0);
+  return queue;
+}
+
+Air read_air(const nlohmann::json& json, const std::string& where) {
+  const Fields f(json, where, "glass_through visibility_m echo_share echo_range_m");
+  Air air;
+  air.glass_through = f.number("glass_through", air.glass_through, 0.0, 1.0);
+  air.visibility_m = f.number("visibility_m", air.visibility_m, 1.0, 1e9);
+  air.echo_share = f.number("echo_share", air.echo_share, 0.0, 1.0);
+  air.echo_range_m = f.number("echo_range_m", air.echo_range_m, 0.1, 1000.0);
+  return air;
+}
+
+EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
+  const Fields f(
+      json, where,
+      kRouteKeys +
+          "speed body sensor_height_m sensor_forward_m sensor_left_m sensor_pitch_deg "
+          "sensor_roll_deg vibration_m vibration_deg sway_m sway_deg step_hz dig_period_s");
   EgoSpec ego;
   ego.route = read_route(f, "speed");
   ego.body = f.choice("body", "car", {"car", "excavator", "none"});
@@ -165,6 +238,10 @@ EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
   ego.sensor_forward_m = f.number("sensor_forward_m", 0.0, -20.0, 20.0);
   ego.sensor_left_m = f.number("sensor_left_m", 0.0, -20.0, 20.0);
   ego.sensor_pitch_rad = f.number("sensor_pitch_deg", 0.0, -90.0, 90.0) * kDegree;
+  ego.sensor_roll_rad = f.number("sensor_roll_deg", 0.0, -180.0, 180.0) * kDegree;
+  ego.sway_m = f.number("sway_m", 0.0, 0.0, 0.5);
+  ego.sway_rad = f.number("sway_deg", 0.0, 0.0, 30.0) * kDegree;
+  ego.step_hz = f.number("step_hz", ego.step_hz, 0.1, 10.0);
   ego.vibration_m = f.number("vibration_m", 0.0, 0.0, 0.5);
   ego.vibration_rad = f.number("vibration_deg", 0.0, 0.0, 10.0) * kDegree;
   ego.dig_period_s = f.number("dig_period_s", ego.dig_period_s, 2.0, 1000.0);
@@ -176,7 +253,7 @@ EgoSpec read_ego(const nlohmann::json& json, const std::string& where) {
 WorldFile world_from_json(const nlohmann::json& json, const std::string& file) {
   const Fields f(json, file,
                  "description sensor scans range_m seed terrain roads rows places "
-                 "movers flows ego");
+                 "movers flows queues air ego");
   WorldFile world;
   world.name = std::filesystem::path(file).stem().string();
   world.description = f.text("description", "");
@@ -194,6 +271,10 @@ WorldFile world_from_json(const nlohmann::json& json, const std::string& file) {
     world.movers.push_back(read_mover(*item, where));
   }
   for (const auto& [item, where] : f.list("flows")) world.flows.push_back(read_flow(*item, where));
+  for (const auto& [item, where] : f.list("queues")) {
+    world.queues.push_back(read_queue(*item, where));
+  }
+  if (f.has("air")) world.air = read_air(f.member("air"), f.place("air"));
   world.ego = read_ego(f.member("ego"), f.place("ego"));
   if (world.roads.empty()) f.fail("roads", "at least one road");
   double length = 0.0;

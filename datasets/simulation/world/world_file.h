@@ -10,9 +10,11 @@
 
 #include "core/files/fields.h"
 #include "datasets/simulation/shapes/parts.h"
+#include "datasets/simulation/world/air.h"
 #include "datasets/simulation/world/ego.h"
 #include "datasets/simulation/world/ground.h"
 #include "datasets/simulation/world/mover.h"
+#include "datasets/simulation/world/queue.h"
 
 namespace raymoval::simulated {
 
@@ -21,6 +23,7 @@ struct MoverSpec {
   std::string kind;
   Route route;
   int group = 1;
+  Presence presence;
 };
 
 /// Many movers one after another in a lane.
@@ -30,6 +33,8 @@ struct FlowSpec {
   NumberRange gap_m;                                  ///< Between one and the next.
   std::vector<std::pair<std::string, double>> kinds;  ///< With weights.
   int group = 1;                                      ///< At most so many together.
+  /// People and cyclists stop now and then: after so long on the way, for so long. 0 = never.
+  NumberRange stop_every_s, stop_for_s;
   /// Start positions at time 0. Without `from_m` an open route is fed from its beginning for as
   /// long as the sequence lasts; without `to_m` (-1) it is filled to its end.
   std::optional<double> from_m;
@@ -45,6 +50,7 @@ struct RowSpec {
   NumberRange spacing_m;
   double share = 1.0;  ///< Of the places that are taken.
   double turn_rad = 0.0;
+  Presence presence;  ///< Of parked vehicles only; others stand for ever.
   PartSpec part;
 };
 
@@ -69,6 +75,8 @@ struct WorldFile {
   std::vector<PlaceSpec> places;
   std::vector<MoverSpec> movers;
   std::vector<FlowSpec> flows;
+  std::vector<QueueSpec> queues;
+  Air air;
   EgoSpec ego;
 };
 
