@@ -21,23 +21,48 @@ struct GroundPlane {
   [[nodiscard]] double height(const Vector3d& point) const { return normal.dot(point) - offset; }
 };
 
-GroundPlane ground_of(std::size_t scans,
-                      const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
-  Vector3d normal = Vector3d::Zero();
-  std::vector<Vector3d> flat;
+/// Surfels of all scans that the ground may consist of, their axes towards the sensor: below it,
+/// and tilted by less than 60 degrees, as far as a sensor in a hand may be.
+std::vector<Surfel> ground_candidates(
+    std::size_t scans, const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
+  constexpr double kFarthest = 15.0, kLowest = 0.3, kTilted = 0.5;
+  std::vector<Surfel> candidates;
   for (std::size_t k = 0; k < scans; ++k) {
-    for (const Surfel& surfel : surfels(k)) {
-      if (surfel.group != Surfel::Group::kNormalZ || std::abs(surfel.axis.z()) < 0.85) continue;
-      if (surfel.mean.norm() > 15.0 || surfel.mean.z() > -0.3) continue;
-      normal += surfel.axis.z() > 0.0 ? surfel.axis : Vector3d(-surfel.axis);
-      flat.push_back(surfel.mean);
+    for (Surfel surfel : surfels(k)) {
+      if (surfel.is_line() || std::abs(surfel.axis.z()) < kTilted) continue;
+      if (surfel.axis.z() < 0.0) surfel.axis = -surfel.axis;
+      if (surfel.mean.norm() > kFarthest || surfel.axis.dot(surfel.mean) > -kLowest) continue;
+      candidates.push_back(surfel);
     }
   }
+  return candidates;
+}
+
+/// The plane that most surfels of all scans lie on. A wall ahead of a tilted sensor may have as
+/// many in one scan, but it comes nearer while the ground stays.
+GroundPlane ground_of(std::size_t scans,
+                      const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
+  constexpr std::size_t kTrials = 100;
+  constexpr double kSameTurn = 0.98, kSameHeight = 0.3;  // cosine of 11 degrees; metres
+  const std::vector<Surfel> candidates = ground_candidates(scans, surfels);
+  std::vector<const Surfel*> best;
+  for (const std::size_t trial : evenly_spread(candidates.size(), kTrials)) {
+    const Surfel& one = candidates[trial];
+    std::vector<const Surfel*> alike;
+    for (const Surfel& other : candidates) {
+      if (other.axis.dot(one.axis) < kSameTurn) continue;
+      if (std::abs(one.axis.dot(other.mean - one.mean)) > kSameHeight) continue;
+      alike.push_back(&other);
+    }
+    if (alike.size() > best.size()) best = std::move(alike);
+  }
   GroundPlane plane;
-  if (flat.empty()) return plane;
+  if (best.empty()) return plane;
+  Vector3d normal = Vector3d::Zero();
+  for (const Surfel* surfel : best) normal += surfel->axis;
   plane.normal = normal.normalized();
   std::vector<double> offsets;
-  for (const Vector3d& mean : flat) offsets.push_back(plane.normal.dot(mean));
+  for (const Surfel* surfel : best) offsets.push_back(plane.normal.dot(surfel->mean));
   plane.offset = median(std::move(offsets));
   return plane;
 }

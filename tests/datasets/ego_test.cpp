@@ -7,6 +7,7 @@
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
+#include "datasets/simulation/scene/simulated.h"
 #include "tests/datasets/inspect_data.h"
 
 using namespace raymoval;
@@ -105,6 +106,17 @@ TEST_CASE("where nothing goes along with the sensor nothing is left out", "[ego]
   const Sequence sequence = sequence_of(drive, "auto");
   CHECK(sequence.scans->load(5).points == drive.load(5).points);
   CHECK_THAT(left_out_lines(sequence).at(0), Catch::Contains("nothing goes along"));
+}
+
+TEST_CASE("the ground before a sensor that looks down is no vehicle", "[ego]") {
+  // Somebody walks 16 m; the sensor in the hand looks down by 35 degrees, and up and down a little.
+  SimulationOptions options;
+  options.scene = "walk";
+  options.sensor = "vlp16";
+  options.scans = 120;
+  const std::shared_ptr<const SimulatedSequence> walk = make_simulated(options);
+  const EgoFreeSource scans(walk, parse_ego_region("auto"));
+  CHECK(scans.region().kind == EgoRegion::Kind::kNone);
 }
 
 TEST_CASE("a sensor that stands, or a region of everything, is an error", "[ego]") {
