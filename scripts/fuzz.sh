@@ -22,9 +22,11 @@ if ! command -v clang++ >/dev/null; then
   echo "fuzz.sh: clang++ is missing; install it with: apt-get install clang" >&2
   exit 2
 fi
-cmake --preset fuzz >/dev/null && cmake --build --preset fuzz || exit 2
-
 targets=("$@")
+cmake --preset fuzz >/dev/null || exit 2
+programs=("${targets[@]/#/fuzz_}")
+[[ ${#targets[@]} -gt 0 ]] || programs=(fuzzers)
+cmake --build --preset fuzz --target "${programs[@]}" || exit 2
 if [[ ${#targets[@]} -eq 0 ]]; then
   for program in build/fuzz/fuzz_*; do targets+=("${program#build/fuzz/fuzz_}"); done
 fi

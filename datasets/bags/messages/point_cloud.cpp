@@ -94,6 +94,8 @@ std::vector<std::pair<std::size_t, std::size_t>> numbers_of(const RecordLayout& 
 }
 
 void turn_to_little_endian(PointRecords& records, const std::string& where) {
+  // Without a point nothing bounds how many numbers a field says it has.
+  if (records.size() == 0) return;
   const auto numbers = numbers_of(records.layout, where);
   for (std::size_t point = 0; point < records.size(); ++point) {
     for (const auto& [offset, size] : numbers) {

@@ -106,7 +106,12 @@ void SqliteDatabase::run(const std::string& sql) const {
 void SqliteDatabase::fail(int code) const {
   const int kind = code & 0xFF;
   const std::string reason = handle_ ? sqlite3_errmsg(handle()) : sqlite3_errstr(code);
-  if (kind == SQLITE_NOMEM) throw std::bad_alloc();
+  if (kind == SQLITE_NOMEM) {
+    // The library says so of damaged schemas as well, and it asks for little otherwise.
+    throw DataError(path_.string() +
+                    ": reading it takes memory that is not to be had. If the machine has memory "
+                    "left, the database is damaged: copy it again.");
+  }
   if ((kind == SQLITE_IOERR && code != SQLITE_IOERR_SHORT_READ) || kind == SQLITE_CANTOPEN ||
       kind == SQLITE_PERM) {
     const int cause = handle_ ? sqlite3_system_errno(handle()) : 0;
