@@ -71,6 +71,29 @@ for header, brought in {"iostream": ("ostream", "istream"), "cstdlib": ("stdlib.
     for name in STANDARD[header].split():
         HEADERS_OF[name].update(brought)
 
+# Of the system, written as ::name.
+SYSTEM = {
+    "dirent.h": "closedir opendir readdir",
+    "fcntl.h": "fcntl open openat",
+    "fnmatch.h": "fnmatch",
+    "poll.h": "poll",
+    "semaphore.h": "sem_init sem_post sem_wait",
+    "sys/file.h": "flock",
+    "sys/ioctl.h": "ioctl",
+    "sys/mman.h": "memfd_create mmap munmap",
+    "sys/prctl.h": "prctl",
+    "sys/resource.h": "getrlimit getrusage setrlimit",
+    "sys/stat.h": "chmod fchmod fstat fstatat lstat mkdir stat",
+    "sys/statvfs.h": "statvfs",
+    "sys/vfs.h": "statfs",
+    "sys/wait.h": "waitid waitpid",
+    "unistd.h": "access chdir close close_range dup2 execve fchown fork fsync ftruncate geteuid "
+                "gethostname getpid getppid isatty lchown link lseek pipe2 pread pwrite read setsid "
+                "syscall sysconf unlink write",
+    "zlib.h": "compress2 crc32 crc32_z inflate",
+}
+SYSTEM_HEADER_OF = {name: header for header, names in SYSTEM.items() for name in names.split()}
+
 # How the headers of the libraries begin, by their namespaces.
 LIBRARIES = {"fmt": "fmt/", "nlohmann": "nlohmann/", "tsl": "tsl/", "tbb": ("tbb/", "oneapi/"),
              "CLI": "CLI/", "hwy": "hwy/", "nanoflann": "nanoflann", "octomap": "octomap/",
@@ -87,7 +110,8 @@ KEYWORDS = {"void", "bool", "char", "int", "float", "double", "auto", "const", "
 BY_ARGUMENT = {"describe"}
 # Words that stand before a name that is used; any other word before it declares it.
 BEFORE_USE = {"return", "throw", "new", "else", "case", "not", "and", "or", "in", "do", "goto",
-              "co_return", "co_yield", "typename", "public", "private", "protected", "friend"}
+              "typename", "public", "private", "protected", "friend", "const", "constexpr", "static",
+              "inline", "mutable", "explicit", "virtual", "thread_local", "operator"}
 
 
 class Source:
@@ -217,6 +241,9 @@ def forgotten(path, sources, owners, spaces, closure):
             headers = HEADERS_OF.get(token)
             if headers and not headers & others:
                 told.add(f"std::{token} needs <{' or '.join(sorted(headers))}>")
+        elif before == "::" and token in SYSTEM_HEADER_OF and not WORD.match(tokens[i - 2]):
+            if SYSTEM_HEADER_OF[token] not in others:
+                told.add(f"::{token} needs <{SYSTEM_HEADER_OF[token]}>")
         elif token in LIBRARIES and tokens[i + 1:i + 2] == ["::"] and token not in source.spaces:
             if not any(name.startswith(LIBRARIES[token]) for name in others):
                 told.add(f"{token}:: needs a header of that library")
