@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that every source file includes what it uses, itself or by what it includes: in builds that
-compile several files as one (RAYMOVAL_UNITY) the compiler does not notice a forgotten #include.
+"""Checks that every source file includes what it uses, itself or by what it includes: where several
+files are compiled as one (RAYMOVAL_UNITY) the compiler does not notice a forgotten #include.
 
     check_own_includes.py [FOLDER]      of the repository, or of FOLDER
 
@@ -41,8 +41,8 @@ STANDARD = {
     "list": "list",
     "mutex": "call_once lock_guard mutex once_flag recursive_mutex scoped_lock unique_lock",
     "numbers": "numbers",
-    "numeric": "accumulate adjacent_difference exclusive_scan gcd inclusive_scan inner_product iota "
-               "lcm midpoint partial_sum reduce transform_reduce",
+    "numeric": "accumulate adjacent_difference exclusive_scan gcd inclusive_scan inner_product "
+               "iota lcm midpoint partial_sum reduce transform_reduce",
     "queue": "priority_queue queue",
     "random": "mt19937 mt19937_64 normal_distribution random_device uniform_int_distribution "
               "uniform_real_distribution",
@@ -88,8 +88,8 @@ SYSTEM = {
     "sys/vfs.h": "statfs",
     "sys/wait.h": "waitid waitpid",
     "unistd.h": "access chdir close close_range dup2 execve fchown fork fsync ftruncate geteuid "
-                "gethostname getpid getppid isatty lchown link lseek pipe2 pread pwrite read setsid "
-                "syscall sysconf unlink write",
+                "gethostname getpid getppid isatty lchown link lseek pipe2 pread pwrite read "
+                "setsid syscall sysconf unlink write",
     "zlib.h": "compress2 crc32 crc32_z inflate",
 }
 SYSTEM_HEADER_OF = {name: header for header, names in SYSTEM.items() for name in names.split()}
@@ -110,8 +110,8 @@ KEYWORDS = {"void", "bool", "char", "int", "float", "double", "auto", "const", "
 BY_ARGUMENT = {"describe"}
 # Words that stand before a name that is used; any other word before it declares it.
 BEFORE_USE = {"return", "throw", "new", "else", "case", "not", "and", "or", "in", "do", "goto",
-              "typename", "public", "private", "protected", "friend", "const", "constexpr", "static",
-              "inline", "mutable", "explicit", "virtual", "thread_local", "operator"}
+              "typename", "public", "private", "protected", "friend", "const", "constexpr",
+              "static", "inline", "mutable", "explicit", "virtual", "thread_local", "operator"}
 
 
 class Source:
@@ -179,9 +179,9 @@ def declared_by(statement, has_body):
     elif statement[0] == "concept":
         yield words[1]
     elif "operator" not in statement:
-        ends = [i for i, token in enumerate(statement) if token in ("(", "=")] or [len(statement)]
-        if ends[0] > 1 and WORD.fullmatch(statement[ends[0] - 1]) and statement[ends[0] - 2] != "::":
-            yield statement[ends[0] - 1]
+        end = next((i for i, token in enumerate(statement) if token in ("(", "=")), len(statement))
+        if end > 1 and statement[end - 2] != "::" and WORD.fullmatch(statement[end - 1]):
+            yield statement[end - 1]
 
 
 def enumerators(tokens):
@@ -285,7 +285,7 @@ def main():
         for line in forgotten(path, sources, owners[room_apart(path)], spaces, closure):
             print(f"{path}: {line}", file=sys.stderr)
             found += 1
-    print(f"check_own_includes.py: {len(sources)} files, {found} names whose header is not included.")
+    print(f"check_own_includes.py: {len(sources)} files, {found} names without their header.")
     return found > 0
 
 
