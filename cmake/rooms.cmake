@@ -1,17 +1,20 @@
 # Several source files of a folder compiled as one: a third of the work where headers cost more than
 # what is in the files. For builds that nobody edits in (scripts/test.sh): names in anonymous
-# namespaces have to differ within a group, and a forgotten #include may go unnoticed, so what others
-# build on is made file by file in the release build.
+# namespaces have to differ within a group. A forgotten #include may go unnoticed by the compiler;
+# scripts/check_own_includes.py looks for those.
 set(RAYMOVAL_UNITY "" CACHE STRING
-    "Rooms that are compiled several files at a time, such as core;benchmark")
+    "Rooms, and tests, that are compiled several files at a time, such as core;benchmark;tests")
 
-# raymoval_unity(ROOM SOURCE...): groups of up to eight files of one folder.
-function(raymoval_unity room)
-  if(NOT room IN_LIST RAYMOVAL_UNITY)
+# raymoval_unity(NAME TARGET SOURCE...): groups of up to eight files of one folder, if NAME is in
+# RAYMOVAL_UNITY.
+function(raymoval_unity name target)
+  if(NOT name IN_LIST RAYMOVAL_UNITY)
     return()
   endif()
-  set(target raymoval_${room})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A class with members of an unnamed namespace is at home in a source file, and is taken for a
+  # header's here.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   foreach(source ${ARGN})
     file(RELATIVE_PATH group ${PROJECT_SOURCE_DIR} ${source})
     get_filename_component(group ${group} DIRECTORY)
@@ -63,7 +66,7 @@ function(raymoval_room name)
     message(FATAL_ERROR "no source file in ${name}/")
   endif()
   add_library(raymoval_${name} STATIC ${sources})
-  raymoval_unity(${name} ${sources})
+  raymoval_unity(${name} raymoval_${name} ${sources})
   raymoval_precompile(raymoval_${name})
   add_library(raymoval::${name} ALIAS raymoval_${name})
   target_compile_features(raymoval_${name} PUBLIC cxx_std_20)

@@ -15,10 +15,17 @@ Eigen::Matrix3d turn_to_z(const Eigen::Vector3d& up) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   if ((up - z).norm() < kExact) return Eigen::Matrix3d::Identity();
   Eigen::Matrix3d turn;
-  if ((up + z).norm() < kExact) {
+  const double cosine = z.dot(up.normalized());
+  if (cosine < -1.0 + kExact) {  // Downward: any axis that is level will do.
     turn = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()).toRotationMatrix();
   } else {
-    turn = Eigen::Quaterniond::FromTwoVectors(up, z).toRotationMatrix();
+    // As Quaterniond::FromTwoVectors, whose case of opposite vectors takes seconds to compile.
+    const double twice = std::sqrt((1.0 + cosine) * 2.0);
+    const Eigen::Vector3d axis = up.normalized().cross(z);
+    Eigen::Quaterniond rotation;
+    rotation.vec() = axis * (1.0 / twice);
+    rotation.w() = twice * 0.5;
+    turn = rotation.toRotationMatrix();
   }
   // Rounding must not tilt a lattice against axes that were only exchanged.
   for (double& entry : turn.reshaped()) {

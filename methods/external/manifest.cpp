@@ -2,6 +2,7 @@
 #include "methods/external/manifest.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "core/files/fields.h"

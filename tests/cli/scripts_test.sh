@@ -22,6 +22,30 @@ for script in scripts/*.sh scripts/workflow/test_slurm.sh; do
   tells 2 "--nonsense" "$script" --nonsense
 done
 
+# A forgotten #include, of this repository, of the standard library and of the system.
+mkdir -p house/{core,datasets,methods,eval,benchmark,tests}
+cat >house/core/wall.h <<'END'
+namespace raymoval { struct Wall { int bricks; }; int count_of(const Wall& wall); }
+END
+cat >house/core/gate.cpp <<'END'
+#include "core/wall.h"
+#include <unistd.h>
+#include <fstream>
+int open_gate(const raymoval::Wall& wall) {
+  std::ofstream("out");
+  ::fsync(1);
+  return count_of(wall);
+}
+END
+tells 0 "2 files, 0 names" scripts/check_own_includes.py house
+for missing in 'core/wall.h:Wall needs "core/wall.h"' 'core/wall.h:count_of needs "core/wall.h"' \
+  'fstream:std::ofstream needs <fstream>' 'unistd.h:::fsync needs <unistd.h>'; do
+  rm -rf without && cp -r house without
+  sed -i "\,^#include.*${missing%%:*},d" without/core/gate.cpp
+  tells 1 "core/gate.cpp: ${missing#*:}" scripts/check_own_includes.py without
+done
+tells 2 "--nonsense" scripts/check_own_includes.py --nonsense
+
 # Which commit is built: read in each build, written only if it is another one.
 # asks FOLDER: what the source says of the commit and the tree of FOLDER.
 asks() {

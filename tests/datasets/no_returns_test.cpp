@@ -14,7 +14,7 @@ using namespace raymoval::test;
 
 namespace {
 
-const float kNan = std::nanf("");
+const float kNone = std::nanf("");
 const float kInfinity = std::numeric_limits<float>::infinity();
 
 /// One scan of rows x y z intensity in a folder with a pose file in the LiDAR's frame.
@@ -34,8 +34,8 @@ std::string organised_pcd(const std::string& viewpoint, const std::string& rows)
 TEST_CASE("no returns are left out at any share, and labels keep their places", "[no-returns]") {
   const TemporaryFolder folder;
   // Of six points only 2 and 5 are returns: the others are NaN (also in one coordinate) or zero.
-  write_scan(folder, {kNan, kNan, kNan, 0, 0, 0,    0, 0, 2, 0, 1, 0.5F,  //
-                      0,    -0.F, 0,    7, 1, kNan, 0, 0, 5, 1, 0, 0.25F});
+  write_scan(folder, {kNone, kNone, kNone, 0, 0, 0,     0, 0, 2, 0, 1, 0.5F,  //
+                      0,     -0.F,  0,     7, 1, kNone, 0, 0, 5, 1, 0, 0.25F});
   folder.write("labels/000000.label", words({9, 9, 40, 9, 252, 252}));
   const Sequence sequence = open_sequence(folder.text(), {});
   const Scan scan = sequence.scans->load(0);
@@ -83,7 +83,7 @@ TEST_CASE("in the world frame a no return is at its origin or at the sensor", "[
 
 TEST_CASE("a scan without a return and infinite points are damage", "[no-returns]") {
   const TemporaryFolder empty, infinite;
-  write_scan(empty, {kNan, 0, 0, 0, 0, 0, 0, 0});
+  write_scan(empty, {kNone, 0, 0, 0, 0, 0, 0, 0});
   const Sequence none = open_sequence(empty.text(), {});
   check_says(message_of<DataError>([&] { (void)none.scans->load(0); }),
              {"000000.bin", "none of its 2 points is a return", "--frames"});

@@ -11,7 +11,7 @@ namespace raymoval::test {
 namespace {
 
 /// Cars and road in two scans; see the comments for range and height (z + 1.73).
-MemorySequence small_street() {
+MemorySequence small_drive() {
   LabelledScan first;
   first.add(5.0f, 0.0f, -1.63f, 40);         // Range 5.3, height 0.1.
   first.add(6.0f, 0.0f, -1.63f, 40, true);   // 6.2, 0.1.
@@ -58,7 +58,7 @@ bool has_column(const std::vector<ColumnValue>& values, const std::string& name)
 }  // namespace
 
 TEST_CASE("columns of a small street", "[columns]") {
-  const MemorySequence sequence = small_street();
+  const MemorySequence sequence = small_drive();
   const auto values = column_values(tally_removals(columns_input(sequence), sequence.masks()));
   // Seven points count: static 40 40 40 50, of which one is removed; moving 252 252 253, of which
   // two are.
@@ -91,7 +91,7 @@ TEST_CASE("columns of a small street", "[columns]") {
 }
 
 TEST_CASE("columns of the controls", "[columns]") {
-  const MemorySequence sequence = small_street();
+  const MemorySequence sequence = small_drive();
   const EvaluationInput input = columns_input(sequence);
   const auto of = [&](const MaskStore& masks) {
     return column_values(tally_removals(input, masks));

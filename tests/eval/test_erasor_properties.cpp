@@ -11,7 +11,7 @@
 namespace raymoval::test {
 namespace {
 
-EvaluationInput input_of(const MemorySequence& sequence) {
+EvaluationInput short_sighted(const MemorySequence& sequence) {
   EvaluationInput input = sequence.input();
   input.range_m = {2.9, 4.9};
   input.label_rule.ignored = {99};
@@ -19,7 +19,7 @@ EvaluationInput input_of(const MemorySequence& sequence) {
 }
 
 void check_against_slow(const MemorySequence& sequence, const SlowErasor::Options& options) {
-  const EvaluationInput input = input_of(sequence);
+  const EvaluationInput input = short_sighted(sequence);
   const auto text = [](bool value, const char* yes, const char* no) {
     return std::string(value ? yes : no);
   };
@@ -110,7 +110,7 @@ TEST_CASE("the controls score what they must on any cloud", "[erasor]") {
     CloudShape shape;
     shape.seed = seed;
     const MemorySequence sequence = random_sequence(shape);
-    const EvaluationInput input = input_of(sequence);
+    const EvaluationInput input = short_sighted(sequence);
     const ProtocolResult noop = score_erasor(input, sequence.constant_masks(false));
     CHECK(noop.rate("PR") == 100.0);
     CHECK(noop.rate("RR") == 0.0);
@@ -134,7 +134,7 @@ TEST_CASE("the number of threads changes nothing", "[erasor]") {
   shape.scans = 20;
   shape.points = 8000;
   const MemorySequence sequence = random_sequence(shape);
-  EvaluationInput input = input_of(sequence);
+  EvaluationInput input = short_sighted(sequence);
   for (const char* mode : {"index", "nearest"}) {
     const Settings settings = {{"label_mode", std::string(mode)}, {"voxel_size", 0.05}};
     input.threads = 1;

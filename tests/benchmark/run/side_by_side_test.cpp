@@ -41,7 +41,7 @@ Suite small_suite(const char* frames, int repeats = 1) {
   return suite;
 }
 
-std::vector<Cell> cells_in(const std::filesystem::path& out) {
+std::vector<Cell> results_in(const std::filesystem::path& out) {
   return read_results(out / "results.json").cells;
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("Cells that run at once have the same results in the same order, and m
   const RunSummary summary = run_suite(suite, {.out = beside, .jobs = 3});
   CHECK(summary.good());
   CHECK(summary.cells == 8);
-  std::vector<Cell> expected = cells_in(alone), found = cells_in(beside);
+  std::vector<Cell> expected = results_in(alone), found = results_in(beside);
   REQUIRE(found.size() == 8);
   REQUIRE(expected.size() == 8);
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -120,7 +120,7 @@ TEST_CASE("A run with jobs goes on where one without has stopped, and the other 
   const RunSummary second = run_suite(small_suite("0:0"), {.out = out, .jobs = 2});
   CHECK(second.reused == 4);
   CHECK(second.cells == 8);
-  const std::vector<Cell> cells = cells_in(out);
+  const std::vector<Cell> cells = results_in(out);
   CHECK_FALSE(cells.front().measured->side_by_side);
   CHECK(cells.back().measured->side_by_side == 2);
   CHECK(run_suite(small_suite("0:0"), {.out = out}).reused == 8);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "datasets/bags/bag.h"
 
 namespace raymoval::test {

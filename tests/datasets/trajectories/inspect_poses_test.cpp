@@ -11,7 +11,7 @@ using namespace raymoval::test;
 
 namespace {
 
-std::string row(const std::vector<double>& numbers) {
+std::string pose_row(const std::vector<double>& numbers) {
   std::string text;
   for (const double number : numbers) text += number_text(number) + " ";
   return text + "\n";
@@ -48,7 +48,7 @@ Eigen::Vector3d as_seen(const Scan&, const Eigen::Vector3d& point) {
 std::string pose_rows(const EditedSequence& drive,
                       const std::function<std::vector<double>(const Scan&)>& numbers) {
   std::string text;
-  for (const Scan& scan : drive.scans) text += row(numbers(scan));
+  for (const Scan& scan : drive.scans) text += pose_row(numbers(scan));
   return text;
 }
 

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <rapidcheck.h>
 #include <rapidcheck/detail/TestListenerAdapter.h>
+#include <sstream>
+#include <unordered_map>
 
 #include <catch2/catch.hpp>
 #include <cstdlib>

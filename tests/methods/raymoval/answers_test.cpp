@@ -15,8 +15,8 @@ using toy::World;
 
 namespace {
 
-constexpr int kWallOwner = 0;
-constexpr int kOtherOwner = 1;
+constexpr int kWallIndex = 0;
+constexpr int kOtherIndex = 1;
 
 /// A wall 12 m ahead that ends at `wall_top`, and before it a box of car size in the first five of
 /// ten scans. The sensor looks `turn` to the left of it.
@@ -83,29 +83,29 @@ std::map<std::string, double> reasons_of(const ConfiguredMethod& method, const W
 TEST_CASE("each point's reason fits its answer", "[raymoval]") {
   const World world = box_before_wall();
   ConfiguredMethod method = on_toy_grid("offline");
-  CHECK(reasons_of(method, world, kOtherOwner)["a scan saw t"] > 80);
-  CHECK(reasons_of(method, world, kWallOwner)["no scan cont"] > 99);
+  CHECK(reasons_of(method, world, kOtherIndex)["a scan saw t"] > 80);
+  CHECK(reasons_of(method, world, kWallIndex)["no scan cont"] > 99);
   set_parameter(method.configuration, "erased_points", false);  // Only eq. 11 is left.
-  CHECK(reasons_of(method, world, kOtherOwner)["it stands in"] > 95);
+  CHECK(reasons_of(method, world, kOtherIndex)["it stands in"] > 95);
   // Validation gives all back where a cluster needs more points than the box has: at 6 m 1,000
   // times (10 / 6)^2. Without validation all is removed.
   set_parameter(method.configuration, "cluster_points", 1000.0);
-  CHECK(reasons_of(method, world, kOtherOwner)["it was a can"] > 95);
+  CHECK(reasons_of(method, world, kOtherIndex)["it was a can"] > 95);
   set_parameter(method.configuration, "validate", false);
-  CHECK(reasons_of(method, world, kOtherOwner)["it stands in"] > 95);
+  CHECK(reasons_of(method, world, kOtherIndex)["it stands in"] > 95);
 }
 
 TEST_CASE("a point that eq. 11 alone speaks against is not told to have been seen through",
           "[raymoval]") {
   // The wall ends at 0.3 m, so that no return tells that the upper half of the box has left.
   const World world = box_before_wall(0.3);
-  auto shares = reasons_of(on_toy_grid("offline"), world, kOtherOwner);
+  auto shares = reasons_of(on_toy_grid("offline"), world, kOtherIndex);
   CHECK(shares["a scan saw t"] > 20);
   CHECK(shares["it stands in"] > 0.5);
   // Against the map of all points eq. 11 says nothing, whatever else is asked for.
   ConfiguredMethod naive = on_toy_grid("offline-naive");
   set_parameter(naive.configuration, "erased_points", false);
-  shares = reasons_of(naive, world, kOtherOwner);
+  shares = reasons_of(naive, world, kOtherIndex);
   CHECK(shares["a scan saw t"] > 20);
   CHECK(shares["it stands in"] == 0);
 }
@@ -113,12 +113,12 @@ TEST_CASE("a point that eq. 11 alone speaks against is not told to have been see
 TEST_CASE("the first point of a scan has its answer and its reason, too", "[raymoval]") {
   // The sensor looks away from the box, which is where its turn begins.
   const World world = box_before_wall(3.0, std::numbers::pi);
-  REQUIRE(world.owner[0][0] == kOtherOwner);
+  REQUIRE(world.owner[0][0] == kOtherIndex);
   ConfiguredMethod method = on_toy_grid("offline");
   CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
   set_parameter(method.configuration, "forward_test", false);  // It was seen through.
   CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
-  CHECK(reasons_of(on_toy_grid("offline"), world, kOtherOwner)["a scan saw t"] > 80);
+  CHECK(reasons_of(on_toy_grid("offline"), world, kOtherIndex)["a scan saw t"] > 80);
 }
 
 namespace {

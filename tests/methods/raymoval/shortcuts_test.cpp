@@ -17,14 +17,12 @@ using random_map::Random;
 
 namespace {
 
-constexpr float kInf = kNoRange;
-
 /// Multiples of 1/4 below `most`, so that values meet and margins are hit exactly.
 std::vector<float> random_ranges(int bins, double share_of_none, int most, Random& random) {
   std::vector<float> values;
   for (int bin = 0; bin < bins; ++bin) {
     const bool is_none = random.real(0, 1) < share_of_none;
-    values.push_back(is_none ? kInf : 0.25F * static_cast<float>(random.integer(1, 4 * most)));
+    values.push_back(is_none ? kNoRange : 0.25F * static_cast<float>(random.integer(1, 4 * most)));
   }
   return values;
 }
@@ -58,7 +56,7 @@ TEST_CASE("bins seen through are those whose whole neighbourhood lies behind", "
     ProjectedScan scan;
     scan.minimum_range = random_ranges(bins, 0.3, 20, random);
     for (float& value : scan.minimum_range) {
-      if (value != kInf && random.integer(0, 9) > 0) value += 20;  // Mostly behind.
+      if (value != kNoRange && random.integer(0, 9) > 0) value += 20;  // Mostly behind.
     }
     FirstHitImage hits;
     hits.range = random_ranges(bins, 0.1, 20, random);
@@ -69,7 +67,8 @@ TEST_CASE("bins seen through are those whose whole neighbourhood lies behind", "
       const auto at = static_cast<std::size_t>(bin);
       const auto around = values_around(scan.minimum_range, window, bin);
       const float nearest = *std::min_element(around.begin(), around.end());
-      if (scan.minimum_range[at] == kInf || hits.range[at] == kInf || reference[at] == kInf)
+      if (scan.minimum_range[at] == kNoRange || hits.range[at] == kNoRange ||
+          reference[at] == kNoRange)
         continue;
       if (nearest - reference[at] > 0.5 + 0.25 * reference[at] && nearest - hits.range[at] > 0.5) {
         expected.push_back({bin, nearest});
@@ -106,9 +105,9 @@ TEST_CASE("percentiles of full windows equal those of each window", "[raymoval]"
       windowed_percentiles(values, wanted, window.grid, 1, quantiles, 2, found);
       for (int bin = 0; bin < window.grid.size(); ++bin) {
         const auto at = static_cast<std::size_t>(bin);
-        if (wanted[at] == kInf) continue;
+        if (wanted[at] == kNoRange) continue;
         auto around = values_around(values, window, bin);
-        std::erase(around, kInf);
+        std::erase(around, kNoRange);
         std::sort(around.begin(), around.end());
         const auto expected = [&](double q) {
           return percentile_of_sorted(around.data(), static_cast<int>(around.size()), q);
