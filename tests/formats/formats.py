@@ -17,69 +17,21 @@ import tempfile
 
 import numpy as np
 
-PROGRAM = sys.argv[1]
-ROWS = []
-TYPES = {"F": "f", "I": "i", "U": "u"}
+from table import PROGRAM, Table, asked, made, same, structured
 
-
-def say(file_format, variant, other, way, equal):
-    """`equal`: whether, or why it was not tried."""
-    text = equal if isinstance(equal, str) else "equal" if equal else "DIFFERENT"
-    ROWS.append((file_format, variant, other, way, text))
+TABLE = Table()
+say = TABLE.say
 
 
 def read(path, layout=None):
     """What raymoval reads, as a structured array."""
-    done = subprocess.run([PROGRAM, "dump", path] + ([layout] if layout else []),
-                          capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        print(done.stderr, file=sys.stderr)
-        return None
-    head, body = done.stdout.split("\n\n", 1)
-    size, rows = body.split("\n")[:2]
-    names, formats, offsets = [], [], []
-    for line in head.splitlines():
-        kind, item, count, offset, name = line.split(" ", 4)
-        names.append(name)
-        formats.append((f"<{TYPES[kind]}{item}", (int(count),)) if count != "1" else
-                       f"<{TYPES[kind]}{item}")
-        offsets.append(int(offset))
-    dtype = np.dtype({"names": names, "formats": formats, "offsets": offsets,
-                      "itemsize": int(size)})
-    return np.frombuffer(bytes.fromhex(rows), dtype)
+    records = asked("dump", path, *([layout] if layout else []))
+    return None if records is None else structured(records)
 
 
 def convert(source, target, layout=None):
     return subprocess.run([PROGRAM, "convert", source, target] + ([layout] if layout else []),
                           check=False).returncode == 0
-
-
-def same(ours, expected, names=None):
-    """Whether each field of `expected` is in `ours` with the same bytes."""
-    if ours is None or len(ours) != len(expected):
-        return False
-    for name in names or expected.dtype.names:
-        if name not in (ours.dtype.names or ()):
-            return False
-        a, b = np.ascontiguousarray(ours[name]), np.ascontiguousarray(expected[name])
-        b = b.astype(b.dtype.newbyteorder("<"))
-        if a.dtype != b.dtype or a.reshape(-1).tobytes() != b.reshape(-1).tobytes():
-            return False
-    return True
-
-
-def made(fields, count=50, seed=1):
-    random = np.random.default_rng(seed)
-    array = np.zeros(count, np.dtype(fields))
-    for name in array.dtype.names:
-        column = array[name]
-        if column.dtype.kind == "f":
-            array[name] = random.normal(0, 30, column.shape)
-        else:
-            info = np.iinfo(column.dtype)
-            array[name] = random.integers(info.min, info.max, column.shape, column.dtype,
-                                          endpoint=True)
-    return array
 
 
 XYZ = [("x", "<f4"), ("y", "<f4"), ("z", "<f4")]
@@ -316,12 +268,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for part in (try_text_formats, try_numpy, try_rows, try_las, try_pcl, try_open3d):
             part(folder)
-    widths = [max(len(row[i]) for row in ROWS) for i in range(5)]
-    for row in [("format", "variant", "by", "way", "result")] + ROWS:
-        print("  ".join(text.ljust(width) for text, width in zip(row, widths)).rstrip())
-    different = sum(row[4] == "DIFFERENT" for row in ROWS)
-    print(f"{len(ROWS)} rows, {different} different.")
-    return 1 if different else 0
+    return TABLE.finish()
 
 
 if __name__ == "__main__":
