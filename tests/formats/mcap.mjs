@@ -7,10 +7,9 @@
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { pathToFileURL } from "node:url";
 
 // The packages stand in the folder that NODE_PATH names.
-const require = createRequire(pathToFileURL(process.env.NODE_PATH + "/"));
+const require = createRequire(import.meta.url);
 const packer = (program, direction) => (data) =>
   execFileSync(program, ["-c", ...direction], { input: data, maxBuffer: 1 << 28 });
 

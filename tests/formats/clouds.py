@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Reads files that other programs wrote, and has other programs read ours: a line for each.
 
-    formats.py PROGRAM    PROGRAM is raymoval_formats; scripts/formats.sh builds it
+    clouds.py PROGRAM    PROGRAM is raymoval_formats; scripts/formats.sh builds it
 
 The others are NumPy, Python's struct, gzip and zipfile, PCL's converters (pcl-tools) and Open3D,
 where they are there. Values are compared bit for bit, save LAS coordinates (half of their scale).
