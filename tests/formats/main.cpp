@@ -3,6 +3,7 @@
 //
 //   raymoval_formats dump FILE [POINT_LAYOUT]         the fields and rows of a cloud as JSON
 //   raymoval_formats convert IN OUT [POINT_LAYOUT]    writes the records of IN to OUT
+//   raymoval_formats like IN OUT                      writes them in the form that IN has
 //   raymoval_formats sequence PATH [OPTION=VALUE...]  the scans of a sequence with their poses
 //   raymoval_formats rewrite IN OUT                   copies a recording without each second point
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/bags/bag.h"
 #include "datasets/bags/messages/cut_points.h"
@@ -55,6 +57,10 @@ void convert(const std::string& from, const std::string& to,
   writer.add(records);
   writer.finish();
   writer.commit();
+}
+
+void write_like(const std::string& from, const std::string& to) {
+  raymoval::write_atomically(to, raymoval::whole_file(to, raymoval::read_records(from)));
 }
 
 raymoval::SequenceOptions options_of(const std::map<std::string, std::string>& words) {
@@ -119,6 +125,8 @@ bool run(const std::vector<std::string>& words) {
     dump(words[1], reading);
   } else if (command == "convert") {
     convert(words[1], words[2], reading);
+  } else if (command == "like") {
+    write_like(words[1], words[2]);
   } else if (command == "rewrite") {
     rewrite(words[1], words[2]);
   } else if (command == "sequence") {
@@ -139,7 +147,9 @@ bool run(const std::vector<std::string>& words) {
 int main(int count, char** words) {
   try {
     if (run({words + 1, words + count})) return 0;
-    std::fprintf(stderr, "expected: dump FILE, convert IN OUT, sequence PATH or rewrite IN OUT\n");
+    std::fprintf(
+        stderr,
+        "expected: dump FILE, convert IN OUT, like IN OUT, sequence PATH or rewrite IN OUT\n");
     return 2;
   } catch (const raymoval::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

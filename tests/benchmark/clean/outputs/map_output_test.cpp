@@ -167,7 +167,9 @@ TEST_CASE("Maps of LAS scans keep their scale and reference system") {
   RecordLayout layout;
   for (const char* axis : {"x", "y", "z"}) layout.add(axis, 'F', 8);
   PointRecords rows = records_of(layout, {{0.125, 0, 0}, {0.25, 0, 0}});
-  LasNotes notes{Eigen::Vector3d(0.005, 0.005, 1e-7), Eigen::Vector3d::Zero()};
+  LasNotes notes;
+  notes.scale = Eigen::Vector3d(0.005, 0.005, 1e-7);
+  notes.offset.setZero();
   notes.reference_system = "PROJCRS[\"made up\"]";
   rows.las = std::make_shared<LasNotes>(notes);
   const auto scans = std::make_shared<RecordedScans>(
