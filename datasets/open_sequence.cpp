@@ -2,7 +2,11 @@
 #include "datasets/open_sequence.h"
 
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/text.h"
+#include "datasets/bag_scans/bags_layout.h"
+#include "datasets/bags/bag.h"
+#include "datasets/clouds/formats.h"
 #include "datasets/deskew/deskewed_source.h"
 #include "datasets/ego/ego_free_source.h"
 #include "datasets/layouts.h"
@@ -48,8 +52,25 @@ void check_not_part(const std::string& path, const SequenceOptions& options) {
   throw DataError(path + ": holds scans only; the sequence they belong to is " + above + ".");
 }
 
+/// Says what is missing of a folder whose files are known, but are no sequence.
+void check_known_files(const fs::path& folder) {
+  for (const fs::path& entry : entries_of(folder)) {
+    // Both throw: a folder of recordings has no metadata.yaml, and LAZ is not read.
+    if (if_whole([&] { return is_bag(entry); }) == true) (void)open_bag(folder);
+    if (entry.extension() == ".laz") (void)format_read(entry);
+  }
+}
+
+/// Refuses options that only recordings have.
+void check_topics(const Layout& layout, const std::string& path, const SequenceOptions& options) {
+  if ((!options.topic && !options.pose_topic) || layout.name == bags_layout().name) return;
+  throw UsageError(path + ": is no recording, so there is no topic to choose by " +
+                   (options.topic ? "--topic" : "--pose-topic") + ". Leave it out.");
+}
+
 [[noreturn]] void throw_unrecognised(const std::string& path) {
   if (is_folder(path)) {
+    check_known_files(path);
     throw DataError(path + ": no known layout; found " + content_text(path) + "." + known_text());
   }
   if (is_there(path)) {
@@ -94,6 +115,7 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   const Layout* layout = recognised_layout(path);
   if (layout == nullptr) throw_unrecognised(path);
   if (!layout->scenes && layout->scan_folder.empty()) check_not_part(path, options);
+  check_topics(*layout, path, options);
   Sequence sequence = layout->open(path, options, context);
   std::optional<PointClock> clock;
   if (sequence.deskew) clock = point_clock_of(sequence);

@@ -23,6 +23,22 @@ Pose Sequence::upright_frame() const {
   return T_upright_world;
 }
 
+namespace {
+
+/// The source that takes motion within scans out. Null if there is none.
+const DeskewedSource* deskewed_source(const Sequence& sequence) {
+  const ScanSource* source = (sequence.opened ? sequence.opened : sequence.scans).get();
+  return dynamic_cast<const DeskewedSource*>(source);
+}
+
+/// The scans as they were opened, before motion within them is taken out.
+const ScanSource* skewed_source(const Sequence& sequence) {
+  if (const DeskewedSource* deskewed = deskewed_source(sequence)) return &deskewed->whole();
+  return (sequence.opened ? sequence.opened : sequence.scans).get();
+}
+
+}  // namespace
+
 DataRecord Sequence::record() const {
   DataRecord data{name,
                   layout,
@@ -39,20 +55,12 @@ DataRecord Sequence::record() const {
   if (const EgoFreeSource* without_ego = ego_free_source(*this)) {
     data.drop_ego = {ego_region_text(without_ego->asked()), ego_region_text(without_ego->region())};
   }
+  if (T_sensor) data.T_sensor = std::filesystem::path(*T_sensor).filename().string();
+  data.time_offset_s = time_offset_s;
+  if (const DeskewedSource* deskewed = deskewed_source(*this)) data.deskew = deskewed->clock().text;
   if (labels) data.label_rule = label_rule;
   return data;
 }
-
-namespace {
-
-/// The scans as they were opened, before motion within them is taken out.
-const ScanSource* skewed_source(const Sequence& sequence) {
-  const ScanSource* source = (sequence.opened ? sequence.opened : sequence.scans).get();
-  const auto* deskewed = dynamic_cast<const DeskewedSource*>(source);
-  return deskewed != nullptr ? &deskewed->whole() : source;
-}
-
-}  // namespace
 
 const EgoFreeSource* ego_free_source(const Sequence& sequence) {
   return dynamic_cast<const EgoFreeSource*>(skewed_source(sequence));

@@ -81,6 +81,8 @@ struct Sequence {
   /// Whether motion within a scan is taken out, as a user asked.
   bool deskew = false;
   std::optional<std::string> point_time_unit = std::nullopt;  ///< As a user says it.
+  std::optional<std::string> T_sensor = std::nullopt;         ///< As a user says it.
+  std::optional<double> time_offset_s = std::nullopt;         ///< As a user says it.
   LabelRule label_rule;
   RangeLimits range_m;
   EgoRegion drop_ego;      ///< As the user asked; `scans` leave it out (see `EgoFreeSource`).

@@ -86,6 +86,7 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
   }
   if (plan) {
     has_own_poses_ = plan->own_poses;
+    notes_.insert(notes_.end(), plan->notes.begin(), plan->notes.end());
     auto scans = std::make_unique<ScanFolder>(paths.scans, sequence, std::move(*plan));
     scans_ = scans.get();
     outputs_.push_back(std::move(scans));

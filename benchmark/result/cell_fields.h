@@ -62,6 +62,9 @@ void describe(Visitor& visitor, typename Visitor::template Of<DataRecord> data) 
   visitor.field("range_m", data.range_m);
   visitor.optional("drop_ego", data.drop_ego);
   visitor.nullable("label_rule", data.label_rule);
+  visitor.optional("T_sensor", data.T_sensor);
+  visitor.optional("time_offset_s", data.time_offset_s);
+  visitor.optional("deskew", data.deskew);
   visitor.optional("fingerprint", data.fingerprint);
 }
 

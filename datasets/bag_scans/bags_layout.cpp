@@ -50,12 +50,13 @@ struct FoundScanPoses {
   PointFrame point_frame = PointFrame::kSensor;
 };
 
-FoundScanPoses poses_of_file(const ScanHeads& heads, std::uint64_t messages,
+FoundScanPoses poses_of_file(const ScanHeads& heads, const BagTopic& topic,
                              const SequenceSettings& settings, const fs::path& folder,
                              const PoseSettings& pose_settings, Sequence& sequence) {
   ScanKeys keys;
   keys.rows = heads.messages;
-  keys.row_count = messages;
+  keys.row_count = topic.messages;
+  keys.extent = counted_text(topic.messages, "message") + " of " + topic.name;
   keys.stamps = heads.stamps;
   for (const Nanoseconds stamp : heads.stamps) {
     keys.times_s.push_back(to_seconds(stamp - heads.first_stamp));
@@ -109,6 +110,11 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   const fs::path path = text;
   const SequenceSettings settings = settings_of(path, options);
   const fs::path folder = is_folder(path) ? path : folder_of(path);
+  if (settings.poses && options.pose_topic) {
+    throw UsageError(path.string() + ": the poses are said to be in " + *settings.poses +
+                     " (--poses) and on the topic " + *options.pose_topic +
+                     " (--pose-topic). Leave one of them out.");
+  }
   const std::shared_ptr<const Bag> bag = open_bag(path);
   const std::size_t topic = scan_topic(*bag, options.topic);
   const std::uint64_t messages = bag->topics()[topic].messages;
@@ -122,7 +128,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
       raymoval::pose_settings(settings, folder, sequence.input_files);
   FoundScanPoses found =
       settings.poses
-          ? poses_of_file(heads, messages, settings, folder, pose_settings, sequence)
+          ? poses_of_file(heads, bag->topics()[topic], settings, folder, pose_settings, sequence)
           : poses_of_bag(*bag, heads, messages, settings, options.pose_topic, pose_settings);
   std::vector<BagScan> scans;
   for (std::size_t i = 0; i < heads.messages.size(); ++i) {

@@ -111,7 +111,7 @@ std::unique_ptr<Bag> open_bag(const fs::path& path) {
                                    [](const BagTopic& topic) { return topic.messages > 0; });
   if (has_any) return bag;
   throw DataError(path.string() + ": holds no message that can be read. " +
-                  join(bag->damage(), " "));
+                  join(bag->damage(), " ") + " Copy it again, or name another recording.");
 }
 
 }  // namespace raymoval

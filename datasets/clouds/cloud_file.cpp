@@ -13,11 +13,20 @@
 namespace raymoval {
 namespace {
 
+/// Refuses what git-lfs leaves in the place of a file that was not fetched.
+void check_no_pointer(const std::filesystem::path& path, std::string_view text) {
+  if (!text.starts_with("version https://git-lfs.github.com/spec/")) return;
+  throw DataError(path.string() +
+                  ": is a pointer of git-lfs to the file, which was not fetched. Fetch it: `git "
+                  "lfs pull`.");
+}
+
 /// Calls `read` with the content of a file of points, unpacked.
 template <class Read>
 auto read_unpacked(const std::filesystem::path& path, const RecordReading& reading, Read&& read) {
   const std::vector<std::byte> bytes = read_bytes(path);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  check_no_pointer(path, text);
   if (!is_packed(path)) return read(CloudBytes{path, text, reading});
   const std::string unpacked = unpack_gzip(text, path.string());
   return read(CloudBytes{path, unpacked, reading});

@@ -49,7 +49,7 @@ const std::vector<std::string>& written_extensions() {
   static const std::vector<std::string> extensions = [] {
     std::vector<std::string> all;
     for (const CloudFormat& format : cloud_formats()) {
-      if (format.encoder != nullptr) all.push_back(format.extension);
+      if (format.wrap == nullptr) all.push_back(format.extension);
     }
     return all;
   }();
@@ -85,7 +85,7 @@ const CloudFormat& format_read(const std::filesystem::path& path) {
 
 const CloudFormat& format_written(const std::filesystem::path& path) {
   for (const CloudFormat& format : cloud_formats()) {
-    if (format.encoder != nullptr && path.extension() == format.extension) return format;
+    if (format.wrap == nullptr && path.extension() == format.extension) return format;
   }
   throw_unknown(path, written_extensions());
 }

@@ -16,7 +16,7 @@ const std::vector<CloudFormat>& cloud_formats();
 /// Endings of files that are read: ".pcd" and so on, also packed with gzip: ".pcd.gz".
 const std::vector<std::string>& cloud_extensions();
 
-/// Endings of files that are written.
+/// Endings of files that are written piece by piece, such as maps.
 const std::vector<std::string>& written_extensions();
 
 /// The one of `cloud_extensions` that the name of `path` ends in, or an empty text.

@@ -7,13 +7,14 @@
 #include "core/files/file_writer.h"
 #include "core/text.h"
 #include "datasets/clouds/format/cloud_header.h"
+#include "datasets/clouds/format/deflate.h"
 #include "datasets/clouds/formats.h"
 
 namespace raymoval {
 
 std::vector<std::string> what_is_lost(const std::filesystem::path& path,
                                       const RecordLayout& layout) {
-  return format_written(path).lost(layout);
+  return format_read(path).lost(layout);
 }
 
 bool holds_reference_system(const std::filesystem::path& path) {
@@ -60,6 +61,7 @@ class PointRecordWriter::Format {
     PointRecords none;
     none.layout = layout_;
     begin(none);
+    file_.append(encoder_->rest());
     file_.overwrite(0, encoder_->head(points_));
     file_.sync();
   }
@@ -86,6 +88,20 @@ class PointRecordWriter::Format {
   std::uint64_t points_ = 0;
   bool begun_ = false;
 };
+
+std::string whole_file(const std::filesystem::path& path, const PointRecords& records) {
+  const CloudFormat& format = format_read(path);
+  (void)position_fields(records.layout, path.string());
+  RecordWriting writing;
+  writing.form = records.form;
+  const auto encoder = format.encoder(path, writing);
+  encoder->start(records);
+  std::string body = encoder->rows(records);
+  body += encoder->rest();
+  std::string content = encoder->head(records.size()) + body;
+  if (format.wrap != nullptr) content = format.wrap(content, records.form);
+  return is_packed(path) ? pack_gzip(content) : content;
+}
 
 PointRecordWriter::PointRecordWriter(const std::filesystem::path& path,
                                      const RecordWriting& writing)

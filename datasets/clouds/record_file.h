@@ -32,6 +32,11 @@ std::vector<std::string> what_is_lost(const std::filesystem::path& path,
 /// @throws UsageError for an unknown extension
 bool holds_reference_system(const std::filesystem::path& path);
 
+/// The bytes of a file named `path` with these points, of any format that is read, in the form that
+/// `records` have: text, compressed, another byte order, packed by gzip, an archive of arrays.
+/// @throws UsageError for an unknown extension; DataError as `PointRecordWriter::add`
+std::string whole_file(const std::filesystem::path& path, const PointRecords& records);
+
 /// Writes points with all their fields piece by piece; only the piece at hand is in memory. The
 /// format is that of the extension. The file appears at `commit`, whole.
 class PointRecordWriter {

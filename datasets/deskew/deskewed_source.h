@@ -41,6 +41,7 @@ class DeskewedSource : public ScanSource {
   [[nodiscard]] const SensorModel& sensor() const override { return whole_->sensor(); }
 
   [[nodiscard]] const ScanSource& whole() const { return *whole_; }
+  [[nodiscard]] const PointClock& clock() const { return clock_; }
 
  private:
   std::shared_ptr<const ScanSource> whole_;

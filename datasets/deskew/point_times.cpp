@@ -149,6 +149,7 @@ PointClock find_point_clock(const std::vector<TimedScan>& scans,
   }
   clock.zero = zero_of(scans, extents, clock.unit_s);
   clock.longest_s = span * clock.unit_s;
+  clock.text = clock.field + " in " + unit_text(clock.unit_s) + " " + zero_text(clock.zero);
   clock.notes.push_back("--deskew: the times of points ('" + clock.field + "') are read as " +
                         unit_text(clock.unit_s) + " " + zero_text(clock.zero) + ".");
   return clock;

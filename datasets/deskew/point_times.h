@@ -22,6 +22,7 @@ struct PointClock {
   std::string field;    ///< Its name in the records.
   double unit_s = 1.0;  ///< Seconds for one of it.
   Zero zero = Zero::kScanTime;
+  std::string text;                ///< All that: "time in seconds from the time of the scan".
   double longest_s = 0.0;          ///< Seconds from the earliest to the latest point of a scan.
   std::vector<std::string> notes;  ///< What was concluded, in whole sentences.
 };

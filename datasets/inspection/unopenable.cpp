@@ -63,7 +63,13 @@ std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
     const auto files = list_numbered_files(folder / layout.scan_folder, ".bin");
     least = static_cast<std::size_t>(files.back().number) + 1;
   } else {
-    least = most = list_files(folder / layout.scan_folder, cloud_extensions()).size();
+    const auto files = list_files(folder / layout.scan_folder, cloud_extensions());
+    // Poses may stand in an array or a cloud, which is no scan.
+    least = most = static_cast<std::size_t>(
+        std::count_if(files.begin(), files.end(), [&](const fs::path& scan) {
+          std::error_code error;
+          return !fs::equivalent(scan, path, error);
+        }));
   }
   if (least == 0 || (rows >= least && rows <= most)) return {};
   return {count_finding(path, rows, folder, least, most)};

@@ -40,13 +40,19 @@ std::size_t numbers_of_pose(const NpyHead& head, const std::string& where) {
                     "; expected N x 4 x 4 or N x 3 x 4 matrices.");
   }
   const bool real = !head.type.structured && head.type.fields.front().field.type == 'F';
-  if (!real || head.type.fields.front().field.count != 1 || head.by_columns) {
-    throw DataError(
-        where +
-        (head.by_columns ? ": is stored in Fortran order" : ": does not hold real numbers") +
-        "; expected float64 or float32 in C order.");
+  if (!real || head.type.fields.front().field.count != 1) {
+    throw DataError(where + ": does not hold real numbers; expected float64 or float32.");
   }
   return static_cast<std::size_t>(plane ? shape[1] : 4 * shape[1]);
+}
+
+/// Where number `k` of pose `i` stands among all numbers of the array.
+std::size_t place_of(const NpyHead& head, std::size_t i, std::size_t k, std::size_t numbers) {
+  if (!head.by_columns) return i * numbers + k;
+  // In Fortran order the first index runs fastest, then the row of a matrix, then its column.
+  const auto poses = static_cast<std::size_t>(head.shape.front());
+  if (head.shape.size() == 2) return i + poses * k;
+  return i + poses * (k / 4 + static_cast<std::size_t>(head.shape[1]) * (k % 4));
 }
 
 PoseFile read_array(const std::filesystem::path& path) {
@@ -71,7 +77,8 @@ PoseFile read_array(const std::filesystem::path& path) {
   std::vector<double> values(numbers);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < numbers; ++k) {
-      values[k] = number_at(head.body.data() + (i * numbers + k) * size, size, number.big_endian);
+      values[k] = number_at(head.body.data() + place_of(head, i, k, numbers) * size, size,
+                            number.big_endian);
     }
     PoseFile::Row pose;
     pose.line = i + 1;

@@ -264,8 +264,10 @@ PoseFile read_ct_icp(const PoseText& text, const PoseFormatName& name) {
     times.push_back(row.words[1]);
   });
   set_stamps(file, times, {}, std::nullopt);
-  file.notes.push_back(text.path().string() +
-                       ": CT-ICP gives two poses for each scan; that of its begin is used.");
+  file.notes.push_back(
+      text.path().string() +
+      ": CT-ICP gives two poses for each scan; that of its begin is used. With --deskew the "
+      "sensor moves evenly from the begin of a scan to that of the next one.");
   return file;
 }
 

@@ -103,11 +103,14 @@ double PoseText::number(const TextRow& row, std::size_t word) const {
   const std::string_view text = row.words[word];
   if (const auto value = parse_number<double>(text)) return *value;
   const auto column = static_cast<std::size_t>(text.data() - row.text.data()) + 1;
+  // "1,5 0 0": decimal commas are taken for what stands between the numbers.
+  const bool blanks_inside = separator_ == ',' && text.find(' ') != std::string_view::npos;
   throw DataError(place(row.line) + ", column " + std::to_string(column) + ": '" +
                   std::string(text.substr(0, 40)) + "' is not a number; expected numbers between " +
                   (separator_ == ' '   ? "blanks."
                    : separator_ == ',' ? "commas."
-                                       : "semicolons."));
+                                       : "semicolons.") +
+                  (blanks_inside ? " If the commas are decimal ones, write points." : ""));
 }
 
 std::vector<double> PoseText::numbers(const TextRow& row) const {

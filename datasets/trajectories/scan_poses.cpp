@@ -10,12 +10,21 @@
 namespace raymoval {
 namespace {
 
+/// Where the sensor is on the body that has the poses.
+Pose mounting(const PoseSettings& settings) {
+  if (settings.T_camera_lidar) return *settings.T_camera_lidar;
+  return settings.T_body_sensor.value_or(Pose::Identity());
+}
+
+/// The pose of the body, of a pose in the file: in a world whose axes are those of the sensor.
+Pose body_pose(const Pose& pose, const PoseSettings& settings) {
+  return settings.T_camera_lidar ? settings.T_camera_lidar->inverse() * pose : pose;
+}
+
 /// The pose of the sensor, of a pose in the file.
 Pose sensor_pose(const Pose& pose, const PoseSettings& settings) {
-  if (settings.T_camera_lidar) {
-    return settings.T_camera_lidar->inverse() * pose * *settings.T_camera_lidar;
-  }
-  return settings.T_body_sensor ? pose * *settings.T_body_sensor : pose;
+  if (!settings.T_camera_lidar && !settings.T_body_sensor) return pose;
+  return body_pose(pose, settings) * mounting(settings);
 }
 
 /// Times of scans that have none: those of the rows, or what is assumed.
@@ -40,9 +49,11 @@ ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSetting
   BodyMotion body;
   body.time_offset = settings.time_offset;
   body.max_gap = settings.max_gap;
+  // What goes along a straight line from pose to pose is the body, not a sensor beside its middle.
+  body.T_body_sensor = mounting(settings);
   std::vector<StampedPose> poses;
   for (std::size_t i = 0; i < file.rows.size(); ++i) {
-    poses.push_back({*file.rows[i].stamp, sensor_pose(rigid_pose(file, i), settings)});
+    poses.push_back({*file.rows[i].stamp, body_pose(rigid_pose(file, i), settings)});
   }
   body.trajectory = Trajectory(std::move(poses));
   result.motion = std::make_shared<TrajectoryMotion>(std::move(body));

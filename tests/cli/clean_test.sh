@@ -120,6 +120,30 @@ for tile in tiles/tile_*.pcd; do sum=$((sum + $(points "$tile"))); done
 holds "tiles have every point" test "$sum" -eq "$(points all/static.pcd)"
 holds "the manifest lists each" test "$(grep -c '"file"' tiles/manifest.json)" -eq "$(ls tiles/*.pcd | wc -l)"
 
+# A map in LAS says its reference system, and has every point.
+expect 0 "" clean drive "${online[@]}" -o utm.las --crs EPSG:32632
+holds "LAS says its reference system" python3 - "$(points all/static.pcd)" <<'PYTHON'
+import struct, sys
+las = open("utm.las", "rb").read()
+assert las[:4] == b"LASF" and las[24:26] == b"\1\4", "LAS 1.4"
+assert struct.unpack_from("<H", las, 6)[0] & 16, "the reference system is WKT"
+at, first, count = struct.unpack_from("<HII", las, 94)
+records = {}
+for _ in range(count):
+    number, size = struct.unpack_from("<HH", las, at + 18)
+    records[las[at + 2:at + 18].rstrip(b"\0"), number] = las[at + 54:at + 54 + size]
+    at += 54 + size
+assert b"32632" in records[b"LASF_Projection", 2112], records
+points, = struct.unpack_from("<Q", las, 247)
+size, = struct.unpack_from("<H", las, 105)
+assert points == int(sys.argv[1]) and len(las) == first + points * size
+steps, scale = struct.unpack_from("<3i", las, first), struct.unpack_from("<3d", las, 131)
+offset, bounds = struct.unpack_from("<3d", las, 155), struct.unpack_from("<6d", las, 179)
+for axis in range(3):
+    place = steps[axis] * scale[axis] + offset[axis]
+    assert bounds[2 * axis + 1] - 1e-6 <= place <= bounds[2 * axis] + 1e-6
+PYTHON
+
 # Whatever becomes of it, nothing unfinished is left.
 outputs=(-o map.pcd --dynamic map2.pcd --labels labels_out --scans map_scans --picture map.png --quiet)
 expect 2 "cleaning took more than 600 MiB of memory (see --memory-limit) and was ended. Nothing was" \

@@ -45,6 +45,16 @@ void check_format(const Sequence& sequence, const FrameEntry& frame) {
                    " Write a map with -o, which may have another format.");
 }
 
+/// What is said of archives that hold more than the points.
+std::vector<std::string> archive_notes(const Sequence& sequence, const fs::path& first) {
+  if (cloud_extension(first).find(".npz") == std::string::npos) return {};
+  const PointRecords records = sequence.records->records(0);
+  if (records.form.others.empty()) return {};
+  return {"--scans: of each archive only the array '" + records.form.array +
+          "' is written; the others, such as '" + records.form.others.front() +
+          "', do not say which of their rows belong to a point."};
+}
+
 std::vector<fs::path> side_files(const Sequence& sequence, const fs::path& root) {
   std::vector<fs::path> candidates = sequence.input_files;
   for (const std::string& name :
@@ -101,6 +111,7 @@ ScanFolderPlan plan_scan_folder(const Sequence& sequence) {
     plan.root = plan.root.parent_path();
   }
   check_format(sequence, source->frames().front());
+  plan.notes = archive_notes(sequence, source->frames().front().path);
   plan.copies = side_files(sequence, plan.root);
   const std::size_t stored = list_files(plan.root / plan.scans, cloud_extensions()).size();
   plan.own_poses = sequence.layout == "files" && stored != source->size();
@@ -160,14 +171,7 @@ void ScanFolder::add(const CleanedScan& scan) {
   const PointRecords kept = scan.stored->chosen(keep);
   if (kept.size() == 0) empty_.push_back(scan.scan.name);
   const fs::path name = plan_.scans / frame.path.filename();
-  std::error_code shows_later;
-  fs::create_directories(folder_.place() / plan_.scans, shows_later);
-  PointRecordWriter file(folder_.place() / name);
-  file.start(kept.layout);
-  file.add(kept);
-  file.finish();
-  file.commit();
-  files_.push_back(name.string());
+  put(name, whole_file(name, kept));
   if (!frame.label_path.empty()) write_labels(frame.label_path, keep);
   pose_rows_ += pose_row(scan.scan);
 }

@@ -20,7 +20,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostWaiting = std::size_t{32} << 20;
 constexpr std::size_t kRowsPerPiece = 65536;
 
 std::string tile_name(const std::array<std::int64_t, 2>& place) {
@@ -70,6 +69,7 @@ TileSink::Tile& TileSink::tile_at(const Place& place) {
 
 void TileSink::add(const ScanRows& rows) {
   const std::size_t bytes = layout_.row_bytes;
+  if (las_ == nullptr) las_ = rows.rows.las;
   Place last{};
   Tile* tile = nullptr;
   for (std::size_t i = 0; i < rows.world.size(); ++i) {
@@ -84,7 +84,7 @@ void TileSink::add(const ScanRows& rows) {
     ++tile->points;
   }
   waiting_ += rows.world.size() * bytes;
-  if (waiting_ > kMostWaiting) spool_all();
+  if (waiting_ > tiling_.most_waiting) spool_all();
 }
 
 void TileSink::spool_all() {
@@ -111,6 +111,7 @@ void TileSink::write_tile(const Place& place, Tile& tile) const {
     PointRecords rows{layout_, std::vector<std::byte>(bytes.size()), 0, 1};
     std::memcpy(rows.bytes.data(), bytes.data(), bytes.size());
     rows.width = rows.size();
+    rows.las = las_;
     file.add(rows);
   };
   const std::size_t piece = kRowsPerPiece * layout_.row_bytes;

@@ -19,6 +19,7 @@ struct Tiling {
   Pose T_upright_world = Pose::Identity();
   std::string extension = ".pcd";  ///< Says the format of the tiles.
   std::optional<std::string> crs;
+  std::size_t most_waiting = std::size_t{32} << 20;  ///< Bytes of rows that wait in memory.
 };
 
 /// Cuts rows into square tiles, each a file in a folder, with a manifest.json that lists them. The
@@ -58,7 +59,8 @@ class TileSink : public RowSink {
   RecordLayout layout_;
   Tiling tiling_;
   std::map<Place, Tile> tiles_;
-  std::size_t waiting_ = 0;  ///< Bytes of all tiles.
+  std::size_t waiting_ = 0;              ///< Bytes of all tiles.
+  std::shared_ptr<const LasNotes> las_;  ///< Of the first rows.
 };
 
 }  // namespace raymoval

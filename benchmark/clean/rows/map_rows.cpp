@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/clouds/las/las_notes.h"
 #include "datasets/records/number_types.h"
 
 namespace raymoval {
@@ -148,6 +149,15 @@ void MapRows::turn_normals(const Scan& scan, PointRecords& rows) const {
   }
 }
 
+std::shared_ptr<const LasNotes> MapRows::las_notes(const PointRecords& stored) const {
+  if (stored.las == nullptr || frame_ == PointFrame::kWorld) return stored.las;
+  // A grid of 0.1 mm reaches 200 km; that of a scan around a sensor may reach no further than it.
+  constexpr double kFinest = 1e-4;
+  auto notes = std::make_shared<LasNotes>(*stored.las);
+  notes->scale = notes->scale.cwiseAbs().cwiseMax(kFinest);
+  return notes;
+}
+
 ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
   ScanRows result;
   if (stored == nullptr) {
@@ -160,7 +170,7 @@ ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
                       "when nobody writes there.");
     }
     result.rows = copied_rows(scan, *stored, layout_);
-    if (frame_ == PointFrame::kWorld) result.rows.las = stored->las;
+    result.rows.las = las_notes(*stored);
   }
   result.world = world_points(scan, stored);
   if (stored == nullptr || frame_ == PointFrame::kSensor) {

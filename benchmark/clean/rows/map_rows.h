@@ -47,6 +47,8 @@ class MapRows {
   void check_fields(const Sequence& sequence, Progress& progress, const std::atomic<bool>& cancel);
   [[nodiscard]] std::vector<Eigen::Vector3d> world_points(const Scan& scan,
                                                           const PointRecords* stored) const;
+  /// What a LAS file of the map takes over from the scan's.
+  [[nodiscard]] std::shared_ptr<const LasNotes> las_notes(const PointRecords& stored) const;
   void turn_normals(const Scan& scan, PointRecords& rows) const;
 
   const Sequence& sequence_;

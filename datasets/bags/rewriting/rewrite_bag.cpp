@@ -103,12 +103,12 @@ class FolderRewriting {
  private:
   void write_part(std::size_t number, const fs::path& folder) {
     const Ros2FolderBag::Part& part = bag_.parts()[number];
-    std::uint64_t& count = counts_.files[part.file].emplace(0);
+    WrittenMessages& written = counts_.files[part.file].emplace();
     const ChangeMessage change = [&](std::size_t own, std::size_t index, const std::string& bytes) {
       const std::size_t topic = part.topics.at(own);
       auto changed = change_(topic, bag_.index_of(number, own, index), bytes);
       if (changed) {
-        ++count;
+        written.add(part.bag->recorded(own, index));
         ++counts_.topics[{bag_.topics()[topic].name, bag_.topics()[topic].type}];
       }
       return changed;
@@ -153,7 +153,8 @@ void check_rewriting(const fs::path& input, const fs::path& output) {
     throw UsageError(output.string() + ": is the recording that is read. Name another.");
   }
   if (is_folder(input)) {
-    if (!is_there(without_slash(output))) return;
+    const fs::path target = without_slash(output);
+    if (!is_there(target) || (is_folder(target) && entries_of(target).empty())) return;
     throw UsageError(output.string() +
                      ": is there already. A recording in a folder is written to a new one; name "
                      "that, or move this away.");

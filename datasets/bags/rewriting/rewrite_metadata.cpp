@@ -79,23 +79,48 @@ void edit_topics(Edits& edits, const YamlNode& information, const WrittenCounts&
   }
 }
 
+/// When the messages below `node` begin, and how long they take.
+void edit_times(Edits& edits, const YamlNode& node, const WrittenMessages& written) {
+  const auto edit = [&](const char* name, const char* unit, Nanoseconds value) {
+    const YamlNode* time = node.find(name);
+    if (time != nullptr) edits.value(time->find(unit), std::to_string(value));
+  };
+  edit("starting_time", "nanoseconds_since_epoch", written.first);
+  edit("duration", "nanoseconds", written.last - written.first);
+}
+
+/// Those of all files together.
+WrittenMessages all_messages(const WrittenCounts& counts) {
+  WrittenMessages all;
+  for (const auto& file : counts.files) {
+    if (!file || file->count == 0) continue;
+    const bool is_first = all.count == 0;
+    all.first = is_first ? file->first : std::min(all.first, file->first);
+    all.last = is_first ? file->last : std::max(all.last, file->last);
+    all.count += file->count;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string rewritten_metadata(const Ros2Metadata& metadata, const std::string& name,
                                const WrittenCounts& counts) {
   Edits edits(metadata.text);
-  std::map<std::string, std::optional<std::uint64_t>> by_name;
+  std::map<std::string, std::optional<WrittenMessages>> by_name;
   std::map<std::string, std::string> new_names;
-  std::uint64_t total = 0;
   for (std::size_t i = 0; i < metadata.files.size(); ++i) {
     const Ros2File& file = metadata.files[i];
     by_name.emplace(file.listed, counts.files[i]);
-    total += counts.files[i].value_or(0);
     const std::string own = file.path.filename().string();
     // Up to version 3 the folder's name stands before the file's.
     new_names.emplace(file.listed, metadata.version <= 3 ? name + "/" + own : own);
   }
-  edits.value(metadata.information.find("message_count"), std::to_string(total));
+  const WrittenMessages all = all_messages(counts);
+  edits.value(metadata.information.find("message_count"), std::to_string(all.count));
+  if (metadata.messages && *metadata.messages != all.count) {
+    edit_times(edits, metadata.information, all);
+  }
   edit_topics(edits, metadata.information, counts);
   const auto edit_file = [&](const YamlNode& item, const YamlNode* path, const YamlNode* count) {
     const auto found = path == nullptr ? by_name.end() : by_name.find(path->value);
@@ -104,7 +129,10 @@ std::string rewritten_metadata(const Ros2Metadata& metadata, const std::string& 
       return;
     }
     edits.value(path, new_names.at(path->value));
-    edits.value(count, std::to_string(*found->second));
+    if (count != nullptr && count->value != std::to_string(found->second->count)) {
+      edits.value(count, std::to_string(found->second->count));
+      edit_times(edits, item, *found->second);
+    }
     by_name.erase(found);  // It is listed once.
   };
   for (const YamlNode& item : metadata.information.find("relative_file_paths")->children) {

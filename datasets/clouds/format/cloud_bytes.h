@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/records/point_records.h"
+
 namespace raymoval {
 
 /// Points as a file stores them, non-finite ones included.
@@ -33,6 +35,8 @@ struct RecordWriting {
   /// LAS: what a real intensity is multiplied by for the whole number from 0 to 65535 that viewers
   /// show. The exact value stands beside it.
   double intensity_scale = 1.0;
+  /// How PCD and PLY files store numbers: binary and little-endian, unless it says otherwise.
+  StoredForm form = {};
 };
 
 /// The content of a file of points, unpacked.

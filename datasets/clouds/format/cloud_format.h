@@ -34,7 +34,7 @@ class WrittenShape {
 };
 
 /// Makes the bytes of a file of one format of rows of points. A file is its head and, behind that,
-/// what `rows` gives of each piece.
+/// what `rows` gives of each piece, and `rest`.
 class RecordEncoder {
  public:
   virtual ~RecordEncoder() = default;
@@ -44,6 +44,9 @@ class RecordEncoder {
   [[nodiscard]] virtual std::string head(std::uint64_t points) const = 0;
   /// The bytes of more rows. @throws DataError for a value that the format cannot hold
   virtual std::string rows(const PointRecords& more) = 0;
+  /// What stands behind all rows; called once, before the last `head`.
+  /// @throws DataError as `rows`
+  virtual std::string rest() { return ""; }
 };
 
 /// A kind of file that points are read from and written to. Each stands in a folder of its own and
@@ -52,7 +55,7 @@ struct CloudFormat {
   std::string extension;  ///< ".pcd".
   Cloud (*read_cloud)(const CloudBytes& file, const Eigen::Vector3d& origin) = nullptr;
   PointRecords (*read_records)(const CloudBytes& file) = nullptr;
-  /// Null if such files are only read.
+  /// Makes what stands in the file, or in its `wrap`.
   std::unique_ptr<RecordEncoder> (*encoder)(const std::filesystem::path& path,
                                             const RecordWriting& writing) = nullptr;
   /// As `what_is_lost`.
@@ -61,6 +64,9 @@ struct CloudFormat {
   /// The layout of the records of a file without reading its points; null if it takes as much.
   RecordLayout (*read_layout)(const std::filesystem::path& path,
                               const RecordReading& reading) = nullptr;
+  /// Makes a file of what the encoder made. Formats that have it are written whole only, by
+  /// `whole_file`.
+  std::string (*wrap)(const std::string& content, const StoredForm& form) = nullptr;
 };
 
 }  // namespace raymoval

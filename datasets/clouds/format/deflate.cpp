@@ -24,6 +24,32 @@ std::uint64_t most_unpacked(std::uint64_t packed) {
                   "if you trust it.");
 }
 
+/// @param bits as zlib's deflateInit2 has them: 31 for gzip, -15 for bare deflate
+std::string packed_with(int bits, std::string_view bytes) {
+  z_stream stream{};
+  constexpr int kUsualMemory = 8;
+  if (::deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, bits, kUsualMemory,
+                     Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  std::string packed;
+  std::string piece(std::size_t{1} << 16, '\0');
+  std::size_t used = 0;
+  for (int state = Z_OK; state != Z_STREAM_END;) {
+    // zlib counts with 32 bits.
+    const std::size_t in = std::min(bytes.size() - used, std::size_t{1} << 30);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + used));
+    stream.avail_in = static_cast<uInt>(in);
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(piece.size());
+    state = ::deflate(&stream, used + in == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
+    used += in - stream.avail_in;
+    packed.append(piece, 0, piece.size() - stream.avail_out);
+  }
+  ::deflateEnd(&stream);
+  return packed;
+}
+
 class Inflation {
  public:
   /// @param bits as zlib's inflateInit2 has them: 31 for gzip, -15 for bare deflate
@@ -114,6 +140,14 @@ std::string inflate_member(std::string_view packed, std::uint64_t size, const st
                     " bytes that it announces; the archive is damaged. Copy it again.");
   }
   return text;
+}
+
+std::string pack_gzip(std::string_view bytes) {
+  return packed_with(31, bytes);
+}
+
+std::string deflate_member(std::string_view bytes) {
+  return packed_with(-15, bytes);
 }
 
 std::uint32_t crc32_of(std::string_view bytes) {

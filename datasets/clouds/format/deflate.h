@@ -19,6 +19,12 @@ std::string unpack_gzip(std::string_view packed, const std::string& where);
 /// @throws DataError as `unpack_gzip`, and if it unpacks to another size
 std::string inflate_member(std::string_view packed, std::uint64_t size, const std::string& where);
 
+/// Packs bytes as one member of a gzip file, without a time or a name.
+std::string pack_gzip(std::string_view bytes);
+
+/// Packs bytes as a deflated member of a zip archive.
+std::string deflate_member(std::string_view bytes);
+
 /// The checksum of zip and gzip.
 std::uint32_t crc32_of(std::string_view bytes);
 

@@ -51,6 +51,9 @@ std::optional<PointField> parsed_type(std::string_view type) {
 std::vector<PointField> point_layout_fields(std::string_view text) {
   std::vector<PointField> fields;
   std::unordered_set<std::string_view> names;
+  if (text.find(',') != std::string_view::npos) {
+    fail(text, ",", "stands between its fields, where blanks should be");
+  }
   for (const std::string_view word : split_blanks(text)) {
     const std::string_view name = word.substr(0, word.find(':'));
     if (name.empty()) fail(text, word, "has no name");

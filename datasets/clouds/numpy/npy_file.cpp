@@ -29,9 +29,9 @@ PointRecords read_npy_records(const CloudBytes& file) {
 }
 
 /// The array of an archive that holds the points.
-/// @param unpacked is filled with its bytes
-CloudBytes chosen_array(const CloudBytes& file, std::filesystem::path& name,
-                        std::string& unpacked) {
+/// @param unpacked is filled with its bytes, and `form` with what it is among
+CloudBytes chosen_array(const CloudBytes& file, std::filesystem::path& name, std::string& unpacked,
+                        StoredForm& form) {
   const std::string where = file.path.string();
   std::vector<ZipMember> arrays;
   std::vector<std::string> names;
@@ -55,6 +55,10 @@ CloudBytes chosen_array(const CloudBytes& file, std::filesystem::path& name,
                     "such a name.");
   }
   name = where + ": " + chosen->name;
+  form.packed = chosen->method != 0;
+  form.array = chosen->name;
+  std::erase(names, chosen->name);
+  form.others = names;
   unpacked = zip_content(file.text, *chosen, name.string());
   return {name, unpacked, file.reading};
 }
@@ -62,13 +66,22 @@ CloudBytes chosen_array(const CloudBytes& file, std::filesystem::path& name,
 Cloud read_npz_cloud(const CloudBytes& file, const Eigen::Vector3d& origin) {
   std::filesystem::path name;
   std::string unpacked;
-  return read_npy_cloud(chosen_array(file, name, unpacked), origin);
+  StoredForm form;
+  return read_npy_cloud(chosen_array(file, name, unpacked, form), origin);
 }
 
 PointRecords read_npz_records(const CloudBytes& file) {
   std::filesystem::path name;
   std::string unpacked;
-  return read_npy_records(chosen_array(file, name, unpacked));
+  StoredForm form;
+  PointRecords records = read_npy_records(chosen_array(file, name, unpacked, form));
+  records.form = form;
+  return records;
+}
+
+std::string npz_of(const std::string& npy, const StoredForm& form) {
+  const std::string name = form.array.empty() ? "points" : form.array;
+  return zip_archive_of(name + ".npy", npy, form.packed);
 }
 
 NameRules npy_names() {
@@ -133,6 +146,10 @@ class NpyEncoder : public RecordEncoder {
   WrittenShape shape_;
 };
 
+std::unique_ptr<RecordEncoder> npy_encoder(const std::filesystem::path&, const RecordWriting&) {
+  return std::make_unique<NpyEncoder>();
+}
+
 std::vector<std::string> lost_in_npy(const RecordLayout& layout) {
   const std::vector<std::string> wanted = names_of(layout);
   return renamed_sentences(wanted, fitting_names(wanted, npy_names()));
@@ -141,15 +158,13 @@ std::vector<std::string> lost_in_npy(const RecordLayout& layout) {
 }  // namespace
 
 CloudFormat npy_format() {
-  const auto encoder = [](const std::filesystem::path&,
-                          const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
-    return std::make_unique<NpyEncoder>();
-  };
-  return {".npy", read_npy_cloud, read_npy_records, encoder, lost_in_npy};
+  return {".npy", read_npy_cloud, read_npy_records, npy_encoder, lost_in_npy};
 }
 
 CloudFormat npz_format() {
-  return {".npz", read_npz_cloud, read_npz_records, nullptr, nullptr};
+  CloudFormat format{".npz", read_npz_cloud, read_npz_records, npy_encoder, lost_in_npy};
+  format.wrap = npz_of;
+  return format;
 }
 
 }  // namespace raymoval

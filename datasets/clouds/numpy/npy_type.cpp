@@ -103,7 +103,8 @@ class TypeReader {
     const auto number = number_type(std::string_view(text).substr(has_order ? 1 : 0));
     if (!number) {
       fail(where_, (name.empty() ? "the type" : "the field '" + name + "' has the type") + " '" +
-                       text.substr(0, 40) + "', which is not read");
+                       text.substr(0, 40) + "', which is not read" +
+                       (text.ends_with('O') ? ": objects of Python" : ""));
     }
     PointField field = *number;
     const std::uint64_t values = static_cast<std::uint64_t>(field.count) * count;

@@ -116,6 +116,51 @@ std::vector<ZipMember> zip_members(std::string_view archive, const std::string& 
   return ZipReader(archive, where).members();
 }
 
+std::string zip_archive_of(const std::string& name, std::string_view content, bool is_deflated) {
+  const std::string packed = is_deflated ? deflate_member(content) : std::string(content);
+  constexpr std::size_t kMost = 0xFFFFFFFFU - 65536;
+  if (content.size() > kMost || packed.size() > kMost) {
+    throw DataError(name + ": an archive of more than 4 GiB is not written. Choose fewer points.");
+  }
+  std::string archive;
+  const auto put = [&](std::uint64_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) archive += static_cast<char>((value >> (8 * i)) & 0xFFU);
+  };
+  // What the head of a file and its entry in the directory have in common.
+  const auto put_about = [&] {
+    constexpr std::uint64_t kVersion = 20, kNoFlags = 0, kFirstDay = 0x0021;
+    put(kVersion, 2);
+    put(kNoFlags, 2);
+    put(is_deflated ? 8 : 0, 2);
+    put(0, 2);
+    put(kFirstDay, 2);
+    put(crc32_of(content), 4);
+    put(packed.size(), 4);
+    put(content.size(), 4);
+    put(name.size(), 2);
+    put(0, 2);
+  };
+  archive = "PK\x03\x04";
+  put_about();
+  archive += name + packed;
+  const std::size_t directory = archive.size();
+  archive += "PK\x01\x02";
+  put(20, 2);
+  put_about();
+  // No comment, first disk, no attributes, and its head at the begin.
+  for (const int bytes : {2, 2, 2, 4, 4}) put(0, bytes);
+  archive += name;
+  const std::size_t end = archive.size();
+  archive += "PK\x05\x06";
+  put(0, 4);
+  put(1, 2);
+  put(1, 2);
+  put(end - directory, 4);
+  put(directory, 4);
+  put(0, 2);
+  return archive;
+}
+
 std::string zip_content(std::string_view archive, const ZipMember& member,
                         const std::string& where) {
   const ZipReader reader(archive, where);

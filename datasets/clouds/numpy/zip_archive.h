@@ -28,4 +28,9 @@ std::vector<ZipMember> zip_members(std::string_view archive, const std::string& 
 std::string zip_content(std::string_view archive, const ZipMember& member,
                         const std::string& where);
 
+/// An archive with one file, with the date of an archive that has none (1980).
+/// @param is_deflated whether it is packed, and not stored
+/// @throws DataError beyond 4 GiB
+std::string zip_archive_of(const std::string& name, std::string_view content, bool is_deflated);
+
 }  // namespace raymoval

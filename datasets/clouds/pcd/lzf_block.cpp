@@ -40,4 +40,24 @@ std::string unpack_lzf_block(std::string_view body, std::uint64_t expected_bytes
   return data;
 }
 
+std::string pack_lzf_block(std::string_view data) {
+  // What cannot be packed takes a byte more for each 32.
+  const std::size_t room = data.size() + data.size() / 32 + 64;
+  if (room > 0xFFFFFFFFU) {
+    throw DataError("A compressed PCD file holds at most 4 GiB of points. Write another format.");
+  }
+  std::string block(2 * sizeof(std::uint32_t) + room, '\0');
+  const unsigned packed =
+      data.empty()
+          ? 0
+          : ::lzf_compress(data.data(), static_cast<unsigned>(data.size()),
+                           block.data() + 2 * sizeof(std::uint32_t), static_cast<unsigned>(room));
+  if (packed == 0 && !data.empty()) throw InternalError("LZF does not pack a block with room");
+  const std::array sizes = {static_cast<std::uint32_t>(packed),
+                            static_cast<std::uint32_t>(data.size())};
+  std::memcpy(block.data(), sizes.data(), sizeof sizes);
+  block.resize(sizeof sizes + packed);
+  return block;
+}
+
 }  // namespace raymoval

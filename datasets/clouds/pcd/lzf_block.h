@@ -14,4 +14,8 @@ namespace raymoval {
 std::string unpack_lzf_block(std::string_view body, std::uint64_t expected_bytes,
                              const std::filesystem::path& path);
 
+/// The body of a binary_compressed PCD file that unpacks to `data`.
+/// @throws DataError beyond 4 GiB
+std::string pack_lzf_block(std::string_view data);
+
 }  // namespace raymoval

@@ -5,6 +5,8 @@
 
 #include "core/text.h"
 #include "datasets/clouds/format/field_names.h"
+#include "datasets/clouds/format/text_rows.h"
+#include "datasets/clouds/pcd/lzf_block.h"
 
 namespace raymoval {
 namespace {
@@ -24,24 +26,29 @@ struct HeadField {
   std::size_t size = 1, count = 1;
 };
 
-/// In order of their places, with filler between them.
-std::vector<HeadField> head_fields(const RecordLayout& layout) {
-  const std::vector<std::string> names = fitting_names(names_of(layout), pcd_names());
+/// The numbers of the fields in the order of their places.
+std::vector<std::size_t> by_place(const RecordLayout& layout) {
   std::vector<std::size_t> order(layout.fields.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return layout.fields[a].offset < layout.fields[b].offset;
   });
+  return order;
+}
+
+/// In order of their places, with filler between them if `filled`.
+std::vector<HeadField> head_fields(const RecordLayout& layout, bool filled) {
+  const std::vector<std::string> names = fitting_names(names_of(layout), pcd_names());
   std::vector<HeadField> fields;
   std::size_t at = 0;
   const auto fill = [&](std::size_t end) {
     // No reader takes more than 65,536 values a field for granted, ours among them.
-    for (std::size_t bytes = 0; at < end; at += bytes) {
+    for (std::size_t bytes = 0; filled && at < end; at += bytes) {
       bytes = std::min<std::size_t>(end - at, 65536);
       fields.push_back({"_", "U", 1, bytes});
     }
   };
-  for (const std::size_t i : order) {
+  for (const std::size_t i : by_place(layout)) {
     const PointField& field = layout.fields[i];
     fill(field.offset);
     fields.push_back({names[i], std::string(1, field.type), static_cast<std::size_t>(field.size),
@@ -52,9 +59,9 @@ std::vector<HeadField> head_fields(const RecordLayout& layout) {
   return fields;
 }
 
-std::string field_lines(const RecordLayout& layout) {
+std::string field_lines(const RecordLayout& layout, bool filled) {
   std::string names = "FIELDS", sizes = "SIZE", types = "TYPE", counts = "COUNT";
-  for (const HeadField& field : head_fields(layout)) {
+  for (const HeadField& field : head_fields(layout, filled)) {
     names += " " + field.name;
     sizes += " " + std::to_string(field.size);
     types += " " + field.type;
@@ -71,8 +78,12 @@ std::string viewpoint_text(const Eigen::Matrix<double, 7, 1>& viewpoint) {
 
 class PcdEncoder : public RecordEncoder {
  public:
+  explicit PcdEncoder(const StoredForm& form) : form_(form) {}
+
   void start(const PointRecords& first) override {
-    fields_ = field_lines(first.layout);
+    fields_ = field_lines(first.layout, !form_.text && !form_.packed);
+    for (const std::size_t i : by_place(first.layout)) ordered_.push_back(first.layout.fields[i]);
+    kept_.layout = first.layout;
     if (first.viewpoint) viewpoint_ = viewpoint_text(*first.viewpoint);
     room_ = viewpoint_.size() + 3 * kMostDigits;
   }
@@ -86,7 +97,11 @@ class PcdEncoder : public RecordEncoder {
     return "# .PCD v0.7 - Point Cloud Data file format\n# Written by raymoval" +
            std::string(room_ - std::min(room_, used), ' ') + "\nVERSION 0.7\n" + fields_ +
            "WIDTH " + width + "\nHEIGHT " + height + "\nVIEWPOINT" + viewpoint_ + "\nPOINTS " +
-           count + "\nDATA binary\n";
+           count + "\nDATA " +
+           (form_.text     ? "ascii"
+            : form_.packed ? "binary_compressed"
+                           : "binary") +
+           "\n";
   }
 
   std::string rows(const PointRecords& more) override {
@@ -94,11 +109,32 @@ class PcdEncoder : public RecordEncoder {
     if (more.size() > 0 && more.viewpoint && viewpoint_text(*more.viewpoint) != viewpoint_) {
       viewpoint_ = kNone;
     }
+    if (form_.text) return text_rows(more, ordered_);
+    if (form_.packed) {
+      kept_.bytes.insert(kept_.bytes.end(), more.bytes.begin(), more.bytes.end());
+      return "";
+    }
     return {reinterpret_cast<const char*>(more.bytes.data()), more.bytes.size()};
+  }
+
+  /// The values of one field after another, packed together.
+  std::string rest() override {
+    if (form_.text || !form_.packed) return "";
+    std::string columns;
+    columns.reserve(kept_.bytes.size());
+    for (const PointField& field : ordered_) {
+      for (std::size_t i = 0; i < kept_.size(); ++i) {
+        columns.append(reinterpret_cast<const char*>(kept_.row(i) + field.offset), field.bytes());
+      }
+    }
+    return pack_lzf_block(columns);
   }
 
  private:
   static constexpr const char* kNone = " 0 0 0 1 0 0 0";
+  StoredForm form_;
+  std::vector<PointField> ordered_;
+  PointRecords kept_;  ///< All rows, of a compressed file.
   std::string fields_;
   std::string viewpoint_ = kNone;  ///< Never longer than the first one.
   std::size_t room_ = 0;
@@ -107,8 +143,8 @@ class PcdEncoder : public RecordEncoder {
 
 }  // namespace
 
-std::unique_ptr<RecordEncoder> pcd_encoder() {
-  return std::make_unique<PcdEncoder>();
+std::unique_ptr<RecordEncoder> pcd_encoder(const StoredForm& form) {
+  return std::make_unique<PcdEncoder>(form);
 }
 
 std::vector<std::string> lost_in_pcd(const RecordLayout& layout) {

@@ -61,6 +61,8 @@ PointRecords read_pcd_records(const CloudBytes& file) {
   records.width = header.width;
   records.height = header.height;
   records.viewpoint = header.viewpoint;
+  records.form.text = header.encoding == CloudEncoding::kAscii;
+  records.form.packed = header.encoding == CloudEncoding::kCompressed;
   return records;
 }
 
@@ -83,8 +85,8 @@ RecordLayout read_pcd_layout(const std::filesystem::path& path, const RecordRead
 }  // namespace
 
 CloudFormat pcd_format() {
-  const auto encoder = [](const std::filesystem::path&, const RecordWriting&) {
-    return pcd_encoder();
+  const auto encoder = [](const std::filesystem::path&, const RecordWriting& writing) {
+    return pcd_encoder(writing.form);
   };
   CloudFormat format{".pcd", read_pcd_cloud, read_pcd_records, encoder, lost_in_pcd};
   format.read_layout = read_pcd_layout;

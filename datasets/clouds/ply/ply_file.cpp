@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/clouds/ply/ply_file.h"
 
-#include <cstring>
+#include <algorithm>
 
 #include "core/error.h"
 #include "datasets/clouds/format/ascii_rows.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/clouds/format/header_rows.h"
+#include "datasets/clouds/format/text_rows.h"
 #include "datasets/clouds/ply/ply_header.h"
 
 namespace raymoval {
@@ -24,8 +25,12 @@ Cloud read_ply_cloud(const CloudBytes& file, const Eigen::Vector3d& origin) {
 PointRecords read_ply_records(const CloudBytes& file) {
   const CloudHeader header = parse_ply_header(file.text, file.path);
   const std::string_view body = file.text.substr(header.body_offset);
-  if (header.encoding == CloudEncoding::kAscii) return ascii_records(header, body, file.path);
-  return records_of(binary_points(header, body, file.path));
+  const bool text = header.encoding == CloudEncoding::kAscii;
+  PointRecords records = text ? ascii_records(header, body, file.path)
+                              : records_of(binary_points(header, body, file.path));
+  records.form.text = text;
+  records.form.big_endian = header.big_endian;
+  return records;
 }
 
 /// Whether PLY has no type for the values of `field`.
@@ -44,6 +49,8 @@ const char* type_name(const PointField& field) {
 
 class PlyEncoder : public RecordEncoder {
  public:
+  explicit PlyEncoder(const StoredForm& form) : form_(form) {}
+
   void start(const PointRecords& first) override {
     const std::vector<std::string> names = fitting_names(value_names(first.layout), {});
     std::size_t value = 0;
@@ -61,31 +68,42 @@ class PlyEncoder : public RecordEncoder {
     constexpr std::size_t kCountDigits = 10;
     const std::string count = std::to_string(points);
     // Blanks in a comment give room for the digits, so that the head always has the same length.
-    return "ply\nformat binary_little_endian 1.0\ncomment Written by raymoval" +
+    const char* format = form_.text         ? "ascii"
+                         : form_.big_endian ? "binary_big_endian"
+                                            : "binary_little_endian";
+    return std::string("ply\nformat ") + format + " 1.0\ncomment Written by raymoval" +
            std::string(kCountDigits - count.size(), ' ') + "\nelement vertex " + count + "\n" +
            properties_ + "end_header\n";
   }
 
   std::string rows(const PointRecords& more) override {
-    if (packed_) return {reinterpret_cast<const char*>(more.bytes.data()), more.bytes.size()};
+    if (form_.text) return text_rows(more, more.layout.fields);
+    if (packed_ && !form_.big_endian) {
+      return {reinterpret_cast<const char*>(more.bytes.data()), more.bytes.size()};
+    }
     std::string bytes;
     bytes.reserve(more.size() * packed_bytes_);
     for (std::size_t i = 0; i < more.size(); ++i) {
-      for (const PointField& field : more.layout.fields) {
-        if (!is_wide(field)) {
-          bytes.append(reinterpret_cast<const char*>(more.row(i) + field.offset), field.bytes());
-          continue;
-        }
-        for (int at = 0; at < field.count; ++at) {
-          const double value = more.value(i, field, at);
-          bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-        }
-      }
+      for (const PointField& field : more.layout.fields) put(more, i, field, bytes);
     }
     return bytes;
   }
 
  private:
+  void put(const PointRecords& rows, std::size_t row, const PointField& field,
+           std::string& bytes) const {
+    for (int at = 0; at < field.count; ++at) {
+      const double value = is_wide(field) ? rows.value(row, field, at) : 0.0;
+      const auto size = static_cast<std::size_t>(is_wide(field) ? 8 : field.size);
+      const std::size_t place = field.offset + static_cast<std::size_t>(at * field.size);
+      const void* from = is_wide(field) ? static_cast<const void*>(&value) : rows.row(row) + place;
+      bytes.append(static_cast<const char*>(from), size);
+      if (form_.big_endian)
+        std::reverse(bytes.end() - static_cast<std::ptrdiff_t>(size), bytes.end());
+    }
+  }
+
+  StoredForm form_;
   std::string properties_;
   bool packed_ = true;  ///< Whether the rows are the file's as they are.
   std::size_t packed_bytes_ = 0;
@@ -111,8 +129,8 @@ std::vector<std::string> lost_in_ply(const RecordLayout& layout) {
 
 CloudFormat ply_format() {
   const auto encoder = [](const std::filesystem::path&,
-                          const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
-    return std::make_unique<PlyEncoder>();
+                          const RecordWriting& writing) -> std::unique_ptr<RecordEncoder> {
+    return std::make_unique<PlyEncoder>(writing.form);
   };
   return {".ply", read_ply_cloud, read_ply_records, encoder, lost_in_ply};
 }

@@ -65,6 +65,11 @@ class PlyHeaderParser {
       if (!words.empty()) read_line(words);
     }
     if (!format_seen_) throw DataError(path_.string() + ": the header has no format line.");
+    if (where_ != Where::kVertices && where_ != Where::kBehind) {
+      throw DataError(path_.string() +
+                      ": has no points: expected 'element vertex COUNT' in the header. If it is "
+                      "something else than scans, leave it out.");
+    }
     header_.body_offset = lines_.offset();
     header_.body_line = lines_.line() + 1;
     header_.width = header_.points;

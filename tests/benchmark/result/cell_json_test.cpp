@@ -96,6 +96,9 @@ class Draw {
       const auto id = [&](std::size_t) { return static_cast<std::uint16_t>(below(65536)); };
       return LabelRule{text(), some(id), some(id)};
     });
+    data.T_sensor = text();
+    data.time_offset_s = maybe([&] { return number(); });
+    data.deskew = text();
     data.fingerprint = text();
     return data;
   }
@@ -216,12 +219,30 @@ bool may_be_missing(const Pointer& place) {
     if (is_named && !of_column && place.back() != "undefined") return true;
     if (is_named && text.starts_with("/columns") && !of_column) return true;
   }
-  static const std::vector<std::string> kOptional = {
-      "schema_version", "key",          "data",       "columns",     "masks",
-      "measured",       "sensor_basis", "up",         "up_source",   "max",
-      "scan_period_s",  "drop_ego",     "label_rule", "fingerprint", "intervals",
-      "median",         "p90",          "early",      "late",        "peak_memory_mib",
-      "repeats"};
+  static const std::vector<std::string> kOptional = {"schema_version",
+                                                     "key",
+                                                     "data",
+                                                     "columns",
+                                                     "masks",
+                                                     "measured",
+                                                     "sensor_basis",
+                                                     "up",
+                                                     "up_source",
+                                                     "max",
+                                                     "scan_period_s",
+                                                     "drop_ego",
+                                                     "label_rule",
+                                                     "fingerprint",
+                                                     "intervals",
+                                                     "median",
+                                                     "p90",
+                                                     "early",
+                                                     "late",
+                                                     "peak_memory_mib",
+                                                     "repeats",
+                                                     "T_sensor",
+                                                     "time_offset_s",
+                                                     "deskew"};
   return std::find(kOptional.begin(), kOptional.end(), place.back()) != kOptional.end();
 }
 
@@ -377,7 +398,8 @@ TEST_CASE("Files of earlier versions are read", "[result]") {
 
   ordered_json old = full_cell();
   for (const char* key : {"columns", "masks"}) old.erase(key);
-  for (const char* key : {"up", "up_source", "drop_ego"}) old["data"].erase(key);
+  for (const char* key : {"up", "up_source", "drop_ego", "T_sensor", "time_offset_s", "deskew"})
+    old["data"].erase(key);
   for (const char* key : {"early", "late"}) old["measured"]["seconds_per_scan"].erase(key);
   old["protocols"][0].erase("intervals");
   const Cell cell = cell_from(old, file);

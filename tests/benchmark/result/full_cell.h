@@ -17,6 +17,9 @@ inline nlohmann::ordered_json full_cell() {
   data.range_m.max = 50.0;
   data.drop_ego = {"auto", "none"};
   data.label_rule = LabelRule{"rule", {252}, {0}};
+  data.T_sensor = "0,0,1,0,0,0,1";
+  data.time_offset_s = 0.05;
+  data.deskew = "t in seconds from the time of the scan";
   data.fingerprint = "f";
   cell.data = data;
   Score score{{"erasor", "erasor", "1", {{"lift", 0.0}}}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
+#include <tuple>
 
 #include "core/error.h"
 #include "datasets/bags/chunks/pack.h"
@@ -52,6 +53,85 @@ TEST_CASE("A recording in one file is written again in its own container", "[bag
   check_changed(output);
 }
 
+/// All messages of a ROS 1 bag: topic, time, bytes.
+std::vector<std::tuple<std::string, Nanoseconds, std::string>> messages_of(
+    const std::filesystem::path& path) {
+  std::vector<std::tuple<std::string, Nanoseconds, std::string>> all;
+  const auto bag = open_bag(path);
+  CHECK(bag->damage().empty());
+  for (std::size_t topic = 0; topic < bag->topics().size(); ++topic) {
+    for (std::size_t i = 0; i < bag->topics()[topic].messages; ++i) {
+      all.emplace_back(bag->topics()[topic].name, bag->recorded(topic, i), bag->message(topic, i));
+    }
+  }
+  return all;
+}
+
+TEST_CASE("A ROS 1 bag is written again with its compression", "[bags][rewriting][ros1]") {
+  const std::string packing = GENERATE("none", "bz2", "lz4");
+  CAPTURE(packing);
+  const TemporaryFolder folder;
+  const auto input = test::recording("bag_ros1/rosbag_" + packing + ".bag");
+  const RewrittenBag as_it_was = rewrite_bag(input, folder / "same.bag", same);
+  auto wanted = messages_of(input);
+  CHECK(as_it_was.messages == 5);
+  CHECK(as_it_was.changed == 0);
+  CHECK(messages_of(folder / "same.bag") == wanted);
+  CHECK_THAT(test::file_bytes(folder / "same.bag"), Catch::Contains("compression=" + packing));
+
+  const std::size_t points = test::topic_named(*open_bag(input), "/points");
+  const auto change = [&](std::size_t topic, std::size_t index,
+                          const std::string& message) -> std::optional<std::string> {
+    if (topic != points) return message;
+    return index == 1 ? std::nullopt : std::optional(message + std::string(index, '!'));
+  };
+  const RewrittenBag result = rewrite_bag(input, folder / "out.bag", change);
+  CHECK(result.changed == 1);
+  CHECK(result.left_out == 1);
+  std::size_t number = 0, left_out = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (std::get<0>(wanted[i]) != "/points") continue;
+    if (number == 1) left_out = i;
+    std::get<2>(wanted[i]) += std::string(number++, '!');
+  }
+  wanted.erase(wanted.begin() + static_cast<std::ptrdiff_t>(left_out));
+  CHECK(messages_of(folder / "out.bag") == wanted);
+}
+
+TEST_CASE("A ROS 1 bag with another bag's messages cut off is written whole",
+          "[bags][rewriting][ros1]") {
+  const TemporaryFolder folder;
+  const std::string whole = test::file_bytes(test::recording("bag_ros1/rosbag_none.bag"));
+  const auto input = folder.write("cut.bag", whole.substr(0, whole.size() * 3 / 4));
+  const RewrittenBag result = rewrite_bag(input, folder / "out.bag", same);
+  CHECK_FALSE(result.damage.empty());
+  CHECK(result.messages > 0);
+  CHECK(messages_of(folder / "out.bag").size() == result.messages);  // And without damage.
+}
+
+TEST_CASE("Messages that are packed one by one are read, and stay packed", "[bags][rewriting]") {
+  const TemporaryFolder folder;
+  folder.write("drive/packed.db3", test::file_bytes(test::recording("bag_db3/packed.db3")));
+  folder.write("drive/metadata.yaml",
+               "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n"
+               "  compression_format: zstd\n  compression_mode: MESSAGE\n"
+               "  relative_file_paths:\n    - packed.db3\n");
+  test::check_content(*open_bag(folder / "drive"));
+  std::filesystem::create_directory(folder / "clean");  // An empty one is no obstacle.
+  rewrite_bag(folder / "drive", folder / "clean", changed);
+  check_changed(folder / "clean");
+  const auto alone = open_bag(folder / "clean/packed.db3");
+  CHECK_THAT(alone->message(0, 0), Catch::StartsWith("\x28\xB5\x2F\xFD"));  // zstd's magic number.
+  // Damage of one message is said with its place, and the others are read.
+  std::string bytes = test::file_bytes(test::recording("bag_db3/packed.db3"));
+  bytes.replace(bytes.find("points 0") - 8, 4, "XXXX");
+  folder.write("drive/packed.db3", bytes);
+  const auto bag = open_bag(folder / "drive");
+  const std::size_t points = test::topic_named(*bag, "/points");
+  CHECK_THROWS_AS(bag->message(points, 0), DataError);
+  CHECK(bag->message(points, 1).substr(4) == "points 1");
+}
+
 TEST_CASE("What is no message stays in a MCAP file", "[bags][rewriting]") {
   const TemporaryFolder folder;
   rewrite_bag(test::recording("bag_mcap/zstd.mcap"), folder / "out.mcap", changed);
@@ -70,6 +150,7 @@ TEST_CASE("A folder is written to a new one with its metadata", "[bags][rewritin
   folder.write(
       "drive/metadata.yaml",
       "rosbag2_bagfile_information:\n  version: 3\n  storage_identifier: sqlite3\n"
+      "  duration:\n    nanoseconds: 2000\n  starting_time:\n    nanoseconds_since_epoch: 1000\n"
       "  message_count: 5  # all\n  topics_with_message_count:\n"
       "    - topic_metadata:\n        name: /points\n"
       "        type: sensor_msgs/msg/PointCloud2\n      message_count: 3\n"
@@ -81,6 +162,9 @@ TEST_CASE("A folder is written to a new one with its metadata", "[bags][rewritin
   check_changed(folder / "clean");
   const std::string text = test::file_bytes(folder / "clean/metadata.yaml");
   CHECK_THAT(text, Catch::Contains("message_count: 4  # all"));
+  // The last message, of time 3000, is left out.
+  CHECK_THAT(text, Catch::Contains("duration:\n    nanoseconds: 1000\n") &&
+                       Catch::Contains("nanoseconds_since_epoch: 1000\n"));
   CHECK_THAT(text, Catch::Contains("PointCloud2\n      message_count: 2\n"));
   CHECK_THAT(text, Catch::EndsWith("    - clean/" + name + "\n"));
   CHECK_THROWS_WITH(rewrite_bag(folder / "drive", folder / "clean", same),

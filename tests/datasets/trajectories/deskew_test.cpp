@@ -140,7 +140,13 @@ TEST_CASE("the own vehicle is left out where it stands", "[deskew]") {
   SequenceOptions options;
   options.deskew = true;
   options.drop_ego = parse_ego_region("3");
+  options.T_sensor = "0,0,0,0,0,0,1";
+  options.time_offset_s = 0.0;
   const Sequence sequence = open_sequence(folder.text(), options);
+  // Results say how the scans were read.
+  CHECK_THAT(sequence.record().deskew, Catch::Contains(" in seconds from the time of the scan"));
+  CHECK(sequence.record().T_sensor == "0,0,0,0,0,0,1");
+  CHECK(sequence.record().time_offset_s == 0.0);
   CHECK(error_of(sequence) < 1e-3);
   CHECK(ego_free_source(sequence) != nullptr);
 }

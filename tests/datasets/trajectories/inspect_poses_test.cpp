@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/text.h"
+#include "datasets/inspection/unopenable.h"
 #include "tests/datasets/inspect_data.h"
 
 using namespace raymoval;
@@ -98,6 +99,46 @@ TEST_CASE("findings on poses go away with the option that they name", "[inspect]
   check_finds(inspect_path(folder.text(), options), "quaternion-order", "--pose-format euroc");
   options.pose_format = "euroc";
   CHECK(found_with(folder, options).empty());
+}
+
+TEST_CASE("poses of a camera are no finding once it is said where the sensor is on it",
+          "[inspect]") {
+  const EditedSequence& drive = good_drive();
+  const TemporaryFolder folder;
+  write_scans(folder, drive, 0.1, as_seen);
+  Pose T_camera_lidar = Pose::Identity();
+  T_camera_lidar.matrix().topRows<3>() << 0, -1, 0, 0.05, 0, 0, -1, -0.07, 1, 0, 0, -0.27;
+  folder.write("poses.txt", pose_rows(drive, [&](const Scan& scan) {
+                 return matrix_of(T_camera_lidar * scan.T_world_sensor * T_camera_lidar.inverse());
+               }));
+  folder.write("mount.txt", row(matrix_of(T_camera_lidar)));
+  SequenceOptions options;
+  check_finds(inspect_path(folder.text(), options), "camera-frame", "--T-sensor");
+  options.T_sensor = "mount.txt";
+  CHECK(found_with(folder, options).empty());
+}
+
+TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"0.bin", "1.bin", "2.bin"}) folder.write(name, floats({5, 0, 0, 1}));
+  const auto poses = [](std::size_t count) {
+    std::string head = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
+                       std::to_string(count) + ", 3, 4), }";
+    head.resize(117, ' ');
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < count; ++i) {
+      numbers.insert(numbers.end(), {1, 0, 0, static_cast<double>(i), 0, 1, 0, 0, 0, 0, 1, 0});
+    }
+    return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + head + "\n" + bytes_of(numbers);
+  };
+  SequenceOptions options;
+  options.poses = "poses.npy";
+  folder.write("poses.npy", poses(3));
+  CHECK(inspection::unopenable_findings(folder.text(), options).empty());
+  folder.write("poses.npy", poses(4));
+  const auto findings = inspection::unopenable_findings(folder.text(), options);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].what == "holds 4 poses for 3 scans");
 }
 
 TEST_CASE("points in the world frame are named, and brought back on request", "[inspect]") {

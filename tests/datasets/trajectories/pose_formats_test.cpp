@@ -176,14 +176,30 @@ TEST_CASE("LIO-SAM's key poses are read from a cloud", "[trajectories]") {
 }
 
 TEST_CASE("arrays of matrices are read", "[trajectories]") {
-  const auto npy = [](const std::string& shape, const std::vector<double>& values) {
-    std::string head = "{'descr': '<f8', 'fortran_order': False, 'shape': " + shape + ", }";
+  const auto npy = [](const std::string& shape, const std::vector<double>& values,
+                      const std::string& by_columns = "False") {
+    std::string head =
+        "{'descr': '<f8', 'fortran_order': " + by_columns + ", 'shape': " + shape + ", }";
     head.resize(117, ' ');
     return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + head + "\n" + bytes_of(values);
   };
   const std::vector<double> pose = {0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1};
   check_quarter(read("poses.npy", npy("(1, 4, 4)", pose)), "npy");
   check_quarter(read("poses.npy", npy("(1, 3, 4)", {pose.begin(), pose.begin() + 12})), "npy");
+  // Fortran order: of two poses, the first numbers of both, then those of the next row.
+  std::vector<double> rows_first, columns;
+  for (std::size_t column = 0; column < 4; ++column) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      const double other = row == column ? 1 : 0;
+      rows_first.insert(rows_first.end(), {other, pose[4 * row + column]});
+    }
+  }
+  for (std::size_t k = 0; k < 12; ++k) {
+    const double other = k % 5 == 0 ? 1 : 0;
+    columns.insert(columns.end(), {other, pose[k]});
+  }
+  check_quarter(read("poses.npy", npy("(2, 3, 4)", rows_first, "True")), "npy", 1);
+  check_quarter(read("poses.npy", npy("(2, 12)", columns, "True")), "npy", 1);
   check_says(error_of(npy("(2, 4, 4)", pose), {}, "p.npy"), {"2 poses", "bytes of 1", "cut"});
   check_says(error_of(npy("(4, 4)", pose), {}, "p.npy"), {"an array of 4 x 4"});
   check_says(error_of(npy("(1000000000, 4, 4)", pose), {}, "p.npy"), {"bytes of 1"});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Folders of scans whose poses go by time, by row, or are one for all.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "core/error.h"
 #include "datasets/clouds/cloud_writer.h"
@@ -144,6 +145,21 @@ TEST_CASE("poses of a body are taken to its sensor", "[trajectories]") {
   check_says(open_error<UsageError>(folder, options), {"--T-sensor nothing", "no file"});
   options.T_sensor = "2,0,0,0,0,0,9";
   check_says(open_error(folder, options), {"--T-sensor 2,0,0", "length 9"});
+}
+
+TEST_CASE("between two poses it is the body that turns, and the sensor goes round it",
+          "[trajectories]") {
+  const TemporaryFolder folder;
+  write_scans(folder, {"0.bin", "1.bin", "2.bin"});
+  folder.write("times.txt", "1000\n1000.5\n1001\n");
+  folder.write("poses.txt",
+               "1000 0 0 0 0 0 0 1\n1001 0 0 0 0 0 0.7071067811865476 0.7071067811865476\n");
+  SequenceOptions options;
+  options.T_sensor = "1,0,0,0,0,0,1";
+  const Sequence sequence = open_sequence(folder.text(), options);
+  // Half of a quarter turn; the chord's middle would be at (0.5, 0.5).
+  const Eigen::Vector3d middle = sequence.scans->pose(1).translation();
+  CHECK((middle - Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0)).norm() < 1e-12);
 }
 
 TEST_CASE("points in the world frame come back to the sensor", "[trajectories]") {

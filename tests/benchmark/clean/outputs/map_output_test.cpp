@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean/clean_outputs.h"
+#include "benchmark/clean/outputs/tile_sink.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -8,6 +9,7 @@
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
+#include "datasets/clouds/las/las_notes.h"
 #include "datasets/clouds/record_file.h"
 #include "datasets/world_axes/gravity.h"
 #include "tests/benchmark/clean/recorded_scans.h"
@@ -18,6 +20,8 @@ using namespace raymoval::test;
 using Catch::Matchers::Contains;
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// One scan of four points on the x axis, seen from (10, 0, 0), with the ring 0 to 3. The last two
 /// are removed.
@@ -131,6 +135,62 @@ TEST_CASE("Tiles are squares of the world, listed with their bounds") {
   CHECK(column(read_records(paths.map / "tile_2_0.pcd"), "ring") == std::vector<double>{0, 1});
   CHECK(column(read_records(paths.map / "tile_3_0.pcd"), "x") == std::vector<double>{15.0});
   CHECK(entries_of(paths.map).size() == 4);
+}
+
+TEST_CASE("Rows of tiles wait in files where there are more than memory is given for") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "tiles";
+  const RecordLayout layout = driver_layout();
+  TileSink sink(path, layout, {1.0, Pose::Identity(), ".pcd", {}, 3 * layout.row_bytes});
+  // Each call has a row for each of three tiles; every second call is beyond the three rows.
+  for (int call = 0; call < 5; ++call) {
+    ScanRows rows;
+    std::vector<std::vector<double>> values;
+    for (const double x : {0.5, 1.5, 2.5}) {
+      values.push_back({x, 0, 0, 0, static_cast<double>(call)});
+      rows.world.emplace_back(x, 0, 0);
+    }
+    rows.rows = records_of(layout, values);
+    sink.add(rows);
+  }
+  sink.finish();
+  Replacements all;
+  sink.commit_with(all);
+  all.commit();
+  for (const char* name : {"tile_0_0.pcd", "tile_1_0.pcd", "tile_2_0.pcd"}) {
+    CHECK(column(read_records(path / name), "ring") == std::vector<double>{0, 1, 2, 3, 4});
+  }
+  CHECK(entries_of(path).size() == 4);  // With the manifest, and without what waited.
+}
+
+TEST_CASE("Maps of LAS scans keep their scale and reference system") {
+  const TemporaryFolder folder;
+  RecordLayout layout;
+  for (const char* axis : {"x", "y", "z"}) layout.add(axis, 'F', 8);
+  PointRecords rows = records_of(layout, {{0.125, 0, 0}, {0.25, 0, 0}});
+  LasNotes notes;
+  notes.scale = Eigen::Vector3d(0.005, 0.005, 1e-7);
+  notes.offset.setZero();
+  notes.reference_system = "PROJCRS[\"made up\"]";
+  rows.las = std::make_shared<LasNotes>(notes);
+  const auto scans = std::make_shared<RecordedScans>(
+      std::vector{rows}, std::vector{Pose(Eigen::Translation3d(10.0, 0.0, 0.0))});
+  for (const char* kind : {"whole", "voxels", "tiles"}) {
+    INFO(kind);
+    CleanPaths paths;
+    paths.tiled = std::string(kind) == "tiles";
+    paths.map = folder.path() / (paths.tiled ? "tiles" : std::string(kind) + ".las");
+    CleanWriting writing;
+    writing.tile_extension = ".las";
+    if (std::string(kind) == "voxels") writing.voxel_size = 0.05;
+    write(paths, scans, writing, {0, 0});
+    const PointRecords map = read_records(paths.tiled ? entries_of(paths.map).at(1) : paths.map);
+    REQUIRE(map.las != nullptr);
+    CHECK(map.las->reference_system == notes.reference_system);
+    // A grid of 0.1 um would end 215 m from its offset.
+    CHECK(map.las->scale == Eigen::Vector3d(0.005, 0.005, 1e-4));
+    CHECK(column(map, "x")[0] == Approx(10.125));
+  }
 }
 
 TEST_CASE("Tiles lie in the plane that is level, whatever axis is up") {

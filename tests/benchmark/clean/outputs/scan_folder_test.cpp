@@ -80,6 +80,30 @@ TEST_CASE("Some scans of a folder get the poses that are theirs") {
   CHECK(again.scans->pose(1).translation().x() == 30.0);
 }
 
+TEST_CASE("Cleaned scans have the form of the scans: text, compressed, packed") {
+  const TemporaryFolder folder;
+  const std::string name = GENERATE("a.pcd", "b.pcd", "a.npz", "a.pcd.gz");
+  CAPTURE(name);
+  const fs::path root = folder.path() / "data";
+  fs::create_directories(root);
+  PointRecords rows = records_of(
+      driver_layout(), {{1, 1, 1, 0.5, 7, 0.25}, {2, 1, 1, 0.5, 8, 0}, {3, 1, 1, 0.5, 9, 0}});
+  rows.form.text = name == "a.pcd" || name == "a.pcd.gz";
+  rows.form.packed = !rows.form.text;
+  rows.form.array = name == "a.npz" ? "arr_0" : "";
+  write_atomically(root / name, whole_file(name, rows));
+  write_atomically(root / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  const fs::path made = cleaned(folder, open_sequence(root.string(), {}));
+  const PointRecords left = read_records(made / name);
+  REQUIRE(left.size() == 2);
+  CHECK(value_of(left, 0, "time") == 0.25);
+  CHECK(value_of(left, 1, "ring") == 9.0);
+  CHECK(left.form.text == rows.form.text);
+  CHECK(left.form.packed == rows.form.packed);
+  CHECK(left.form.array == rows.form.array);
+  CHECK(open_sequence(made.string(), {}).scans->size() == 1);
+}
+
 TEST_CASE("Scans that are in no files are not written one by one") {
   const Sequence street = open_sequence("street", {});
   CHECK_THROWS_WITH(plan_scan_folder(street), Contains("not stored in files"));

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Reads files that other programs wrote, and has other programs read ours: a line for each.
 
-    formats.py PROGRAM    PROGRAM is raymoval_formats; scripts/formats.sh builds it
+    clouds.py PROGRAM    PROGRAM is raymoval_formats; scripts/formats.sh builds it
 
 The others are NumPy, Python's struct, gzip and zipfile, PCL's converters (pcl-tools) and Open3D,
 where they are there. Values are compared bit for bit, save LAS coordinates (half of their scale).
@@ -17,69 +17,21 @@ import tempfile
 
 import numpy as np
 
-PROGRAM = sys.argv[1]
-ROWS = []
-TYPES = {"F": "f", "I": "i", "U": "u"}
+from table import PROGRAM, Table, asked, made, same, structured
 
-
-def say(file_format, variant, other, way, equal):
-    """`equal`: whether, or why it was not tried."""
-    text = equal if isinstance(equal, str) else "equal" if equal else "DIFFERENT"
-    ROWS.append((file_format, variant, other, way, text))
+TABLE = Table()
+say = TABLE.say
 
 
 def read(path, layout=None):
     """What raymoval reads, as a structured array."""
-    done = subprocess.run([PROGRAM, "dump", path] + ([layout] if layout else []),
-                          capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        print(done.stderr, file=sys.stderr)
-        return None
-    head, body = done.stdout.split("\n\n", 1)
-    size, rows = body.split("\n")[:2]
-    names, formats, offsets = [], [], []
-    for line in head.splitlines():
-        kind, item, count, offset, name = line.split(" ", 4)
-        names.append(name)
-        formats.append((f"<{TYPES[kind]}{item}", (int(count),)) if count != "1" else
-                       f"<{TYPES[kind]}{item}")
-        offsets.append(int(offset))
-    dtype = np.dtype({"names": names, "formats": formats, "offsets": offsets,
-                      "itemsize": int(size)})
-    return np.frombuffer(bytes.fromhex(rows), dtype)
+    records = asked("dump", path, *([layout] if layout else []))
+    return None if records is None else structured(records)
 
 
 def convert(source, target, layout=None):
     return subprocess.run([PROGRAM, "convert", source, target] + ([layout] if layout else []),
                           check=False).returncode == 0
-
-
-def same(ours, expected, names=None):
-    """Whether each field of `expected` is in `ours` with the same bytes."""
-    if ours is None or len(ours) != len(expected):
-        return False
-    for name in names or expected.dtype.names:
-        if name not in (ours.dtype.names or ()):
-            return False
-        a, b = np.ascontiguousarray(ours[name]), np.ascontiguousarray(expected[name])
-        b = b.astype(b.dtype.newbyteorder("<"))
-        if a.dtype != b.dtype or a.reshape(-1).tobytes() != b.reshape(-1).tobytes():
-            return False
-    return True
-
-
-def made(fields, count=50, seed=1):
-    random = np.random.default_rng(seed)
-    array = np.zeros(count, np.dtype(fields))
-    for name in array.dtype.names:
-        column = array[name]
-        if column.dtype.kind == "f":
-            array[name] = random.normal(0, 30, column.shape)
-        else:
-            info = np.iinfo(column.dtype)
-            array[name] = random.integers(info.min, info.max, column.shape, column.dtype,
-                                          endpoint=True)
-    return array
 
 
 XYZ = [("x", "<f4"), ("y", "<f4"), ("z", "<f4")]
@@ -134,13 +86,14 @@ def write_ply(path, array, order):
         file.write(struct.pack(sign + "Biii", 3, 0, 1, 2))
 
 
-def read_ply(path):
+def read_ply(path, order="<"):
     types = {"float": "<f4", "double": "<f8", "char": "i1", "short": "<i2", "int": "<i4",
              "uchar": "u1", "ushort": "<u2", "uint": "<u4"}
     with open(path, "rb") as file:
         head, body = file.read().split(b"end_header\n", 1)
     fields = [line.split() for line in head.decode().splitlines() if line.startswith("property")]
-    return np.frombuffer(body, np.dtype([(name, types[kind]) for _, kind, name in fields]))
+    return np.frombuffer(body, np.dtype(
+        [(name, types[kind].replace("<", order)) for _, kind, name in fields]))
 
 
 def read_pcd(path):
@@ -152,6 +105,61 @@ def read_pcd(path):
                       for n, t, s, c in zip(entries["FIELDS"], entries["TYPE"], entries["SIZE"],
                                             entries["COUNT"])])
     return np.frombuffer(body, dtype)
+
+
+def written_like(source, target):
+    """Whether raymoval writes the points of `source` again, in the same form."""
+    return subprocess.run([PROGRAM, "like", source, target], check=False).returncode == 0
+
+
+def text_values(path, end, dtype):
+    """The points in the lines behind the line `end`."""
+    with open(path, encoding="ascii") as file:
+        lines = file.read().split(end + "\n", 1)[1].splitlines()
+    array = np.zeros(len(lines), dtype)
+    for row, line in zip(array, lines):
+        words = iter(line.split())
+        for name in dtype.names:
+            for at in np.ndindex(dtype[name].shape):
+                word = next(words)
+                value = float(word) if dtype[name].base.kind == "f" else int(word)
+                if at:
+                    row[name][at] = value
+                else:
+                    row[name] = value
+    return array
+
+
+def try_forms(folder):
+    """Files that are written as they were: text, compressed, another byte order, packed."""
+    for variant, fields in LAYOUTS.items():
+        array = made(fields)
+        source, ours = f"{folder}/a.pcd", f"{folder}/b.pcd"
+        write_pcd(source, array, "ascii")
+        say("PCD ascii", variant, "Python", "written as read", written_like(source, ours) and same(
+            text_values(ours, "DATA ascii", array.dtype), array))
+        with open(source, "rb") as file, gzip.open(source + ".gz", "wb") as packed:
+            packed.write(file.read())
+        if written_like(source + ".gz", ours + ".gz"):
+            with gzip.open(ours + ".gz", "rb") as packed, open(ours, "wb") as file:
+                file.write(packed.read())
+        say("PCD ascii, gzip", variant, "Python", "written as read",
+            same(text_values(ours, "DATA ascii", array.dtype), array))
+        for kind, save in {"stored": np.savez, "deflated": np.savez_compressed}.items():
+            save(f"{folder}/a.npz", points=array)
+            say("npz " + kind, variant, "NumPy", "written as read",
+                written_like(f"{folder}/a.npz", f"{folder}/b.npz") and same(
+                    np.load(f"{folder}/b.npz")["points"], array))
+        if any(t[1] in ("<u8", "<i8") or len(t) > 2 for t in fields):
+            continue
+        write_ply(f"{folder}/a.ply", array, "ascii")
+        say("PLY ascii", variant, "Python", "written as read",
+            written_like(f"{folder}/a.ply", f"{folder}/b.ply") and same(
+                text_values(f"{folder}/b.ply", "end_header", array.dtype), array))
+        write_ply(f"{folder}/a.ply", array, "binary_big_endian")
+        say("PLY big-endian", variant, "Python", "written as read",
+            written_like(f"{folder}/a.ply", f"{folder}/b.ply") and same(
+                read_ply(f"{folder}/b.ply", ">"), array))
 
 
 def try_text_formats(folder):
@@ -270,6 +278,14 @@ def try_pcl(folder):
             subprocess.run([tool, f"{folder}/ours.pcd", path, str(number), "17"],
                            capture_output=True, check=False)
             say("PCD " + data, variant, "PCL", "both", same(read(path), array))
+        if tool is None:
+            continue
+        # Ours that is compressed, made binary by PCL.
+        written_like(path, f"{folder}/again.pcd")
+        subprocess.run([tool, f"{folder}/again.pcd", f"{folder}/plain.pcd", "1"],
+                       capture_output=True, check=False)
+        say("PCD binary_compressed", variant, "PCL", "written as read",
+            same(read(f"{folder}/plain.pcd"), array))
 
 
 def try_open3d(folder):
@@ -314,14 +330,9 @@ def try_open3d(folder):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        for part in (try_text_formats, try_numpy, try_rows, try_las, try_pcl, try_open3d):
+        for part in (try_text_formats, try_forms, try_numpy, try_rows, try_las, try_pcl, try_open3d):
             part(folder)
-    widths = [max(len(row[i]) for row in ROWS) for i in range(5)]
-    for row in [("format", "variant", "by", "way", "result")] + ROWS:
-        print("  ".join(text.ljust(width) for text, width in zip(row, widths)).rstrip())
-    different = sum(row[4] == "DIFFERENT" for row in ROWS)
-    print(f"{len(ROWS)} rows, {different} different.")
-    return 1 if different else 0
+    return TABLE.finish()
 
 
 if __name__ == "__main__":

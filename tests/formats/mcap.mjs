@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// For recordings.py: MCAP files and CDR messages by npm's packages of those who made MCAP.
+//
+//   node mcap.mjs cdr < JSON          messages in CDR, by @foxglove/rosmsg2-serialization, as hex
+//   node mcap.mjs write < JSON        MCAP files by @mcap/core; chunks by the programs zstd and lz4
+//   node mcap.mjs read FILE INDEXED   the messages of a file as JSON, by its index or front to back
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+
+// The packages stand in the folder that NODE_PATH names.
+const require = createRequire(import.meta.url);
+const packer = (program, direction) => (data) =>
+  execFileSync(program, ["-c", ...direction], { input: data, maxBuffer: 1 << 28 });
+
+class Buffered {
+  parts = [];
+  size = 0n;
+  position() { return this.size; }
+  async write(bytes) { this.parts.push(Buffer.from(bytes)); this.size += BigInt(bytes.byteLength); }
+}
+
+async function write({ file, profile, packing, options, messages }) {
+  const { McapWriter } = require("@mcap/core");
+  const writable = new Buffered();
+  const packed = packing ? { compressChunk: (data) => (
+    { compression: packing, compressedData: packer(packing, [])(data) }) } : {};
+  const writer = new McapWriter({ writable, chunkSize: 4000, ...options, ...packed });
+  await writer.start({ profile, library: "" });
+  const channels = new Map();
+  for (const [sequence, { topic, type, time, hex }] of messages.entries()) {
+    if (!channels.has(topic)) {
+      const schemaId = await writer.registerSchema(
+        { name: type, encoding: profile + "msg", data: new Uint8Array() });
+      channels.set(topic, await writer.registerChannel({ schemaId, topic,
+        messageEncoding: profile === "ros1" ? "ros1" : "cdr", metadata: new Map() }));
+    }
+    await writer.addMessage({ channelId: channels.get(topic), sequence, logTime: BigInt(time),
+      publishTime: BigInt(time), data: Buffer.from(hex, "hex") });
+  }
+  await writer.end();
+  writeFileSync(file, Buffer.concat(writable.parts));
+}
+
+async function read(file, indexed) {
+  const { McapIndexedReader, McapStreamReader } = require("@mcap/core");
+  const bytes = readFileSync(file);
+  const decompressHandlers = { zstd: packer("zstd", ["-d"]), lz4: packer("lz4", ["-d"]) };
+  const channels = new Map(), found = [];
+  const add = (message) => found.push({ topic: channels.get(message.channelId),
+    time: String(message.logTime), hex: Buffer.from(message.data).toString("hex") });
+  if (indexed) {
+    const readable = { size: async () => BigInt(bytes.length),
+      read: async (offset, size) => bytes.subarray(Number(offset), Number(offset + size)) };
+    const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
+    for (const channel of reader.channelsById.values()) channels.set(channel.id, channel.topic);
+    for await (const message of reader.readMessages()) add(message);
+  } else {
+    const reader = new McapStreamReader({ decompressHandlers, validateCrcs: true });
+    reader.append(bytes);
+    for (let record; (record = reader.nextRecord());) {
+      if (record.type === "Channel") channels.set(record.id, record.topic);
+      if (record.type === "Message") add(record);
+    }
+  }
+  process.stdout.write(JSON.stringify(found));
+}
+
+function cdr(messages) {
+  const { parse } = require("@foxglove/rosmsg");
+  const { MessageWriter } = require("@foxglove/rosmsg2-serialization");
+  const hex = messages.map(({ definition, value }) => {
+    if (typeof value.data === "string") value.data = new Uint8Array(Buffer.from(value.data, "hex"));
+    const writer = new MessageWriter(parse(definition, { ros2: true }));
+    return Buffer.from(writer.writeMessage(value)).toString("hex");
+  });
+  process.stdout.write(JSON.stringify(hex));
+}
+
+const [command, file, indexed] = process.argv.slice(2);
+if (command === "read") {
+  await read(file, indexed === "indexed");
+} else {
+  const input = JSON.parse(readFileSync(0, "utf8"));
+  if (command === "cdr") cdr(input);
+  else for (const one of input) await write(one);
+}
