@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: MIT
+//
+// Compares how recordings and folders are read: speed and memory over their length.
+//   bag_reading FOLDER [--scans N] [--points N] [--only NAME]
+// Writes a drive of N scans (default: 2,000 of 30,000 points: x y z intensity ring time, 22 bytes a
+// point) into FOLDER, once as each kind of recording and once as files, and a quarter and a half of
+// it, too. Each is read by a process of its own from front to back, and by another one in an order
+// by chance, and is then removed. The table in Markdown that it prints has for each of them:
+// megabytes on the disk, the seconds that opening takes, scans and megabytes of points a second and
+// processor seconds while they are read, and the peak memory at each of the lengths.
+// What is read was just written, so that it is in the memory of the system if that is large enough:
+// the figures are of the readers, not of the disk.
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "benchmark/process/machine.h"
+#include "core/error.h"
+#include "core/files/file_writer.h"
+#include "core/files/files.h"
+#include "core/text.h"
+#include "datasets/bags/chunks/pack.h"
+#include "datasets/bags/mcap/mcap_writer.h"
+#include "datasets/bags/ros1/ros1_writer.h"
+#include "datasets/bags/ros2/sqlite.h"
+#include "datasets/clouds/record_file.h"
+#include "datasets/open_sequence.h"
+#include "tests/datasets/bags/message_bytes.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace raymoval;
+using raymoval::test::CloudHead;
+using raymoval::test::MessageBytes;
+
+/// A driver writes a chunk when it has this many bytes: rosbag's and rosbag2's default.
+constexpr std::size_t kChunkBytes = 768 * 1024;
+constexpr std::uint32_t kFirstSecond = 1'600'000'000;
+
+struct Drive {
+  std::size_t scans = 2000, points = 30000;
+};
+
+/// A velodyne driver's point: x y z intensity as float32, ring as uint16, time as float32.
+PointRecords scan_of(const Drive& drive, std::size_t scan) {
+  constexpr std::size_t kRings = 32;
+  PointRecords points;
+  for (const char* name : {"x", "y", "z", "intensity"}) points.layout.add(name, 'F', 4);
+  points.layout.add("ring", 'U', 2);
+  points.layout.add("time", 'F', 4);
+  points.bytes.resize(drive.points * points.layout.row_bytes);
+  points.width = drive.points;
+  std::minstd_rand random(static_cast<unsigned>(scan + 1));
+  std::uniform_real_distribution<float> noise(-0.02F, 0.02F);
+  const auto columns = static_cast<float>(drive.points) / kRings;
+  for (std::size_t i = 0; i < drive.points; ++i) {
+    const std::size_t ring = i % kRings;
+    const float turn = static_cast<float>(i / kRings) / columns * 6.2831853F;
+    const float rise = -0.4F + 0.02F * static_cast<float>(ring);
+    const float range = (rise < -0.02F ? -1.8F / rise : 40.0F) + noise(random);
+    const std::array<float, 4> place = {range * std::cos(turn), range * std::sin(turn),
+                                        range * rise, std::floor(40.0F + 1000.0F * noise(random))};
+    const auto ring_number = static_cast<std::uint16_t>(ring);
+    const float time = turn / 62.831853F;
+    std::byte* row = points.row(i);
+    std::memcpy(row, place.data(), 16);
+    std::memcpy(row + 16, &ring_number, 2);
+    std::memcpy(row + 18, &time, 4);
+  }
+  return points;
+}
+
+Nanoseconds stamp_of(std::size_t scan) {
+  return (Nanoseconds{kFirstSecond} * 10 + static_cast<Nanoseconds>(scan)) * 100'000'000;
+}
+
+std::string cloud_bytes(MessageEncoding encoding, const Drive& drive, std::size_t scan) {
+  const PointRecords points = scan_of(drive, scan);
+  CloudHead head;
+  head.seconds = static_cast<std::uint32_t>(stamp_of(scan) / 1'000'000'000);
+  head.nanoseconds = static_cast<std::uint32_t>(stamp_of(scan) % 1'000'000'000);
+  head.width = static_cast<std::uint32_t>(drive.points);
+  head.fields = {{"x", 0, 7},          {"y", 4, 7},     {"z", 8, 7},
+                 {"intensity", 12, 7}, {"ring", 16, 4}, {"time", 18, 7}};
+  head.point_step = static_cast<std::uint32_t>(points.layout.row_bytes);
+  head.row_step = head.point_step * head.width;
+  return cloud_message(MessageBytes(encoding), head,
+                       {reinterpret_cast<const char*>(points.bytes.data()), points.bytes.size()});
+}
+
+/// Ten metres a second straight on.
+std::string pose_bytes(MessageEncoding encoding, std::size_t scan) {
+  return MessageBytes(encoding)
+      .header(static_cast<std::uint32_t>(stamp_of(scan) / 1'000'000'000),
+              static_cast<std::uint32_t>(stamp_of(scan) % 1'000'000'000), "map")
+      .motion({static_cast<double>(scan), 0, 0, 0, 0, 0, 1})
+      .bytes();
+}
+
+/// A topic of the recordings, and how its messages are made.
+struct Topic {
+  std::uint16_t id;
+  std::string name, type;
+  std::function<std::string(MessageEncoding, std::size_t)> message;
+};
+std::vector<Topic> topics_of(const Drive& drive) {
+  return {{1, "/pose", "PoseStamped", pose_bytes},
+          {2, "/points", "PointCloud2", [drive](MessageEncoding encoding, std::size_t scan) {
+             return cloud_bytes(encoding, drive, scan);
+           }}};
+}
+std::string package_of(const Topic& topic) {
+  return topic.type == "PoseStamped" ? "geometry_msgs" : "sensor_msgs";
+}
+
+void write_ros1(const Drive& drive, const fs::path& path, Ros1Compression compression) {
+  const auto field = [](const std::string& text) {
+    std::string bytes;
+    put_text(bytes, text);
+    return bytes;
+  };
+  FileWriter file(path);
+  Ros1Writer writer(file);
+  writer.begin_chunk(compression);
+  for (std::size_t scan = 0; scan < drive.scans; ++scan) {
+    for (const Topic& topic : topics_of(drive)) {
+      const std::string type = package_of(topic) + "/" + topic.type;
+      const Ros1Connection connection{
+          topic.id, topic.name, type, "*",
+          field("topic=" + topic.name) + field("type=" + type) + field("md5sum=*")};
+      writer.message(connection, stamp_of(scan), topic.message(MessageEncoding::kRos1, scan));
+      if (writer.chunk_size() < kChunkBytes) continue;
+      writer.end_chunk();
+      writer.begin_chunk(compression);
+    }
+  }
+  writer.finish();
+  file.commit();
+}
+
+void write_mcap(const Drive& drive, const fs::path& path, const std::string& compression) {
+  const std::vector<Topic> topics = topics_of(drive);
+  FileWriter file(path);
+  McapWriter writer(file);
+  std::string head;
+  put_text(head, "ros2");
+  put_text(head, "bag_reading");
+  writer.record(McapOp::kHeader, head);
+  for (const Topic& topic : topics) {
+    std::string schema, channel;
+    put_u16(schema, topic.id);
+    for (const std::string& text :
+         {package_of(topic) + "/msg/" + topic.type, std::string("ros2msg"), std::string()}) {
+      put_text(schema, text);
+    }
+    writer.record(McapOp::kSchema, schema);
+    put_u16(channel, topic.id);
+    put_u16(channel, topic.id);
+    for (const std::string& text : {topic.name, std::string("cdr"), std::string()}) {
+      put_text(channel, text);
+    }
+    writer.record(McapOp::kChannel, channel);
+  }
+  writer.begin_chunk(compression);
+  for (std::size_t scan = 0; scan < drive.scans; ++scan) {
+    for (const Topic& topic : topics) {
+      std::string message;
+      put_u16(message, topic.id);
+      put_u32(message, static_cast<std::uint32_t>(scan));
+      put_u64(message, static_cast<std::uint64_t>(stamp_of(scan)));
+      put_u64(message, static_cast<std::uint64_t>(stamp_of(scan)));
+      writer.record(McapOp::kMessage, message + topic.message(MessageEncoding::kCdr, scan));
+      if (writer.chunk().size() < kChunkBytes) continue;
+      writer.end_chunk();
+      writer.begin_chunk(compression);
+    }
+  }
+  writer.end_chunk();
+  writer.finish();
+  file.commit();
+}
+
+/// A folder as ROS 2 records it, with one database.
+void write_db3(const Drive& drive, const fs::path& folder, bool packed) {
+  fs::create_directory(folder);
+  write_atomically(folder / "metadata.yaml",
+                   fmt::format("rosbag2_bagfile_information:\n  version: 4\n"
+                               "  storage_identifier: sqlite3\n  message_count: {}\n"
+                               "  relative_file_paths:\n    - drive.db3\n"
+                               "  compression_format: \"{}\"\n  compression_mode: \"{}\"\n",
+                               2 * drive.scans, packed ? "zstd" : "", packed ? "MESSAGE" : ""));
+  write_atomically(folder / "drive.db3", "");
+  const SqliteDatabase database = SqliteDatabase::to_write(folder / "drive.db3");
+  database.run("BEGIN");
+  database.run(
+      "CREATE TABLE topics(id INTEGER PRIMARY KEY,name TEXT NOT NULL,type TEXT NOT "
+      "NULL,serialization_format TEXT NOT NULL,offered_qos_profiles TEXT NOT NULL)");
+  database.run(
+      "CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id INTEGER NOT NULL,timestamp "
+      "INTEGER NOT NULL, data BLOB NOT NULL)");
+  database.run("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
+  for (const Topic& topic : topics_of(drive)) {
+    database.run(fmt::format("INSERT INTO topics VALUES({},'{}','{}/msg/{}','cdr','')", topic.id,
+                             topic.name, package_of(topic), topic.type));
+  }
+  SqliteStatement insert(database, "INSERT INTO messages(topic_id,timestamp,data) VALUES(?,?,?)");
+  for (std::size_t scan = 0; scan < drive.scans; ++scan) {
+    for (const Topic& topic : topics_of(drive)) {
+      const std::string message = topic.message(MessageEncoding::kCdr, scan);
+      insert.bind(1, std::int64_t{topic.id});
+      insert.bind(2, stamp_of(scan));
+      insert.bind(3, packed ? pack_zstd(message) : message);
+      insert.run();
+    }
+  }
+  database.run("COMMIT");
+}
+
+/// Files of the form that `ending` says, with poses: 000000.pcd; .bin as SemanticKITTI has them.
+void write_files(const Drive& drive, const fs::path& folder, const std::string& ending) {
+  const bool is_kitti = ending == ".bin";
+  const fs::path clouds = is_kitti ? folder / "velodyne" : folder;
+  fs::create_directories(clouds);
+  std::string poses;
+  for (std::size_t scan = 0; scan < drive.scans; ++scan) {
+    PointRecords points = scan_of(drive, scan);
+    if (is_kitti) {
+      PointRecords plain;
+      for (std::size_t f = 0; f < 4; ++f) plain.layout.add(points.layout.fields[f].name, 'F', 4);
+      plain.layout.unnamed = true;
+      plain.width = points.size();
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        plain.bytes.insert(plain.bytes.end(), points.row(i), points.row(i) + 16);
+      }
+      points = std::move(plain);
+    }
+    PointRecordWriter file(clouds / fmt::format("{:06}{}", scan, ending));
+    file.start(points.layout);
+    file.add(points);
+    file.finish();
+    file.commit();
+    poses += fmt::format("1 0 0 {} 0 1 0 0 0 0 1 0\n", scan);
+  }
+  write_atomically(folder / "poses.txt", poses);
+  if (is_kitti) write_atomically(folder / "sequence.json", R"({"poses_are_lidar": true})");
+}
+
+/// A way to store a drive.
+struct Form {
+  std::string name, file;
+  std::function<void(const Drive&, const fs::path&)> write;
+};
+std::vector<Form> forms() {
+  const auto ros1 = [](Ros1Compression how) {
+    return [how](const Drive& drive, const fs::path& path) { write_ros1(drive, path, how); };
+  };
+  const auto mcap = [](const std::string& how) {
+    return [how](const Drive& drive, const fs::path& path) { write_mcap(drive, path, how); };
+  };
+  const auto db3 = [](bool packed) {
+    return [packed](const Drive& drive, const fs::path& path) { write_db3(drive, path, packed); };
+  };
+  const auto files = [](const std::string& ending) {
+    return [ending](const Drive& drive, const fs::path& path) { write_files(drive, path, ending); };
+  };
+  return {{"folder of .bin (x y z intensity)", "bin", files(".bin")},
+          {"folder of .pcd, binary", "pcd", files(".pcd")},
+          {"ROS 1 bag", "ros1.bag", ros1(Ros1Compression::kNone)},
+          {"ROS 1 bag, lz4", "ros1_lz4.bag", ros1(Ros1Compression::kLz4)},
+          {"ROS 2 folder, .db3", "db3", db3(false)},
+          {"ROS 2 folder, .db3, zstd by message", "db3_zstd", db3(true)},
+          {"MCAP", "none.mcap", mcap("")},
+          {"MCAP, lz4", "lz4.mcap", mcap("lz4")},
+          {"MCAP, zstd", "zstd.mcap", mcap("zstd")}};
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// What a process that reads prints: seconds of opening, of reading, of the processor while it
+/// reads, and its peak memory.
+struct Reading {
+  double open_s = 0, read_s = 0, processor_s = 0, peak_mib = 0;
+};
+
+void read(const fs::path& path, bool by_chance) {
+  Reading reading;
+  const auto begin = std::chrono::steady_clock::now();
+  const Sequence sequence = open_sequence(path.string(), {});
+  reading.open_s = seconds_since(begin);
+  std::vector<std::size_t> order(sequence.scans->size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (by_chance) std::shuffle(order.begin(), order.end(), std::minstd_rand(7));
+  const auto opened = std::chrono::steady_clock::now();
+  const double before = processor_seconds();
+  for (const std::size_t scan : order) {
+    if (sequence.scans->load(scan).points.empty()) throw InternalError("a scan without a point");
+  }
+  reading.read_s = seconds_since(opened);
+  reading.processor_s = processor_seconds() - before;
+  fmt::print("{} {} {} {}\n", reading.open_s, reading.read_s, reading.processor_s,
+             peak_memory_mib().value_or(0));
+}
+
+/// Reads `path` in a process of its own.
+Reading read_apart(const fs::path& path, bool by_chance) {
+  const std::string command = fmt::format("/proc/{}/exe --read '{}' {}", getpid(), path.string(),
+                                          by_chance ? "chance" : "front");
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw DataError("no process can be started to read " + path.string());
+  Reading reading;
+  const int got = std::fscanf(pipe, "%lf %lf %lf %lf", &reading.open_s, &reading.read_s,
+                              &reading.processor_s, &reading.peak_mib);
+  if (pclose(pipe) != 0 || got != 4) throw DataError(path.string() + ": cannot be read");
+  return reading;
+}
+
+std::uintmax_t bytes_of(const fs::path& path) {
+  if (fs::is_regular_file(path)) return fs::file_size(path);
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(path)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  return bytes;
+}
+
+/// A row of the table: the whole drive's speed, and the memory at all lengths.
+std::string row_of(const Form& form, const Drive& drive, const fs::path& folder) {
+  Reading front, chance;
+  std::uintmax_t bytes = 0;
+  std::string front_memory, chance_memory;
+  for (const std::size_t part : {4, 2, 1}) {
+    const Drive length{drive.scans / part, drive.points};
+    const fs::path path = folder / form.file;
+    form.write(length, path);
+    bytes = bytes_of(path);
+    front = read_apart(path, false);
+    chance = read_apart(path, true);
+    front_memory += fmt::format("{}{:.1f}", part == 4 ? "" : " / ", front.peak_mib);
+    chance_memory += fmt::format("{}{:.1f}", part == 4 ? "" : " / ", chance.peak_mib);
+    fs::remove_all(path);
+  }
+  const auto scans = static_cast<double>(drive.scans);
+  const double megabytes = scans * static_cast<double>(drive.points) * 22e-6;
+  const auto speed = [&](const Reading& reading) {
+    return fmt::format("{:.0f} | {:.0f} | {:.2f}", scans / reading.read_s,
+                       megabytes / reading.read_s, reading.processor_s);
+  };
+  return fmt::format("| {} | {:.0f} | {:.2f} | {} | {} | {} | {} |", form.name,
+                     static_cast<double>(bytes) / 1048576.0, front.open_s, speed(front),
+                     front_memory, speed(chance), chance_memory);
+}
+
+void run(const std::vector<std::string>& arguments) {
+  Drive drive;
+  std::string only;
+  const fs::path folder = arguments.at(0);
+  for (std::size_t i = 1; i + 1 < arguments.size(); i += 2) {
+    if (arguments[i] == "--only") only = arguments[i + 1];
+    if (arguments[i] == "--scans") drive.scans = std::stoul(arguments[i + 1]);
+    if (arguments[i] == "--points") drive.points = std::stoul(arguments[i + 1]);
+  }
+  fs::create_directories(folder);
+  fmt::print(
+      "{} scans of {} points; peak memory at {}, {} and {} scans\n\n"
+      "| | MiB | open, s | scans/s | MB/s | processor, s | peak, MiB | by chance: scans/s | MB/s | "
+      "processor, s | peak, MiB |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+      grouped_text(drive.scans), grouped_text(drive.points), grouped_text(drive.scans / 4),
+      grouped_text(drive.scans / 2), grouped_text(drive.scans));
+  for (const Form& form : forms()) {
+    if (!only.empty() && form.file != only) continue;
+    fmt::print("{}\n", row_of(form, drive, folder));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  try {
+    if (arguments.size() == 3 && arguments[0] == "--read") {
+      read(arguments[1], arguments[2] == "chance");
+    } else if (!arguments.empty()) {
+      run(arguments);
+    } else {
+      std::cerr << "bag_reading FOLDER [--scans N] [--points N] [--only NAME]\n";
+      return 2;
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
