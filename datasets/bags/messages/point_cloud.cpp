@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/bags/messages/livox.h"
+#include "datasets/clouds/format/stored_points.h"
 
 namespace raymoval {
 namespace {
@@ -152,10 +153,11 @@ PointsMessage parse_point_cloud(MessageReader& reader) {
   return cloud;
 }
 
-PointRecords read_points(std::string_view bytes, const std::string& type, MessageEncoding encoding,
-                         const std::string& where) {
-  MessageReader reader(bytes, encoding, where);
-  const PointsMessage cloud = parse_points(reader, type);
+namespace {
+
+/// The points with all their fields, of a message that was parsed.
+PointRecords points_of(const PointsMessage& cloud, std::string_view bytes,
+                       const std::string& where) {
   PointRecords records;
   records.layout = cloud.layout;
   records.width = cloud.width;
@@ -171,6 +173,42 @@ PointRecords read_points(std::string_view bytes, const std::string& type, Messag
   }
   if (cloud.swapped) turn_to_little_endian(records, where);
   return records;
+}
+
+/// Points that lie in `bytes` as rows of `layout`, `step` bytes apart.
+StoredPoints stored_points(std::string_view bytes, const RecordLayout& layout, std::size_t step,
+                           std::size_t points) {
+  StoredPoints stored{bytes, {}, points, layout.row_bytes};
+  for (const PointField& field : layout.fields) {
+    stored.columns.push_back({field, field.offset, step, false});
+  }
+  return stored;
+}
+
+}  // namespace
+
+PointRecords read_points(std::string_view bytes, const std::string& type, MessageEncoding encoding,
+                         const std::string& where) {
+  MessageReader reader(bytes, encoding, where);
+  return points_of(parse_points(reader, type), bytes, where);
+}
+
+Cloud read_point_positions(std::string_view bytes, const std::string& type,
+                           MessageEncoding encoding, const Eigen::Vector3d& origin,
+                           const std::string& where) {
+  MessageReader reader(bytes, encoding, where);
+  const PointsMessage cloud = parse_points(reader, type);
+  const bool gaps = cloud.height > 1 && cloud.row_step != cloud.width * cloud.point_step;
+  if (!cloud.swapped && !gaps) {
+    return cloud_of(stored_points(bytes.substr(cloud.points_begin), cloud.layout, cloud.point_step,
+                                  cloud.size()),
+                    origin, where);
+  }
+  const PointRecords points = points_of(cloud, bytes, where);
+  return cloud_of(
+      stored_points({reinterpret_cast<const char*>(points.bytes.data()), points.bytes.size()},
+                    points.layout, points.layout.row_bytes, points.size()),
+      origin, where);
 }
 
 }  // namespace raymoval
