@@ -2,23 +2,26 @@
 //
 // Compares how recordings and folders are read: speed and memory over their length.
 //   bag_reading FOLDER [--scans N] [--points N] [--only NAME]
+//   bag_reading --write FOLDER [--scans N] [--points N] [--only NAME]
 // Writes a drive of N scans (default: 2,000 of 30,000 points: x y z intensity ring time, 22 bytes a
-// point) into FOLDER, once as each kind of recording and once as files, and a quarter and a half of
-// it, too. Each is read by a process of its own from front to back, and by another one in an order
-// by chance, and is then removed. The table in Markdown that it prints has for each of them:
-// megabytes on the disk, the seconds that opening takes, scans and megabytes of points a second and
-// processor seconds while they are read, and the peak memory at each of the lengths.
-// What is read was just written, so that it is in the memory of the system if that is large enough:
-// the figures are of the readers, not of the disk.
+// point; up and down the same 40 m all the time, so that the map does not grow) into FOLDER, once
+// as each kind of recording and once as files, and a quarter and a half of it, too. Each is read by
+// a process of its own from front to back, and by another one in an order by chance, and is then
+// removed. The table in Markdown that it prints has for each of them: megabytes on the disk, the
+// seconds that opening takes, scans and megabytes of points a second and processor seconds while
+// they are read, and the peak memory at each of the lengths. What is read was just written, so that
+// it is in the memory of the system if that is large enough: the figures are of the readers, not of
+// the disk. With --write the drive is only written.
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -55,6 +58,13 @@ struct Drive {
   std::size_t scans = 2000, points = 30000;
 };
 
+/// The sensor's place on its way of 40 m, and back; where it is the same, the scans are, too.
+std::size_t metres_at(std::size_t scan) {
+  constexpr std::size_t kWay = 40;
+  const std::size_t phase = scan % (2 * kWay);
+  return phase < kWay ? phase : 2 * kWay - phase;
+}
+
 /// A velodyne driver's point: x y z intensity as float32, ring as uint16, time as float32.
 PointRecords scan_of(const Drive& drive, std::size_t scan) {
   constexpr std::size_t kRings = 32;
@@ -64,7 +74,7 @@ PointRecords scan_of(const Drive& drive, std::size_t scan) {
   points.layout.add("time", 'F', 4);
   points.bytes.resize(drive.points * points.layout.row_bytes);
   points.width = drive.points;
-  std::minstd_rand random(static_cast<unsigned>(scan + 1));
+  std::minstd_rand random(static_cast<unsigned>(metres_at(scan) + 1));
   std::uniform_real_distribution<float> noise(-0.02F, 0.02F);
   const auto columns = static_cast<float>(drive.points) / kRings;
   for (std::size_t i = 0; i < drive.points; ++i) {
@@ -102,12 +112,11 @@ std::string cloud_bytes(MessageEncoding encoding, const Drive& drive, std::size_
                        {reinterpret_cast<const char*>(points.bytes.data()), points.bytes.size()});
 }
 
-/// Ten metres a second straight on.
 std::string pose_bytes(MessageEncoding encoding, std::size_t scan) {
   return MessageBytes(encoding)
       .header(static_cast<std::uint32_t>(stamp_of(scan) / 1'000'000'000),
               static_cast<std::uint32_t>(stamp_of(scan) % 1'000'000'000), "map")
-      .motion({static_cast<double>(scan), 0, 0, 0, 0, 0, 1})
+      .motion({static_cast<double>(metres_at(scan)), 0, 0, 0, 0, 0, 1})
       .bytes();
 }
 
@@ -253,7 +262,7 @@ void write_files(const Drive& drive, const fs::path& folder, const std::string& 
     file.add(points);
     file.finish();
     file.commit();
-    poses += fmt::format("1 0 0 {} 0 1 0 0 0 0 1 0\n", scan);
+    poses += fmt::format("1 0 0 {} 0 1 0 0 0 0 1 0\n", metres_at(scan));
   }
   write_atomically(folder / "poses.txt", poses);
   if (is_kitti) write_atomically(folder / "sequence.json", R"({"poses_are_lidar": true})");
@@ -375,25 +384,42 @@ std::string row_of(const Form& form, const Drive& drive, const fs::path& folder)
                      front_memory, speed(chance), chance_memory);
 }
 
-void run(const std::vector<std::string>& arguments) {
+struct Wish {
   Drive drive;
+  fs::path folder;
   std::string only;
-  const fs::path folder = arguments.at(0);
-  for (std::size_t i = 1; i + 1 < arguments.size(); i += 2) {
-    if (arguments[i] == "--only") only = arguments[i + 1];
-    if (arguments[i] == "--scans") drive.scans = std::stoul(arguments[i + 1]);
-    if (arguments[i] == "--points") drive.points = std::stoul(arguments[i + 1]);
+  [[nodiscard]] bool wants(const Form& form) const { return only.empty() || form.file == only; }
+};
+
+Wish read_wish(const std::vector<std::string>& arguments, std::size_t first) {
+  Wish wish;
+  wish.folder = arguments.at(first);
+  for (std::size_t i = first + 1; i + 1 < arguments.size(); i += 2) {
+    if (arguments[i] == "--only") wish.only = arguments[i + 1];
+    if (arguments[i] == "--scans") wish.drive.scans = std::stoul(arguments[i + 1]);
+    if (arguments[i] == "--points") wish.drive.points = std::stoul(arguments[i + 1]);
   }
-  fs::create_directories(folder);
+  fs::create_directories(wish.folder);
+  return wish;
+}
+
+void write_all(const Wish& wish) {
+  for (const Form& form : forms()) {
+    if (wish.wants(form)) form.write(wish.drive, wish.folder / form.file);
+  }
+}
+
+void compare(const Wish& wish) {
+  const std::size_t scans = wish.drive.scans;
   fmt::print(
       "{} scans of {} points; peak memory at {}, {} and {} scans\n\n"
       "| | MiB | open, s | scans/s | MB/s | processor, s | peak, MiB | by chance: scans/s | MB/s | "
       "processor, s | peak, MiB |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-      grouped_text(drive.scans), grouped_text(drive.points), grouped_text(drive.scans / 4),
-      grouped_text(drive.scans / 2), grouped_text(drive.scans));
+      grouped_text(scans), grouped_text(wish.drive.points), grouped_text(scans / 4),
+      grouped_text(scans / 2), grouped_text(scans));
   for (const Form& form : forms()) {
-    if (!only.empty() && form.file != only) continue;
-    fmt::print("{}\n", row_of(form, drive, folder));
+    if (!wish.wants(form)) continue;
+    fmt::print("{}\n", row_of(form, wish.drive, wish.folder));
     std::fflush(stdout);
   }
 }
@@ -405,10 +431,12 @@ int main(int argc, char** argv) {
   try {
     if (arguments.size() == 3 && arguments[0] == "--read") {
       read(arguments[1], arguments[2] == "chance");
+    } else if (arguments.size() > 1 && arguments[0] == "--write") {
+      write_all(read_wish(arguments, 1));
     } else if (!arguments.empty()) {
-      run(arguments);
+      compare(read_wish(arguments, 0));
     } else {
-      std::cerr << "bag_reading FOLDER [--scans N] [--points N] [--only NAME]\n";
+      std::cerr << "bag_reading [--write] FOLDER [--scans N] [--points N] [--only NAME]\n";
       return 2;
     }
   } catch (const std::exception& error) {
