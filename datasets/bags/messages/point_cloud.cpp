@@ -104,6 +104,22 @@ void turn_to_little_endian(PointRecords& records, const std::string& where) {
   }
 }
 
+/// What a PointCloud2 says before its data.
+PointsMessage parse_cloud_head(MessageReader& reader) {
+  // A field has a name with its length, an offset, a type and a count.
+  constexpr std::size_t kLeastField = 13;
+  PointsMessage cloud;
+  cloud.header = read_message_header(reader);
+  cloud.height = reader.number<std::uint32_t>("height");
+  cloud.width = reader.number<std::uint32_t>("width");
+  const std::uint32_t fields = reader.count("fields", kLeastField);
+  for (std::uint32_t i = 0; i < fields; ++i) cloud.layout.fields.push_back(read_field(reader));
+  cloud.swapped = reader.number<std::uint8_t>("is_bigendian") != 0;
+  cloud.point_step = cloud.layout.row_bytes = reader.number<std::uint32_t>("point_step");
+  cloud.row_step = reader.number<std::uint32_t>("row_step");
+  return cloud;
+}
+
 PointsMessage parse_points(MessageReader& reader, const std::string& type) {
   if (is_point_cloud(type)) return parse_point_cloud(reader);
   if (is_livox(type)) return parse_livox(reader);
@@ -121,29 +137,22 @@ PointsHead read_points_head(std::string_view bytes, const std::string& type,
                             MessageEncoding encoding, const std::string& where) {
   MessageReader reader(bytes, encoding, where);
   PointsHead head;
-  head.header = read_message_header(reader);
   if (is_livox(type)) {
+    head.header = read_message_header(reader);
     reader.number<std::uint64_t>("timebase");
     head.size = reader.number<std::uint32_t>("point_num");
-  } else {
-    const std::uint64_t height = reader.number<std::uint32_t>("height");
-    head.size = height * reader.number<std::uint32_t>("width");
+    head.layout = livox_layout();
+    return head;
   }
+  const PointsMessage cloud = parse_cloud_head(reader);
+  head.header = cloud.header;
+  head.size = cloud.size();
+  head.layout = cloud.layout;
   return head;
 }
 
 PointsMessage parse_point_cloud(MessageReader& reader) {
-  // A field has a name with its length, an offset, a type and a count.
-  constexpr std::size_t kLeastField = 13;
-  PointsMessage cloud;
-  cloud.header = read_message_header(reader);
-  cloud.height = reader.number<std::uint32_t>("height");
-  cloud.width = reader.number<std::uint32_t>("width");
-  const std::uint32_t fields = reader.count("fields", kLeastField);
-  for (std::uint32_t i = 0; i < fields; ++i) cloud.layout.fields.push_back(read_field(reader));
-  cloud.swapped = reader.number<std::uint8_t>("is_bigendian") != 0;
-  cloud.point_step = cloud.layout.row_bytes = reader.number<std::uint32_t>("point_step");
-  cloud.row_step = reader.number<std::uint32_t>("row_step");
+  PointsMessage cloud = parse_cloud_head(reader);
   const std::uint32_t data_bytes = reader.count("data", 1);
   cloud.points_begin = reader.position();
   reader.skip(data_bytes, "data");

@@ -39,6 +39,7 @@ bool has_points(const std::string& type);
 struct PointsHead {
   MessageHeader header;
   std::uint64_t size = 0;  ///< Points, those without a return counted.
+  RecordLayout layout;     ///< Of what `read_points` gives.
 };
 /// @param bytes the message, or its first `kHeaderBytes` bytes
 /// @throws DataError naming the field that is cut, UsageError if `has_points` does not hold
