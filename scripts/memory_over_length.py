@@ -9,7 +9,7 @@ table in Markdown of their memory and speed over the length.
 A method's peak memory is that of its own process at each length. From the last two lengths follow
 the milliseconds that a late scan takes, and the bytes by which each more scan lets the memory grow:
 those of the map that it adds, and of what is kept of each scan. A sequence that stays in one place,
-as `bag_reading --write` makes it, shows the second alone. With --protocol scoring's peak memory at
+as `bag_reading --write` makes it, shows the second alone. Controls have no process of their own. With --protocol scoring's peak memory at
 the whole length is measured, too, which takes its time.
 """
 
@@ -21,7 +21,7 @@ import re
 import subprocess
 import sys
 
-METHODS = ["noop", "raymoval:online", "raymoval:offline", "raymoval_plus:offline",
+METHODS = ["raymoval:online", "raymoval:offline", "raymoval_plus:offline",
            "raymoval_plus:online", "raymoval_plus:online-map", "dufomap:offline", "dufomap:online",
            "erasor:general", "removert:rm3", "octomap:r20", "peopleremover:normals"]
 
