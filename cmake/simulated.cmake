@@ -9,7 +9,3 @@ add_custom_command(OUTPUT ${simulated_source}
   DEPENDS ${simulated_data} ${PROJECT_SOURCE_DIR}/cmake/embed_simulated.cmake
   COMMENT "Embedding simulated worlds and sensors" VERBATIM)
 target_sources(raymoval_datasets PRIVATE ${simulated_source})
-
-# Compares a simulated sequence with a real drive: cmake --build ... --target realism
-add_executable(realism EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/scripts/realism.cpp)
-target_link_libraries(realism PRIVATE raymoval_benchmark raymoval_options)

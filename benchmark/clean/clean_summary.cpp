@@ -23,8 +23,11 @@ void RangeShares::add(const Scan& scan, const Mask& mask) {
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (mask[i] > 1) continue;
     const float range = scan.points[i].norm();
-    std::size_t band = kBands.size() - 1;
-    while (band > 0 && range < static_cast<float>(kBands[band])) --band;
+    // Without a branch: ranges of neighbours differ too much to be foretold.
+    std::size_t band = 0;
+    for (std::size_t b = 1; b < kBands.size(); ++b) {
+      band += range >= static_cast<float>(kBands[b]) ? 1 : 0;
+    }
     ++counts_[band].points;
     counts_[band].removed += mask[i];
   }

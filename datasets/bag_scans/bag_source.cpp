@@ -6,26 +6,9 @@
 #include "core/error.h"
 #include "datasets/bag_scans/topics.h"
 #include "datasets/bags/messages/point_cloud.h"
-#include "datasets/clouds/format/stored_points.h"
 #include "datasets/clouds/returns.h"
 
 namespace raymoval {
-namespace {
-
-/// The points as those of a file whose rows are just the records.
-StoredPoints stored_points(const PointRecords& records) {
-  StoredPoints stored;
-  stored.bytes = {reinterpret_cast<const char*>(records.bytes.data()), records.bytes.size()};
-  for (const PointField& field : records.layout.fields) {
-    stored.columns.push_back({field, field.offset, records.layout.row_bytes, false});
-  }
-  stored.points = records.size();
-  stored.row_bytes = records.layout.row_bytes;
-  return stored;
-}
-
-}  // namespace
-
 std::string scan_name(std::size_t message) {
   constexpr std::size_t kDigits = 6;
   std::string name = std::to_string(message);
@@ -69,8 +52,9 @@ Scan BagScanSource::load(std::size_t index) const {
   const std::string where = place(index);
   const ReturnCounts counts =
       read_returns(loaded, point_frame_, where, [&](const Eigen::Vector3d& origin) {
-        const PointRecords points = records(index);
-        return cloud_of(stored_points(points), origin, where);
+        const BagTopic& topic = bag_->topics()[topic_];
+        return read_point_positions(bag_->message(topic_, from.message), topic.type, topic.encoding,
+                                    origin, where);
       });
   tally_.set(index, counts.stored, counts.no_returns);
   return loaded;

@@ -19,6 +19,7 @@ struct BagScan {
   std::size_t message = 0;  ///< Its number in the topic.
   double time_s = 0.0;      ///< Since the topic's first message.
   Pose T_world_sensor = Pose::Identity();
+  std::shared_ptr<const RecordLayout> layout = nullptr;  ///< Of its points, shared by scans.
 };
 
 /// Scans that are messages of a bag, with all their fields. Points that are no returns are left out
@@ -33,6 +34,9 @@ class BagScanSource : public ScanSource, public RecordSource, public TalliedSour
   [[nodiscard]] Pose pose(std::size_t index) const override { return scan(index).T_world_sensor; }
   [[nodiscard]] const SensorModel& sensor() const override;
   [[nodiscard]] PointRecords records(std::size_t index) const override;
+  [[nodiscard]] RecordLayout layout(std::size_t index) const override {
+    return *scan(index).layout;
+  }
   [[nodiscard]] PointFrame point_frame() const override { return point_frame_; }
   [[nodiscard]] std::string place(std::size_t index) const override;
   /// For those who write the bag again: its topic, and the message of scan `index` there.

@@ -134,7 +134,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   for (std::size_t i = 0; i < heads.messages.size(); ++i) {
     if (!found.poses.poses[i]) continue;
     scans.push_back({heads.messages[i], to_seconds(heads.stamps[i] - heads.first_stamp),
-                     *found.poses.poses[i]});
+                     *found.poses.poses[i], heads.layouts[i]});
     sequence.stamps.push_back(found.poses.stamps[i]);
   }
   sequence.poses_file = found.name;

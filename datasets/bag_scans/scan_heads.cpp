@@ -94,6 +94,9 @@ ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& r
     }
     heads.messages.push_back(message);
     heads.stamps.push_back(head->header.stamp);
+    const bool same = !heads.layouts.empty() && *heads.layouts.back() == head->layout;
+    heads.layouts.push_back(same ? heads.layouts.back()
+                                 : std::make_shared<const RecordLayout>(head->layout));
   }
   if (left_out.all() > 0) {
     heads.notes.push_back(bag_name(bag) + ": " + bag.topics()[topic].name + ": " +

@@ -3,12 +3,14 @@
 
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "datasets/bags/bag.h"
 #include "datasets/clouds/frames.h"
+#include "datasets/records/point_records.h"
 
 namespace raymoval {
 
@@ -16,10 +18,12 @@ namespace raymoval {
 struct ScanHeads {
   std::vector<std::size_t> messages;  ///< Numbers of those that can be used, in order.
   std::vector<Nanoseconds> stamps;    ///< Of each of these.
-  Nanoseconds first_stamp = 0;        ///< Of the topic's first message that can be used.
-  std::string frame;                  ///< That all points are in.
-  FrameRange range;                   ///< As used, with both ends.
-  std::vector<std::string> notes;     ///< Whole sentences on messages that are left out.
+  /// The layout of the points of each of these; equal ones are one.
+  std::vector<std::shared_ptr<const RecordLayout>> layouts;
+  Nanoseconds first_stamp = 0;     ///< Of the topic's first message that can be used.
+  std::string frame;               ///< That all points are in.
+  FrameRange range;                ///< As used, with both ends.
+  std::vector<std::string> notes;  ///< Whole sentences on messages that are left out.
 };
 
 /// Reads the heads of the messages that `range` chooses. Messages without a point, or that cannot

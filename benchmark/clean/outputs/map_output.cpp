@@ -2,6 +2,7 @@
 #include "benchmark/clean/outputs/map_output.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "benchmark/result/removals/removal_files.h"
@@ -46,26 +47,30 @@ ScanRows MapOutput::with_label(const ScanRows& rows,
 }
 
 void MapOutput::write(const ScanRows& rows) {
-  points_ += rows.world.size();
+  points_ += rows.rows.size();
   sink_->add(rows);
 }
 
 void MapOutput::pass_on(const CleanedScan& scan) {
-  std::vector<std::uint8_t> chosen(scan.mask.size(), 0);
-  for (const Side& side : sides_) {
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      chosen[i] = static_cast<std::uint8_t>(chosen[i] | (scan.mask[i] == side.mask ? 1 : 0));
-    }
-  }
+  const auto is_chosen = [this](std::uint8_t mask) {
+    return std::any_of(sides_.begin(), sides_.end(),
+                       [mask](const Side& side) { return side.mask == mask; });
+  };
+  const std::array<std::uint8_t, 2> sides = {is_chosen(0), is_chosen(1)};
+  std::vector<std::uint8_t> chosen(scan.mask.size());
+  std::transform(scan.mask.begin(), scan.mask.end(), chosen.begin(),
+                 [&](std::uint8_t mask) { return mask > 1 ? std::uint8_t{0} : sides[mask]; });
+  const auto count = std::count(chosen.begin(), chosen.end(), 1);
+  if (count == 0) return;
+  if (!labelled_ && static_cast<std::size_t>(count) == chosen.size()) return write(scan.rows);
   ScanRows rows{scan.rows.rows.chosen(chosen), {}};
   std::vector<std::uint8_t> removed;
-  rows.world.reserve(rows.rows.size());
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (chosen[i] == 0) continue;
-    rows.world.push_back(scan.rows.world[i]);
-    removed.push_back(scan.mask[i]);
+    if (sink_->needs_world()) rows.world.push_back(scan.rows.world[i]);
+    if (labelled_) removed.push_back(scan.mask[i]);
   }
-  if (!rows.world.empty()) write(labelled_ ? with_label(rows, removed) : rows);
+  write(labelled_ ? with_label(rows, removed) : rows);
 }
 
 void MapOutput::add(const CleanedScan& scan) {

@@ -22,6 +22,8 @@ class RowSink {
   RowSink& operator=(const RowSink&) = delete;
 
   virtual void add(const ScanRows& rows) = 0;
+  /// Whether `add` looks at `ScanRows::world`, which may be empty otherwise.
+  [[nodiscard]] virtual bool needs_world() const { return true; }
   virtual void finish() = 0;
   virtual void commit_with(Replacements& together) = 0;
 };
@@ -36,6 +38,7 @@ class FileSink : public RowSink {
     file_.start(layout);
   }
   void add(const ScanRows& rows) override { file_.add(rows.rows); }
+  [[nodiscard]] bool needs_world() const override { return false; }
   void finish() override { file_.finish(); }
   void commit_with(Replacements& together) override { file_.commit_with(together); }
 

@@ -37,8 +37,26 @@ void write_axis(const std::vector<Eigen::Vector3d>& values, const PointField& fi
   });
 }
 
+/// Whether x, y and z are float32 one behind the other, as in most scans.
+bool are_plain(const PositionFields& at) {
+  const auto is_float = [](const PointField& field) {
+    return field.type == 'F' && field.size == 4;
+  };
+  return is_float(at.x) && is_float(at.y) && is_float(at.z) && at.y.offset == at.x.offset + 4 &&
+         at.z.offset == at.x.offset + 8;
+}
+
 void write_positions(const std::vector<Eigen::Vector3d>& world, PointRecords& rows) {
   const PositionFields at = position_fields(rows.layout, "a map");
+  if (are_plain(at)) {
+    std::byte* to = rows.bytes.data() + at.x.offset;
+    for (const Eigen::Vector3d& point : world) {
+      const Eigen::Vector3f rounded = point.cast<float>();
+      std::memcpy(to, rounded.data(), 3 * sizeof(float));
+      to += rows.layout.row_bytes;
+    }
+    return;
+  }
   write_axis(world, at.x, 0, rows);
   write_axis(world, at.y, 1, rows);
   write_axis(world, at.z, 2, rows);

@@ -20,7 +20,7 @@ class ChunkStore {
   using Unpack = std::function<std::string()>;
 
   /// @param most_bytes what is kept at most, except that the chunk asked for last is always kept
-  explicit ChunkStore(std::size_t most_bytes = std::size_t{64} << 20U) : most_bytes_(most_bytes) {}
+  explicit ChunkStore(std::size_t most_bytes = std::size_t{16} << 20U) : most_bytes_(most_bytes) {}
 
   /// The chunk `number`, which `unpack` makes unless it is kept. What `unpack` throws goes through,
   /// and the next call tries again.

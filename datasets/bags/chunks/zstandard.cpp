@@ -83,6 +83,7 @@ std::string unpack_zstd_message(std::string_view packed, const std::string& wher
   const std::uint64_t most = most_unpacked_size(packed.size());
   if (said < ZSTD_CONTENTSIZE_ERROR) check_unpacked_size(packed.size(), said, where);
   std::string bytes;
+  if (said < ZSTD_CONTENTSIZE_ERROR) bytes.reserve(said);
   Unpacker unpacker;
   std::string problem = unpacker.add(packed, most, [&](std::string_view piece) { bytes += piece; });
   if (unpacker.made() > most) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,16 +42,21 @@ class McapFile {
   [[nodiscard]] McapPlace record(std::uint64_t offset) const;
   /// Whether the file has the whole record.
   [[nodiscard]] bool is_whole(const McapPlace& record) const;
-  /// What a record holds. @throws DataError if it is cut, or larger than 1 GiB
-  [[nodiscard]] std::string content(const McapPlace& record) const;
+  /// What a record holds from byte `skip` on, at most `most` bytes of it.
+  /// @param skip at most the record's size
+  /// @throws DataError if that is cut, or the record larger than 1 GiB
+  [[nodiscard]] std::string content(
+      const McapPlace& record, std::uint64_t skip = 0,
+      std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
   /// The beginning of what it holds.
   [[nodiscard]] std::string beginning(const McapPlace& record, std::uint64_t most) const;
 
   /// @throws DataError if its head is damaged or its compression is unknown
   [[nodiscard]] McapChunkPlace chunk(const McapPlace& record) const;
   /// The records in a chunk. What is wrong with them is told in the answer, with what can be had.
+  /// @param check whether their checksum is looked at
   /// @throws DataError if it is said to have more than is allowed (see `check_unpacked_size`)
-  [[nodiscard]] Unpacked unpack(const McapChunkPlace& chunk) const;
+  [[nodiscard]] Unpacked unpack(const McapChunkPlace& chunk, bool check = true) const;
 
   /// "drive.mcap: byte 4,117: chunk", to begin messages.
   [[nodiscard]] std::string where(const McapPlace& record) const;

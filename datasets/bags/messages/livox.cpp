@@ -13,6 +13,8 @@ constexpr std::size_t kPointBytes = 19;
 /// CDR begins each point at a multiple of four bytes.
 constexpr std::size_t kCdrPointStep = 20;
 
+}  // namespace
+
 RecordLayout livox_layout() {
   RecordLayout layout;
   layout.add("offset_time", 'U', 4);
@@ -20,8 +22,6 @@ RecordLayout livox_layout() {
   for (const char* name : {"reflectivity", "tag", "line"}) layout.add(name, 'U', 1);
   return layout;
 }
-
-}  // namespace
 
 bool is_livox(const std::string& type) {
   return type == "livox_ros_driver/CustomMsg" || type == "livox_ros_driver2/CustomMsg";

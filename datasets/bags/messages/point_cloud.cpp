@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/bags/messages/livox.h"
+#include "datasets/clouds/format/stored_points.h"
 
 namespace raymoval {
 namespace {
@@ -105,6 +106,22 @@ void turn_to_little_endian(PointRecords& records, const std::string& where) {
   }
 }
 
+/// What a PointCloud2 says before its data.
+PointsMessage parse_cloud_head(MessageReader& reader) {
+  // A field has a name with its length, an offset, a type and a count.
+  constexpr std::size_t kLeastField = 13;
+  PointsMessage cloud;
+  cloud.header = read_message_header(reader);
+  cloud.height = reader.number<std::uint32_t>("height");
+  cloud.width = reader.number<std::uint32_t>("width");
+  const std::uint32_t fields = reader.count("fields", kLeastField);
+  for (std::uint32_t i = 0; i < fields; ++i) cloud.layout.fields.push_back(read_field(reader));
+  cloud.swapped = reader.number<std::uint8_t>("is_bigendian") != 0;
+  cloud.point_step = cloud.layout.row_bytes = reader.number<std::uint32_t>("point_step");
+  cloud.row_step = reader.number<std::uint32_t>("row_step");
+  return cloud;
+}
+
 PointsMessage parse_points(MessageReader& reader, const std::string& type) {
   if (is_point_cloud(type)) return parse_point_cloud(reader);
   if (is_livox(type)) return parse_livox(reader);
@@ -122,29 +139,22 @@ PointsHead read_points_head(std::string_view bytes, const std::string& type,
                             MessageEncoding encoding, const std::string& where) {
   MessageReader reader(bytes, encoding, where);
   PointsHead head;
-  head.header = read_message_header(reader);
   if (is_livox(type)) {
+    head.header = read_message_header(reader);
     reader.number<std::uint64_t>("timebase");
     head.size = reader.number<std::uint32_t>("point_num");
-  } else {
-    const std::uint64_t height = reader.number<std::uint32_t>("height");
-    head.size = height * reader.number<std::uint32_t>("width");
+    head.layout = livox_layout();
+    return head;
   }
+  const PointsMessage cloud = parse_cloud_head(reader);
+  head.header = cloud.header;
+  head.size = cloud.size();
+  head.layout = cloud.layout;
   return head;
 }
 
 PointsMessage parse_point_cloud(MessageReader& reader) {
-  // A field has a name with its length, an offset, a type and a count.
-  constexpr std::size_t kLeastField = 13;
-  PointsMessage cloud;
-  cloud.header = read_message_header(reader);
-  cloud.height = reader.number<std::uint32_t>("height");
-  cloud.width = reader.number<std::uint32_t>("width");
-  const std::uint32_t fields = reader.count("fields", kLeastField);
-  for (std::uint32_t i = 0; i < fields; ++i) cloud.layout.fields.push_back(read_field(reader));
-  cloud.swapped = reader.number<std::uint8_t>("is_bigendian") != 0;
-  cloud.point_step = cloud.layout.row_bytes = reader.number<std::uint32_t>("point_step");
-  cloud.row_step = reader.number<std::uint32_t>("row_step");
+  PointsMessage cloud = parse_cloud_head(reader);
   const std::uint32_t data_bytes = reader.count("data", 1);
   cloud.points_begin = reader.position();
   reader.skip(data_bytes, "data");
@@ -154,10 +164,11 @@ PointsMessage parse_point_cloud(MessageReader& reader) {
   return cloud;
 }
 
-PointRecords read_points(std::string_view bytes, const std::string& type, MessageEncoding encoding,
-                         const std::string& where) {
-  MessageReader reader(bytes, encoding, where);
-  const PointsMessage cloud = parse_points(reader, type);
+namespace {
+
+/// The points with all their fields, of a message that was parsed.
+PointRecords points_of(const PointsMessage& cloud, std::string_view bytes,
+                       const std::string& where) {
   PointRecords records;
   records.layout = cloud.layout;
   records.width = cloud.width;
@@ -173,6 +184,42 @@ PointRecords read_points(std::string_view bytes, const std::string& type, Messag
   }
   if (cloud.swapped) turn_to_little_endian(records, where);
   return records;
+}
+
+/// Points that lie in `bytes` as rows of `layout`, `step` bytes apart.
+StoredPoints stored_points(std::string_view bytes, const RecordLayout& layout, std::size_t step,
+                           std::size_t points) {
+  StoredPoints stored{bytes, {}, points, layout.row_bytes};
+  for (const PointField& field : layout.fields) {
+    stored.columns.push_back({field, field.offset, step, false});
+  }
+  return stored;
+}
+
+}  // namespace
+
+PointRecords read_points(std::string_view bytes, const std::string& type, MessageEncoding encoding,
+                         const std::string& where) {
+  MessageReader reader(bytes, encoding, where);
+  return points_of(parse_points(reader, type), bytes, where);
+}
+
+Cloud read_point_positions(std::string_view bytes, const std::string& type,
+                           MessageEncoding encoding, const Eigen::Vector3d& origin,
+                           const std::string& where) {
+  MessageReader reader(bytes, encoding, where);
+  const PointsMessage cloud = parse_points(reader, type);
+  const bool gaps = cloud.height > 1 && cloud.row_step != cloud.width * cloud.point_step;
+  if (!cloud.swapped && !gaps) {
+    return cloud_of(stored_points(bytes.substr(cloud.points_begin), cloud.layout, cloud.point_step,
+                                  cloud.size()),
+                    origin, where);
+  }
+  const PointRecords points = points_of(cloud, bytes, where);
+  return cloud_of(
+      stored_points({reinterpret_cast<const char*>(points.bytes.data()), points.bytes.size()},
+                    points.layout, points.layout.row_bytes, points.size()),
+      origin, where);
 }
 
 }  // namespace raymoval

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "datasets/bags/messages/message_reader.h"
+#include "datasets/clouds/format/cloud_bytes.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
@@ -38,6 +39,7 @@ bool has_points(const std::string& type);
 struct PointsHead {
   MessageHeader header;
   std::uint64_t size = 0;  ///< Points, those without a return counted.
+  RecordLayout layout;     ///< Of what `read_points` gives.
 };
 /// @param bytes the message, or its first `kHeaderBytes` bytes
 /// @throws DataError naming the field that is cut, UsageError if `has_points` does not hold
@@ -54,6 +56,14 @@ PointsHead read_points_head(std::string_view bytes, const std::string& type,
 ///   UsageError if `has_points` does not hold
 PointRecords read_points(std::string_view bytes, const std::string& type, MessageEncoding encoding,
                          const std::string& where);
+
+/// Positions and strengths only. Where the message has them as they are, they are taken out of it
+/// without a copy of the rest.
+/// @param origin metres, as in `cloud_of`
+/// @throws as `read_points`; DataError if x, y or z is missing
+Cloud read_point_positions(std::string_view bytes, const std::string& type,
+                           MessageEncoding encoding, const Eigen::Vector3d& origin,
+                           const std::string& where);
 
 /// The parts of `read_points`, for those who change messages.
 PointsMessage parse_point_cloud(MessageReader& reader);

@@ -106,7 +106,7 @@ std::optional<std::size_t> Db3Bag::topic_of(std::int64_t id) const {
   return found == topics_.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::string Db3Bag::stored(std::int64_t row) const {
+std::string Db3Bag::stored(std::int64_t row, std::size_t most) const {
   const std::scoped_lock lock(reading_);
   sqlite3_blob* opened = nullptr;
   const int code =
@@ -118,8 +118,8 @@ std::string Db3Bag::stored(std::int64_t row) const {
   if (static_cast<std::uint64_t>(size) > file_.size()) {
     throw DataError(place(row) + " has more bytes than the file; it is damaged. Copy it again.");
   }
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  const int read = sqlite3_blob_read(blob.get(), bytes.data(), size, 0);
+  std::string bytes(std::min(static_cast<std::size_t>(size), most), '\0');
+  const int read = sqlite3_blob_read(blob.get(), bytes.data(), static_cast<int>(bytes.size()), 0);
   if (read != SQLITE_OK) database_.fail(read);
   return bytes;
 }
@@ -128,6 +128,13 @@ std::string Db3Bag::message(std::size_t topic, std::size_t index) const {
   const auto row = static_cast<std::int64_t>(table_.at(topic, index).place);
   return unpacked_if_packed(stored(row), topics()[topic].encoding == MessageEncoding::kCdr,
                             place(row));
+}
+
+std::string Db3Bag::message_head(std::size_t topic, std::size_t index, std::size_t most) const {
+  // Of a cut file a message may be there with its beginning only, which has to show now.
+  if (!damage_.empty()) return Bag::message_head(topic, index, most);
+  std::string head = stored(static_cast<std::int64_t>(table_.at(topic, index).place), most);
+  return is_zstd(head) ? Bag::message_head(topic, index, most) : head;
 }
 
 Db3Rows::Db3Rows(const Db3Bag& bag, DamageNotes& damage) : bag_(bag), damage_(damage) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -28,12 +29,15 @@ class Db3Bag : public Bag {
     return table_.at(topic, index).recorded;
   }
   [[nodiscard]] std::string message(std::size_t topic, std::size_t index) const override;
+  [[nodiscard]] std::string message_head(std::size_t topic, std::size_t index,
+                                         std::size_t most) const override;
   [[nodiscard]] std::vector<std::string> damage() const override { return damage_.sentences(); }
 
   /// "drive_0.db3: message 17", to begin messages.
   [[nodiscard]] std::string place(std::int64_t row) const;
-  /// The bytes in the row of a message, packed or not. @throws as `message`
-  [[nodiscard]] std::string stored(std::int64_t row) const;
+  /// The first `most` bytes in the row of a message, packed or not. @throws as `message`
+  [[nodiscard]] std::string stored(
+      std::int64_t row, std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   [[nodiscard]] const SqliteDatabase& database() const { return database_; }
   /// The topic of an id in the table `topics`; nothing if it is not there.
   [[nodiscard]] std::optional<std::size_t> topic_of(std::int64_t id) const;

@@ -83,7 +83,7 @@ void Ros2FolderBag::check_counts() {
   }
 }
 
-std::string Ros2FolderBag::message(std::size_t topic, std::size_t index) const {
+Ros2FolderBag::Found Ros2FolderBag::find(std::size_t topic, std::size_t index) const {
   const std::uint64_t place = table_.at(topic, index).place;
   const Part& part = parts_.at(place >> kIndexBits);
   const std::size_t own_index = place & ((std::uint64_t{1} << kIndexBits) - 1);
@@ -91,9 +91,20 @@ std::string Ros2FolderBag::message(std::size_t topic, std::size_t index) const {
   // Two topics of a part are never one here: their names, types or encodings differ.
   for (std::size_t own = 0; own < part.topics.size(); ++own) {
     if (part.topics[own] != topic) continue;
-    if (part.bag->recorded(own, own_index) == stamp) return part.bag->message(own, own_index);
+    if (part.bag->recorded(own, own_index) == stamp) return {*part.bag, own, own_index};
   }
   throw InternalError("a message of a recording in a folder is in none of its files");
+}
+
+std::string Ros2FolderBag::message(std::size_t topic, std::size_t index) const {
+  const Found found = find(topic, index);
+  return found.bag.message(found.topic, found.index);
+}
+
+std::string Ros2FolderBag::message_head(std::size_t topic, std::size_t index,
+                                        std::size_t most) const {
+  const Found found = find(topic, index);
+  return found.bag.message_head(found.topic, found.index, most);
 }
 
 std::size_t Ros2FolderBag::index_of(std::size_t part, std::size_t topic, std::size_t index) const {

@@ -29,6 +29,8 @@ class Ros2FolderBag : public Bag {
     return table_.at(topic, index).recorded;
   }
   [[nodiscard]] std::string message(std::size_t topic, std::size_t index) const override;
+  [[nodiscard]] std::string message_head(std::size_t topic, std::size_t index,
+                                         std::size_t most) const override;
   [[nodiscard]] std::vector<std::string> damage() const override;
 
   [[nodiscard]] const Ros2Metadata& metadata() const { return metadata_; }
@@ -43,6 +45,12 @@ class Ros2FolderBag : public Bag {
   [[nodiscard]] std::size_t index_of(std::size_t part, std::size_t topic, std::size_t index) const;
 
  private:
+  /// A message in the file that holds it.
+  struct Found {
+    const Bag& bag;
+    std::size_t topic, index;
+  };
+  [[nodiscard]] Found find(std::size_t topic, std::size_t index) const;
   void add_part(std::size_t file, const Open& open);
   void check_counts();
 

@@ -121,6 +121,7 @@ TEST_CASE("A bag is a sequence: its clouds at the poses of its odometry", "[bags
   CHECK(scan.points[0] == Eigen::Vector3f(10, 100.5F, 1));
   CHECK(scan.stored_point_count == 2);
   CHECK(sequence.records->records(2).size() == 2);
+  CHECK(sequence.records->layout(2) == sequence.records->records(2).layout);
   CHECK(sequence.records->place(2) == "drive.bag: /points, message 2");
   CHECK(sequence.records->point_frame() == PointFrame::kSensor);
   REQUIRE(sequence.motion != nullptr);

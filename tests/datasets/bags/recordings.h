@@ -59,6 +59,12 @@ inline void check_content(const Bag& bag) {
   CHECK(bag.topics()[points].encoding == MessageEncoding::kCdr);
   CHECK(bag.recorded(points, 1) == 2000);
   CHECK(bag.damage().empty());
+  // Before and after the messages themselves were read.
+  for (std::size_t most : {0, 5, 11, 4096}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(bag.message_head(points, i, most) == bag.message(points, i).substr(0, most));
+    }
+  }
 }
 
 /// Opens a recording that was cut or damaged and reads what there is. Whatever comes must be one of
