@@ -18,10 +18,10 @@ namespace raymoval {
 class CoarseCells {
  public:
   CoarseCells() = default;
-  /// @param size edge of a cell, metres
+  /// @param cells_a_metre as points are taken to cells of the lattice
   /// @param visit_all calls a function that it gets with each cell's `VoxelIndex`; called twice
   template <class VisitAll>
-  CoarseCells(double size, VisitAll&& visit_all) : inverse_size_(1.0 / size) {
+  CoarseCells(double cells_a_metre, VisitAll&& visit_all) : cells_a_metre_(cells_a_metre) {
     VoxelIndex low = VoxelIndex::Constant(std::numeric_limits<int>::max()), high = -low;
     visit_all([&](const VoxelIndex& cell) {
       low = low.cwiseMin(cell);
@@ -36,9 +36,9 @@ class CoarseCells {
 
   /// Whether a point of the world (metres) may be in one of the cells.
   [[nodiscard]] bool may_hold(const Eigen::Vector3d& point) const {
-    const Eigen::Array3d in_cells = point.array() * inverse_size_;
+    const Eigen::Array3d in_cells = point.array() * cells_a_metre_;
     if (!(in_cells >= from_).all() || !(in_cells < to_).all()) return false;
-    const std::size_t number = number_of(cell_index(point, inverse_size_));
+    const std::size_t number = number_of(cell_index(point, cells_a_metre_));
     return (words_[number / 64] >> (number % 64) & 1U) != 0;
   }
 
@@ -66,7 +66,7 @@ class CoarseCells {
     return along(2) * plane_ + along(1) * row_ + along(0);
   }
 
-  double inverse_size_ = 1.0;
+  double cells_a_metre_ = 1.0;
   VoxelIndex low_ = VoxelIndex::Zero();
   Eigen::Array3d from_ = Eigen::Array3d::Zero(),
                  to_ = from_;        ///< Bounds in cells; `to_` is beyond.

@@ -11,7 +11,7 @@ using namespace raymoval;
 namespace {
 
 CoarseCells coarse(const std::vector<VoxelIndex>& cells, double size) {
-  return {size, [&](const auto& visit) {
+  return {1.0 / size, [&](const auto& visit) {
             for (const VoxelIndex& cell : cells) visit(cell);
           }};
 }

@@ -110,7 +110,7 @@ void EstimateMap::vote(const CheckedScan& scan, Part& part) const {
 
 /// Where the cells are whose bits are set. Most points of a scan are elsewhere.
 CoarseCells EstimateMap::places_of(const RankedBits& wanted) const {
-  return {rules_.options.voxel_size, [&](const auto& visit) {
+  return {1.0 / rules_.options.voxel_size, [&](const auto& visit) {
             cells().for_each([&](Number number, VoxelKey cell) {
               if (wanted.test(number)) visit(voxel_index(cell));
             });
