@@ -41,6 +41,7 @@ class FineGrid {
   [[nodiscard]] VoxelKey block_of(const Eigen::Vector3d& point) const {
     return cell_key(point, inverse_edge_);
   }
+  [[nodiscard]] double blocks_a_metre() const { return inverse_edge_; }
   /// Whether any two points of a fine cell are at most `distance` apart.
   [[nodiscard]] bool same_cell_is_near() const { return same_cell_is_near_; }
 

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "eval/dynamicmap/undecided_points.h"
+#include "eval/lattice/coarse_cells.h"
 #include "eval/scan_passes.h"
 
 namespace raymoval::dynamicmap {
@@ -109,11 +110,15 @@ class PresenceCount::State {
         is_near_flagged_ = with_blocks_beside(
             blocks(), [&](CellLattice::Number block) { return has_flagged_[block] != 0; });
         has_flagged_ = {};
+        places_ =
+            places_where([&](CellLattice::Number block) { return is_near_flagged_[block] != 0; });
         return true;
       case kCollect:
         is_near_flagged_ = {};
         if (input_.grid.same_cell_is_near()) flagged_.subtract(kept_);
         undecided_.begin();
+        places_ = places_where(
+            [&](CellLattice::Number block) { return undecided_.is_near_flagged(block); });
         return true;
       default:
         search();
@@ -165,6 +170,16 @@ class PresenceCount::State {
     const CellLattice::Number block = blocks().find(input_.grid.block_of(point), cursor);
     if (block == CellLattice::kNone) throw_changed(input_.truth.input(), part.scan);
     return block;
+  }
+
+  /// Where the blocks are that are wanted. Most points of a scan are elsewhere.
+  template <class IsWanted>
+  [[nodiscard]] CoarseCells places_where(IsWanted&& is_wanted) const {
+    return {input_.grid.blocks_a_metre(), [&](const auto& visit) {
+              blocks().for_each([&](CellLattice::Number block, VoxelKey key) {
+                if (is_wanted(block)) visit(voxel_index(key));
+              });
+            }};
   }
 
   /// Counts what the mask says itself, and finds the blocks of flagged points.
@@ -231,9 +246,9 @@ class PresenceCount::State {
     visit_where(loaded, part, may_matter, add);
   }
 
-  /// Calls `visit(point, block, kind, removed)` for the points of the estimate and for flagged ones
-  /// where `may_matter(block, removed)`. Where a point is, is found out before what it is: most
-  /// points are where nothing was flagged.
+  /// Calls `visit(point, block, kind, removed)` for the points of the estimate in `places_` and for
+  /// flagged ones where `may_matter(block, removed)`. Where a point is, is found out before what it
+  /// is: most points are where nothing was flagged.
   template <class MayMatter, class Visit>
   void visit_where(const CheckedScan& loaded, const Part& part, MayMatter&& may_matter,
                    Visit&& visit) const {
@@ -241,6 +256,7 @@ class PresenceCount::State {
     for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
       const Eigen::Vector3d point = placed(loaded.scan, i);
       const bool removed = loaded.removed(i);
+      if (!removed && !places_.may_hold(point)) continue;
       const auto kind_of = [&] {
         return input_.truth.kind_of(loaded.scan.points[i], loaded.labels[i]);
       };
@@ -272,6 +288,7 @@ class PresenceCount::State {
   std::vector<ScanPresence> scans_;
   bool any_flagged_ = false, any_kept_ = false;
   std::vector<std::uint8_t> has_flagged_, is_near_flagged_;  ///< By block.
+  CoarseCells places_;  ///< Where points that are left may matter in this pass.
   FineBits kept_;
   FineBits flagged_;  ///< When points are collected, those on which `kept_` has not decided.
   UndecidedPoints undecided_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/scan/voxel_key.h"
@@ -12,32 +13,107 @@
 namespace raymoval {
 namespace {
 
-/// Points of one cell; `first` and `last` index the points in order of cells.
+/// The least and the largest coordinates of some points, and of their ranges in the last place.
+template <class Scalar>
+struct Box {
+  using Array = Eigen::Array<Scalar, 4, 1>;
+  Array low = Array::Constant(std::numeric_limits<Scalar>::infinity());
+  Array high = -low;
+
+  void add(const Array& point) {
+    low = low.min(point);
+    high = high.max(point);
+  }
+  void add(const Box& other) {
+    low = low.min(other.low);
+    high = high.max(other.high);
+  }
+  [[nodiscard]] Scalar farthest() const { return high[3]; }
+  /// How far the boxes are apart along each axis.
+  [[nodiscard]] Eigen::Matrix<Scalar, 3, 1> apart(const Box& other) const {
+    const Array gaps = (low - other.high).max(other.low - high).max(Scalar(0));
+    return gaps.matrix().template head<3>();
+  }
+};
+
+/// The points from `first` to before `last` follow each other and lie in the same cell.
+struct Run {
+  VoxelKey key;
+  std::uint32_t first, last;
+};
+
+/// `first` and `last` number the runs of its points.
 template <class Scalar>
 struct Cell {
   int z;
   std::uint32_t first, last;
-  Eigen::Array<Scalar, 3, 1> low, high;
-  Scalar farthest;  ///< Largest range of its points.
+  Box<Scalar> box;
 };
 
-/// The cells above each other.
+/// Cells right above each other, each of which touches the next: one cluster.
 template <class Scalar>
-struct Column {
-  int x, y;
-  std::uint32_t first, last;
-  Scalar reach;              ///< The longest reach of its cells, in cell edges.
-  std::uint32_t root;        ///< The root that all of its cells have, or `kMixed`.
-  std::uint32_t same_until;  ///< Up to before this column, those of the row have the same root.
+struct Piece {
+  int y;                      ///< Its row.
+  std::uint32_t first, last;  ///< Its cells.
+  Box<Scalar> box;
+  Scalar reach = 0;  ///< The longest of its points, in cell edges.
 };
-constexpr std::uint32_t kMixed = 0xFFFFFFFFU;
+
+/// Where a piece is in its row, and the root that its set had when that was last looked at.
+struct Place {
+  int x, low, high;  ///< Its column, and z of its lowest and its highest cell.
+  std::uint32_t root;
+};
+
+/// The least of each of the three numbers in the keys of runs, as a key.
+VoxelKey low_corner(const std::vector<Run>& runs) {
+  constexpr VoxelKey kField = (VoxelKey{1} << kVoxelBits) - 1;
+  std::array<VoxelKey, 3> least{kField, kField << kVoxelBits, kField << (2 * kVoxelBits)};
+  const std::array<VoxelKey, 3> fields = least;
+  for (const Run& run : runs) {
+    for (std::size_t axis = 0; axis < least.size(); ++axis) {
+      least[axis] = std::min(least[axis], run.key & fields[axis]);
+    }
+  }
+  return least[0] | least[1] | least[2];
+}
+
+/// Sorts runs by their keys, and those of a key by their points: digit by digit from the lowest, of
+/// which only those are looked at in which keys differ. Each number of a key has two digits.
+void sort_by_key(std::vector<Run>& runs) {
+  constexpr int kDigitBits = 11;
+  constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+  static_assert(2 * kDigitBits > kVoxelBits);
+  VoxelKey differing = 0;
+  for (const Run& run : runs) differing |= run.key ^ runs.front().key;
+  std::vector<Run> sorted(runs.size());
+  for (const int shift : {0, kDigitBits, kVoxelBits, kVoxelBits + kDigitBits, 2 * kVoxelBits,
+                          2 * kVoxelBits + kDigitBits}) {
+    const auto digit_of = [&](VoxelKey key) { return key >> shift & (kDigits - 1); };
+    if (digit_of(differing) == 0) continue;
+    std::array<std::uint32_t, kDigits + 1> next{};
+    for (const Run& run : runs) ++next[digit_of(run.key) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const Run& run : runs) sorted[next[digit_of(run.key)]++] = run;
+    runs.swap(sorted);
+  }
+}
+
+/// `voxel_index` without a call of a library for each coordinate.
+VoxelIndex cell_at(const Eigen::Vector3d& in_cells) {
+  if (!(in_cells.cwiseAbs().maxCoeff() < kVoxelLimit)) return voxel_index(in_cells, 1.0);
+  const auto floor_of = [](double value) {
+    const int whole = static_cast<int>(value);
+    return whole - (value < whole ? 1 : 0);
+  };
+  return {floor_of(in_cells.x()), floor_of(in_cells.y()), floor_of(in_cells.z())};
+}
 
 /// Cells whose diagonal is the smallest reach save nearly all comparisons: the points of one cell
 /// are joined, and two cells are joined by the first pair of points that is near enough.
 template <class Scalar>
 class Clustering {
   using Vector = Eigen::Matrix<Scalar, 3, 1>;
-  using Array = Eigen::Array<Scalar, 3, 1>;
 
  public:
   Clustering(const std::vector<Vector>& points, const std::vector<Scalar>& ranges, Scalar gap,
@@ -52,12 +128,11 @@ class Clustering {
   }
 
   std::vector<int> run() {
-    DisjointSets sets(cells_.size());
-    // Cells beside each other first: what hangs together mostly does so by them, and whole columns
-    // of one set need no second look.
-    join_all(Pass::kBeside, sets);
-    store_roots(sets);
-    join_all(Pass::kInReach, sets);
+    DisjointSets sets(pieces_.size());
+    // What hangs together mostly does so by points that follow each other.
+    join_along_points(sets);
+    for (std::uint32_t p = 0; p < places_.size(); ++p) places_[p].root = sets.root(p);
+    join_in_reach(sets);
     return numbered(sets);
   }
 
@@ -69,227 +144,196 @@ class Clustering {
     return reach_at(range) / edge_ * static_cast<Scalar>(1.0 + 1e-4);
   }
 
-  /// Makes cells, columns and rows, in order of y, x and z.
+  /// Makes cells, pieces and rows, in order of y, x and z.
   void sort_into_cells() {
-    std::vector<Run> runs = runs_in_cells();
-    const VoxelKey corner = low_corner(runs);
-    for (Run& run : runs) run.key -= corner;  // Keys then differ in few digits.
-    sort_by_key(runs);
-    order_.reserve(points_.size());
-    placed_.reserve(points_.size());
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      const Run& run = runs[r];
-      if (r == 0 || run.key != runs[r - 1].key) begin_cell(run.key + corner, run.first);
-      for (std::uint32_t point = run.first; point < run.last; ++point) {
-        add_to_cell(point, cells_.back());
+    find_runs();
+    const VoxelKey corner = low_corner(runs_);
+    for (Run& run : runs_) run.key -= corner;  // Keys then differ in few digits.
+    sort_by_key(runs_);
+    cells_.reserve(runs_.size());
+    piece_of_.resize(points_.size());
+    for (std::uint32_t first = 0, last = 0; first < runs_.size(); first = last) {
+      Box<Scalar> box;
+      for (; last < runs_.size() && runs_[last].key == runs_[first].key; ++last) {
+        for (std::uint32_t i = runs_[last].first; i < runs_[last].last; ++i) {
+          const Vector& point = points_[i];
+          box.add({point.x(), point.y(), point.z(), ranges_[i]});
+        }
       }
+      const VoxelIndex turned = voxel_index(runs_[first].key + corner);
+      add_cell(turned.y(), turned.z(), {turned.x(), first, last, box});
     }
-    for (Column<Scalar>& column : columns_) {
-      for (std::uint32_t c = column.first; c < column.last; ++c) {
-        column.reach = std::max(column.reach, reach_in_cells(cells_[c].farthest));
-      }
-    }
-    rows_.push_back(static_cast<std::uint32_t>(columns_.size()));
+    rows_.push_back(static_cast<std::uint32_t>(pieces_.size()));
+    for (Piece<Scalar>& piece : pieces_) piece.reach = reach_in_cells(piece.box.farthest());
   }
 
-  /// The points from `first` to before `last` follow each other and lie in the same cell.
-  struct Run {
-    VoxelKey key;
-    std::uint32_t first, last;
-  };
-
-  /// The runs of all points in their order. Keys that are sorted run up a column.
-  std::vector<Run> runs_in_cells() const {
+  /// Finds the runs of all points in their order. Keys that are sorted run up a column.
+  void find_runs() {
     const double scale = 1.0 / edge_;
-    std::vector<Run> runs;
-    runs.reserve(points_.size() / 2);
+    runs_.reserve(points_.size() / 2);
+    VoxelIndex last;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
       const VoxelIndex cell = cell_at(points_[i].template cast<double>() * scale);
-      const VoxelKey key = voxel_key(cell.z(), cell.x(), cell.y());
-      if (runs.empty() || runs.back().key != key) runs.push_back({key, i, i});
-      runs.back().last = i + 1;
+      if (i > 0 && cell == last) continue;
+      if (i > 0) runs_.back().last = i;
+      runs_.push_back({voxel_key(cell.z(), cell.x(), cell.y()), i, i});
+      last = cell;
     }
-    return runs;
+    if (!runs_.empty()) runs_.back().last = static_cast<std::uint32_t>(points_.size());
   }
 
-  /// The least of each of the three numbers in the keys of runs, as a key.
-  static VoxelKey low_corner(const std::vector<Run>& runs) {
-    constexpr VoxelKey kField = (VoxelKey{1} << kVoxelBits) - 1;
-    VoxelKey corner = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const VoxelKey field = kField << (axis * kVoxelBits);
-      VoxelKey least = field;
-      for (const Run& run : runs) least = std::min(least, run.key & field);
-      corner |= least;
-    }
-    return corner;
-  }
-
-  /// `voxel_index` without a call of a library for each coordinate.
-  static VoxelIndex cell_at(const Eigen::Vector3d& in_cells) {
-    if (!(in_cells.cwiseAbs().maxCoeff() < kVoxelLimit)) return voxel_index(in_cells, 1.0);
-    const auto floor_of = [](double value) {
-      const int whole = static_cast<int>(value);
-      return whole - (value < whole ? 1 : 0);
-    };
-    return {floor_of(in_cells.x()), floor_of(in_cells.y()), floor_of(in_cells.z())};
-  }
-
-  /// Sorts runs by their keys, and those of a key by their points: digit by digit from the lowest,
-  /// of which only those are looked at in which keys differ.
-  static void sort_by_key(std::vector<Run>& runs) {
-    constexpr int kDigitBits = 8;
-    constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-    VoxelKey differing = 0;
-    for (const Run& run : runs) differing |= run.key ^ runs.front().key;
-    std::vector<Run> sorted(runs.size());
-    for (int shift = 0; shift < 64; shift += kDigitBits) {
-      const auto digit_of = [&](VoxelKey key) { return key >> shift & (kDigits - 1); };
-      if (digit_of(differing) == 0) continue;
-      std::array<std::uint32_t, kDigits + 1> next{};
-      for (const Run& run : runs) ++next[digit_of(run.key) + 1];
-      std::partial_sum(next.begin(), next.end(), next.begin());
-      for (const Run& run : runs) sorted[next[digit_of(run.key)]++] = run;
-      runs.swap(sorted);
-    }
-  }
-
-  void begin_cell(VoxelKey key, std::uint32_t point) {
-    const VoxelIndex turned = voxel_index(key);
-    const int x = turned.y(), y = turned.z();
+  /// Adds a cell that lies above or behind all others.
+  void add_cell(int x, int y, const Cell<Scalar>& cell) {
+    const bool new_row = pieces_.empty() || pieces_.back().y != y;
     const auto number = static_cast<std::uint32_t>(cells_.size());
-    const bool new_row = columns_.empty() || columns_.back().y != y;
-    if (new_row) rows_.push_back(static_cast<std::uint32_t>(columns_.size()));
-    if (new_row || columns_.back().x != x)
-      columns_.push_back({x, y, number, number, Scalar(0), kMixed, 0});
-    columns_.back().last = number + 1;
-    const auto first = static_cast<std::uint32_t>(order_.size());
-    cells_.push_back(
-        {turned.x(), first, first, points_[point].array(), points_[point].array(), ranges_[point]});
+    if (new_row) rows_.push_back(static_cast<std::uint32_t>(pieces_.size()));
+    const bool goes_on = !new_row && places_.back().x == x && places_.back().high + 1 == cell.z &&
+                         touch(cells_.back(), cell);
+    if (!goes_on) {
+      pieces_.push_back({y, number, number, {}});
+      places_.push_back({x, cell.z, cell.z, 0});
+    }
+    Piece<Scalar>& piece = pieces_.back();
+    places_.back().high = cell.z;
+    piece.last = number + 1;
+    piece.box.add(cell.box);
+    cells_.push_back(cell);
+    for (std::uint32_t r = cell.first; r < cell.last; ++r) {
+      std::fill(piece_of_.begin() + runs_[r].first, piece_of_.begin() + runs_[r].last,
+                static_cast<std::uint32_t>(pieces_.size() - 1));
+    }
   }
 
-  void add_to_cell(std::uint32_t point, Cell<Scalar>& cell) {
-    order_.push_back(point);
-    placed_.push_back({points_[point], ranges_[point]});
-    ++cell.last;
-    cell.low = cell.low.min(points_[point].array());
-    cell.high = cell.high.max(points_[point].array());
-    cell.farthest = std::max(cell.farthest, ranges_[point]);
+  /// Joins the pieces of each point and the one before it, if these are near enough.
+  void join_along_points(DisjointSets& sets) const {
+    for (const Run& run : runs_) {
+      const std::uint32_t i = run.first;
+      if (i == 0) continue;
+      const std::uint32_t one = sets.root(piece_of_[i]), other = sets.root(piece_of_[i - 1]);
+      if (one != other && are_near(i, i - 1)) sets.join(one, other);
+    }
   }
 
-  enum class Pass { kBeside, kInReach };
-
-  void join_all(Pass pass, DisjointSets& sets) const {
-    const Scalar widest =
-        std::max_element(columns_.begin(), columns_.end(), [](const auto& a, const auto& b) {
-          return a.reach < b.reach;
-        })->reach;
-    const Scalar apart = pass == Pass::kBeside ? Scalar(0) : widest;
+  /// Joins every pair of pieces that lie near enough, looking at each pair once.
+  void join_in_reach(DisjointSets& sets) {
+    // Of each row the first piece that is not too far to the left. The pieces of the row above are
+    // gone through from left to right, so that it is never far from where it was.
+    std::vector<std::uint32_t> begin(rows_.size());
+    std::vector<std::uint32_t> others(pieces_.size());
     for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
-      const int y = columns_[rows_[row]].y;
-      for (std::size_t other = row; other + 1 < rows_.size(); ++other) {
-        if (static_cast<Scalar>(columns_[rows_[other]].y - y - 1) > apart) break;
-        join_rows(row, other, pass, sets);
-      }
-    }
-  }
-
-  void store_roots(DisjointSets& sets) {
-    for (Column<Scalar>& column : columns_) {
-      column.root = sets.root(column.first);
-      for (std::uint32_t c = column.first; c < column.last; ++c) {
-        if (sets.root(c) != column.root) column.root = kMixed;
-      }
-    }
-    for (std::size_t c = columns_.size(); c-- > 0;) {
-      const bool goes_on = c + 1 < columns_.size() && columns_[c + 1].y == columns_[c].y &&
-                           columns_[c + 1].root == columns_[c].root;
-      columns_[c].same_until =
-          goes_on ? columns_[c + 1].same_until : static_cast<std::uint32_t>(c + 1);
-    }
-  }
-
-  /// Joins every pair of columns of two rows once.
-  void join_rows(std::size_t row, std::size_t other, Pass pass, DisjointSets& sets) const {
-    const std::uint32_t end = rows_[other + 1];
-    std::uint32_t begin = rows_[other];  // The first column that is not too far to the left.
-    for (std::uint32_t c = rows_[row]; c < rows_[row + 1]; ++c) {
-      const Column<Scalar>& column = columns_[c];
-      // The reach is that of the nearer point of a pair, so at most this column's own.
-      const auto gap = [](int cells) { return static_cast<Scalar>(std::max(cells - 1, 0)); };
-      const Scalar across = gap(columns_[rows_[other]].y - column.y);
-      const Scalar left = column.reach * column.reach - across * across;
-      if (left < 0) continue;
-      const int aside = pass == Pass::kBeside ? 1 : static_cast<int>(std::sqrt(left)) + 2;
-      begin = first_from(begin, end, column.x - aside);
-      for (std::uint32_t n = other == row ? c : begin; n < end; ++n) {
-        const Column<Scalar>& near = columns_[n];
-        if (near.x > column.x + aside) break;
-        if (pass == Pass::kInReach && column.root == near.root && column.root != kMixed) {
-          n = near.same_until - 1;
-          continue;
+      const int y = pieces_[rows_[row]].y;
+      std::copy(rows_.begin() + static_cast<std::ptrdiff_t>(row), rows_.end(), begin.begin());
+      for (std::uint32_t p = rows_[row]; p < rows_[row + 1]; ++p) {
+        for (std::size_t other = row; other + 1 < rows_.size(); ++other) {
+          // The reach is that of the nearer point of a pair, so at most this piece's own.
+          const auto across = static_cast<Scalar>(std::max(pieces_[rows_[other]].y - y - 1, 0));
+          if (across > pieces_[p].reach) break;
+          join_with_row(p, other, across, begin[other - row], others.data(), sets);
         }
-        const Scalar along = gap(std::abs(near.x - column.x));
-        const int reach = pass == Pass::kBeside ? 1 : static_cast<int>(column.reach) + 1;
-        if (along * along <= left) join_columns(column, near, reach, sets);
       }
     }
   }
 
-  /// The first column of a row at `x` or to the right of it. It is looked for on both sides of
-  /// `guess`, from which it is never far.
-  [[nodiscard]] std::uint32_t first_from(std::uint32_t guess, std::uint32_t end, int x) const {
-    while (guess < end && columns_[guess].x < x) ++guess;
-    while (guess > 0 && columns_[guess - 1].y == columns_[end - 1].y &&
-           columns_[guess - 1].x >= x) {
-      --guess;
+  /// Joins a piece with those of a row that is its own or a later one.
+  void join_with_row(std::uint32_t p, std::size_t row, Scalar across, std::uint32_t& begin,
+                     std::uint32_t* others, DisjointSets& sets) {
+    const Scalar reach = pieces_[p].reach;
+    const int aside = static_cast<int>(std::sqrt(reach * reach - across * across)) + 1;
+    const int above = static_cast<int>(reach) + 1;
+    begin = first_from(begin, rows_[row], rows_[row + 1], places_[p].x - aside);
+    const std::uint32_t first = begin <= p ? p + 1 : begin;
+    const std::size_t count = find_others(places_[p], aside, above, first, rows_[row + 1], others);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint32_t one = sets.root(p), another = sets.root(others[i]);
+      if (one != another && touch(p, others[i], above)) {
+        sets.join(one, another);
+        one = another = std::min(one, another);
+      }
+      places_[p].root = one;
+      places_[others[i]].root = another;
     }
+  }
+
+  /// Finds the pieces of a row from number `n` on that lie at most `aside` cells beside `place` and
+  /// `above` cells above or below it, and have another root. Most have the same one, and are left
+  /// out without a branch for each. @return how many; their numbers are in `others`
+  std::size_t find_others(const Place& place, int aside, int above, std::uint32_t n,
+                          std::uint32_t end, std::uint32_t* others) const {
+    const Place* const places = places_.data();
+    const int farthest = place.x + aside, low = place.low - above, high = place.high + above;
+    const std::uint32_t root = place.root;
+    std::size_t count = 0;
+    for (; n < end && places[n].x <= farthest; ++n) {
+      others[count] = n;
+      count += static_cast<std::size_t>(int{places[n].root != root} & int{places[n].low <= high} &
+                                        int{places[n].high >= low});
+    }
+    return count;
+  }
+
+  /// The first piece of a row at `x` or to the right of it. It is looked for on both sides of
+  /// `guess`, from which it is never far.
+  [[nodiscard]] std::uint32_t first_from(std::uint32_t guess, std::uint32_t row, std::uint32_t end,
+                                         int x) const {
+    while (guess < end && places_[guess].x < x) ++guess;
+    while (guess > row && places_[guess - 1].x >= x) --guess;
     return guess;
   }
 
-  /// Joins cells at most `reach` cells above or below each other.
-  void join_columns(const Column<Scalar>& one, const Column<Scalar>& other, int reach,
-                    DisjointSets& sets) const {
-    std::uint32_t lowest = other.first;
-    for (std::uint32_t a = one.first; a < one.last; ++a) {
-      while (lowest < other.last && cells_[lowest].z < cells_[a].z - reach) ++lowest;
-      std::uint32_t root = sets.root(a);
-      for (std::uint32_t b = &one == &other ? a + 1 : lowest; b < other.last; ++b) {
-        if (cells_[b].z > cells_[a].z + reach) break;
-        const std::uint32_t other_root = sets.root(b);
-        if (root == other_root || !touch(cells_[a], cells_[b])) continue;
-        sets.join(root, other_root);
-        root = std::min(root, other_root);
-      }
-    }
+  /// Whether no point of one box can be near enough to one of the other.
+  [[nodiscard]] bool are_apart(const Box<Scalar>& a, const Box<Scalar>& b) const {
+    const Scalar widest = reach_at(std::min(a.farthest(), b.farthest()));
+    return a.apart(b).squaredNorm() > widest * widest;
   }
 
-  [[nodiscard]] bool touch(const Cell<Scalar>& a, const Cell<Scalar>& b) const {
-    const Scalar widest = reach_at(std::min(a.farthest, b.farthest));
-    const Array apart = (a.low - b.high).max(b.low - a.high).max(Scalar(0));
-    if (apart.matrix().squaredNorm() > widest * widest) return false;
+  /// Whether a cell of one piece touches one of the other at most `reach` cells above or below it.
+  [[nodiscard]] bool touch(std::uint32_t one, std::uint32_t other, int reach) const {
+    const Piece<Scalar>&a = pieces_[one], &b = pieces_[other];
+    if (are_apart(a.box, b.box)) return false;
+    const int low = places_[other].low;
     for (std::uint32_t i = a.first; i < a.last; ++i) {
-      const Placed& p = placed_[i];
-      for (std::uint32_t j = b.first; j < b.last; ++j) {
-        const Placed& q = placed_[j];
-        const Scalar near_enough = reach_at(std::min(p.range, q.range));
-        if ((p.point - q.point).squaredNorm() <= near_enough * near_enough) return true;
+      // The cells of a piece have no gaps.
+      const int from = std::max(cells_[i].z - reach, low), to = cells_[i].z + reach;
+      for (std::uint32_t j = b.first + static_cast<std::uint32_t>(from - low);
+           j < b.last && cells_[j].z <= to; ++j) {
+        if (touch(cells_[i], cells_[j])) return true;
       }
     }
     return false;
   }
 
-  std::vector<int> numbered(DisjointSets& sets) {
-    std::vector<std::uint32_t> root(points_.size());
-    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-      const std::uint32_t of_cell = sets.root(c);
-      for (std::uint32_t i = cells_[c].first; i < cells_[c].last; ++i) root[order_[i]] = of_cell;
+  [[nodiscard]] bool touch(const Cell<Scalar>& a, const Cell<Scalar>& b) const {
+    if (are_apart(a.box, b.box)) return false;
+    for (std::uint32_t r = a.first; r < a.last; ++r) {
+      for (std::uint32_t i = runs_[r].first; i < runs_[r].last; ++i) {
+        if (touches(i, b)) return true;
+      }
     }
-    std::vector<int> number_of(cells_.size(), -1), numbers(points_.size());
+    return false;
+  }
+  [[nodiscard]] bool touches(std::uint32_t point, const Cell<Scalar>& cell) const {
+    for (std::uint32_t r = cell.first; r < cell.last; ++r) {
+      for (std::uint32_t i = runs_[r].first; i < runs_[r].last; ++i) {
+        if (are_near(point, i)) return true;
+      }
+    }
+    return false;
+  }
+  [[nodiscard]] bool are_near(std::uint32_t one, std::uint32_t other) const {
+    const Scalar near_enough = reach_at(std::min(ranges_[one], ranges_[other]));
+    return (points_[one] - points_[other]).squaredNorm() <= near_enough * near_enough;
+  }
+
+  std::vector<int> numbered(DisjointSets& sets) const {
+    std::vector<int> number_of(pieces_.size(), -1), numbers(points_.size());
     int next = 0;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      int& number = number_of[root[i]];
-      if (number < 0) number = next++;
+      int& number = number_of[piece_of_[i]];
+      if (number < 0) {
+        int& of_set = number_of[sets.root(piece_of_[i])];
+        if (of_set < 0) of_set = next++;
+        number = of_set;
+      }
       numbers[i] = number;
     }
     return numbers;
@@ -298,16 +342,12 @@ class Clustering {
   const std::vector<Vector>& points_;
   const std::vector<Scalar>& ranges_;
   Scalar gap_, growth_, edge_;
-  /// A point and its range.
-  struct Placed {
-    Vector point;
-    Scalar range;
-  };
-  std::vector<std::uint32_t> order_;  ///< The points in order of cells, ...
-  std::vector<Placed> placed_;        ///< ... and what they are.
+  std::vector<Run> runs_;  ///< In order of their cells.
   std::vector<Cell<Scalar>> cells_;
-  std::vector<Column<Scalar>> columns_;
-  std::vector<std::uint32_t> rows_;  ///< First column of each row, and the end.
+  std::vector<Piece<Scalar>> pieces_;
+  std::vector<Place> places_;            ///< Of each piece.
+  std::vector<std::uint32_t> piece_of_;  ///< The piece of each point.
+  std::vector<std::uint32_t> rows_;      ///< First piece of each row, and the end.
 };
 
 }  // namespace

@@ -59,6 +59,23 @@ TEST_CASE("range-adaptive clusters in single precision are those of all pairs") 
   CHECK(range_adaptive_clusters({}, {}, 0.3F, 0.01F).empty());
 }
 
+TEST_CASE("range-adaptive clusters of things that stand above each other are those of all pairs") {
+  // Poles of 8 m: cells right above each other that touch, that do not, and empty ones between.
+  std::mt19937 random(17);
+  std::uniform_real_distribution<float> aside(-0.5F, 0.5F), up(-4.0F, 4.0F);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Eigen::Vector3f> points;
+    std::vector<float> ranges;
+    for (int i = 0; i < 150; ++i) {
+      const auto pole = static_cast<float>(i % 4);
+      points.emplace_back(pole + 0.3F * aside(random), 0.2F * aside(random), up(random));
+      ranges.push_back(points.back().norm() + 2.0F * static_cast<float>(round));
+    }
+    CHECK(range_adaptive_clusters(points, ranges, 0.3F, 0.01F) ==
+          slow_clusters(points, ranges, 0.3F, 0.01F));
+  }
+}
+
 TEST_CASE("range-adaptive clusters: the same gap joins far away and not nearby") {
   // Reach 0.3 + 0.02 r: 0.5 m at 10 m, 0.9 m at 30 m.
   const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0.7, 0, 0}, {3, 0, 0}};

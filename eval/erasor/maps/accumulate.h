@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eval/checked_scan.h"
@@ -51,17 +52,29 @@ Pose pose_of(const Scan& scan, const MapRules& rules);
 
 /// Steps 1 to 3 of the ground truth for one scan: crop, lift in the sensor frame, pose. Calls
 /// `visit(point, label)` for each point that is evaluated and, as is asked for, flagged or not.
-template <class Visit>
-void visit_placed(const CheckedScan& loaded, const MapRules& rules, bool flagged, Visit&& visit) {
+/// @param is_wanted of a point in the world says whether it is to be visited; what becomes of the
+/// others is not asked
+template <class IsWanted, class Visit>
+void visit_placed_where(const CheckedScan& loaded, const MapRules& rules, bool flagged,
+                        IsWanted&& is_wanted, Visit&& visit) {
   const Pose T_world_sensor = pose_of(loaded.scan, rules);
   const Eigen::Vector3d lift(0.0, 0.0, rules.options.lift);
   for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
     if (loaded.removed(i) != flagged) continue;
     const Eigen::Vector3d point = loaded.scan.points[i].cast<double>();
+    const Eigen::Vector3d placed = T_world_sensor * (point + lift);
+    if (!is_wanted(placed)) continue;
     const std::uint32_t word = loaded.labels[i];
     if (fate_of(point, rules.classes.of(word), rules) != &PointCounts::evaluated) continue;
-    visit(T_world_sensor * (point + lift), word);
+    visit(placed, word);
   }
+}
+
+/// The same for all points.
+template <class Visit>
+void visit_placed(const CheckedScan& loaded, const MapRules& rules, bool flagged, Visit&& visit) {
+  const auto all = [](const Eigen::Vector3d&) { return true; };
+  visit_placed_where(loaded, rules, flagged, all, std::forward<Visit>(visit));
 }
 
 /// The points of a scan that are evaluated and not flagged, world frame, lifted.

@@ -18,7 +18,10 @@ bool EstimateMap::begin_pass(std::size_t slots) {
       touched_.count_through();
       means_ = MeanTable(touched_.count());
       if (points_.removed == 0) mixed_label_ties_ = truth_.mixed_label_ties();
-      if (points_.removed != 0 && points_.removed != points_.evaluated) return true;
+      if (points_.removed != 0 && points_.removed != points_.evaluated) {
+        places_ = places_of(touched_);
+        return true;
+      }
       (void)means_.finish();
       return false;
     case kVote:
@@ -88,7 +91,9 @@ void EstimateMap::add_up(const CheckedScan& scan, Part& part) const {
 bool EstimateMap::begin_votes() {
   (void)means_.finish();
   votes_ = std::make_unique<LabelVotes>(truth_.map_cells().mixed.count());
-  return truth_.map_cells().mixed.count() > 0;
+  if (truth_.map_cells().mixed.count() == 0) return false;
+  places_ = places_of(truth_.map_cells().near_mixed);
+  return true;
 }
 
 void EstimateMap::vote(const CheckedScan& scan, Part& part) const {
@@ -103,18 +108,29 @@ void EstimateMap::vote(const CheckedScan& scan, Part& part) const {
       [&](Number number) { return mean(number); }, part.offers);
 }
 
-/// The points of a scan that are left in certain cells.
+/// Where the cells are whose bits are set. Most points of a scan are elsewhere.
+CoarseCells EstimateMap::places_of(const RankedBits& wanted) const {
+  return {1.0 / rules_.options.voxel_size, [&](const auto& visit) {
+            cells().for_each([&](Number number, VoxelKey cell) {
+              if (wanted.test(number)) visit(voxel_index(cell));
+            });
+          }};
+}
+
+/// The points of a scan that are left in certain cells, all of which are in `places_`.
 LabelledCloud EstimateMap::points_in(const CheckedScan& scan, const RankedBits& wanted) const {
   const double inverse = 1.0 / rules_.options.voxel_size;
   LabelledCloud cloud;
   CellLattice::Cursor cursor;
-  visit_placed(scan, rules_, false, [&](const Eigen::Vector3d& point, std::uint32_t word) {
-    const Number number = cells().find(cell_key(point, inverse), cursor);
-    if (number == CellLattice::kNone) throw_changed(rules_.input, scan.scan.index);
-    if (!wanted.test(number)) return;
-    cloud.points.push_back(point);
-    cloud.labels.push_back(word);
-  });
+  visit_placed_where(
+      scan, rules_, false, [&](const Eigen::Vector3d& point) { return places_.may_hold(point); },
+      [&](const Eigen::Vector3d& point, std::uint32_t word) {
+        const Number number = cells().find(cell_key(point, inverse), cursor);
+        if (number == CellLattice::kNone) throw_changed(rules_.input, scan.scan.index);
+        if (!wanted.test(number)) return;
+        cloud.points.push_back(point);
+        cloud.labels.push_back(word);
+      });
   return cloud;
 }
 

@@ -10,6 +10,7 @@
 #include "eval/erasor/maps/scan_votes.h"
 #include "eval/erasor/maps/truth_map.h"
 #include "eval/lattice/cell_means.h"
+#include "eval/lattice/coarse_cells.h"
 #include "eval/lattice/label_votes.h"
 #include "eval/lattice/mean_table.h"
 #include "eval/lattice/ranked_bits.h"
@@ -54,6 +55,7 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   void touch(const CheckedScan& scan, Part& part);
   void add_up(const CheckedScan& scan, Part& part) const;
   void vote(const CheckedScan& scan, Part& part) const;
+  [[nodiscard]] CoarseCells places_of(const RankedBits& wanted) const;
   [[nodiscard]] LabelledCloud points_in(const CheckedScan& scan, const RankedBits& wanted) const;
   bool begin_votes();
 
@@ -63,6 +65,7 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   std::vector<Part> slots_;
   PointCounts points_;
   RankedBits touched_;
+  CoarseCells places_;                 ///< Where the points of the pass are.
   MeanTable means_;                    ///< Of touched cells; not a number where nothing is left.
   std::unique_ptr<LabelVotes> votes_;  ///< Of `MapCells::mixed`; null: labels are those of truth.
   std::int64_t mixed_label_ties_ = 0;

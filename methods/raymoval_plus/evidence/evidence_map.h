@@ -101,7 +101,7 @@ class EvidenceMap {
   void set_decision(std::size_t voxel, Verdict decision);
   /// The verdict after its neighbours have voted.
   [[nodiscard]] Verdict verdict(std::size_t voxel) const { return verdicts_[slot(voxel)]; }
-  void set_verdict(std::size_t voxel, Verdict verdict) { verdicts_[slot(voxel)] = verdict; }
+  void set_verdict_in(std::size_t slot, Verdict verdict) { verdicts_[slot] = verdict; }
 
   [[nodiscard]] const Blocks& blocks() const { return blocks_; }
   [[nodiscard]] std::uint32_t block_of(std::size_t voxel) const {

@@ -38,6 +38,9 @@ constexpr double kRounding = 1e-6;
 /// Windows grow with nearness. Where they start to, roundings may go either way, so that places a
 /// little farther are looked at, too.
 constexpr float kWindowsGrow = 1.001F;
+/// Metres by which the range of returns that might agree is made larger than it is. Differences of
+/// ranges are rounded by less.
+constexpr float kRangeRounding = 1e-3F;
 
 /// Memory for what the kernels say of places; each thread has its own.
 struct SightRoom {
@@ -142,7 +145,7 @@ void RangeImage::fill_bins(const Scan& scan) {
 Observation RangeImage::observe(const Eigen::Vector3f& place) const {
   const kernels::Sights sights = sight_room.room_for(1).sights;
   kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights);
-  return observe_window<true>(sights.range[0], sights.column[0], sights.row[0]);
+  return observe_every_bin(sights.range[0], sights.column[0], sights.row[0]);
 }
 
 kernels::SightTest RangeImage::test() const {
@@ -183,7 +186,7 @@ void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_
     Observation observation =
         sighted == kernels::Sighted::kAgree ? Observation::kAgree : Observation::kFree;
     if (sighted == kernels::Sighted::kUnsure) {
-      observation = observe_window<false>(range, chosen.sights.column[i], chosen.sights.row[i]);
+      observation = observe_large_window(range, chosen.sights.column[i], chosen.sights.row[i]);
       if (observation != Observation::kAgree && observation != Observation::kFree) continue;
     }
     observed.push_back({chosen.place[i], observation, range});
@@ -197,35 +200,84 @@ RangeImage::Window RangeImage::window_at(float range) const {
       std::max(static_cast<int>(half / elevation_step_), parameters_.window_rows)};
 }
 
-template <bool kEveryBin>
-Observation RangeImage::observe_window(float range, int column, int row) const {
-  const auto [wide, high] = window_at(range);
+RangeImage::Bounds RangeImage::bounds_at(float range) const {
   const float agree = agree_[0] + agree_[1] * range;
   const float beyond = range + occluded_[0] + occluded_[1] * range;
-  const float farther = std::max(range + agree, beyond);
+  return {range, agree, beyond, range - agree - kRangeRounding,
+          std::max(range + agree, beyond) + kRangeRounding};
+}
+
+Observation RangeImage::observe_every_bin(float range, int column, int row) const {
+  const auto [wide, high] = window_at(range);
+  const Bounds bounds = bounds_at(range);
   bool occluded = false, below = false;
   for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
-    if (!kEveryBin && wide == parameters_.window_columns) {
-      // Few rows have returns at about the place's range. The others say the same as their nearest.
-      const float* const all = row_windows_.data() + bin(r, column);
-      if (-all[1] < range - agree || all[0] > farther) {
-        occluded |= all[0] < beyond;
-        below |= all[0] < kInfinite && r <= row;
-        continue;
-      }
-    }
-    const float* const bins = bins_.data() + bin(r, column - wide);
-    for (int c = 0; c <= 2 * wide; ++c) {
-      const float nearest = bins[2 * c], farthest = -bins[2 * c + 1];
-      if (std::abs(nearest - range) <= agree || std::abs(farthest - range) <= agree) {
-        return Observation::kAgree;
-      }
-      occluded |= nearest < beyond;
-      below |= nearest < kInfinite && r <= row;
-    }
+    if (agrees_in_row(bounds, r, column, wide, occluded)) return Observation::kAgree;
+    below |= r <= row && nearest_in_row(r, column, wide) < kInfinite;
   }
   if (occluded) return Observation::kOccluded;
   return below ? Observation::kFree : Observation::kUnknown;
+}
+
+bool RangeImage::agrees_in_row(const Bounds& bounds, int row, int column, int wide,
+                               bool& occluded) const {
+  const float* const bins = bins_.data() + bin(row, column - wide);
+  for (int c = 0; c <= 2 * wide; ++c) {
+    const float nearest = bins[2 * c], farthest = -bins[2 * c + 1];
+    if (std::abs(nearest - bounds.range) <= bounds.agree ||
+        std::abs(farthest - bounds.range) <= bounds.agree) {
+      return true;
+    }
+    occluded |= nearest < bounds.beyond;
+  }
+  return false;
+}
+
+float RangeImage::nearest_in_row(int row, int column, int wide) const {
+  const float* const bins = bins_.data() + bin(row, column - wide);
+  float nearest = kInfinite;
+  for (int c = 0; c <= 2 * wide; ++c) nearest = std::min(nearest, bins[2 * c]);
+  return nearest;
+}
+
+Observation RangeImage::observe_large_window(float range, int column, int row) const {
+  const auto [wide, high] = window_at(range);
+  const int low = std::max(row - high, 0), top = std::min(row + high, image_.rows - 1);
+  const int least_wide = parameters_.window_columns, least_high = parameters_.window_rows;
+  if (top - low < 2 * least_high) return observe_every_bin(range, column, row);
+  const Bounds bounds = bounds_at(range);
+  bool occluded = false;
+  // Least windows cover the large one. Those at its upper and right ends may lie over others.
+  for (int begin = low; begin <= top; begin += 2 * least_high + 1) {
+    const int r = std::min(begin, top - 2 * least_high) + least_high;
+    for (int left = -wide; left <= wide; left += 2 * least_wide + 1) {
+      const int c = column + std::min(left, wide - 2 * least_wide) + least_wide;
+      if (agrees_in_window(bounds, r, c, occluded)) return Observation::kAgree;
+    }
+  }
+  if (occluded) return Observation::kOccluded;
+  for (int r = std::min(row, top); r >= low; --r) {
+    if (nearest_in_row(r, column, wide) < kInfinite) return Observation::kFree;
+  }
+  return Observation::kUnknown;
+}
+
+bool RangeImage::agrees_in_window(const Bounds& bounds, int row, int column, bool& occluded) const {
+  const int wrapped = column < 0                 ? column + image_.columns
+                      : column >= image_.columns ? column - image_.columns
+                                                 : column;
+  const float* const window = windows_.data() + bin(row, wrapped);
+  // The minus says more than is asked here. Without a return both are +infinity.
+  const float nearest = window[0], farthest = std::abs(window[1]);
+  if (nearest == kInfinite) return false;
+  if (farthest < bounds.from || nearest > bounds.to) {
+    occluded |= nearest < bounds.beyond;
+    return false;
+  }
+  for (int r = row - parameters_.window_rows; r <= row + parameters_.window_rows; ++r) {
+    if (agrees_in_row(bounds, r, wrapped, parameters_.window_columns, occluded)) return true;
+  }
+  return false;
 }
 
 }  // namespace raymoval::raymoval_plus_method

@@ -61,9 +61,21 @@ class RangeImage {
   void fill_bins(const Scan& scan);
   [[nodiscard]] kernels::SightTest test() const;
   [[nodiscard]] Window window_at(float range) const;
-  /// @param row may lie beyond the image
-  template <bool kEveryBin>
-  [[nodiscard]] Observation observe_window(float range, int column, int row) const;
+  /// What returns at a place say, metres.
+  struct Bounds {
+    float range, agree;  ///< A return agrees if it is at most so far from the range of the place.
+    float beyond;        ///< A nearer return hides the place.
+    float from, to;      ///< No return before or beyond these agrees, and none beyond hides it.
+  };
+  [[nodiscard]] Bounds bounds_at(float range) const;
+  /// What the window of a place says. @param row may lie beyond the image
+  [[nodiscard]] Observation observe_every_bin(float range, int column, int row) const;
+  /// The same for a place whose window is larger than the least one, by the least windows in it.
+  [[nodiscard]] Observation observe_large_window(float range, int column, int row) const;
+  /// Whether a return in these bins agrees. If not, notes whether any hides the place.
+  bool agrees_in_row(const Bounds& bounds, int row, int column, int wide, bool& occluded) const;
+  bool agrees_in_window(const Bounds& bounds, int row, int column, bool& occluded) const;
+  [[nodiscard]] float nearest_in_row(int row, int column, int wide) const;
 
   Parameters parameters_;
   kernels::SightKernels kernels_ = kernels::best_sight_kernels();

@@ -7,32 +7,30 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "methods/raymoval_plus/terrain/pits.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of this step. EXPERIMENTS.md has kStep and kNeighbours at half and at double their
+// Numbers of this step. EXPERIMENTS.md has kStep and kPitNeighbours at half and at double their
 // values.
 /// Heights are counted in steps of so many metres, which is less than `ground_height`.
 constexpr double kStep = 0.05;
 /// A column with fewer points has no ground of its own: they may be false echoes.
 constexpr std::uint64_t kLeastPoints = 3;
-/// A column is compared with those around it, so many to either side: 3.6 m across, more than a pit
-/// of false echoes is wide. With fewer than `kLeastNeighbours` that have ground it is dropped.
-constexpr int kNeighbours = 4, kLeastNeighbours = 4;
 /// The second round finds columns that were beside another pit.
 constexpr int kPitRounds = 2;
+/// Stacks whose quantiles a thread finds at a time. It changes no answer.
+constexpr std::size_t kStacksATask = 64;
 /// A distance of three columns of 0.4 m is not to be more than 1.2 m.
 constexpr double kRounding = 1e-9;
-constexpr float kNoGround = std::numeric_limits<float>::infinity();
-
 }  // namespace
 
 Terrain::Terrain(const Parameters& parameters)
     : parameters_(parameters),
       inverse_cell_(1.0 / parameters.terrain_cell),
       reach_(static_cast<int>(std::floor(parameters.terrain_reach * inverse_cell_ + kRounding))),
-      margin_(kPitRounds * kNeighbours + reach_),
+      margin_(kPitRounds * kPitNeighbours + reach_),
       side_(kTile + 2 * margin_),
       counts_(0),
       ground_(-kNoGround) {}
@@ -67,10 +65,11 @@ void Terrain::note_change(std::uint32_t block) {
 }
 
 void Terrain::mark_changed(const VoxelIndex& block) {
-  const auto [extent, fresh] =
-      extents_.emplace(voxel_key(block.x(), block.y(), 0), std::pair{block.z(), block.z()});
-  extent.value().first = std::min(extent->second.first, block.z());
-  extent.value().second = std::max(extent->second.second, block.z());
+  const VoxelKey key = voxel_key(block.x(), block.y(), 0);
+  Stack& stack = stacks_.emplace(key, Stack{block.z(), block.z()}).first.value();
+  stack.low = std::min(stack.low, block.z());
+  stack.high = std::max(stack.high, block.z());
+  if (!std::exchange(stack.is_stale, true)) stale_.push_back(key);
   const VoxelIndex corner = block * Counts::kSideXY, margin(margin_, margin_, 0);
   const VoxelIndex low = Heights::block_of(corner - margin);
   const VoxelIndex high = Heights::block_of(corner.array() + Counts::kSideXY - 1 + margin.array());
@@ -79,44 +78,24 @@ void Terrain::mark_changed(const VoxelIndex& block) {
   }
 }
 
-Terrain::Window Terrain::low_quantiles(const VoxelIndex& tile) const {
-  Window window(static_cast<std::size_t>(side_ * side_), kNoGround);
-  const int left = tile.x() * kTile - margin_, bottom = tile.y() * kTile - margin_;
-  const VoxelIndex low = Counts::block_of({left, bottom, 0});
-  const VoxelIndex high = Counts::block_of({left + side_ - 1, bottom + side_ - 1, 0});
-  for (int y = low.y(); y <= high.y(); ++y) {
-    for (int x = low.x(); x <= high.x(); ++x) {
-      const auto extent = extents_.find(voxel_key(x, y, 0));
-      if (extent == extents_.end()) continue;
-      fill_quantiles({x, y, 0}, extent->second.first, extent->second.second, left, bottom, window);
-    }
-  }
-  return window;
-}
-
-void Terrain::fill_quantiles(const VoxelIndex& block, int low_z, int high_z, int left, int bottom,
-                             Window& window) const {
-  constexpr std::size_t kColumns = std::size_t{Counts::kSideXY} * Counts::kSideXY;
-  std::vector<std::pair<int, const std::uint32_t*>> stack;  // Blocks, the lowest first.
-  for (int z = low_z; z <= high_z; ++z) {
+void Terrain::find_low_quantiles(const VoxelIndex& block, Stack& stack) const {
+  std::vector<std::pair<int, const std::uint32_t*>> blocks;  // The lowest first.
+  for (int z = stack.low; z <= stack.high; ++z) {
     const std::uint32_t number = counts_.block({block.x(), block.y(), z});
-    if (number != Counts::kNone) stack.emplace_back(z * Counts::kSideZ, counts_.cells(number));
+    if (number != Counts::kNone) blocks.emplace_back(z * Counts::kSideZ, counts_.cells(number));
   }
-  for (std::size_t c = 0; c < kColumns; ++c) {
-    const int x = block.x() * Counts::kSideXY + static_cast<int>(c) % Counts::kSideXY - left;
-    const int y = block.y() * Counts::kSideXY + static_cast<int>(c) / Counts::kSideXY - bottom;
-    if (x < 0 || y < 0 || x >= side_ || y >= side_) continue;
+  for (std::size_t c = 0; c < kStackColumns; ++c) {
     std::uint64_t points = 0;
-    for (const auto& [z, cells] : stack) {
-      for (std::size_t k = 0; k < Counts::kSideZ; ++k) points += cells[k * kColumns + c];
+    for (const auto& [z, cells] : blocks) {
+      for (std::size_t k = 0; k < Counts::kSideZ; ++k) points += cells[k * kStackColumns + c];
     }
     if (points < kLeastPoints) continue;
     const double wanted = parameters_.terrain_quantile * static_cast<double>(points);
     std::uint64_t below = 0;
-    float& ground = window[static_cast<std::size_t>(y * side_ + x)];
-    for (auto level = stack.begin(); level != stack.end() && ground == kNoGround; ++level) {
+    float ground = kNoGround;
+    for (auto level = blocks.begin(); level != blocks.end() && ground == kNoGround; ++level) {
       for (std::size_t k = 0; k < Counts::kSideZ; ++k) {
-        const std::uint32_t count = level->second[k * kColumns + c];
+        const std::uint32_t count = level->second[k * kStackColumns + c];
         if (count != 0 && static_cast<double>(below + count) >= wanted) {
           const double share = (wanted - static_cast<double>(below)) / count;
           ground = static_cast<float>((level->first + static_cast<int>(k) + share) * kStep);
@@ -125,39 +104,28 @@ void Terrain::fill_quantiles(const VoxelIndex& block, int low_z, int high_z, int
         below += count;
       }
     }
+    stack.ground[c] = ground;
   }
 }
 
-Terrain::Window Terrain::without_pits(const Window& ground) const {
-  Window kept(ground.size(), kNoGround);
-  const auto side = static_cast<std::size_t>(side_);
-  std::vector<float> highest(side);  // A column around may be as high as this.
-  std::vector<int> around(side), not_above(side);
-  for (int y = 0; y < side_; ++y) {
-    const float* const values = ground.data() + static_cast<std::size_t>(y) * side;
-    const auto drop = static_cast<float>(parameters_.terrain_drop);
-    std::transform(values, values + side, highest.begin(), [&](float z) { return z + drop; });
-    std::fill(around.begin(), around.end(), 0);
-    std::fill(not_above.begin(), not_above.end(), 0);
-    for (int v = std::max(y - kNeighbours, 0); v <= std::min(y + kNeighbours, side_ - 1); ++v) {
-      for (int aside = -kNeighbours; aside <= kNeighbours; ++aside) {
-        const float* const row = ground.data() + static_cast<std::ptrdiff_t>(v) * side_ + aside;
-        const int end = std::min(side_, side_ - aside);
-        for (int x = std::max(0, -aside); x < end; ++x) {
-          const auto place = static_cast<std::size_t>(x);
-          around[place] += row[x] < kNoGround ? 1 : 0;
-          not_above[place] += row[x] <= highest[place] ? 1 : 0;
-        }
-      }
-    }
-    for (std::size_t x = 0; x < side; ++x) {
-      // The lower quartile of the columns around is at most value + drop.
-      if (values[x] < kNoGround && around[x] >= kLeastNeighbours && not_above[x] > around[x] / 4) {
-        kept[static_cast<std::size_t>(y) * side + x] = values[x];
+Terrain::Window Terrain::low_quantiles(const VoxelIndex& tile) const {
+  Window window(static_cast<std::size_t>(side_ * side_), kNoGround);
+  const int left = tile.x() * kTile - margin_, bottom = tile.y() * kTile - margin_;
+  const VoxelIndex low = Counts::block_of({left, bottom, 0});
+  const VoxelIndex high = Counts::block_of({left + side_ - 1, bottom + side_ - 1, 0});
+  for (int v = low.y(); v <= high.y(); ++v) {
+    for (int u = low.x(); u <= high.x(); ++u) {
+      const auto stack = stacks_.find(voxel_key(u, v, 0));
+      if (stack == stacks_.end()) continue;
+      for (std::size_t c = 0; c < kStackColumns; ++c) {
+        const int x = u * Counts::kSideXY + static_cast<int>(c) % Counts::kSideXY - left;
+        const int y = v * Counts::kSideXY + static_cast<int>(c) / Counts::kSideXY - bottom;
+        if (x < 0 || y < 0 || x >= side_ || y >= side_) continue;
+        window[static_cast<std::size_t>(y * side_ + x)] = stack->second.ground[c];
       }
     }
   }
-  return kept;
+  return window;
 }
 
 Terrain::Window Terrain::no_steeper_than_slope(const Window& ground) const {
@@ -180,6 +148,12 @@ Terrain::Window Terrain::no_steeper_than_slope(const Window& ground) const {
 
 void Terrain::update(const RunContext& context) {
   const StageScope timed(context.times, "terrain");
+  parallel_for(context.threads, stale_.size(), kStacksATask, [&](std::size_t i) {
+    Stack& stack = stacks_.find(stale_[i]).value();
+    find_low_quantiles(voxel_index(stale_[i]), stack);
+    stack.is_stale = false;
+  });
+  stale_.clear();
   std::vector<VoxelKey> tiles(changed_.begin(), changed_.end());
   changed_.clear();
   std::fill(has_news_.begin(), has_news_.end(), std::uint8_t{0});
@@ -187,7 +161,9 @@ void Terrain::update(const RunContext& context) {
   std::vector<Window> found(tiles.size());
   parallel_for(context.threads, tiles.size(), 1, [&](std::size_t i) {
     Window ground = low_quantiles(voxel_index(tiles[i]));
-    for (int round = 0; round < kPitRounds; ++round) ground = without_pits(ground);
+    for (int round = 0; round < kPitRounds; ++round) {
+      ground = without_pits(ground, side_, static_cast<float>(parameters_.terrain_drop));
+    }
     found[i] = no_steeper_than_slope(ground);
   });
   Heights::Cursor cursor;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -40,13 +42,26 @@ class Terrain {
   static constexpr int kTile = Heights::kSideXY;
   /// The ground of a tile's columns and of those around it, row by row.
   using Window = std::vector<float>;
+  static constexpr float kNoGround = std::numeric_limits<float>::infinity();
+  static constexpr std::size_t kStackColumns = std::size_t{Counts::kSideXY} * Counts::kSideXY;
+  /// The blocks of `counts_` above each other, and what they say of the ground.
+  struct Stack {
+    int low, high;          ///< z of the lowest and the highest block.
+    bool is_stale = false;  ///< Points were added since the quantiles were found.
+    /// The low quantile of each column's heights, metres.
+    std::array<float, kStackColumns> ground = all_without_ground();
+  };
+  static constexpr std::array<float, kStackColumns> all_without_ground() {
+    std::array<float, kStackColumns> ground{};
+    ground.fill(kNoGround);
+    return ground;
+  }
   /// Remembers that points were added to a block of `counts_`.
   void note_change(std::uint32_t block);
   void mark_changed(const VoxelIndex& block);
+  void find_low_quantiles(const VoxelIndex& block, Stack& stack) const;
+  /// The low quantiles of a tile's columns and of those around it.
   [[nodiscard]] Window low_quantiles(const VoxelIndex& tile) const;
-  void fill_quantiles(const VoxelIndex& block, int low_z, int high_z, int left, int bottom,
-                      Window& window) const;
-  [[nodiscard]] Window without_pits(const Window& ground) const;
   [[nodiscard]] Window no_steeper_than_slope(const Window& ground) const;
 
   Parameters parameters_;
@@ -55,8 +70,8 @@ class Terrain {
   int margin_;  ///< Columns to either side of a tile that its ground depends on.
   int side_;    ///< Columns in a row of a window.
   Counts counts_;
-  VoxelMap<std::pair<int, int>>
-      extents_;                         ///< The lowest and the highest block above 4 x 4 columns.
+  VoxelMap<Stack> stacks_;              ///< By x and y of their blocks.
+  std::vector<VoxelKey> stale_;         ///< Stacks whose quantiles are to be found anew.
   std::vector<std::uint8_t> has_news_;  ///< Blocks of `counts_` that `changed_` knows of: 1.
   VoxelSet changed_;                    ///< Tiles whose ground may have changed.
   Heights ground_;

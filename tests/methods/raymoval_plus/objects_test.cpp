@@ -30,7 +30,8 @@ class Scene {
     const std::uint32_t voxel = in_map.add(point);
     map.evidence(voxel).agree_scans = static_cast<std::uint16_t>(agree_scans);
     map.set_decision(voxel, verdict);
-    map.set_verdict(voxel, verdict);
+    EvidenceMap::Blocks::Cursor cursor;
+    map.set_verdict_in(map.find_slot(map.index(voxel), cursor), verdict);
     scan.in_map.x.push_back(map.index(voxel).x());
     scan.in_map.y.push_back(map.index(voxel).y());
     scan.scan.points.push_back(point.cast<float>());

@@ -123,6 +123,44 @@ TEST_CASE("places are observed alike one by one, all at once, and by every instr
   for (const int count : found) CHECK(count > 100);
 }
 
+TEST_CASE("places near the sensor, with large windows, are observed as bin by bin") {
+  // A room with a pillar, a gap in the wall and no returns from above: whole windows agree, hide,
+  // are seen through and are empty, and others are of two kinds.
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.45F, 0.15F), any(0.0F, 1.0F);
+  const auto somewhere = [&](float steeper, const auto& range_at) {
+    const float a = angle(random), range = range_at(a);
+    return Eigen::Vector3f(
+        range * Eigen::Vector3f(std::cos(a), std::sin(a), steeper * slope(random)).normalized());
+  };
+  const auto wall = [](float a) {
+    if (a > 3.0F || a < -3.0F) return 2.5F;  // The pillar, on both sides of the first column.
+    return a > 0.5F && a < 0.9F ? 30.0F : 6.0F + 2.0F * std::sin(3.0F * a);
+  };
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 40000; ++i) points.push_back(somewhere(1.0F, wall));
+  std::vector<float> places;
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector3f place =
+        somewhere(1.5F, [&](float a) { return std::max(2.1F, (0.5F + any(random)) * wall(a)); });
+    places.insert(places.end(), place.data(), place.data() + 3);
+  }
+  const RangeImage image = image_of(points);
+  std::vector<ObservedPlace> observed;
+  image.observe(places, Pose::Identity(), observed);
+  std::vector<Observation> told(places.size() / 3, Observation::kOccluded);
+  for (const ObservedPlace& place : observed) told[place.place] = place.observation;
+  std::array<int, 4> found{};
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    Observation wanted =
+        image.observe(Eigen::Vector3f(Eigen::Map<const Eigen::Vector3f>(places.data() + 3 * k)));
+    ++found[static_cast<std::size_t>(wanted)];
+    if (wanted == Observation::kUnknown) wanted = Observation::kOccluded;
+    REQUIRE(told[k] == wanted);
+  }
+  for (const int count : found) CHECK(count > 100);
+}
+
 TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders") {
   std::mt19937 random(4);
   std::normal_distribution<float> place(0.0F, 20.0F);
