@@ -90,7 +90,8 @@ std::vector<ExtraField> read_extra_fields(std::string_view descriptions, std::si
     if (field.count > 0) fields.push_back({field, std::string(description)});
   }
   if (at < bytes) {
-    fields.push_back({{"undescribed_bytes", 'U', 1, static_cast<int>(bytes - at), at}, ""});
+    ExtraField& rest = fields.emplace_back();
+    rest.field = {"undescribed_bytes", 'U', 1, static_cast<int>(bytes - at), at};
   }
   name_fields(fields);
   return fields;
