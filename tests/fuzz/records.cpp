@@ -89,6 +89,8 @@ RAYMOVAL_FUZZ_TARGET(point_layout) {
     const RecordLayout again = parse_point_layout(point_layout_text(layout));
     require(again.row_bytes == layout.row_bytes && again.fields == layout.fields,
             "a layout changes when written and read");
+    // Rows of 100,000 numbers take seconds in each of the formats that they are written to.
+    if (layout.row_bytes > 65536) return;
     try_records("scan.bin", std::string(2 * layout.row_bytes, '\x3F'), {std::string(bytes)});
   });
 }
