@@ -92,8 +92,8 @@ def read_ply(path, order="<"):
     with open(path, "rb") as file:
         head, body = file.read().split(b"end_header\n", 1)
     fields = [line.split() for line in head.decode().splitlines() if line.startswith("property")]
-    return np.frombuffer(body, np.dtype(
-        [(name, types[kind].replace("<", order)) for _, kind, name in fields]))
+    stored = np.dtype([(name, types[kind].replace("<", order)) for _, kind, name in fields])
+    return np.frombuffer(body, stored).astype(stored.newbyteorder("<"))
 
 
 def read_pcd(path):

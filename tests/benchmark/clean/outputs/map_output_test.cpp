@@ -181,6 +181,7 @@ TEST_CASE("Maps of LAS scans keep their scale and reference system") {
     paths.tiled = std::string(kind) == "tiles";
     paths.map = folder.path() / (paths.tiled ? "tiles" : std::string(kind) + ".las");
     CleanWriting writing;
+    writing.tile_size = 100.0;
     writing.tile_extension = ".las";
     if (std::string(kind) == "voxels") writing.voxel_size = 0.05;
     write(paths, scans, writing, {0, 0});
