@@ -92,7 +92,7 @@ TEST_CASE("a good drive is silent", "[inspect]") {
   check_silent(turned.inspected());
 }
 
-TEST_CASE("the scenes are silent", "[inspect]") {
+TEST_CASE("the scenes are silent", "[inspect][every-finding]") {
   for (const char* scene : {"town", "country", "crossing", "highway", "excavator"}) {
     SimulationOptions options;
     options.scene = scene;
@@ -107,14 +107,15 @@ TEST_CASE("the scenes are silent", "[inspect]") {
   }
 }
 
-TEST_CASE("a world far from its origin is silent", "[inspect]") {
+TEST_CASE("a world far from its origin is silent", "[inspect][every-finding]") {
   EditedSequence far = good_drive();
   const Eigen::Translation3d shift(691000.25, 5336000.5, 512.0);
   far.each_pose([&](const Pose& pose) { return shift * pose; });
   check_silent(far.inspected());
 }
 
-TEST_CASE("positions that lost their digits far from the origin are named", "[inspect]") {
+TEST_CASE("positions that lost their digits far from the origin are named",
+          "[inspect][every-finding]") {
   EditedSequence coarse = good_drive();
   coarse.each_pose([](const Pose& pose) {
     Pose far = Eigen::Translation3d(691000.25, 5336000.5, 512.0) * pose;
@@ -126,7 +127,7 @@ TEST_CASE("positions that lost their digits far from the origin are named", "[in
   check_finds(coarse.inspected(), "poses-coarse", "digits");
 }
 
-TEST_CASE("a world whose z is not up is a note", "[inspect]") {
+TEST_CASE("a world whose z is not up is a note", "[inspect][every-finding]") {
   EditedSequence drive = good_drive();
   const Pose turn(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
   drive.each_pose([&](const Pose& pose) { return turn * pose; });
@@ -138,7 +139,7 @@ TEST_CASE("a world whose z is not up is a note", "[inspect]") {
   CHECK_THAT(report.findings.front().what, Catch::Contains("up is -y"));
 }
 
-TEST_CASE("up that the scans contradict is named", "[inspect]") {
+TEST_CASE("up that the scans contradict is named", "[inspect][every-finding]") {
   EditedSequence drive = good_drive();
   drive.up = Eigen::Vector3d::UnitZ();
   check_silent(drive.inspected());
@@ -162,7 +163,7 @@ TEST_CASE("camera frames are told from the LiDAR's", "[inspect]") {
   check_finds(lidar_as_camera.inspected(), "lidar-poses-as-camera", "poses_are_lidar");
 }
 
-TEST_CASE("points in camera axes are told by the ground", "[inspect]") {
+TEST_CASE("points in camera axes are told by the ground", "[inspect][every-finding]") {
   const Pose C = to_camera();
   // Enough beams to see the ground as a plane.
   EditedSequence points(suburb(sparse_hdl64e(), 10));
@@ -173,7 +174,8 @@ TEST_CASE("points in camera axes are told by the ground", "[inspect]") {
   check_finds(both.inspected(), "camera-frame", "Points of a camera frame");
 }
 
-TEST_CASE("angles in the wrong unit are named, whatever the first heading", "[inspect]") {
+TEST_CASE("angles in the wrong unit are named, whatever the first heading",
+          "[inspect][every-finding]") {
   for (const double heading : {0.0, 1.9, -2.8}) {
     EditedSequence degrees = good_drive();
     turn_world(degrees, heading);
@@ -186,7 +188,8 @@ TEST_CASE("angles in the wrong unit are named, whatever the first heading", "[in
   check_finds(radians.inspected(), "radians-for-degrees", "180/pi");
 }
 
-TEST_CASE("millimetres and kilometres are named, in points and in poses", "[inspect]") {
+TEST_CASE("millimetres and kilometres are named, in points and in poses",
+          "[inspect][every-finding]") {
   for (const double factor : {1000.0, 0.001}) {
     EditedSequence poses = good_drive();
     poses.each_pose([&](Pose pose) {
@@ -207,7 +210,7 @@ TEST_CASE("millimetres and kilometres are named, in points and in poses", "[insp
         std::set<std::string>{"points-in-millimetres", "poses-in-millimetres"});
 }
 
-TEST_CASE("a quaternion's order is named", "[inspect]") {
+TEST_CASE("a quaternion's order is named", "[inspect][every-finding]") {
   EditedSequence drive = good_drive();
   turn_world(drive, 0.7);
   // Written as w x y z, read as x y z w.
@@ -226,7 +229,7 @@ TEST_CASE("points in the world frame are named", "[inspect]") {
   check_finds(drive.inspected(), "points-in-world", "--points world");
 }
 
-TEST_CASE("poses of another sequence are named", "[inspect]") {
+TEST_CASE("poses of another sequence are named", "[inspect][every-finding]") {
   EditedSequence drive = good_drive();
   // The poses of a drive that turns the other way and twice as fast.
   for (std::size_t i = 0; i < drive.size(); ++i) {
@@ -263,7 +266,7 @@ TEST_CASE("duplicated scans are named", "[inspect]") {
   CHECK(found(report).count("duplicated-scans") == 1);
 }
 
-TEST_CASE("scans left out show in the motion", "[inspect]") {
+TEST_CASE("scans left out show in the motion", "[inspect][every-finding]") {
   EditedSequence drive(suburb(sparse_vlp16(), 19));
   drive.scans.erase(drive.scans.begin() + 6, drive.scans.begin() + 9);
   drive.words.erase(drive.words.begin() + 6, drive.words.begin() + 9);
@@ -312,7 +315,7 @@ TEST_CASE("skewed scans are named, corrected ones are not", "[inspect]") {
   check_silent(EditedSequence(options).inspected());
 }
 
-TEST_CASE("skewed scans of more than one revolution are named", "[inspect]") {
+TEST_CASE("skewed scans of more than one revolution are named", "[inspect][every-finding]") {
   SimulationOptions options = suburb(sparse_hdl64e(), 18);
   options.scene = "country";
   options.rolling = Rolling::kSkewed;
@@ -321,7 +324,7 @@ TEST_CASE("skewed scans of more than one revolution are named", "[inspect]") {
   CHECK_THAT(report.findings[0].what, Catch::Contains("clockwise, more than one revolution"));
 }
 
-TEST_CASE("a sensor that is named by mistake is named", "[inspect]") {
+TEST_CASE("a sensor that is named by mistake is named", "[inspect][every-finding]") {
   EditedSequence drive(suburb("vlp16", 12));
   for (const char* name : {"hdl64e", "hdl32e", "os1-128"}) {
     INFO(name);
@@ -349,7 +352,8 @@ TEST_CASE("a cut at a range is named", "[inspect]") {
   check_finds(drive.inspected(), "range-truncated", "unfiltered");
 }
 
-TEST_CASE("a vehicle that is hardly in view is no matter, whatever is evaluated", "[inspect]") {
+TEST_CASE("a vehicle that is hardly in view is no matter, whatever is evaluated",
+          "[inspect][every-finding]") {
   // Ten points a scan, 0.03 %; see kManyEgoPoints and ego_test.cpp.
   EditedSequence drive(suburb(sparse_hdl64e(), 14));
   check_silent(drive.inspected());
@@ -359,7 +363,7 @@ TEST_CASE("a vehicle that is hardly in view is no matter, whatever is evaluated"
   check_silent(drive.inspected());
 }
 
-TEST_CASE("positions and points beyond the reach of voxels are found", "[inspect]") {
+TEST_CASE("positions and points beyond the reach of voxels are found", "[inspect][every-finding]") {
   EditedSequence drive = good_drive();
   SECTION("a position") {
     for (const double far : {1.01 * kUsualReach, 1e9, 1e16, 1e300}) {

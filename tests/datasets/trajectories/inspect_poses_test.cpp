@@ -76,7 +76,7 @@ std::set<std::string> found_with(const TemporaryFolder& folder, const SequenceOp
 
 }  // namespace
 
-TEST_CASE("findings on poses go away with the option that they name", "[inspect]") {
+TEST_CASE("findings on poses go away with the option that they name", "[inspect][every-finding]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, as_seen);
@@ -141,7 +141,8 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
   CHECK(findings[0].what == "holds 4 poses for 3 scans");
 }
 
-TEST_CASE("points in the world frame are named, and brought back on request", "[inspect]") {
+TEST_CASE("points in the world frame are named, and brought back on request",
+          "[inspect][every-finding]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, [](const Scan& scan, const Eigen::Vector3d& point) {
