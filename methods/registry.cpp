@@ -2,6 +2,7 @@
 #include "methods/registry.h"
 
 #include "core/text.h"
+#include "methods/beautymap/beautymap.h"
 #include "methods/controls/controls.h"
 #include "methods/dufomap/dufomap.h"
 #include "methods/erasor/erasor.h"
@@ -27,6 +28,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(removert_entry());
     methods.add(erasor_entry());
     methods.add(dufomap_entry());
+    methods.add(beautymap_entry());
     return methods;
   }();
   return registry;

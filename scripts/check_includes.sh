@@ -23,7 +23,7 @@ datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
 methods                remover method_entry common
 methods                controls|external|raymoval|raymoval_plus
-methods                |octomap|peopleremover|removert|erasor|dufomap registry
+methods                |octomap|peopleremover|removert|erasor|dufomap|beautymap registry
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects .
 eval                   . points lattice dynamicmap|erasor protocol_registry columns|comparison|published

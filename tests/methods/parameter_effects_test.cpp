@@ -29,6 +29,7 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"raymoval_plus:online.track_points", "as for tracks"},
     {"raymoval_plus:online.object_points", "a cluster of three points must be dynamic"},
     {"raymoval_plus:online.low_points", "something dynamic must reach the ground"},
+    {"beautymap.public_top", "a column must be higher than 30 slices (see beautymap_test)"},
     {"octomap.ground_points", "a scan must have few points"},
     {"erasor.sparse_ground", "a bin must have as few points as are skipped as outliers"},
     {"removert.clamp_fov", "the sensor must see beyond the images' field of view"},
@@ -184,6 +185,9 @@ TEST_CASE("erasor's parameters act when they are said to", "[effects]") {
 }
 TEST_CASE("dufomap's parameters act when they are said to", "[effects]") {
   check_method("dufomap");
+}
+TEST_CASE("beautymap's parameters act when they are said to", "[effects]") {
+  check_method("beautymap");
 }
 
 TEST_CASE("every condition names parameters of its method", "[effects]") {

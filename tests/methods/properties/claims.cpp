@@ -82,6 +82,12 @@ constexpr Line kLines[] = {
     {"dufomap:online", "= = ? = = = = ? ="},
     {"dufomap:offline-dp2", "= = ? = = = - = ="},
     {"dufomap:online-dp2", "= = ? = = = = ? ="},
+
+    // The map and a scan are sets of slices, but the ground's share counts points.
+    {"beautymap:published", "= = ? = ? ? ? = ="},
+    {"beautymap:semi-indoor", "= = ? = ? ? ? = ="},
+    {"beautymap:sound", "= = ? = ? ? ? = ="},
+    {"beautymap:wide", "= = ? = ? ? ? = ="},
 };
 
 }  // namespace

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// "BeautyMap"; the sections are those of beautymap.h.
+#include "methods/beautymap/beautymap.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "core/parallel.h"
+#include "methods/beautymap/judgement.h"
+#include "methods/common/remover_from.h"
+#include "methods/common/scan_passes.h"
+
+namespace raymoval::beautymap_method {
+namespace {
+
+/// One pass in which `find(scan, work)` says what does not depend on other scans, on any thread,
+/// and `take(work)` takes it in, in order of time.
+template <class Work, class Find, class Take>
+void for_scans_in_order(const char* what, const char* stage, const ScanSource& scans,
+                        const RunContext& context, Find&& find, Take&& take) {
+  std::vector<Work> work(scans_in_a_batch(scans, context));
+  for_scan_batches(what, scans, context, [&](std::span<Scan> batch) {
+    const StageScope timed(context.times, stage);
+    parallel_for(context.threads, batch.size(), 1, [&](std::size_t i) { find(batch[i], work[i]); });
+    for (std::size_t i = 0; i < batch.size(); ++i) take(work[i]);
+  });
+}
+
+/// Where columns begin: at the map's least x and y, or where those of the world do.
+Lattice place_lattice(const Parameters& parameters, const ScanSource& scans,
+                      const RunContext& context) {
+  Lattice lattice(parameters);
+  if (!parameters.public_lattice) return lattice;
+  using Corner = Eigen::Vector2d;
+  Corner least = Corner::Constant(std::numeric_limits<double>::infinity());
+  for_scans_in_order<Corner>(
+      "beautymap, extent", "extent", scans, context,
+      [](const Scan& scan, Corner& corner) {
+        corner.setConstant(std::numeric_limits<double>::infinity());
+        for (const Eigen::Vector3f& point : scan.points) {
+          corner = corner.cwiseMin((scan.T_world_sensor * point.cast<double>()).head<2>());
+        }
+      },
+      [&](const Corner& corner) { least = least.cwiseMin(corner); });
+  if (least.allFinite()) lattice.origin = least;
+  return lattice;
+}
+
+/// Section A.
+ColumnMap build_map(const Parameters& parameters, const ScanSource& scans,
+                    const RunContext& context) {
+  const Lattice lattice = place_lattice(parameters, scans, context);
+  LowestPoints lowest;
+  for_scans_in_order<LowestPoints>(
+      "beautymap, columns", "columns", scans, context,
+      [&](const Scan& scan, LowestPoints& of_scan) { of_scan = lowest_points(scan, lattice); },
+      [&](const LowestPoints& of_scan) { lowest.add(of_scan); });
+  ColumnMap map(parameters, lattice, lowest);
+  for_scans_in_order<std::vector<PlacedPoint>>(
+      "beautymap, slices", "slices", scans, context,
+      [&](const Scan& scan, auto& placed) { map.place(scan, placed); },
+      [&](const auto& placed) { map.add(placed); });
+  map.finish();
+  return map;
+}
+
+/// Section B.
+void judge_map(const Parameters& parameters, const ScanSource& scans, const RunContext& context,
+               ColumnMap& map) {
+  for_scans_in_order<Marks>(
+      "beautymap, judgement", "judgement", scans, context,
+      [&](const Scan& scan, Marks& marks) {
+        std::vector<PlacedPoint> placed;
+        map.place(scan, placed);
+        const ScanWindow window(parameters, map, scan, placed);
+        marks = window.is_empty() ? Marks{} : judge(parameters, map, window);
+      },
+      [&](const Marks& marks) { add_marks(marks, map); });
+}
+
+/// Section C.
+void answer(const ScanSource& scans, const ColumnMap& map, RemovalSink& sink,
+            const RunContext& context) {
+  for_scans_at_once("beautymap, answers", "answers", scans, context, [&](const Scan& scan) {
+    std::vector<PlacedPoint> placed;
+    map.place(scan, placed);
+    Mask mask(scan.size());
+    std::transform(placed.begin(), placed.end(), mask.begin(),
+                   [&](const PlacedPoint& point) { return map.is_removed(point) ? 1 : 0; });
+    sink.accept(scan.index, mask);
+  });
+}
+
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  ColumnMap map = build_map(parameters, scans, context);
+  judge_map(parameters, scans, context, map);
+  answer(scans, map, sink, context);
+}
+
+}  // namespace
+
+std::unique_ptr<Remover> make_beautymap(const Parameters& parameters) {
+  return remover_from(parameters, run);
+}
+
+}  // namespace raymoval::beautymap_method

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "methods/beautymap/judgement.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+namespace raymoval::beautymap_method {
+namespace {
+
+constexpr std::uint32_t kAllSlices = (std::uint32_t{1} << kSlices) - 1;
+
+/// Slices `first` and above.
+std::uint32_t slices_from(double first) {
+  if (first >= kSlices) return 0;
+  return kAllSlices & ~((std::uint32_t{1} << static_cast<int>(std::max(first, 0.0))) - 1);
+}
+
+/// Whether a column is so near to the sensor that the scan is blind there. Offsets in columns.
+bool is_blind(const Parameters& parameters, int dx, int dy) {
+  const int reach = static_cast<int>(parameters.blind_range / parameters.column_size) + 1;
+  const int end = parameters.public_lattice ? reach - 1 : reach;
+  return dx >= -reach && dx <= end && dy >= -reach && dy <= end;
+}
+
+/// Step 5: slices that the scan may not see, and cannot say anything of.
+std::uint32_t out_of_sight(const Parameters& parameters, const Lattice& lattice,
+                           const ScanWindow& window, int x, int y, bool is_outlier) {
+  const int dx = x - window.center(), dy = y - window.center();
+  if (is_blind(parameters, dx, dy)) return kAllSlices;
+  const std::uint32_t seen = window.at(x, y).seen;
+  const double sight = parameters.sight_range / lattice.column_size;
+  const double squared = static_cast<double>(dx * dx + dy * dy);
+  if ((seen & 1) == 0 && squared >= sight * sight) return kAllSlices;
+  const std::uint32_t above_first = seen & ~std::uint32_t{1};
+  if (above_first != 0 && !is_outlier) return slices_from(std::bit_width(above_first) - 1);
+  const double eye = (window.sensor_z() - window.center_foot()) / lattice.slice_height + 0.5;
+  const double rise = window.steepest() * lattice.column_size / lattice.slice_height;
+  return slices_from(std::trunc(eye + std::sqrt(squared) * rise + 0.5));
+}
+
+/// The way from the sensor's column to another one, a step of one column along the longer axis.
+class Walk {
+ public:
+  Walk(int dx, int dy, bool is_public)
+      : dx_(dx), dy_(dy), length_(std::max(std::abs(dx), std::abs(dy))), is_public_(is_public) {}
+
+  [[nodiscard]] int length() const { return length_; }
+  [[nodiscard]] int x(int step) const { return at(step, dx_); }
+  [[nodiscard]] int y(int step) const { return at(step, dy_); }
+  /// Columns from the sensor's, along x and y together.
+  [[nodiscard]] int way(int step) const {
+    return step * std::abs(dx_) / length_ + step * std::abs(dy_) / length_;
+  }
+
+ private:
+  [[nodiscard]] int at(int step, int whole) const {
+    if (!is_public_) {  // To the nearest, ties away from the sensor: the same in all directions.
+      const int steps = (2 * step * std::abs(whole) + length_) / (2 * length_);
+      return whole < 0 ? -steps : steps;
+    }
+    const int product = step * whole;  // Cut off downwards.
+    return product >= 0 ? product / length_ : -((-product + length_ - 1) / length_);
+  }
+
+  int dx_, dy_, length_;
+  bool is_public_;
+};
+
+/// The slice, in the column at (x, y), of the ray to slice `slice` of the column at (to_x, to_y),
+/// where it has gone `share` of its way.
+double slice_on_ray(const Parameters& parameters, const Lattice& lattice, const ScanWindow& window,
+                    int x, int y, double to_foot, int slice, double share) {
+  const double h = lattice.slice_height;
+  if (parameters.public_rays) {
+    const double eye = (window.sensor_z() - window.center_foot()) / h + 0.5;
+    return std::trunc(window.foot(x, y) - window.center_foot() + (slice - eye) * share + eye + 0.5);
+  }
+  const double end = to_foot + (slice + 0.5) * h;
+  const double z = window.sensor_z() + (end - window.sensor_z()) * share;
+  return std::floor((z - window.foot(x, y)) / h);
+}
+
+}  // namespace
+
+std::uint32_t suspicious_slices(const Parameters& parameters, const ColumnMap& map,
+                                const ScanWindow& window, int x, int y) {
+  const ScanWindow::Cell& cell = window.at(x, y);
+  if (cell.column == ColumnMap::kNone) return 0;
+  const Column& column = map.columns()[cell.column];
+  const std::uint32_t missing = column.occupied & ~cell.seen;
+  const std::uint32_t above_lowest = column.occupied & (column.occupied - 1);
+  if ((missing & above_lowest) == 0) return 0;
+  return missing & above_lowest &
+         ~out_of_sight(parameters, map.lattice(), window, x, y, column.is_outlier);
+}
+
+std::uint32_t hidden_slices(const Parameters& parameters, const Lattice& lattice,
+                            const ScanWindow& window, int x, int y, std::uint32_t suspicious) {
+  const int center = window.center();
+  const Walk walk(x - center, y - center, parameters.public_rays);
+  if (walk.length() == 0) return 0;
+  const double to_foot = window.foot(x, y);
+  std::uint32_t hidden = 0;
+  for (int step = 1;; ++step) {
+    const int at_x = center + walk.x(step), at_y = center + walk.y(step);
+    if (at_x < 0 || at_y < 0 || at_x >= window.side() || at_y >= window.side()) break;
+    if (!parameters.public_rays && step >= walk.length()) break;
+    if (walk.way(step) <= parameters.ray_margin) continue;
+    const std::uint32_t seen = window.at(at_x, at_y).seen;
+    const double share = static_cast<double>(step) / walk.length();
+    for (std::uint32_t rest = seen == 0 ? 0 : suspicious; rest != 0; rest &= rest - 1) {
+      const int slice = std::countr_zero(rest);
+      const double on_ray =
+          slice_on_ray(parameters, lattice, window, at_x, at_y, to_foot, slice, share);
+      if (on_ray < 0.0 || on_ray > kTopSlice) continue;
+      if ((seen >> static_cast<int>(on_ray) & 1) != 0) hidden |= std::uint32_t{1} << slice;
+    }
+    if (std::abs(step - walk.length()) <= 1) break;
+  }
+  return hidden;
+}
+
+std::uint32_t parts_above_ground(const Parameters& parameters, const Lattice& lattice,
+                                 const Column& column, int slice) {
+  if (slice < 0 || slice > column.last_slice || (column.occupied >> slice & 1) == 0) return 0;
+  const auto first = static_cast<std::size_t>(slice) * static_cast<std::size_t>(lattice.parts);
+  double all = 0.0;
+  for (int part = 0; part < lattice.parts; ++part) {
+    all += column.points[first + static_cast<std::size_t>(part)];
+  }
+  std::uint32_t above = 0;
+  double below = 0.0;
+  int empty = 0;
+  bool is_above = false, has_begun = false;
+  for (int part = 0; part < lattice.parts; ++part) {
+    const std::uint32_t points = column.points[first + static_cast<std::size_t>(part)];
+    if (points == 0) {
+      if (++empty >= 2 && has_begun) break;  // As between slices.
+      continue;
+    }
+    empty = 0;
+    has_begun = true;
+    if (is_above) above |= std::uint32_t{1} << part;
+    below += points;
+    is_above = is_above || below >= parameters.ground_share * all;
+  }
+  return above;
+}
+
+Marks judge(const Parameters& parameters, const ColumnMap& map, const ScanWindow& window) {
+  Marks marks;
+  const Lattice& lattice = map.lattice();
+  for (int x = 0; x < window.side(); ++x) {
+    for (int y = 0; y < window.side(); ++y) {
+      std::uint32_t slices = suspicious_slices(parameters, map, window, x, y);
+      if (slices == 0) continue;
+      slices &= ~hidden_slices(parameters, lattice, window, x, y, slices);
+      if (slices == 0) continue;
+      const std::uint32_t column = window.at(x, y).column;
+      marks.slices.push_back({column, slices});
+      const int ground = std::countr_zero(slices) - 1;
+      const std::uint32_t parts =
+          parts_above_ground(parameters, lattice, map.columns()[column], ground);
+      if (parts != 0) marks.parts.push_back({column, ground, parts});
+    }
+  }
+  return marks;
+}
+
+void add_marks(const Marks& marks, ColumnMap& map) {
+  for (const Marks::Slices& mark : marks.slices) {
+    map.columns()[mark.column].removed |= mark.slices;
+  }
+  for (const Marks::Parts& mark : marks.parts) {
+    std::vector<std::uint32_t>& parts = map.columns()[mark.column].removed_parts;
+    const auto slice = static_cast<std::size_t>(mark.slice);
+    if (parts.size() <= slice) parts.resize(slice + 1);
+    parts[slice] |= mark.parts;
+  }
+}
+
+}  // namespace raymoval::beautymap_method

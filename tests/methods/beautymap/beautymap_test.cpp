@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "methods/beautymap/beautymap.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "methods/beautymap/judgement.h"
+#include "tests/methods/beautymap/oracle.h"
+#include "tests/methods/moved_world.h"
+
+using namespace raymoval;
+using namespace raymoval::beautymap_test;
+
+namespace {
+
+Parameters sound() {
+  Parameters parameters;
+  parameters.public_lattice = parameters.public_outliers = false;
+  parameters.public_rays = parameters.public_top = false;
+  return parameters;
+}
+
+/// Points in the middle of column (x, y), at these heights.
+void stand(std::vector<Eigen::Vector3d>& points, int x, int y, const std::vector<double>& heights) {
+  for (const double z : heights) points.emplace_back(x + 0.5, y + 0.5, z);
+}
+
+/// Level ground of 41 x 41 columns around the origin, a point in the middle of each.
+std::vector<Eigen::Vector3d> ground() {
+  std::vector<Eigen::Vector3d> points;
+  for (int x = -20; x <= 20; ++x) {
+    for (int y = -20; y <= 20; ++y) stand(points, x, y, {0.01});
+  }
+  return points;
+}
+
+/// A mast behind the sensor, so that its steepest ray goes up high: 8 m at 6 m, from 1.7 m.
+void add_mast(std::vector<Eigen::Vector3d>& points) {
+  for (int i = 0; i < 16; ++i) points.emplace_back(-5.5, 0.5, 0.2 + 0.5 * i);
+}
+
+const Eigen::Vector3d kSensor(0.5, 0.5, 1.7);
+
+/// Two scans of ground and mast; the first one has points more.
+toy::HeldScans with_and_without(const std::vector<Eigen::Vector3d>& more) {
+  std::vector<Eigen::Vector3d> empty = ground();
+  add_mast(empty);
+  std::vector<Eigen::Vector3d> full = more;
+  full.insert(full.end(), empty.begin(), empty.end());
+  toy::HeldScans scans;
+  scans.add_world(kSensor, full);
+  scans.add_world(kSensor, empty);
+  return scans;
+}
+
+/// How many of the first scan's first points go.
+int removed_of(const toy::HeldScans& scans, std::size_t first_points,
+               const Parameters& parameters) {
+  const MaskStore masks = toy::masks_of(*make_beautymap(parameters), scans);
+  const Mask mask = masks.get(0);
+  int removed = 0;
+  for (std::size_t k = 0; k < first_points; ++k) removed += mask[k];
+  return removed;
+}
+
+ColumnMap map_of(const Parameters& parameters, const toy::HeldScans& scans) {
+  const Lattice lattice(parameters);
+  LowestPoints lowest;
+  for (std::size_t i = 0; i < scans.size(); ++i) lowest.add(lowest_points(scans.load(i), lattice));
+  ColumnMap map(parameters, lattice, lowest);
+  std::vector<PlacedPoint> placed;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    map.place(scans.load(i), placed);
+    map.add(placed);
+  }
+  map.finish();
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("beautymap: what stood in a column that a scan sees empty goes, but for its ground") {
+  std::vector<Eigen::Vector3d> person;
+  stand(person, 8, 3, {0.6, 0.8, 1.1, 1.4, 1.7});
+  for (const Parameters& parameters : {Parameters{}, sound()}) {
+    const toy::HeldScans scans = with_and_without(person);
+    CHECK(removed_of(scans, 5, parameters) == 5);
+    const MaskStore masks = toy::masks_of(*make_beautymap(parameters), scans);
+    CHECK(masks.removed_count() == 5);
+  }
+}
+
+TEST_CASE("beautymap: of the slice below, what is above the ground goes as well") {
+  // 17 of 20 points are ground, 85 %: the parts of 0.1 m above the one that reaches this go.
+  std::vector<Eigen::Vector3d> person;
+  stand(person, 8, 3, {0.22, 0.32, 0.41, 0.6, 1.1});
+  for (int i = 0; i < 15; ++i) stand(person, 8, 3, {0.02});
+  // Both scans' 0.01 m count, too: 17 + 3 points.
+  const toy::HeldScans scans = with_and_without(person);
+  CHECK(removed_of(scans, 5, sound()) == 5);
+  // With a point more above, the lowest of them is needed to reach the share, and stays.
+  stand(person, 8, 3, {0.42});
+  CHECK(removed_of(with_and_without(person), 3, sound()) == 2);
+}
+
+TEST_CASE("beautymap: what a scan cannot see stays") {
+  std::vector<Eigen::Vector3d> person;
+  stand(person, 12, 0, {0.6, 1.1});
+  std::vector<Eigen::Vector3d> empty = ground(), full = person;
+  add_mast(empty);
+  full.insert(full.end(), empty.begin(), empty.end());
+  // A wall stands on the way in the second scan, from the ground to 2.6 m.
+  stand(empty, 6, 0, {0.2, 0.6, 1.1, 1.6, 2.1, 2.6});
+  toy::HeldScans hidden;
+  hidden.add_world(kSensor, full);
+  hidden.add_world(kSensor, empty);
+  CHECK(removed_of(hidden, 2, sound()) == 0);
+  CHECK(removed_of(hidden, 2, Parameters{}) == 0);
+  // Beside the way it hides nothing.
+  CHECK(removed_of(with_and_without(person), 2, sound()) == 2);
+  SECTION("where it has nothing around the sensor at all") {
+    toy::HeldScans scans;
+    std::vector<Eigen::Vector3d> points = person;
+    for (const Eigen::Vector3d& point : ground()) points.push_back(point);
+    scans.add_world(kSensor, points);
+    scans.add_world(kSensor, {{30.5, 0.5, 9.0}});
+    CHECK(removed_of(scans, 2, sound()) == 0);
+    CHECK(removed_of(scans, 2, Parameters{}) == 0);
+    // One point within the window is enough to be asked.
+    scans.add_world(kSensor, {{-5.5, 0.5, 3.0}});
+    CHECK(removed_of(scans, 2, sound()) == 2);
+  }
+  SECTION("near the sensor") {
+    std::vector<Eigen::Vector3d> near;
+    stand(near, 2, 0, {0.6, 1.1});
+    CHECK(removed_of(with_and_without(near), 2, sound()) == 0);
+    Parameters not_blind = sound();
+    not_blind.blind_range = 0.0;
+    CHECK(removed_of(with_and_without(near), 2, not_blind) == 2);
+  }
+  SECTION("beyond the window") {
+    std::vector<Eigen::Vector3d> far;
+    stand(far, 19, 0, {0.6, 1.1});
+    CHECK(removed_of(with_and_without(far), 2, sound()) == 2);
+    Parameters narrow = sound();
+    narrow.window_side = 36.0;
+    CHECK(removed_of(with_and_without(far), 2, narrow) == 0);
+  }
+  SECTION("above the steepest ray") {
+    // Without the mast no ray goes up: nothing above the sensor is judged.
+    std::vector<Eigen::Vector3d> flat = ground(), tall = {{8.5, 3.5, 0.6}, {8.5, 3.5, 3.6}};
+    tall.insert(tall.end(), flat.begin(), flat.end());
+    stand(tall, 8, 3, {1.1, 1.6, 2.1, 2.6, 3.1});
+    toy::HeldScans scans;
+    scans.add_world(kSensor, tall);
+    scans.add_world(kSensor, flat);
+    Parameters parameters = sound();
+    const MaskStore masks = toy::masks_of(*make_beautymap(parameters), scans);
+    CHECK(masks.get(0)[0] == 1);
+    CHECK(masks.get(0)[1] == 0);
+  }
+}
+
+TEST_CASE("beautymap: far columns are judged only where the scan has their ground") {
+  std::vector<Eigen::Vector3d> person;
+  stand(person, 16, 0, {0.6, 1.1});
+  std::vector<Eigen::Vector3d> full = ground(), empty;
+  full.insert(full.begin(), person.begin(), person.end());
+  for (const Eigen::Vector3d& point : ground()) {
+    if (point.head<2>() != Eigen::Vector2d(16.5, 0.5)) empty.push_back(point);
+  }
+  add_mast(full);
+  add_mast(empty);
+  toy::HeldScans scans;
+  scans.add_world(kSensor, full);
+  scans.add_world(kSensor, empty);
+  CHECK(removed_of(scans, 2, sound()) == 0);
+  Parameters far = sound();
+  far.sight_range = 17.0;
+  CHECK(removed_of(scans, 2, far) == 2);
+}
+
+TEST_CASE("beautymap: slices above a gap of a metre are no part of a column") {
+  toy::HeldScans scans;
+  std::vector<Eigen::Vector3d> points;
+  stand(points, 0, 0, {0.0, 0.6, 1.6, 3.1});  // Slices 0, 1, 3; 4 and 5 are empty; 6.
+  scans.add_world(kSensor, points);
+  const ColumnMap map = map_of(sound(), scans);
+  REQUIRE(map.columns().size() == 1);
+  CHECK(map.columns()[0].occupied == 0b1011);
+  CHECK(map.columns()[0].last_slice == 3);
+}
+
+TEST_CASE("beautymap: a lowest point far below those around is moved up") {
+  std::vector<Eigen::Vector3d> points = ground();
+  // The ground rises and falls by 2 cm, so that there is a deviation to measure by.
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].z() += 0.02 * static_cast<double>(i % 3);
+  stand(points, 3, 4, {-2.0});
+  toy::HeldScans scans;
+  scans.add_world(kSensor, points);
+  for (const bool is_public : {true, false}) {
+    Parameters parameters = sound();
+    parameters.public_outliers = is_public;
+    const ColumnMap map = map_of(parameters, scans);
+    const Column& column = map.columns()[map.find({3, 4})];
+    CHECK(column.is_outlier);
+    CHECK(column.foot > -0.1);
+    // The corner has no neighbours with smaller x and y, and 35 of 120 others.
+    CHECK_FALSE(map.columns()[map.find({-20, -20})].is_outlier);
+  }
+}
+
+TEST_CASE("beautymap: of the slices above the 30th the public program knows the last only") {
+  std::vector<Eigen::Vector3d> tower;
+  for (int slice = 1; slice <= 33; ++slice) stand(tower, 8, 3, {0.5 * slice + 0.1});
+  std::vector<Eigen::Vector3d> empty = ground(), full = tower;
+  // A ray that rises steeply enough: 60 m at 6 m.
+  for (int i = 0; i < 120; ++i) empty.emplace_back(-5.5, 0.5, 0.2 + 0.5 * i);
+  full.insert(full.end(), empty.begin(), empty.end());
+  toy::HeldScans scans;
+  scans.add_world(kSensor, full);
+  scans.add_world(kSensor, empty);
+  CHECK(removed_of(scans, tower.size(), sound()) == 33);
+  Parameters top = sound();
+  top.public_top = true;
+  CHECK(removed_of(scans, tower.size(), top) == 30);  // Slices 30, 31 and 32 are overwritten.
+}
+
+TEST_CASE("beautymap: the fast way gives what the description says") {
+  std::mt19937 random(11);
+  for (const unsigned seed : {3U, 8U}) {
+    const toy::World street = toy::street(4, seed);
+    for (int variant = 0; variant < 6; ++variant) {
+      Parameters parameters = variant == 1 ? sound() : Parameters{};
+      if (variant > 1) {
+        parameters.public_lattice = random() % 2 == 0;
+        parameters.public_outliers = random() % 2 == 0;
+        parameters.public_rays = random() % 2 == 0;
+        parameters.public_top = random() % 2 == 0;
+        parameters.column_size = variant == 5 ? 0.7 : 1.0;
+        parameters.slice_height = variant == 4 ? 0.2 : 0.5;
+        parameters.window_side = variant == 3 ? 60.0 : 40.0;
+      }
+      INFO("seed " << seed << ", variant " << variant);
+      const Oracle oracle(parameters, street);
+      const MaskStore masks = toy::masks_of(*make_beautymap(parameters), street, 2);
+      std::size_t differences = 0, removed = 0;
+      for (std::size_t i = 0; i < street.size(); ++i) {
+        const Mask expected = oracle.mask(i), found = masks.get(i);
+        REQUIRE(expected.size() == found.size());
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          differences += expected[k] != found[k] ? 1 : 0;
+          removed += found[k];
+        }
+      }
+      CHECK(differences == 0);
+      CHECK(removed > 0);
+    }
+  }
+}
