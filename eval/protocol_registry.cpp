@@ -10,6 +10,7 @@
 #include "eval/dynamicmap/dynamicmap.h"
 #include "eval/dynamicmap/strict.h"
 #include "eval/erasor/erasor.h"
+#include "eval/mos/mos.h"
 
 namespace raymoval {
 namespace {
@@ -77,6 +78,7 @@ Registry built_in_protocols() {
   registry.add(erasor_protocol_entry());
   registry.add(dynamicmap_protocol_entry());
   registry.add(strict_protocol_entry());
+  registry.add(mos_protocol_entry());
   return registry;
 }
 

@@ -26,7 +26,7 @@ methods                controls|external|raymoval|raymoval_plus
 methods                |octomap|peopleremover|removert|erasor|dufomap|beautymap registry
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects .
-eval                   . points lattice dynamicmap|erasor protocol_registry columns|comparison|published
+eval                   . points lattice dynamicmap|erasor|mos protocol_registry columns|comparison|published
 eval/erasor            options|frame maps matching rates scorer .
 benchmark              harness suite result process tables run picture report clean cli cli/shell cli/commands
 benchmark              kernels

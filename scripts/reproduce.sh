@@ -110,11 +110,7 @@ elif [[ $# -gt 0 ]]; then
 fi
 
 scripts/install_dependencies.sh
-# Files compiled several at a time build sooner. A build folder that is there stays as it is.
-sooner=()
-[[ -e build/release/CMakeCache.txt ]] ||
-  sooner=("-DRAYMOVAL_UNITY=core;datasets;methods;eval;benchmark")
-cmake --preset release "${sooner[@]}"
+cmake --preset release
 cmake --build --preset release --target raymoval_program
 
 if [[ ${#what[@]} -gt 0 ]]; then

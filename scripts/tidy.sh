@@ -18,7 +18,7 @@ if ! command -v clang-tidy >/dev/null; then
 fi
 # clang cannot read what GCC precompiled.
 cmake --preset release -B build/tidy -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DRAYMOVAL_PCH=OFF \
-  -DRAYMOVAL_BUILD_TESTS=OFF -DRAYMOVAL_REPORT_3D=OFF >/dev/null
+  -DRAYMOVAL_BUILD_TESTS=OFF -DRAYMOVAL_REPORT_3D=OFF -DRAYMOVAL_UNITY= >/dev/null
 
 if [[ $# -eq 0 ]]; then
   mapfile -t files < <(git ls-files 'core/*.cpp' 'datasets/*.cpp' 'methods/*.cpp' 'eval/*.cpp' \

@@ -96,7 +96,7 @@ TEST_CASE("known answers have the rates that the protocols say", "[registry]") {
       }
     }
   }
-  CHECK(checked == 5 + 5 + 5);
+  CHECK(checked == 5 + 5 + 5 + 6);
 }
 
 TEST_CASE("the protocols have the defaults and the legal ranges of what they follow",
@@ -189,8 +189,9 @@ TEST_CASE("labels that are found again make the oracle uncertain", "[registry]")
 }
 
 TEST_CASE("the rates of all protocols stand in the order of the protocols", "[registry]") {
-  CHECK(names_of(rate_specs(), false) ==
-        std::vector<std::string>{"PR", "RR", "F1", "SA", "DA", "AA", "HA"});
+  CHECK(names_of(rate_specs(), false) == std::vector<std::string>{"PR", "RR", "F1", "SA", "DA",
+                                                                  "AA", "HA", "precision", "recall",
+                                                                  "IoU"});
   CHECK(names_of(rate_specs(), true) ==
         std::vector<std::string>{"PR_no_truck", "RR_no_truck", "F1_no_truck"});
   CHECK(default_protocol() == "erasor");
@@ -217,8 +218,8 @@ TEST_CASE("a protocol that contradicts another is refused", "[registry]") {
   entry = toy_protocol_entry();
   entry.rates[2].formula = RateFormula{"left", "PR", "sum", nullptr};
   CHECK_THROWS_WITH(register_protocol(entry), Catch::Contains("'PR'"));
-  CHECK(protocol_entries().size() == 3);
-  CHECK(names_of(rate_specs(), false).size() == 7);
+  CHECK(protocol_entries().size() == 4);
+  CHECK(names_of(rate_specs(), false).size() == 10);
 }
 
 TEST_CASE("a protocol need not score clouds", "[registry]") {

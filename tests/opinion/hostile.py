@@ -163,7 +163,8 @@ def limits():
     settings = [
         exact(minimum_horizontal_range=5.0),
         {**EXACT, "dynamicmap": {"distance": 0.25, "maximum_range": 13.0, "ego_range": 3.0},
-         "dynamicmap-strict": {"voxel_size": 0.25, "maximum_range": 13.0, "ego_range": 3.0}},
+         "dynamicmap-strict": {"voxel_size": 0.25, "maximum_range": 13.0, "ego_range": 3.0},
+         "mos": {"ignore_unlabelled": False}},
         {"dynamicmap": {"distance": 0.0}},
         {},
     ]

@@ -24,10 +24,12 @@ import dynamicmap
 import dynamicmap_strict
 import erasor
 import hostile
+import mos
 import points
 import sequence_files
 
-PROTOCOLS = {"erasor": erasor, "dynamicmap": dynamicmap, "dynamicmap-strict": dynamicmap_strict}
+PROTOCOLS = {"erasor": erasor, "dynamicmap": dynamicmap, "dynamicmap-strict": dynamicmap_strict,
+             "mos": mos}
 
 
 def text_of(value):

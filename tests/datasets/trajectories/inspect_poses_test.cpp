@@ -111,7 +111,7 @@ TEST_CASE("poses of a camera are no finding once it is said where the sensor is 
   folder.write("poses.txt", pose_rows(drive, [&](const Scan& scan) {
                  return matrix_of(T_camera_lidar * scan.T_world_sensor * T_camera_lidar.inverse());
                }));
-  folder.write("mount.txt", row(matrix_of(T_camera_lidar)));
+  folder.write("mount.txt", pose_row(matrix_of(T_camera_lidar)));
   SequenceOptions options;
   check_finds(inspect_path(folder.text(), options), "camera-frame", "--T-sensor");
   options.T_sensor = "mount.txt";
