@@ -171,7 +171,7 @@ class PresenceCount::State {
   [[nodiscard]] const CellLattice& blocks() const { return input_.blocks.blocks; }
 
   [[nodiscard]] std::size_t room_for(std::size_t wanted, std::size_t per_block) const {
-    constexpr std::size_t kLeastRoom = std::size_t{64} << 20;
+    constexpr std::size_t kLeastRoom = std::size_t{128} << 20;
     return wanted != 0 ? wanted : std::max(kLeastRoom, per_block * blocks().size());
   }
 

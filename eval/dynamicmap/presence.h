@@ -42,8 +42,8 @@ TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid);
 /// gone. The third pass counts these and collects the others, with the kept points around them, and
 /// these are searched. Where marks or points are too many for the room that the number of blocks
 /// gives them, only those of the first blocks stay, and further passes take those of the next ones.
-/// So memory is bounded by the map: at most 20 bytes a block for the marks and 16 for the points,
-/// but room for each of them is never less than 64 MiB.
+/// So memory is bounded by the map: at most 16 bytes a block for the marks and 12 for the points,
+/// but room for each of them is never less than 128 MiB.
 class PresenceCount : public ScanVisitor {
  public:
   struct Input {
@@ -59,8 +59,8 @@ class PresenceCount : public ScanVisitor {
     std::size_t points = 0;  ///< That are searched.
   };
   /// Room for each block in large maps.
-  static constexpr std::size_t kMarksPerBlock = 20;
-  static constexpr std::size_t kPointsPerBlock = 16;
+  static constexpr std::size_t kMarksPerBlock = 16;
+  static constexpr std::size_t kPointsPerBlock = 12;
 
   /// All parts of the input outlive this object.
   explicit PresenceCount(const Input& input) : PresenceCount(input, {}) {}
