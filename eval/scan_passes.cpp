@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/scan_passes.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
@@ -129,6 +131,8 @@ void run_all(const EvaluationInput& input, const MaskStore* masks, const std::st
         [&](std::size_t slot) {
           for (ScanVisitor* visitor : shown) visitor->take(slot);
         });
+    // What passes leave in many small pieces goes back to the system before the next tables come.
+    (void)malloc_trim(0);
   }
 }
 
