@@ -64,6 +64,10 @@ struct ProtocolResult {
 class ScanVisitor {
  public:
   virtual ~ScanVisitor() = default;
+  /// Whether its next pass takes so much memory that it had better come when others are done with
+  /// theirs. Those that do not wait have their passes first; of those that wait the first has its
+  /// own until it needs no other one.
+  [[nodiscard]] virtual bool waits_for_others() const { return false; }
   /// Prepares the next pass.
   /// @param slots how many scans may be in work at a time
   /// @return false if no further pass is needed

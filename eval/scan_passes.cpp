@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/scan_passes.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
@@ -95,21 +97,42 @@ class OrderedPass {
   std::size_t error_scan_ = 0;
 };
 
+/// The visitors that are shown the scans in the next pass: all that do not wait for others, or else
+/// the first of those that do. Those that need no further pass are taken out of `visitors`.
+std::vector<ScanVisitor*> begin_next_pass(std::vector<ScanVisitor*>& visitors, std::size_t slots) {
+  std::vector<ScanVisitor*> shown;
+  const auto needs_no_pass = [&](ScanVisitor* visitor) {
+    const bool needs_pass = visitor->begin_pass(slots);
+    if (needs_pass) shown.push_back(visitor);
+    return !needs_pass;
+  };
+  std::erase_if(visitors, [&](ScanVisitor* visitor) {
+    return !visitor->waits_for_others() && needs_no_pass(visitor);
+  });
+  while (shown.empty() && !visitors.empty()) {
+    if (needs_no_pass(visitors.front())) visitors.erase(visitors.begin());
+  }
+  return shown;
+}
+
 void run_all(const EvaluationInput& input, const MaskStore* masks, const std::string& task,
              std::vector<ScanVisitor*> visitors) {
   const std::size_t slots = usual_slots(input);
-  const auto needs_no_pass = [slots](ScanVisitor* visitor) { return !visitor->begin_pass(slots); };
-  for (int pass = 1; std::erase_if(visitors, needs_no_pass), !visitors.empty(); ++pass) {
+  for (int pass = 1;; ++pass) {
+    const std::vector<ScanVisitor*> shown = begin_next_pass(visitors, slots);
+    if (shown.empty()) return;
     const std::string name = pass == 1 ? task : task + ", pass " + std::to_string(pass);
     in_scan_order(
         input, name, slots,
         [&](std::size_t index, std::size_t slot) {
           const CheckedScan scan = load_checked(input, masks, index);
-          for (ScanVisitor* visitor : visitors) visitor->read(scan, slot);
+          for (ScanVisitor* visitor : shown) visitor->read(scan, slot);
         },
         [&](std::size_t slot) {
-          for (ScanVisitor* visitor : visitors) visitor->take(slot);
+          for (ScanVisitor* visitor : shown) visitor->take(slot);
         });
+    // What passes leave in many small pieces goes back to the system before the next tables come.
+    (void)malloc_trim(0);
   }
 }
 

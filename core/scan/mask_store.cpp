@@ -21,24 +21,57 @@ constexpr std::array<Eight, 256> kMasksOfBits = [] {
   return masks;
 }();
 
+constexpr std::size_t kBits = 64;
+constexpr std::uint64_t kAllBits = ~std::uint64_t{0};
+
+/// How many words hold so many bits.
+constexpr std::size_t words_for(std::size_t bits) {
+  return (bits + kBits - 1) / kBits;
+}
+
+constexpr bool has_bit(std::uint64_t word, std::size_t bit) {
+  return (word >> bit & 1U) != 0;
+}
+
+/// The bits of up to 64 points of a mask.
+std::uint64_t bits_of(const std::uint8_t* mask, std::size_t points) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < points; ++i) bits |= std::uint64_t{mask[i] != 0} << i;
+  return bits;
+}
+
 }  // namespace
 
 void MaskStore::set(std::size_t scan, const Mask& mask) {
-  Packed& packed = scans_[scan];
-  packed.filled = true;
-  packed.points = mask.size();
-  packed.words.assign((mask.size() + 63) / 64, 0);
-  for (std::size_t i = 0; i < mask.size(); ++i) {
-    if (mask[i] != 0) packed.words[i / 64] |= std::uint64_t{1} << (i % 64);
+  const std::size_t words = words_for(mask.size());
+  std::vector<std::uint64_t> packed(2 * words_for(words), 0);
+  for (std::size_t i = 0; i < words; ++i) {
+    const std::size_t first = i * kBits;
+    const std::uint64_t bits = bits_of(mask.data() + first, std::min(kBits, mask.size() - first));
+    if (bits == 0) continue;
+    packed[i / kBits * 2 + (bits == kAllBits ? 1 : 0)] |= std::uint64_t{1} << (i % kBits);
+    if (bits != kAllBits) packed.push_back(bits);
   }
+  // By a copy, which has no room to grow.
+  scans_[scan] = {true, mask.size(), std::vector<std::uint64_t>(packed)};
 }
 
 Mask MaskStore::get(std::size_t scan) const {
   const Packed& packed = scans_[scan];
   Mask mask(packed.points);
-  for (std::size_t first = 0; first < mask.size(); first += 8) {
-    const Eight& eight = kMasksOfBits[packed.words[first / 64] >> (first % 64) & 0xFFU];
-    std::copy_n(eight.data(), std::min<std::size_t>(8, mask.size() - first), mask.data() + first);
+  const std::size_t words = words_for(mask.size());
+  std::size_t next = 2 * words_for(words);
+  for (std::size_t i = 0; i < words; ++i) {
+    const std::uint64_t* const group = packed.words.data() + i / kBits * 2;
+    std::uint8_t* const points = mask.data() + i * kBits;
+    if (has_bit(group[1], i % kBits)) std::fill_n(points, kBits, std::uint8_t{1});
+    if (!has_bit(group[0], i % kBits)) continue;
+    const std::uint64_t bits = packed.words[next++];
+    const std::size_t count = std::min(kBits, mask.size() - i * kBits);
+    for (std::size_t first = 0; first < count; first += 8) {
+      const Eight& eight = kMasksOfBits[bits >> first & 0xFFU];
+      std::copy_n(eight.data(), std::min<std::size_t>(8, count - first), points + first);
+    }
   }
   return mask;
 }
@@ -46,11 +79,23 @@ Mask MaskStore::get(std::size_t scan) const {
 std::size_t MaskStore::removed_count() const {
   std::size_t count = 0;
   for (const Packed& packed : scans_) {
-    for (const std::uint64_t word : packed.words) {
-      count += static_cast<std::size_t>(std::popcount(word));
+    const std::size_t groups = words_for(words_for(packed.points));
+    for (std::size_t i = 0; i < packed.words.size(); ++i) {
+      const auto bits = static_cast<std::size_t>(std::popcount(packed.words[i]));
+      if (i >= 2 * groups) {
+        count += bits;
+      } else if (i % 2 == 1) {
+        count += bits * kBits;
+      }
     }
   }
   return count;
+}
+
+std::size_t MaskStore::bytes() const {
+  std::size_t bytes = scans_.capacity() * sizeof(Packed);
+  for (const Packed& packed : scans_) bytes += packed.words.capacity() * sizeof(std::uint64_t);
+  return bytes;
 }
 
 }  // namespace raymoval

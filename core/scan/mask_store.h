@@ -9,7 +9,9 @@
 
 namespace raymoval {
 
-/// Removal masks of a sequence, one bit per point.
+/// Removal masks of a sequence, at most one bit and a thirty-second per point. 64 points that
+/// follow each other and are all kept, or all removed, take a thirty-second of that: masks of
+/// methods take much less than a bit per point, those that keep or remove everything next to none.
 class MaskStore {
  public:
   MaskStore() = default;
@@ -22,11 +24,16 @@ class MaskStore {
   [[nodiscard]] Mask get(std::size_t scan) const;
   [[nodiscard]] std::size_t point_count(std::size_t scan) const { return scans_[scan].points; }
   [[nodiscard]] std::size_t removed_count() const;
+  /// What the masks take in memory.
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
+  /// Points stand in words of 64. Words in which all bits are the same are not kept.
   struct Packed {
     bool filled = false;
     std::size_t points = 0;
+    /// For each 64 words of the mask two: which of them are kept, and which of the others have all
+    /// bits set. Then the words that are kept, in order.
     std::vector<std::uint64_t> words;
   };
   std::vector<Packed> scans_;

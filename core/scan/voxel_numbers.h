@@ -21,6 +21,8 @@ class VoxelNumbers {
   static constexpr Number kNone = std::numeric_limits<Number>::max();
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// What the table takes in memory.
+  [[nodiscard]] std::size_t bytes() const { return table_.capacity() * sizeof(Number); }
   /// Forgets all voxels and keeps the room.
   void clear() {
     if (size_ > 0) std::fill(table_.begin(), table_.end(), kNone);

@@ -2,7 +2,7 @@
 #include "eval/dynamicmap/fine_cells.h"
 
 #include <algorithm>
-#include <new>
+#include <utility>
 
 namespace raymoval::dynamicmap {
 namespace {
@@ -49,21 +49,22 @@ FineGrid::FineGrid(double distance) : inverse_edge_(1.0 / block_edge(distance)) 
   same_cell_is_near_ = 3.0 * edge * edge * (1.0 + kMargin) < distance * distance;
 }
 
-FineBits::FineBits(std::size_t blocks)
-    : blocks_(blocks),
-      words_(static_cast<std::uint64_t*>(std::calloc(std::max<std::size_t>(blocks, 1) * 8, 8))) {
-  if (words_ == nullptr) throw std::bad_alloc();
-}
+FineBits::FineBits(RankedBits chosen)
+    : chosen_(std::move(chosen)), words_(chosen_.count() * 8, 0) {}
 
 void FineBits::subtract(const FineBits& other) {
-  for (std::size_t i = 0; i < 8 * blocks_; ++i) {
-    // Only what has to change is written, for the sake of memory that was never touched.
-    if ((words_[i] & other.words_[i]) != 0) words_[i] &= ~other.words_[i];
-  }
+  chosen_.for_each([&](Number block) {
+    if (!other.is_chosen(block)) return;
+    const std::size_t own = index(block, 0), others = other.index(block, 0);
+    for (std::size_t layer = 0; layer < 8; ++layer) {
+      words_[own + layer] &= ~other.words_[others + layer];
+    }
+  });
 }
 
 bool FineBits::any(Number block) const {
-  const std::uint64_t* words = words_.get() + index(block, 0);
+  if (!is_chosen(block)) return false;
+  const std::uint64_t* words = words_.data() + index(block, 0);
   return std::any_of(words, words + 8, [](std::uint64_t word) { return word != 0; });
 }
 
@@ -75,9 +76,11 @@ bool FineBits::any_near(const FineCell& cell, const CellLattice& lattice,
       for (int bx = first_block(cell.x); bx <= last_block(cell.x); ++bx) {
         const Number block = lattice.find(cell_beside(cell.block, bx, by, bz), cursor);
         if (block == CellLattice::kNone || block < first || block >= end) continue;
+        if (!is_chosen(block)) continue;
+        const std::uint64_t* const layers = words_.data() + index(block, 0);
         const std::uint64_t mask = layer_mask(span_in_block(cell.x, bx), span_in_block(cell.y, by));
         for (int layer = z.low; layer <= z.high; ++layer) {
-          if ((words_[index(block, layer)] & mask) != 0) return true;
+          if ((layers[layer] & mask) != 0) return true;
         }
       }
     }

@@ -6,10 +6,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
+#include <vector>
 
 #include "eval/lattice/cell_lattice.h"
+#include "eval/lattice/ranked_bits.h"
 
 namespace raymoval::dynamicmap {
 
@@ -52,15 +52,17 @@ class FineGrid {
   bool same_cell_is_near_;
 };
 
-/// A bit for each fine cell of the blocks of a lattice, all 0 at first. Memory that is not touched
-/// takes no room: 64 bytes a block in which a bit was set, in whole pages.
+/// A bit for each fine cell of chosen blocks of a lattice, all 0 at first. It takes 64 bytes a
+/// chosen block.
 class FineBits {
  public:
   using Number = CellLattice::Number;
 
-  explicit FineBits(std::size_t blocks);
+  FineBits() = default;
+  /// @param chosen by the blocks' numbers, counted through
+  explicit FineBits(RankedBits chosen);
 
-  /// Several threads may set bits at a time.
+  /// Several threads may set bits at a time. @param block is chosen
   void set(Number block, const FineCell& cell) {
     const std::atomic_ref<std::uint64_t> word(words_[index(block, cell.z)]);
     const std::uint64_t bit = bit_of(cell);
@@ -69,8 +71,9 @@ class FineBits {
       word.fetch_or(bit, std::memory_order_relaxed);
     }
   }
+  [[nodiscard]] bool is_chosen(Number block) const { return chosen_.test(block); }
   [[nodiscard]] bool is_set(Number block, const FineCell& cell) const {
-    return (words_[index(block, cell.z)] & bit_of(cell)) != 0;
+    return is_chosen(block) && (words_[index(block, cell.z)] & bit_of(cell)) != 0;
   }
   /// Takes away the bits that `other` has.
   void subtract(const FineBits& other);
@@ -82,18 +85,22 @@ class FineBits {
   [[nodiscard]] bool any_near(const FineCell& cell, const CellLattice& lattice,
                               CellLattice::Cursor& cursor, Number first, Number end) const;
 
+  /// What it takes in memory.
+  [[nodiscard]] std::size_t bytes() const {
+    return chosen_.bytes() + words_.capacity() * sizeof(std::uint64_t);
+  }
+  static constexpr std::size_t kBytesPerBlock = 64;
+
  private:
-  struct Free {
-    void operator()(std::uint64_t* words) const { std::free(words); }
-  };
-  static std::size_t index(Number block, int z) {
-    return std::size_t{block} * 8 + static_cast<std::size_t>(z);
+  /// Where a layer of a chosen block stands.
+  [[nodiscard]] std::size_t index(Number block, int z) const {
+    return std::size_t{chosen_.rank(block)} * 8 + static_cast<std::size_t>(z);
   }
   static std::uint64_t bit_of(const FineCell& cell) {
     return std::uint64_t{1} << (cell.y * 8 + cell.x);
   }
-  std::size_t blocks_;
-  std::unique_ptr<std::uint64_t[], Free> words_;  ///< Eight layers a block, from below.
+  RankedBits chosen_;
+  std::vector<std::uint64_t> words_;  ///< Eight layers a chosen block, from below.
 };
 
 }  // namespace raymoval::dynamicmap

@@ -2,16 +2,19 @@
 #include "eval/dynamicmap/presence.h"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 #include "core/parallel.h"
+#include "eval/dynamicmap/marked_cells.h"
 #include "eval/dynamicmap/undecided_points.h"
 #include "eval/lattice/coarse_cells.h"
 #include "eval/scan_passes.h"
 
 namespace raymoval::dynamicmap {
 namespace {
+
+/// From here on the marks may take more than what reading scans once more is worth.
+constexpr std::size_t kManyBlocks = 4'000'000;
 
 Eigen::Vector3d placed(const Scan& scan, std::size_t point) {
   return scan.T_world_sensor * scan.points[point].cast<double>();
@@ -92,46 +95,49 @@ TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid) {
 
 class PresenceCount::State {
  public:
-  State(const Input& input, std::size_t room)
+  State(const Input& input, const Room& room)
       : input_(input),
         scans_(input.truth.input().scans->size()),
-        kept_(blocks().size()),
-        flagged_(blocks().size()),
-        undecided_({input.options.distance, input.grid, blocks(), flagged_}, room) {}
+        marks_(blocks(), room_for(room.marks, kMarksPerBlock)),
+        undecided_({input.options.distance, input.grid, blocks(), marks_.flagged()},
+                   room_for(room.points, kPointsPerBlock)) {}
 
   bool begin_pass(std::size_t slots) {
     slots_.resize(slots);
-    switch (++pass_) {
+    switch (step_) {
+      case kStart:
+        step_ = kCount;
+        return true;
       case kCount:
-        has_flagged_.assign(blocks().size(), 0);
-        return true;
+        return needs_marks() && begin_marks();
       case kMark:
-        if (!any_flagged_ || !any_kept_) return false;  // All are present, or all are gone.
-        is_near_flagged_ = with_blocks_beside(
-            blocks(), [&](CellLattice::Number block) { return has_flagged_[block] != 0; });
-        has_flagged_ = {};
-        places_ =
-            places_where([&](CellLattice::Number block) { return is_near_flagged_[block] != 0; });
-        return true;
-      case kCollect:
-        is_near_flagged_ = {};
-        if (input_.grid.same_cell_is_near()) flagged_.subtract(kept_);
-        undecided_.begin();
+        if (input_.grid.same_cell_is_near()) marks_.leave_undecided();
+        undecided_.begin(marks_.first(), marks_.end());
         places_ = places_where(
             [&](CellLattice::Number block) { return undecided_.is_near_flagged(block); });
+        step_ = kCollect;
         return true;
       default:
         search();
-        return undecided_.begin_next();
+        step_ = kCollectMore;
+        return undecided_.begin_next() || begin_marks();
     }
+  }
+
+  [[nodiscard]] bool waits_for_others() const {
+    return step_ != kStart && needs_marks() && blocks().size() >= kManyBlocks;
+  }
+
+  [[nodiscard]] std::size_t bytes() const {
+    return scans_.capacity() * sizeof(ScanPresence) + marks_.bytes() + undecided_.bytes();
   }
 
   void read(const CheckedScan& scan, std::size_t slot) {
     Part& part = slots_[slot];
     part.scan = static_cast<std::uint32_t>(scan.scan.index);
-    if (pass_ == kCount) {
+    if (step_ == kCount) {
       count(scan, part);
-    } else if (pass_ == kMark) {
+    } else if (step_ == kMark) {
       mark(scan, part);
     } else {
       collect(scan, part);
@@ -140,12 +146,12 @@ class PresenceCount::State {
 
   void take(std::size_t slot) {
     Part& part = slots_[slot];
-    if (pass_ == kCount) {
+    if (step_ == kCount) {
       scans_[part.scan] = part.counts;
       any_flagged_ = any_flagged_ || part.any_flagged;
       any_kept_ = any_kept_ || part.any_kept;
-    } else if (pass_ >= kCollect) {
-      if (pass_ == kCollect) scans_[part.scan] += part.counts;
+    } else if (step_ != kMark) {
+      if (step_ == kCollect) scans_[part.scan] += part.counts;
       undecided_.add(part.found);
     }
   }
@@ -153,8 +159,8 @@ class PresenceCount::State {
   std::vector<ScanPresence> finish() { return std::move(scans_); }
 
  private:
-  /// What the passes do; those behind the last one collect, too.
-  enum Pass { kCount = 1, kMark, kCollect };
+  /// What a pass does. The last three come again for each range of marks.
+  enum Step { kStart, kCount, kMark, kCollect, kCollectMore };
   struct Part {
     std::uint32_t scan = 0;
     ScanPresence counts;
@@ -163,6 +169,22 @@ class PresenceCount::State {
   };
 
   [[nodiscard]] const CellLattice& blocks() const { return input_.blocks.blocks; }
+
+  [[nodiscard]] std::size_t room_for(std::size_t wanted, std::size_t per_block) const {
+    constexpr std::size_t kLeastRoom = std::size_t{128} << 20;
+    return wanted != 0 ? wanted : std::max(kLeastRoom, per_block * blocks().size());
+  }
+
+  /// Otherwise all points are present, or all are gone.
+  [[nodiscard]] bool needs_marks() const { return any_flagged_ && any_kept_; }
+
+  bool begin_marks() {
+    if (!marks_.begin_next()) return false;
+    places_ =
+        places_where([&](CellLattice::Number block) { return marks_.is_near_flagged(block); });
+    step_ = kMark;
+    return true;
+  }
 
   /// The block of a point. All points of the truth have one.
   [[nodiscard]] CellLattice::Number block_at(const Eigen::Vector3d& point, const Part& part,
@@ -198,9 +220,7 @@ class PresenceCount::State {
       part.any_flagged = true;
       if (kind == Kind::kStatic) --counts.kept_static;
       if (kind == Kind::kDynamic) ++counts.flagged_dynamic;
-      const std::atomic_ref<std::uint8_t> flag(
-          has_flagged_[block_at(placed(scan, p), part, cursor)]);
-      flag.store(1, std::memory_order_relaxed);
+      marks_.note_flagged(block_at(placed(scan, p), part, cursor));
     });
     counts.present_static = counts.kept_static;
     counts.removed_dynamic = counts.flagged_dynamic;
@@ -209,13 +229,11 @@ class PresenceCount::State {
 
   /// Marks the cells of flagged points, and those of kept ones where flagged ones may be near.
   void mark(const CheckedScan& loaded, const Part& part) {
-    const auto may_matter = [&](CellLattice::Number block, bool) {
-      return is_near_flagged_[block] != 0;
+    const auto may_matter = [&](CellLattice::Number block, bool removed) {
+      return removed ? marks_.has_turn(block) : marks_.is_near_flagged(block);
     };
     const auto set = [&](const Eigen::Vector3d& point, CellLattice::Number block, Kind,
-                         bool removed) {
-      (removed ? flagged_ : kept_).set(block, input_.grid.cell_of(point));
-    };
+                         bool removed) { marks_.mark(block, input_.grid.cell_of(point), removed); };
     visit_where(loaded, part, may_matter, set);
   }
 
@@ -226,7 +244,7 @@ class PresenceCount::State {
     part.found = {};
     CellLattice::Cursor around;
     const auto may_matter = [&](CellLattice::Number block, bool removed) {
-      return removed || undecided_.is_near_flagged(block);
+      return removed ? marks_.has_turn(block) : undecided_.is_near_flagged(block);
     };
     const auto add = [&](const Eigen::Vector3d& point, CellLattice::Number block, Kind kind,
                          bool removed) {
@@ -236,10 +254,10 @@ class PresenceCount::State {
         return;
       }
       const bool moving = kind == Kind::kDynamic;
-      if (input_.grid.same_cell_is_near() && kept_.is_set(block, cell)) {
+      if (input_.grid.same_cell_is_near() && marks_.kept().is_set(block, cell)) {
         add_present(part.counts, moving);
       } else if (undecided_.has_turn(block) &&
-                 kept_.any_near(cell, blocks(), around, 0, CellLattice::kNone)) {
+                 marks_.kept().any_near(cell, blocks(), around, 0, CellLattice::kNone)) {
         part.found.flagged.push_back({point, block, part.scan, moving});
       }
     };
@@ -283,23 +301,29 @@ class PresenceCount::State {
   }
 
   Input input_;
-  int pass_ = 0;
+  Step step_ = kStart;
   std::vector<Part> slots_;
   std::vector<ScanPresence> scans_;
   bool any_flagged_ = false, any_kept_ = false;
-  std::vector<std::uint8_t> has_flagged_, is_near_flagged_;  ///< By block.
   CoarseCells places_;  ///< Where points that are left may matter in this pass.
-  FineBits kept_;
-  FineBits flagged_;  ///< When points are collected, those on which `kept_` has not decided.
+  MarkedCells marks_;   ///< When points are collected, flagged ones that are undecided.
   UndecidedPoints undecided_;
 };
 
-PresenceCount::PresenceCount(const Input& input, std::size_t room)
+PresenceCount::PresenceCount(const Input& input, const Room& room)
     : state_(std::make_unique<State>(input, room)) {}
 PresenceCount::~PresenceCount() = default;
 
 bool PresenceCount::begin_pass(std::size_t slots) {
   return state_->begin_pass(slots);
+}
+
+bool PresenceCount::waits_for_others() const {
+  return state_->waits_for_others();
+}
+
+std::size_t PresenceCount::bytes() const {
+  return state_->bytes();
 }
 
 void PresenceCount::read(const CheckedScan& scan, std::size_t slot) {

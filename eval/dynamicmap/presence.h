@@ -40,10 +40,10 @@ TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid);
 /// of kept ones in these blocks and those beside them. That decides on most flagged points: one
 /// that shares its cell with a kept point is present, one without a kept point two cells around is
 /// gone. The third pass counts these and collects the others, with the kept points around them, and
-/// these are searched. Where they are too many for the room that the number of blocks gives them,
-/// only those of the first blocks stay, and another pass collects those of the next ones. So memory
-/// is bounded by the map: at most 130 bytes a block for the marks, where points were flagged, and
-/// 72 for the points, but room for these is never less than 256 MiB.
+/// these are searched. Where marks or points are too many for the room that the number of blocks
+/// gives them, only those of the first blocks stay, and further passes take those of the next ones.
+/// So memory is bounded by the map: at most 16 bytes a block for the marks and 12 for the points,
+/// but room for each of them is never less than 128 MiB.
 class PresenceCount : public ScanVisitor {
  public:
   struct Input {
@@ -53,16 +53,29 @@ class PresenceCount : public ScanVisitor {
     const TruthBlocks& blocks;  ///< Of the truth.
   };
 
+  /// Bytes for what passes collect; 0: as many as the number of blocks allows.
+  struct Room {
+    std::size_t marks = 0;
+    std::size_t points = 0;  ///< That are searched.
+  };
+  /// Room for each block in large maps.
+  static constexpr std::size_t kMarksPerBlock = 16;
+  static constexpr std::size_t kPointsPerBlock = 12;
+
   /// All parts of the input outlive this object.
-  /// @param room bytes for the points that are searched; 0: as many as the blocks allow
-  explicit PresenceCount(const Input& input, std::size_t room = 0);
+  explicit PresenceCount(const Input& input) : PresenceCount(input, {}) {}
+  PresenceCount(const Input& input, const Room& room);
   ~PresenceCount() override;
 
+  /// After the first pass, if the map is large.
+  [[nodiscard]] bool waits_for_others() const override;
   bool begin_pass(std::size_t slots) override;
   void read(const CheckedScan& scan, std::size_t slot) override;
   void take(std::size_t slot) override;
   /// Called once, after the last pass.
   [[nodiscard]] std::vector<ScanPresence> finish();
+  /// What it holds in memory now, without the truth.
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
   class State;

@@ -4,51 +4,33 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "eval/dynamicmap/marked_cells.h"
 #include "eval/points/nearby_points.h"
 
 namespace raymoval::dynamicmap {
 namespace {
 
-constexpr std::size_t kLeastRoom = std::size_t{256} << 20;
-constexpr std::size_t kRoomPerBlock = 72;
 /// What a kept point takes in the tree that is searched.
 constexpr std::size_t kTreeBytes = 16;
 constexpr std::size_t kGrain = 4096;
 
 }  // namespace
 
-std::vector<std::uint8_t> with_blocks_beside(const CellLattice& blocks,
-                                             const std::function<bool(std::uint32_t)>& is_chosen) {
-  std::vector<std::uint8_t> chosen(blocks.size(), 0);
+UndecidedPoints::UndecidedPoints(const Map& map, std::size_t room) : map_(map), room_(room) {}
+
+void UndecidedPoints::begin(Number first, Number last) {
+  is_near_flagged_ = RankedBits(map_.blocks.size());
   CellLattice::Cursor cursor;
-  blocks.for_each([&](CellLattice::Number number, VoxelKey block) {
-    if (!is_chosen(number)) return;
-    for (int z = -1; z <= 1; ++z) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int x = -1; x <= 1; ++x) {
-          const auto beside = blocks.find(cell_beside(block, x, y, z), cursor);
-          if (beside != CellLattice::kNone) chosen[beside] = 1;
-        }
-      }
-    }
+  map_.blocks.for_each([&](Number number, VoxelKey block) {
+    if (map_.flagged.any(number)) set_blocks_around(block, map_.blocks, cursor, is_near_flagged_);
   });
-  return chosen;
-}
-
-UndecidedPoints::UndecidedPoints(const Map& map, std::size_t room)
-    : map_(map),
-      room_(room != 0 ? room : std::max(kLeastRoom, kRoomPerBlock * map.blocks.size())) {}
-
-void UndecidedPoints::begin() {
-  is_near_flagged_ =
-      with_blocks_beside(map_.blocks, [&](Number block) { return map_.flagged.any(block); });
-  first_ = 0;
-  end_ = static_cast<Number>(map_.blocks.size());
+  first_ = first;
+  end_ = last_ = last;
 }
 
 bool UndecidedPoints::begin_next() {
   first_ = end_;
-  end_ = static_cast<Number>(map_.blocks.size());
+  end_ = last_;
   return first_ < end_;
 }
 

@@ -10,16 +10,12 @@
 
 #include "eval/dynamicmap/fine_cells.h"
 #include "eval/lattice/cell_lattice.h"
+#include "eval/lattice/ranked_bits.h"
 
 namespace raymoval::dynamicmap {
 
-/// For each block of a lattice whether it, or one beside it, is chosen.
-/// @param is_chosen says so of a block, by its number
-std::vector<std::uint8_t> with_blocks_beside(const CellLattice& blocks,
-                                             const std::function<bool(std::uint32_t)>& is_chosen);
-
 /// Flagged points that have a kept point near but not in their fine cell, and the kept points
-/// around them, for a range of blocks at a time. The range begins with all blocks that are left.
+/// around them, for a range of blocks at a time. The range begins with all blocks that are given.
 /// Where the points get too many, its end moves down and the points beyond it are forgotten; they
 /// have their turn in a later pass.
 class UndecidedPoints {
@@ -45,19 +41,19 @@ class UndecidedPoints {
   };
 
   /// @param map outlives this object
-  /// @param room bytes for points; 0: as many as the number of blocks allows
+  /// @param room bytes for points
   UndecidedPoints(const Map& map, std::size_t room);
 
-  /// Begins with the first range. The marks of `flagged` are complete now.
-  void begin();
-  /// Begins with the blocks behind the last range. @return false if there is none
+  /// Begins with the blocks [first, last). The marks of `flagged` are complete now.
+  void begin(Number first, Number last);
+  /// Begins with those of them that are behind the last range. @return false if there is none
   bool begin_next();
 
   /// Whether the flagged points of a block are collected in this pass. It may say so of a block
   /// whose turn ends meanwhile; `add` knows.
   [[nodiscard]] bool has_turn(Number block) const { return block >= first_ && block < end_; }
   /// Whether undecided flagged points may be near a block.
-  [[nodiscard]] bool is_near_flagged(Number block) const { return is_near_flagged_[block] != 0; }
+  [[nodiscard]] bool is_near_flagged(Number block) const { return is_near_flagged_.test(block); }
   /// Whether a kept point in this cell may be near a flagged one that is collected.
   [[nodiscard]] bool is_wanted(const FineCell& cell, CellLattice::Cursor& cursor) const {
     return map_.flagged.any_near(cell, map_.blocks, cursor, first_, end_);
@@ -68,15 +64,18 @@ class UndecidedPoints {
   /// and forgets all points.
   void search(int threads, const std::function<void(const Flagged&)>& present);
 
- private:
+  /// What the points take in memory, with what their search will need.
   [[nodiscard]] std::size_t bytes() const;
+
+ private:
   bool narrow();
 
   Map map_;
   std::size_t room_;
   Number first_ = 0;
   std::atomic<Number> end_ = 0;
-  std::vector<std::uint8_t> is_near_flagged_;  ///< Of each block: it, or one beside it, is flagged.
+  Number last_ = 0;             ///< Where the ranges end.
+  RankedBits is_near_flagged_;  ///< Of each block: it, or one beside it, is flagged.
   std::vector<Flagged> flagged_;
   std::vector<Eigen::Vector3d> kept_;
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -64,23 +65,31 @@ class ErasorScorer : public Scorer {
   class ErasorScoring : public Scoring {
    public:
     explicit ErasorScoring(const ErasorScorer& scorer)
-        : scorer_(scorer), map_(scorer.rules(), scorer.truth_) {}
+        : scorer_(scorer), map_(std::in_place, scorer.rules(), scorer.truth_) {}
 
-    bool begin_pass(std::size_t slots) override { return map_.begin_pass(slots); }
-    void read(const CheckedScan& scan, std::size_t slot) override { map_.read(scan, slot); }
-    void take(std::size_t slot) override { map_.take(slot); }
-    ProtocolResult result() override {
-      const std::int64_t ties = map_.mixed_label_ties();
-      if (!scorer_.dense_) return scorer_.result_of(map_, map_.points(), ties);
-      return scorer_.result_of(scorer_.relabelled(map_), map_.points(), ties);
+    bool begin_pass(std::size_t slots) override {
+      if (map_->begin_pass(slots)) return true;
+      result_ = scorer_.result_of_masks(*map_);
+      map_.reset();  // Others may need the memory for their passes.
+      return false;
     }
+    void read(const CheckedScan& scan, std::size_t slot) override { map_->read(scan, slot); }
+    void take(std::size_t slot) override { map_->take(slot); }
+    ProtocolResult result() override { return std::move(result_); }
 
    private:
     const ErasorScorer& scorer_;
-    EstimateMap map_;
+    std::optional<EstimateMap> map_;  ///< Until the last pass.
+    ProtocolResult result_;
   };
 
   [[nodiscard]] MapRules rules() const { return {input(), options_, classes_}; }
+
+  [[nodiscard]] ProtocolResult result_of_masks(const EstimateMap& map) const {
+    const std::int64_t ties = map.mixed_label_ties();
+    if (!dense_) return result_of(map, map.points(), ties);
+    return result_of(relabelled(map), map.points(), ties);
+  }
 
   /// A map whose labels are taken again from the nearest point of the dense map.
   [[nodiscard]] ListedVoxels relabelled(const EstimateMap& map) const {

@@ -9,31 +9,11 @@
 #include <limits>
 #include <vector>
 
+#include "core/scan/cell_set.h"
 #include "core/scan/voxel_key.h"
 #include "core/scan/voxel_numbers.h"
 
 namespace raymoval {
-
-// Cells of a lattice stand together in bricks of 4 x 4 x 4, one bit each.
-
-/// The brick of a cell: the key of its lowest cell, every index divided by four.
-constexpr VoxelKey brick_of(VoxelKey cell) {
-  constexpr VoxelKey kAxis = (VoxelKey{1} << (kVoxelBits - 2)) - 1;
-  constexpr VoxelKey kAll = kAxis | kAxis << kVoxelBits | kAxis << (2 * kVoxelBits);
-  return cell >> 2 & kAll;
-}
-
-/// The place of a cell in its brick, 0 to 63.
-constexpr int place_in_brick(VoxelKey cell) {
-  return static_cast<int>((cell & 3) | (cell >> kVoxelBits & 3) << 2 |
-                          (cell >> (2 * kVoxelBits) & 3) << 4);
-}
-
-constexpr VoxelKey cell_at(VoxelKey brick, int place) {
-  const auto of_place = static_cast<VoxelKey>(place);
-  return brick << 2 | (of_place & 3) | (of_place >> 2 & 3) << kVoxelBits |
-         (of_place >> 4 & 3) << (2 * kVoxelBits);
-}
 
 /// The cell of a world point: `voxel_index` without a call for each axis.
 /// @throws DataError beyond the lattice
@@ -69,39 +49,6 @@ constexpr VoxelKey cell_beside(VoxelKey cell, int dx, int dy, int dz) {
   return cell + step(dx, 0) + step(dy, 1) + step(dz, 2);
 }
 
-/// A set of cells that grows.
-class CellSet {
- public:
-  void insert(VoxelKey cell) { insert(brick_of(cell), std::uint64_t{1} << place_in_brick(cell)); }
-  void insert(const CellSet& other) {
-    for (const auto& [brick, cells] : other.bricks_) insert(brick, cells);
-  }
-  [[nodiscard]] bool contains(VoxelKey cell) const {
-    const auto found = bricks_.find(brick_of(cell));
-    return found != bricks_.end() && (found->second >> place_in_brick(cell) & 1U) != 0;
-  }
-  void clear() { bricks_.clear(); }
-
-  /// Calls `visit(cell)` for each cell, in no particular order.
-  template <class Visit>
-  void for_each(Visit&& visit) const {
-    for (const auto& [brick, cells] : bricks_) {
-      for (std::uint64_t left = cells; left != 0; left &= left - 1) {
-        visit(cell_at(brick, std::countr_zero(left)));
-      }
-    }
-  }
-
- private:
-  friend class CellInserter;
-  friend class CellLattice;
-  void insert(VoxelKey brick, std::uint64_t cells) {
-    bricks_.try_emplace(brick, 0).first.value() |= cells;
-  }
-
-  VoxelMap<std::uint64_t> bricks_;
-};
-
 /// Inserts many cells, of which the next one is mostly in the same brick as the last.
 class CellInserter {
  public:
@@ -120,7 +67,7 @@ class CellInserter {
 
  private:
   void flush() {
-    if (cells_ != 0) set_.insert(brick_, cells_);
+    if (cells_ != 0) set_.insert_brick(brick_, cells_);
     cells_ = 0;
   }
   CellSet& set_;
@@ -170,6 +117,11 @@ class CellLattice {
   template <class Visit>
   void for_each(Visit&& visit) const {
     for_each_in(0, bricks(), visit);
+  }
+
+  /// What it takes in memory.
+  [[nodiscard]] std::size_t bytes() const {
+    return bricks_.capacity() * sizeof(Brick) + positions_.bytes();
   }
 
   /// How many bricks the cells stand in, for loops that cut the work by bricks.

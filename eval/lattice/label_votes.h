@@ -35,6 +35,8 @@ class LabelVotes {
   [[nodiscard]] Label label(std::size_t voxel) const {
     return {holders_[voxel].id, holders_[voxel].scan};
   }
+  /// What they take in memory, but for the few voxels that remember more than one point.
+  [[nodiscard]] std::size_t bytes() const { return holders_.capacity() * sizeof(Candidate); }
   /// Whether a moving and a static point stand at the same distance.
   [[nodiscard]] bool is_mixed_tie(std::size_t voxel) const;
 

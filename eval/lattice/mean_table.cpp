@@ -8,6 +8,7 @@ namespace raymoval {
 
 MeanTable::MeanTable(std::size_t cells)
     : numbers_(static_cast<double*>(std::calloc(std::max<std::size_t>(cells, 1), 48))),
+      doubles_(6 * cells),
       points_(cells, 0) {
   if (numbers_ == nullptr) throw std::bad_alloc();
 }
@@ -30,6 +31,7 @@ std::size_t MeanTable::finish() {
   if (means != nullptr) {
     (void)numbers_.release();
     numbers_.reset(static_cast<double*>(means));
+    doubles_ = 3 * points_.size();
   }
   points_ = {};
   return filled;

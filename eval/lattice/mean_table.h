@@ -34,6 +34,11 @@ class MeanTable {
   /// Ends adding, once. @return how many cells have a point
   std::size_t finish();
 
+  /// What it takes in memory.
+  [[nodiscard]] std::size_t bytes() const {
+    return doubles_ * sizeof(double) + points_.capacity() * sizeof(std::uint32_t);
+  }
+
   /// The mean of a cell's points, which are complete; not a number without points.
   [[nodiscard]] Eigen::Vector3d mean(std::size_t cell) const {
     return Eigen::Map<const Eigen::Vector3d>(numbers_.get() + 3 * cell);
@@ -45,6 +50,7 @@ class MeanTable {
   };
   /// Of each cell the first point and the sum of all offsets from it; afterwards the mean.
   std::unique_ptr<double[], Free> numbers_;
+  std::size_t doubles_ = 0;            ///< How many `numbers_` has.
   std::vector<std::uint32_t> points_;  ///< How many, until the end.
 };
 

@@ -32,6 +32,7 @@ class RankedBits {
   /// Counts the bits through. `count` and `rank` hold until the next bit is set.
   void count_through() {
     ranks_.clear();
+    ranks_.reserve(words_.size());
     count_ = 0;
     for (const std::uint64_t word : words_) {
       ranks_.push_back(static_cast<std::uint32_t>(count_));
@@ -43,6 +44,22 @@ class RankedBits {
   [[nodiscard]] std::uint32_t rank(std::size_t number) const {
     const std::uint64_t lower = words_[number / 64] & (bit(number) - 1);
     return ranks_[number / 64] + static_cast<std::uint32_t>(bits_set(lower));
+  }
+
+  /// Calls `visit(number)` for each number whose bit is set, in order.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      for (std::uint64_t left = words_[i]; left != 0; left &= left - 1) {
+        visit(static_cast<std::uint32_t>(64 * i) +
+              static_cast<std::uint32_t>(std::countr_zero(left)));
+      }
+    }
+  }
+
+  /// What it takes in memory.
+  [[nodiscard]] std::size_t bytes() const {
+    return words_.capacity() * sizeof(std::uint64_t) + ranks_.capacity() * sizeof(std::uint32_t);
   }
 
  private:

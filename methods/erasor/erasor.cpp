@@ -242,7 +242,7 @@ class ErasorRun {
       const int bin = query.bin_of_point[k];
       if (bin < 0 || !actions_[static_cast<std::size_t>(bin)].reinsert) continue;
       const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
-      map.put_back(voxel_key(voxel_index(world, inverse)));
+      map.put_back(voxel_key(voxel_index(world, inverse)), world);
     }
   }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/error.h"
+
 namespace raymoval::erasor_method {
 namespace {
 
@@ -15,9 +17,9 @@ VoxelIndex tile_index(const Eigen::Vector3d& point) {
 
 }  // namespace
 
-NaiveMap::NaiveMap(Chunks<VoxelKey> keys, Chunks<Eigen::Vector3d> points,
-                   Chunks<VoxelNumber> numbers)
+NaiveMap::NaiveMap(Chunks<VoxelKey> keys, Chunks<Eigen::Vector3d> points)
     : keys_(std::move(keys)), points_(std::move(points)), in_(keys_.size(), 1) {
+  Chunks<VoxelNumber> numbers;
   // Voxels are numbered tile by tile, in each tile as they are given.
   VoxelMap<std::uint32_t> tile_numbers;
   std::vector<VoxelKey> tile_keys;
@@ -29,7 +31,7 @@ NaiveMap::NaiveMap(Chunks<VoxelKey> keys, Chunks<Eigen::Vector3d> points,
       tile_keys.push_back(tile);
       ends.push_back(0);
     }
-    numbers[i] = found.first->second;  // For now the number of the tile.
+    numbers.push_back(found.first->second);  // For now the number of the tile.
     ++ends[numbers[i]];
   }
   VoxelNumber sum = 0;
@@ -70,11 +72,26 @@ std::vector<NaiveMap::Tile> NaiveMap::tiles_around(double x, double y, double ra
   return tiles;
 }
 
-void NaiveMap::put_back(VoxelKey key) {
-  const auto found = out_.find(key);
-  if (found == out_.end()) return;
-  in_[found->second] = 1;
-  out_.erase(found);
+void NaiveMap::put_back(VoxelKey key, const Eigen::Vector3d& point) {
+  if (!out_.contains(key)) return;
+  in_[number_of(key, point)] = 1;
+  out_.erase(key);
+}
+
+/// The number of a voxel of the map. It stands in the tile of its point, which is that of `point`
+/// or, as a voxel may reach over a tile's edge, one beside it.
+VoxelNumber NaiveMap::number_of(VoxelKey key, const Eigen::Vector3d& point) const {
+  const VoxelIndex own = tile_index(point);
+  for (const int dy : {0, -1, 1}) {
+    for (const int dx : {0, -1, 1}) {
+      const auto tile = tiles_.find(voxel_key(own.x() + dx, own.y() + dy, 0));
+      if (tile == tiles_.end()) continue;
+      for (VoxelNumber voxel = tile->second.begin; voxel < tile->second.end; ++voxel) {
+        if (keys_[voxel] == key) return voxel;
+      }
+    }
+  }
+  throw InternalError("ERASOR's map does not find a voxel in its tile");
 }
 
 void NaiveMapBuilder::add(const std::vector<VoxelKey>& keys,
@@ -100,10 +117,10 @@ void NaiveMapBuilder::add(const std::vector<VoxelKey>& keys,
     if (number == keys_.size()) {
       keys_.push_back(collected.key);
       sums_of_means_.push_back(Eigen::Vector3d::Zero());
-      scans_.push_back(0);
+      scans_.push_back();
     }
     sums_of_means_[number] += collected.sum / collected.points;
-    ++scans_[number];
+    scans_.count_one(number);
   }
 }
 
@@ -111,10 +128,11 @@ NaiveMap NaiveMapBuilder::finish() {
   numbers_ = {};
   in_scan_ = {};
   places_ = {};
-  for (std::size_t number = 0; number < scans_.size(); ++number) {
+  for (VoxelNumber number = 0; number < scans_.size(); ++number) {
     sums_of_means_[number] /= scans_[number];
   }
-  return {std::move(keys_), std::move(sums_of_means_), std::move(scans_)};
+  scans_ = {};
+  return {std::move(keys_), std::move(sums_of_means_)};
 }
 
 }  // namespace raymoval::erasor_method

@@ -51,6 +51,27 @@ TEST_CASE("A mask set again replaces the first") {
   CHECK(store.removed_count() == 1);
 }
 
+TEST_CASE("Points that are all kept or all removed take next to nothing") {
+  constexpr std::size_t kPoints = 64 * 64 * 3 + 70;  // Two groups of words are full, one is not.
+  MaskStore store(1);
+  for (const std::uint8_t value : {0, 1}) {
+    Mask mask(kPoints, value);
+    store.set(0, mask);
+    CHECK(store.get(0) == mask);
+    CHECK(store.removed_count() == kPoints * value);
+    CHECK(store.bytes() < 64 + kPoints / 8 / 16);
+    // One point that differs costs one word.
+    const std::size_t before = store.bytes();
+    for (const std::size_t point : {std::size_t{63}, std::size_t{64 * 64}, kPoints - 71}) {
+      mask[point] = 1 - value;
+    }
+    store.set(0, mask);
+    CHECK(store.get(0) == mask);
+    CHECK(store.removed_count() == (value == 0 ? 3 : kPoints - 3));
+    CHECK(store.bytes() == before + 3 * sizeof(std::uint64_t));
+  }
+}
+
 TEST_CASE("A packed mask has eight points in a byte, the first in its lowest bit") {
   const Mask ten = {1, 0, 0, 0, 0, 0, 0, 1, 0, 1};
   CHECK(packed_mask(ten) == "\x81\x02");

@@ -46,6 +46,19 @@ TEST_CASE("a lattice numbers its cells and finds no others", "[lattice]") {
   }
 }
 
+TEST_CASE("cells leave a set one by one", "[lattice]") {
+  CellSet cells;
+  const VoxelKey low = voxel_key(-1, -1, -1), high = voxel_key(-2, -1, -1);  // In one brick.
+  cells.insert(low);
+  cells.insert(high);
+  cells.erase(low);
+  cells.erase(voxel_key(40, 0, 0));  // Not there: no effect.
+  CHECK_FALSE(cells.contains(low));
+  CHECK(cells.contains(high));
+  cells.insert(low);
+  CHECK(cells.contains(low));
+}
+
 TEST_CASE("bits are counted through", "[lattice]") {
   std::mt19937 random(5);
   RankedBits bits(300);
@@ -63,6 +76,9 @@ TEST_CASE("bits are counted through", "[lattice]") {
     CHECK(bits.rank(i) == rank);
     rank += set.contains(i) ? 1 : 0;
   }
+  std::vector<std::size_t> visited;
+  bits.for_each([&](std::uint32_t number) { visited.push_back(number); });
+  CHECK(visited == std::vector<std::size_t>(set.begin(), set.end()));
 }
 
 }  // namespace raymoval::test

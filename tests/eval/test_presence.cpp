@@ -33,7 +33,7 @@ struct Counted {
 };
 
 Counted count(const EvaluationInput& input, const MaskStore& masks, const Options& options,
-              std::size_t room) {
+              const PresenceCount::Room& room) {
   const TruthPoints truth(input, 0.0, options.ego_range);
   const FineGrid grid(options.distance);
   const TruthBlocks blocks = truth_blocks(truth, grid);
@@ -64,25 +64,29 @@ TEST_CASE("with little room the search takes more passes and finds the same", "[
     Options options;
     options.distance = seed % 2 == 0 ? 0.05 : 0.1;
     CAPTURE(seed);
-    const Counted usual = count(input, sequence.masks(), options, 0);
+    const Counted usual = count(input, sequence.masks(), options, {});
     CHECK(usual.passes == 3);
-    const Counted narrow = count(input, sequence.masks(), options, 4000);
-    CHECK(narrow.passes > 4);
-    CHECK(narrow.present == usual.present);
-    CHECK(narrow.removed == usual.removed);
+    const auto check_same = [&](const PresenceCount::Room& room, int fewest_passes) {
+      const Counted other = count(input, sequence.masks(), options, room);
+      CHECK(other.passes > fewest_passes);
+      CHECK(other.present == usual.present);
+      CHECK(other.removed == usual.removed);
+      return other.passes;
+    };
+    const int narrow = check_same({.points = 4000}, 4);
     // Room for nothing: one block at a time.
-    const Counted none = count(input, sequence.masks(), options, 1);
-    CHECK(none.passes > narrow.passes);
-    CHECK(none.present == usual.present);
-    CHECK(none.removed == usual.removed);
+    check_same({.points = 1}, narrow);
+    const int ranges = check_same({.marks = 50000}, 4);
+    check_same({.marks = 20000}, ranges);
+    check_same({.marks = 50000, .points = 2000}, ranges - 1);
   }
 }
 
 TEST_CASE("where all is kept or all is removed nothing is searched", "[dynamicmap]") {
   const MemorySequence sequence = random_sequence({});
   const EvaluationInput input = sequence.input();
-  CHECK(count(input, sequence.constant_masks(false), {}, 0).passes == 1);
-  CHECK(count(input, sequence.constant_masks(true), {}, 0).passes == 1);
+  CHECK(count(input, sequence.constant_masks(false), {}, {}).passes == 1);
+  CHECK(count(input, sequence.constant_masks(true), {}, {}).passes == 1);
 }
 
 TEST_CASE("points out of range may lie beyond the lattice", "[dynamicmap]") {
@@ -122,7 +126,10 @@ TEST_CASE("fine cells tell near from far for any distance", "[dynamicmap]") {
       const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
       const Eigen::Vector3d other =
           point + distance * Eigen::Vector3d(r * std::cos(u), r * std::sin(u), z);
-      FineBits bits(blocks.size());
+      RankedBits all(blocks.size());
+      blocks.for_each([&](CellLattice::Number number, VoxelKey) { all.set(number); });
+      all.count_through();
+      FineBits bits(all);
       const FineCell cell = grid.cell_of(other);
       const auto block = blocks.find(cell.block, cursor);
       REQUIRE(block != CellLattice::kNone);

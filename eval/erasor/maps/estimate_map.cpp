@@ -15,15 +15,12 @@ bool EstimateMap::begin_pass(std::size_t slots) {
     case kTouch:
       return true;
     case kAddUp:
+      if (points_.removed == 0) mixed_label_ties_ = truth_.mixed_label_ties();
+      if (points_.removed == 0 || is_empty()) return false;
       touched_.count_through();
       means_ = MeanTable(touched_.count());
-      if (points_.removed == 0) mixed_label_ties_ = truth_.mixed_label_ties();
-      if (points_.removed != 0 && points_.removed != points_.evaluated) {
-        places_ = places_of(touched_);
-        return true;
-      }
-      (void)means_.finish();
-      return false;
+      places_ = places_of(touched_);
+      return true;
     case kVote:
       return begin_votes();
     default:

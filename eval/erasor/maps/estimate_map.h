@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -35,11 +36,17 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   // After the last pass:
   [[nodiscard]] const CellLattice& cells() const override { return truth_.cells(); }
   [[nodiscard]] Eigen::Vector3d mean(Number number) const override {
-    return touched_.test(number) ? means_.mean(touched_.rank(number)) : truth_.mean(number);
+    if (!touched_.test(number)) return truth_.mean(number);
+    return is_empty() ? no_mean() : means_.mean(touched_.rank(number));
   }
   [[nodiscard]] VoxelKind kind(Number number) const override;
   [[nodiscard]] const PointCounts& points() const { return points_; }
   [[nodiscard]] std::int64_t mixed_label_ties() const { return mixed_label_ties_; }
+
+  /// What it holds in memory now, without the truth.
+  [[nodiscard]] std::size_t bytes() const {
+    return touched_.bytes() + means_.bytes() + (votes_ ? votes_->bytes() : 0);
+  }
 
  private:
   enum Pass { kTouch = 1, kAddUp, kVote };
@@ -51,6 +58,12 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
     std::vector<Offer> offers;
     std::int64_t ties = 0;
   };
+
+  /// Whether all points were removed. Then no mean is kept.
+  [[nodiscard]] bool is_empty() const { return points_.removed == points_.evaluated; }
+  static Eigen::Vector3d no_mean() {
+    return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
 
   void touch(const CheckedScan& scan, Part& part);
   void add_up(const CheckedScan& scan, Part& part) const;

@@ -18,6 +18,11 @@ struct MapCells {
   /// label is not farther from it again, so none three cells away can give it its label.
   RankedBits mixed;
   RankedBits near_mixed;  ///< `mixed` and the cells beside it.
+
+  /// What they take in memory.
+  [[nodiscard]] std::size_t bytes() const {
+    return all.bytes() + mixed.bytes() + near_mixed.bytes();
+  }
 };
 
 /// Finds the cells of a sequence, in one pass.

@@ -77,17 +77,18 @@ class TruthMap::Builder : public ScanVisitor {
 
   void end_votes() {
     const std::size_t cells = map_.cells().size();
-    map_.kinds_.assign(cells, VoxelKind::kNone);
-    map_.scans_.assign(cells, 0);
+    map_.labels_.assign(cells, {});
     for (Number i = 0; i < cells; ++i) {
       if (!is_voxel(map_.mean(i))) continue;
       const LabelVotes::Label label = votes_->label(i);
-      map_.kinds_[i] = kind_of(label.id, rules_.classes);
-      map_.scans_[i] = label.scan;
+      map_.labels_[i] = {static_cast<std::uint32_t>(kind_of(label.id, rules_.classes)),
+                         label.scan & kScanBits};
       map_.unlabelled_voxels_ += label.id <= 1 ? 1 : 0;
       map_.mixed_label_ties_ += votes_->is_mixed_tie(i) ? 1 : 0;
     }
   }
+
+  static constexpr std::uint32_t kScanBits = (std::uint32_t{1} << 29) - 1;
 
   MapRules rules_;
   TruthMap& map_;
@@ -99,6 +100,10 @@ class TruthMap::Builder : public ScanVisitor {
 TruthMap::TruthMap(const MapRules& rules) : map_cells_(erasor::map_cells(rules)) {
   Builder builder(rules, *this);
   run_passes(rules.input, "ground truth map", {&builder});
+}
+
+std::size_t TruthMap::bytes() const {
+  return map_cells_.bytes() + means_.bytes() + labels_.capacity() * sizeof(Label);
 }
 
 }  // namespace raymoval::erasor

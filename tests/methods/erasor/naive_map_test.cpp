@@ -54,12 +54,32 @@ TEST_CASE("voxels go out and come back", "[erasor]") {
   CHECK_FALSE(map.is_in(1));
   CHECK(map.is_out(key));
   CHECK(map.is_in(0));
-  map.put_back(key_of({7, 7, 7}));  // Nothing there: no effect.
+  const Eigen::Vector3d point = map.point(1);
+  map.put_back(key_of({7, 7, 7}), {7, 7, 7});  // Nothing there: no effect.
   CHECK_FALSE(map.is_in(1));
-  map.put_back(key);
-  map.put_back(key);
+  map.put_back(key, point);
+  map.put_back(key, point);
   CHECK(map.is_in(1));
   CHECK_FALSE(map.is_out(key));
+}
+
+TEST_CASE("a voxel that reaches over the edge of a tile comes back from either side", "[erasor]") {
+  // Tiles end at 5 m, and a voxel of 0.3 m goes from 4.8 to 5.1 m along each axis.
+  const auto key = voxel_key(voxel_index(Eigen::Vector3d(5.0, 5.0, 0.1), 1 / 0.3));
+  for (const double place : {4.85, 5.05}) {
+    NaiveMapBuilder builder;
+    builder.add({key, voxel_key(3, 3, 0)}, {{place, 9.9 - place, 0.1}, {1.0, 1.0, 0.1}});
+    NaiveMap map = builder.finish();
+    const VoxelNumber voxel = map.point(0).x() > 2.0 ? 0 : 1;
+    for (const double x : {4.81, 5.09}) {
+      for (const double y : {4.81, 5.09}) {
+        map.take_out(voxel);
+        map.put_back(key, {x, y, 0.1});
+        CHECK(map.is_in(voxel));
+        CHECK_FALSE(map.is_out(key));
+      }
+    }
+  }
 }
 
 TEST_CASE("the tiles around a pose hold every voxel within the radius, once", "[erasor]") {
