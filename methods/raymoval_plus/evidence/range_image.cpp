@@ -107,6 +107,8 @@ void RangeImage::choose_steps(const SensorModel& sensor) {
   elevation_step_ = static_cast<float>(rows > most_rows ? (high - low) / most_rows : height);
   image_.columns = columns;
   image_.margin = kMargin;
+  image_.first_unseen_row = static_cast<int>(
+      std::ceil((sensor.elevation_max - low) / static_cast<double>(elevation_step_) - kRounding));
   grid_ = {1.0F / azimuth_step_, 1.0F / elevation_step_, static_cast<float>(low), columns};
 }
 
@@ -216,7 +218,7 @@ Observation RangeImage::observe_every_bin(float range, int column, int row) cons
     below |= r <= row && nearest_in_row(r, column, wide) < kInfinite;
   }
   if (occluded) return Observation::kOccluded;
-  return below ? Observation::kFree : Observation::kUnknown;
+  return below && row < image_.first_unseen_row ? Observation::kFree : Observation::kUnknown;
 }
 
 bool RangeImage::agrees_in_row(const Bounds& bounds, int row, int column, int wide,
@@ -256,6 +258,7 @@ Observation RangeImage::observe_large_window(float range, int column, int row) c
     }
   }
   if (occluded) return Observation::kOccluded;
+  if (row >= image_.first_unseen_row) return Observation::kUnknown;
   for (int r = std::min(row, top); r >= low; --r) {
     if (nearest_in_row(r, column, wide) < kInfinite) return Observation::kFree;
   }

@@ -239,7 +239,8 @@ void settle(const SightImage& image, const SightTest& test, const std::uint32_t*
       look_at_row(test, range, bounds, hn::Add(safe, safe), up <= 0,
                   hn::And(hn::RebindMask(d, inside), known_window), found);
     }
-    const auto free = hn::AndNot(found.occluded, found.below);
+    const auto seen = hn::Lt(row, hn::Set(whole, image.first_unseen_row));
+    const auto free = hn::And(hn::RebindMask(d, seen), hn::AndNot(found.occluded, found.below));
     W sighted =
         hn::IfThenElse(hn::RebindMask(whole, free), code(Sighted::kFree), code(Sighted::kNothing));
     sighted = hn::IfThenElse(hn::RebindMask(whole, found.agree), code(Sighted::kAgree), sighted);
@@ -288,7 +289,7 @@ void fill_windows(const SightImage& image, int wide, int high, const float* bins
         hn::LoadInterleaved2(d, row_windows + row_at(other) + 2 * column, nearest, second);
         least = hn::Min(least, nearest);
         least_second = hn::Min(least_second, second);
-        if (other == r) nearest_below = least;
+        if (other == r && r < image.first_unseen_row) nearest_below = least;
       }
       const auto none_below = hn::Eq(nearest_below, real(std::numeric_limits<float>::infinity()));
       second = hn::IfThenElse(none_below, hn::Abs(least_second), least_second);

@@ -41,6 +41,8 @@ struct SightImage {
   int columns = 0;
   int rows = 0;
   int margin = 0;  ///< Bins before column 0 and after the last one, which repeat the other end.
+  /// Rows from here on are above the highest beam: nothing is seen through there.
+  int first_unseen_row = 0;
 
   [[nodiscard]] int stride() const { return columns + 2 * margin; }
 };
@@ -49,7 +51,7 @@ struct SightImage {
 struct SightTest {
   const float* bins = nullptr;
   /// The least of the window around each bin. Where no return of it lies in the bin's row or below,
-  /// the second number has no minus.
+  /// and above the highest beam, the second number has no minus.
   const float* windows = nullptr;
   const float* row_windows = nullptr;  ///< The least of the bins to either side, in the same row.
   int wide = 0, high = 0;              ///< Half sizes of the least window, bins.

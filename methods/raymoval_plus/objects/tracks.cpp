@@ -25,6 +25,11 @@ constexpr double kResize = 0.6, kResizeShare = 0.3;
 /// So many scans more may agree with an object than its length and speed explain: one when it comes
 /// and one when it leaves are in part.
 constexpr double kScansMore = 2.0;
+/// An object is in its place while its centre is within this share of its length.
+constexpr double kPlaceShare = 0.5;
+/// Scans may agree with an object that stands so many times as long as it was followed there: other
+/// sides of it come into sight, or something passes before it, and its track is lost.
+constexpr double kStaySlack = 2.0;
 
 int scans_between(std::size_t a, std::size_t b) {
   return static_cast<int>(std::abs(static_cast<long>(a) - static_cast<long>(b)));
@@ -65,13 +70,48 @@ struct Motion {
   double speed;   ///< Metres a scan.
 };
 
+/// Of each of a track's objects, the number of scans that it spends where it is then. It is in one
+/// place until its centre is farther from where it was at first than a share of its length.
+std::vector<int> scans_in_place(const Track& track, double length) {
+  const std::size_t count = track.nodes.size();
+  const auto center = [&](std::size_t k) { return track.nodes[k].object.center.head<2>(); };
+  std::vector<int> scans(count);
+  for (std::size_t first = 0, end = 0; first < count; first = end) {
+    while (end < count && (center(end) - center(first)).norm() <= kPlaceShare * length) ++end;
+    const int stay = 1 + scans_between(track.nodes[first].scan, track.nodes[end - 1].scan);
+    std::fill(scans.begin() + static_cast<std::ptrdiff_t>(first),
+              scans.begin() + static_cast<std::ptrdiff_t>(end), stay);
+  }
+  return scans;
+}
+
+/// The number of scans that agree with the place of an object that moves on, by its length and
+/// speed.
+double scans_passing(const ObjectSummary& object, const Motion& motion,
+                     const Parameters& parameters) {
+  const double reach = parameters.agree_constant + parameters.agree_slope * object.range;
+  return (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
+}
+
+/// Whether enough of a track's objects are dynamic. Those that stand do not count against it: where
+/// something stands for long, often nothing was seen before or after.
+bool is_mostly_dynamic(const Track& track, const Motion& motion, const Parameters& parameters) {
+  const std::vector<int> stays = scans_in_place(track, motion.length);
+  int dynamic = 0, others = 0;
+  for (std::size_t k = 0; k < stays.size(); ++k) {
+    const ObjectSummary& object = track.nodes[k].object;
+    if (is_dynamic(object, parameters)) {
+      ++dynamic;
+    } else if (stays[k] <= scans_passing(object, motion, parameters) + kScansMore) {
+      ++others;
+    }
+  }
+  return dynamic >= parameters.track_dynamic_share * static_cast<double>(dynamic + others);
+}
+
 /// How the object of a track moved, if it is known to have moved.
 std::optional<Motion> motion_of(const Track& track, const Parameters& parameters) {
-  const int dynamic = dynamic_objects(track, parameters);
-  if (dynamic < kLeastDynamic ||
-      dynamic < parameters.track_dynamic_share * static_cast<double>(track.nodes.size())) {
-    return std::nullopt;
-  }
+  if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
   std::vector<double> widths;
   const Track::Node *first = nullptr, *last = nullptr;
   for (const Track::Node& node : track.nodes) {
@@ -84,16 +124,18 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
   std::nth_element(widths.begin(), median, widths.end());
   const double moved = (last->object.center - first->object.center).head<2>().norm();
   if (moved < std::max(kLeastMotion, kLeastMotionShare * *median)) return std::nullopt;
-  return Motion{*median, moved / scans_between(first->scan, last->scan)};
+  const Motion motion{*median, moved / scans_between(first->scan, last->scan)};
+  return is_mostly_dynamic(track, motion, parameters) ? std::optional(motion) : std::nullopt;
 }
 
 /// Whether an object is not dynamic by itself, but belongs to one that moved: scans agree on it no
-/// longer than its length and speed explain.
-bool is_marked(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
+/// longer than its length and speed explain, or than it was followed while it stood.
+/// @param stay scans that it spends in its place
+bool is_marked(const ObjectSummary& object, int stay, const Motion& motion,
+               const Parameters& parameters) {
   if (is_dynamic(object, parameters)) return false;
-  const double reach = parameters.agree_constant + parameters.agree_slope * object.range;
-  const double scans = (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
-  return object.agree_scans <= parameters.track_slack * scans + kScansMore;
+  const double passing = parameters.track_slack * scans_passing(object, motion, parameters);
+  return object.agree_scans <= std::max(passing, kStaySlack * stay) + kScansMore;
 }
 
 }  // namespace
@@ -154,7 +196,9 @@ std::vector<int> ObjectTracker::marked_now() const {
     const auto& [scan, object] = track.nodes.back();
     if (scan != scan_) continue;
     const auto motion = motion_of(track, parameters_);
-    if (motion && is_marked(object, *motion, parameters_)) marked.push_back(object.cluster);
+    if (!motion) continue;
+    const int stay = scans_in_place(track, motion->length).back();
+    if (is_marked(object, stay, *motion, parameters_)) marked.push_back(object.cluster);
   }
   return marked;
 }
@@ -173,8 +217,12 @@ std::vector<std::vector<int>> objects_on_tracks(
     for (const Track& track : tracker.finish()) {
       const auto motion = motion_of(track, parameters);
       if (!motion) continue;
-      for (const auto& [scan, object] : track.nodes) {
-        if (is_marked(object, *motion, parameters)) marked[scan].push_back(object.cluster);
+      const std::vector<int> stays = scans_in_place(track, motion->length);
+      for (std::size_t k = 0; k < stays.size(); ++k) {
+        const auto& [scan, object] = track.nodes[k];
+        if (is_marked(object, stays[k], *motion, parameters)) {
+          marked[scan].push_back(object.cluster);
+        }
       }
     }
   }

@@ -82,6 +82,30 @@ TEST_CASE("a return above a place does not make it free") {
   CHECK(image.observe({5.0F, 0.0F, 5.0F * slope}) == Observation::kFree);
 }
 
+TEST_CASE("a place above the highest beam is not seen through") {
+  // A ceiling 3 m above the sensor, whose highest beam looks up by 15 degrees: the nearest return
+  // lies 11.2 m ahead, and the ceiling before it is within the window of that beam.
+  SensorModel sensor = toy::Scanner{}.model();
+  sensor.elevation_min = -15.0 * kDegree;
+  sensor.elevation_max = 15.0 * kDegree;
+  sensor.elevation_step = 2.0 * kDegree;
+  const auto ceiling = [](double elevation) -> Eigen::Vector3f {
+    return (3.0 / std::sin(elevation * kDegree) * direction(0.0, elevation * kDegree))
+        .cast<float>();
+  };
+  const RangeImage image = image_of({ceiling(14.9), ceiling(13.0)}, sensor);
+  CHECK(image.observe(ceiling(14.9)) == Observation::kAgree);
+  CHECK(image.observe(ceiling(16.5)) == Observation::kUnknown);
+  // What stands lower is seen through: the same beam passes it.
+  CHECK(image.observe(Eigen::Vector3f(0.6F * ceiling(14.9))) == Observation::kFree);
+  // What is near the sensor has a larger window, and is told alike.
+  const Eigen::Vector3f above = (2.2 * direction(0.0, 16.5 * kDegree)).cast<float>();
+  CHECK(image.observe(above) == Observation::kUnknown);
+  std::vector<ObservedPlace> observed;
+  image.observe({above.x(), above.y(), above.z()}, Pose::Identity(), observed);
+  CHECK(observed.empty());
+}
+
 TEST_CASE("places are observed alike one by one, all at once, and by every instruction set") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.4F, 0.3F), range(1.0F, 90.0F);

@@ -69,6 +69,29 @@ TEST_CASE("a track may miss two scans, and not three") {
   }
 }
 
+TEST_CASE("what waits before it leaves, or comes and stays, is one thing with what moved") {
+  // The walker stands for 40 scans, in which nothing is seen through it, and walks for 10. In the
+  // other order of time it comes and stays.
+  for (const bool comes : {false, true}) {
+    for (const float agree_scans : {40.0F, 90.0F}) {
+      Scans scans;
+      for (int i = 0; i < 50; ++i) {
+        const int time = comes ? 49 - i : i;
+        const bool stands = time < 40;
+        scans.push_back({walker(stands ? 0 : time - 39, stands ? 0 : 18, agree_scans)});
+      }
+      // Scans agree with its place for as long as it was followed there. If they agree for more
+      // than twice as long, it is something else that the track ran into.
+      const auto marked = marked_by_tracks(scans);
+      const auto of_standing = agree_scans < 50.0F ? std::vector{0} : std::vector<int>{};
+      for (std::size_t i = 0; i < 50; ++i) {
+        const bool stands = comes ? i >= 10 : i < 40;
+        CHECK(marked[i] == (stands ? of_standing : std::vector<int>{}));
+      }
+    }
+  }
+}
+
 TEST_CASE("an object that did not move, or changed its size, marks nothing") {
   Scans standing, growing;
   for (int i = 0; i < 10; ++i) {
