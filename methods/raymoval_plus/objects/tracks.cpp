@@ -36,13 +36,31 @@ int dynamic_objects(const Track& track, const Parameters& parameters) {
                     [&](const Track::Node& node) { return is_dynamic(node.object, parameters); }));
 }
 
+struct Motion {
+  double length;  ///< Of the object, metres.
+  double speed;   ///< Metres a scan.
+};
+
+/// Whether scans agree on an object no longer than its length and speed explain.
+bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
+  const double reach = parameters.agree_constant + parameters.agree_slope * object.range;
+  const double scans = (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
+  return object.agree_scans <= parameters.track_slack * scans + kScansMore;
+}
+
 /// The distance of an object from where the track is expected, metres, if it can be the same
 /// object.
-std::optional<double> mismatch(const Track& track, const ObjectSummary& found, int scans) {
+std::optional<double> mismatch(const Track& track, const ObjectSummary& found, int scans,
+                               double first_step, const Parameters& parameters) {
   const ObjectSummary& last = track.nodes.back().object;
   const Eigen::Vector3d expected = last.center + track.velocity * scans;
   const double distance = (found.center - expected).head<2>().norm();
-  if (distance > kGate + kGateShare * track.velocity.norm() * scans) return std::nullopt;
+  if (distance > kGate + kGateShare * track.velocity.norm() * scans) {
+    // Nothing is known of the speed of what was seen once, but what is fast is new where it is.
+    const bool may_be_fast = track.nodes.size() == 1 && distance <= first_step * scans &&
+                             is_explained(found, {last.width(), distance / scans}, parameters);
+    if (!may_be_fast) return std::nullopt;
+  }
   const Eigen::Array3d size = last.high - last.low, found_size = found.high - found.low;
   if (((size - found_size).abs() > kResize + kResizeShare * size.max(found_size)).any()) {
     return std::nullopt;
@@ -59,11 +77,6 @@ void extend(Track& track, const Track::Node& node) {
       track.nodes.size() == 1 ? moved : Eigen::Vector3d(0.5 * (track.velocity + moved));
   track.nodes.push_back(node);
 }
-
-struct Motion {
-  double length;  ///< Of the object, metres.
-  double speed;   ///< Metres a scan.
-};
 
 /// How the object of a track moved, if it is known to have moved.
 std::optional<Motion> motion_of(const Track& track, const Parameters& parameters) {
@@ -87,13 +100,9 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
   return Motion{*median, moved / scans_between(first->scan, last->scan)};
 }
 
-/// Whether an object is not dynamic by itself, but belongs to one that moved: scans agree on it no
-/// longer than its length and speed explain.
+/// Whether an object is not dynamic by itself, but belongs to one that moved.
 bool is_marked(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
-  if (is_dynamic(object, parameters)) return false;
-  const double reach = parameters.agree_constant + parameters.agree_slope * object.range;
-  const double scans = (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
-  return object.agree_scans <= parameters.track_slack * scans + kScansMore;
+  return !is_dynamic(object, parameters) && is_explained(object, motion, parameters);
 }
 
 }  // namespace
@@ -109,7 +118,7 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
   for (std::size_t t = 0; t < active_.size(); ++t) {
     const int scans = scans_between(active_[t].nodes.back().scan, scan);
     for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (const auto distance = mismatch(active_[t], objects[k], scans)) {
+      if (const auto distance = mismatch(active_[t], objects[k], scans, first_step_, parameters_)) {
         pairs.emplace_back(*distance, t, k);
       }
     }
@@ -161,11 +170,11 @@ std::vector<int> ObjectTracker::marked_now() const {
 
 std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
-    const RunContext& context) {
+    const RunContext& context, double first_step) {
   const StageScope timed(context.times, "tracks");
   std::vector<std::vector<int>> marked(scans.size());
   for (const bool backward : {false, true}) {
-    ObjectTracker tracker(parameters);
+    ObjectTracker tracker(parameters, first_step);
     for (std::size_t i = 0; i < scans.size(); ++i) {
       const std::size_t scan = backward ? scans.size() - 1 - i : i;
       tracker.follow(scan, scans[scan]);

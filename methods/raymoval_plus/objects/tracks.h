@@ -42,7 +42,10 @@ struct Track {
 /// Follows dynamic objects from scan to scan. Scans come in ascending or in descending order.
 class ObjectTracker {
  public:
-  explicit ObjectTracker(const Parameters& parameters) : parameters_(parameters) {}
+  /// @param first_step metres a scan that an object may be faster than slow ones in its first step,
+  ///   of whose speed nothing is known yet
+  explicit ObjectTracker(const Parameters& parameters, double first_step = 0.0)
+      : parameters_(parameters), first_step_(first_step) {}
 
   /// Takes the objects of the next scan.
   void follow(std::size_t scan, const std::vector<ObjectSummary>& objects);
@@ -56,6 +59,7 @@ class ObjectTracker {
   void end_tracks(std::size_t scan);
 
   Parameters parameters_;
+  double first_step_;
   std::size_t scan_ = 0;
   std::vector<Track> active_, ended_;
 };
@@ -64,6 +68,6 @@ class ObjectTracker {
 /// do not say so. A track of dynamic objects passes through them, forward or backward in time.
 std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
-    const RunContext& context);
+    const RunContext& context, double first_step = 0.0);
 
 }  // namespace raymoval::raymoval_plus_method
