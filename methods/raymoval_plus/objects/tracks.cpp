@@ -168,13 +168,29 @@ std::vector<int> ObjectTracker::marked_now() const {
   return marked;
 }
 
+std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
+                           const Parameters& parameters) {
+  std::vector<int> marked;
+  for (const Track& track : tracks) {
+    // The nodes are few, and those looked for are mostly the last ones.
+    const auto node = std::find_if(track.nodes.rbegin(), track.nodes.rend(),
+                                   [&](const Track::Node& some) { return some.scan == scan; });
+    if (node == track.nodes.rend()) continue;
+    const auto motion = motion_of(track, parameters);
+    if (motion && is_marked(node->object, *motion, parameters)) {
+      marked.push_back(node->object.cluster);
+    }
+  }
+  return marked;
+}
+
 std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
-    const RunContext& context, double first_step) {
+    const RunContext& context) {
   const StageScope timed(context.times, "tracks");
   std::vector<std::vector<int>> marked(scans.size());
   for (const bool backward : {false, true}) {
-    ObjectTracker tracker(parameters, first_step);
+    ObjectTracker tracker(parameters);
     for (std::size_t i = 0; i < scans.size(); ++i) {
       const std::size_t scan = backward ? scans.size() - 1 - i : i;
       tracker.follow(scan, scans[scan]);

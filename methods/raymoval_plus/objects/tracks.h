@@ -51,6 +51,8 @@ class ObjectTracker {
   void follow(std::size_t scan, const std::vector<ObjectSummary>& objects);
   /// All tracks so far. Those that ended with too few dynamic objects are forgotten.
   [[nodiscard]] std::vector<Track> finish();
+  /// Forgets the tracks that ended.
+  void forget_ended() { ended_.clear(); }
   /// The clusters of the last scan that were seen moving before, though their own rays do not say
   /// so.
   [[nodiscard]] std::vector<int> marked_now() const;
@@ -64,10 +66,15 @@ class ObjectTracker {
   std::vector<Track> active_, ended_;
 };
 
+/// The clusters of one scan that the objects of these tracks are, though their own rays do not say
+/// so.
+std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
+                           const Parameters& parameters);
+
 /// Step 7: the clusters of each scan that were seen moving before or after, though their own rays
 /// do not say so. A track of dynamic objects passes through them, forward or backward in time.
 std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
-    const RunContext& context, double first_step = 0.0);
+    const RunContext& context);
 
 }  // namespace raymoval::raymoval_plus_method

@@ -13,6 +13,9 @@ constexpr double kFirstStep = 4.0;
 
 }  // namespace
 
+RecentObjects::RecentObjects(const Parameters& parameters)
+    : parameters_(parameters), before_(parameters, kFirstStep) {}
+
 void RecentObjects::take(const SegmentedScan& scan, const EvidenceMap& map,
                          const RunContext& context) {
   std::vector<ObjectSummary> objects = summarise_objects(scan, map, parameters_, context);
@@ -75,13 +78,26 @@ void RecentObjects::judge(const EvidenceMap& map, const RunContext& context) {
 }
 
 std::vector<int> RecentObjects::marked(std::size_t scan, const RunContext& context) const {
-  if (scan < first_ || scan - first_ >= objects_.size()) return {};
-  return objects_on_tracks(objects_, parameters_, context, kFirstStep)[scan - first_];
+  const StageScope timed(context.times, "tracks");
+  ObjectTracker forward = before_, backward(parameters_, kFirstStep);
+  for (std::size_t i = 0; i < objects_.size(); ++i) forward.follow(first_ + i, objects_[i]);
+  std::vector<int> marked = marked_in(scan, forward.finish(), parameters_);
+  for (std::size_t i = objects_.size(); i > 0 && first_ + i > scan + 1; --i) {
+    backward.follow(first_ + i - 1, objects_[i - 1]);
+  }
+  // Without later scans nothing leads back to this one.
+  if (first_ + objects_.size() <= scan + 1) return marked;
+  backward.follow(scan, objects_[scan - first_]);
+  const std::vector<int> more = marked_in(scan, backward.finish(), parameters_);
+  marked.insert(marked.end(), more.begin(), more.end());
+  return marked;
 }
 
 void RecentObjects::forget_before(std::size_t next) {
   const auto kept = static_cast<std::size_t>(parameters_.recent_scans);
   while (!objects_.empty() && first_ + kept < next) {
+    before_.follow(first_, objects_.front());
+    before_.forget_ended();
     objects_.erase(objects_.begin());
     pieces_.erase(pieces_.begin());
     ++first_;
