@@ -77,6 +77,7 @@ class Run {
       while (waiting.is_due()) answer_first();
     });
     while (!waiting.empty()) {
+      context_.check_cancelled();
       const ScanScope timed(context_.times, waiting.first().scan.index);
       answer_first();
     }
