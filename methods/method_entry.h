@@ -15,7 +15,7 @@ namespace raymoval {
 struct MethodVariant {
   std::string name;
   std::string sentence;
-  bool online = false;      ///< The answer for scan t needs scans 0 .. t only.
+  bool online = false;      ///< Scan t is answered from scans 0 .. t, or up to its `delay` later.
   Configuration overrides;  ///< Values that differ from the method's defaults.
 };
 

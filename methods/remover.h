@@ -61,7 +61,7 @@ struct RunContext {
 /// A way to find the points of moving objects in a sequence of posed scans.
 ///
 /// The same input gives the same answer whatever the number of threads. An online method answers
-/// for scan t from scans 0 .. t; an offline one sees all of them (its registry entry says which).
+/// for scan t from scans 0 .. t, or until a delay later; an offline one sees all (its entry tells).
 class Remover {
  public:
   virtual ~Remover() = default;

@@ -25,7 +25,7 @@ methods                remover method_entry common
 methods                controls|external|raymoval|raymoval_plus
 methods                |octomap|peopleremover|removert|erasor|dufomap|beautymap registry
 methods/raymoval       kernels .
-methods/raymoval_plus  common terrain evidence objects .
+methods/raymoval_plus  common terrain evidence objects online .
 eval                   . points lattice dynamicmap|erasor|mos protocol_registry columns|comparison|published
 eval/erasor            options|frame maps matching rates scorer .
 benchmark              harness suite result process tables run picture report clean cli cli/shell cli/commands

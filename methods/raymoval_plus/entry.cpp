@@ -13,6 +13,10 @@ MethodEntry raymoval_plus_entry() {
   entry.variants = {
       {"offline", "Every point answered from all scans.", false, {}},
       {"online", "Each scan answered when it comes.", true, {{"at_once", true}}},
+      {"online-lag",
+       "Each scan answered once, a second after it came (delay), from the scans up to then.",
+       true,
+       {{"at_once", true}, {"delay", 1.0}}},
       {"online-map",
        "One pass as the scans come, every point answered by the map as it is in the end.",
        false,

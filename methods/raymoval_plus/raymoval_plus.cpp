@@ -11,6 +11,8 @@
 #include "methods/raymoval_plus/evidence/vote.h"
 #include "methods/raymoval_plus/objects/objects.h"
 #include "methods/raymoval_plus/objects/reasons.h"
+#include "methods/raymoval_plus/online/recent_objects.h"
+#include "methods/raymoval_plus/online/waiting_scans.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -51,21 +53,34 @@ class Run {
     answer_from_map(terrain_, map_, parameters_, scans_, sink_, context_);  // 6 to 8
   }
 
-  /// One pass, in which each scan is answered from it and those before.
+  /// One pass, in which each scan is answered from those up to a fixed time after it.
   void online() {
-    ObjectTracker tracker(parameters_);
-    SegmentedScan scan;
+    WaitingScans waiting(parameters_.delay);
+    RecentObjects recent(parameters_);
+    const auto answer_first = [&] {
+      answer_by_now(waiting.first(), recent);
+      waiting.remove_first();
+    };
     for_each_scan("raymoval_plus, scans", scans_, context_, [&](Scan arriving) {
+      waiting.tick(arriving.time_s);
+      while (waiting.is_overdue()) answer_first();
+      SegmentedScan& scan = waiting.add();
       arrive(std::move(arriving), scan);  // 1
       side_by_side(
           context_, [&] { add_arrived(scan, WhenToDecide::kNow); },    // 2 to 4
           [&] { find_clusters(parameters_, beside_others_, scan); });  // 6
-      vote(blocks_of(scan, map_), parameters_, context_, map_);        // 5
-      look_up_verdicts(map_, context_, scan);
-      divide_clusters(map_, parameters_, context_, scan);                                     // 6
-      tracker.follow(scan.scan.index, summarise_objects(scan, map_, parameters_, context_));  // 7
-      answer(scan, tracker.marked_now(), map_, parameters_, sink_, context_);  // 6 to 8
+      if (parameters_.delay > 0.0) {
+        look_up_verdicts(map_, context_, scan);
+        count_points(scan);
+        recent.take(scan, map_, context_);
+      }
+      while (waiting.is_due()) answer_first();
     });
+    while (!waiting.empty()) {
+      context_.check_cancelled();
+      const ScanScope timed(context_.times, waiting.first().scan.index);
+      answer_first();
+    }
   }
 
  private:
@@ -145,6 +160,20 @@ class Run {
                                 map_);                                      // 3, 4
     add_evidence(std::span(&posed, 1), parameters_, when, context_, map_);  // 3, 4
     earlier_scans_.keep(std::move(image_), posed.T_world_sensor);
+  }
+
+  /// Steps 5 to 8 for a scan, by the map and the objects as they are now.
+  void answer_by_now(SegmentedScan& scan, RecentObjects& recent) {
+    std::vector<std::uint32_t> blocks = blocks_of(scan, map_);
+    recent.add_blocks(map_, blocks);
+    vote(blocks, parameters_, context_, map_);  // 5
+    look_up_verdicts(map_, context_, scan);
+    divide_clusters(map_, parameters_, context_, scan);  // 6
+    recent.take(scan, map_, context_);
+    recent.judge(map_, context_);
+    answer(scan, recent.marked(scan.scan.index, context_), map_, parameters_, sink_,
+           context_);  // 6 to 8
+    recent.forget_before(scan.scan.index + 1);
   }
 
   const Parameters& parameters_;

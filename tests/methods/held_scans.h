@@ -19,6 +19,7 @@ class HeldScans : public ScanSource {
     Scan scan;
     scan.index = scans_.size();
     scan.name = std::to_string(scan.index);
+    scan.time_s = 0.1 * static_cast<double>(scan.index);
     scan.T_world_sensor = T_world_sensor;
     scan.stored_point_count = points.size();
     scan.points = std::move(points);

@@ -30,6 +30,7 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"raymoval_plus:online.object_points", "a cluster of three points must be dynamic"},
     {"raymoval_plus:online.low_points", "something dynamic must reach the ground"},
     {"beautymap.public_top", "a column must be higher than 30 slices (see beautymap_test)"},
+    {"raymoval_plus:online.recent_scans", "as for tracks"},
     {"octomap.ground_points", "a scan must have few points"},
     {"erasor.sparse_ground", "a bin must have as few points as are skipped as outliers"},
     {"removert.clamp_fov", "the sensor must see beyond the images' field of view"},

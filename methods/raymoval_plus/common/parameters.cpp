@@ -29,10 +29,16 @@ struct Lines {
 
 void add_when(Lines& table) {
   table.flag("at_once", &P::at_once,
-             "Answer each scan when it comes, from it and the scans before.");
+             "Answer each scan when it comes, or a fixed time after it, and never again.");
   table.flag("one_pass", &P::one_pass,
              "Gather the evidence as scans come, in one pass; answer at the end.",
              "at_once is false");
+  table.number("delay", &P::delay, "s", 0, 10,
+               "Each scan is answered so long after it, from the scans that came by then.",
+               "at_once is true");
+  table.integer("recent_scans", &P::recent_scans, "scans", 0, 1000,
+                "Objects of this many scans before are judged again, to find tracks.",
+                "at_once is true and objects is true and tracks is true");
   table.integer("history_scans", &P::history_scans, "scans", 0, 1000,
                 "This many earlier scans are kept to ask them about new voxels.",
                 "at_once is true or one_pass is true");

@@ -11,6 +11,8 @@ struct Parameters {
   // When to answer.
   bool at_once = false;
   bool one_pass = false;
+  double delay = 0.0;
+  int recent_scans = 30;
   int history_scans = 20;
   int history_step = 2;
   int terrain_period = 5;

@@ -51,15 +51,6 @@ std::vector<int> clusters_among(const SegmentedScan& scan, const Parameters& par
   return among;
 }
 
-void count_points(SegmentedScan& scan) {
-  for (Cluster& cluster : scan.clusters) cluster.points = cluster.dynamic = 0;
-  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
-    ++cluster.points;
-    if (scan.verdict[scan.high_points[i]] == Verdict::kDynamic) ++cluster.dynamic;
-  }
-}
-
 bool is_mostly_dynamic(const Cluster& cluster, const Parameters& parameters) {
   return cluster.dynamic >= parameters.object_dynamic_share * cluster.points;
 }
@@ -149,6 +140,15 @@ void find_clusters(const Parameters& parameters, const RunContext& context, Segm
   scan.cluster_of = clusters_of(scan.scan, scan.high_points, parameters);
   const auto& number = scan.cluster_of;
   scan.clusters.resize(number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end()));
+}
+
+void count_points(SegmentedScan& scan) {
+  for (Cluster& cluster : scan.clusters) cluster.points = cluster.dynamic = 0;
+  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
+    Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
+    ++cluster.points;
+    if (scan.verdict[scan.high_points[i]] == Verdict::kDynamic) ++cluster.dynamic;
+  }
 }
 
 void divide_clusters(const EvidenceMap& map, const Parameters& parameters,

@@ -31,6 +31,8 @@ struct SegmentedScan : LocatedScan {
 
 /// Step 6: finds the clusters. The verdicts need not be known yet.
 void find_clusters(const Parameters& parameters, const RunContext& context, SegmentedScan& scan);
+/// Counts the points of the clusters, and what is dynamic in them.
+void count_points(SegmentedScan& scan);
 /// Step 6: counts what is dynamic in the clusters, and divides those that are mixed.
 void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
                      const RunContext& context, SegmentedScan& scan);

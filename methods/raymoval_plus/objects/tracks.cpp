@@ -41,13 +41,38 @@ int dynamic_objects(const Track& track, const Parameters& parameters) {
                     [&](const Track::Node& node) { return is_dynamic(node.object, parameters); }));
 }
 
+struct Motion {
+  double length;  ///< Of the object, metres.
+  double speed;   ///< Metres a scan.
+};
+
+/// The number of scans that agree with the place of an object that moves on, by its length and
+/// speed.
+double scans_passing(const ObjectSummary& object, const Motion& motion,
+                     const Parameters& parameters) {
+  const double reach = parameters.agree_constant + parameters.agree_slope * object.range;
+  return (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
+}
+
+/// Whether scans agree on an object no longer than its length and speed explain.
+bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
+  return object.agree_scans <=
+         parameters.track_slack * scans_passing(object, motion, parameters) + kScansMore;
+}
+
 /// The distance of an object from where the track is expected, metres, if it can be the same
 /// object.
-std::optional<double> mismatch(const Track& track, const ObjectSummary& found, int scans) {
+std::optional<double> mismatch(const Track& track, const ObjectSummary& found, int scans,
+                               double first_step, const Parameters& parameters) {
   const ObjectSummary& last = track.nodes.back().object;
   const Eigen::Vector3d expected = last.center + track.velocity * scans;
   const double distance = (found.center - expected).head<2>().norm();
-  if (distance > kGate + kGateShare * track.velocity.norm() * scans) return std::nullopt;
+  if (distance > kGate + kGateShare * track.velocity.norm() * scans) {
+    // Nothing is known of the speed of what was seen once, but what is fast is new where it is.
+    const bool may_be_fast = track.nodes.size() == 1 && distance <= first_step * scans &&
+                             is_explained(found, {last.width(), distance / scans}, parameters);
+    if (!may_be_fast) return std::nullopt;
+  }
   const Eigen::Array3d size = last.high - last.low, found_size = found.high - found.low;
   if (((size - found_size).abs() > kResize + kResizeShare * size.max(found_size)).any()) {
     return std::nullopt;
@@ -65,11 +90,6 @@ void extend(Track& track, const Track::Node& node) {
   track.nodes.push_back(node);
 }
 
-struct Motion {
-  double length;  ///< Of the object, metres.
-  double speed;   ///< Metres a scan.
-};
-
 /// Of each of a track's objects, the number of scans that it spends where it is then. It is in one
 /// place until its centre is farther from where it was at first than a share of its length.
 std::vector<int> scans_in_place(const Track& track, double length) {
@@ -83,14 +103,6 @@ std::vector<int> scans_in_place(const Track& track, double length) {
               scans.begin() + static_cast<std::ptrdiff_t>(end), stay);
   }
   return scans;
-}
-
-/// The number of scans that agree with the place of an object that moves on, by its length and
-/// speed.
-double scans_passing(const ObjectSummary& object, const Motion& motion,
-                     const Parameters& parameters) {
-  const double reach = parameters.agree_constant + parameters.agree_slope * object.range;
-  return (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
 }
 
 /// Whether enough of a track's objects are dynamic. Those that stand do not count against it: where
@@ -134,8 +146,8 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
 bool is_marked(const ObjectSummary& object, int stay, const Motion& motion,
                const Parameters& parameters) {
   if (is_dynamic(object, parameters)) return false;
-  const double passing = parameters.track_slack * scans_passing(object, motion, parameters);
-  return object.agree_scans <= std::max(passing, kStaySlack * stay) + kScansMore;
+  return is_explained(object, motion, parameters) ||
+         object.agree_scans <= kStaySlack * stay + kScansMore;
 }
 
 }  // namespace
@@ -151,7 +163,7 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
   for (std::size_t t = 0; t < active_.size(); ++t) {
     const int scans = scans_between(active_[t].nodes.back().scan, scan);
     for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (const auto distance = mismatch(active_[t], objects[k], scans)) {
+      if (const auto distance = mismatch(active_[t], objects[k], scans, first_step_, parameters_)) {
         pairs.emplace_back(*distance, t, k);
       }
     }
@@ -199,6 +211,23 @@ std::vector<int> ObjectTracker::marked_now() const {
     if (!motion) continue;
     const int stay = scans_in_place(track, motion->length).back();
     if (is_marked(object, stay, *motion, parameters_)) marked.push_back(object.cluster);
+  }
+  return marked;
+}
+
+std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
+                           const Parameters& parameters) {
+  std::vector<int> marked;
+  for (const Track& track : tracks) {
+    // The nodes are few, and those looked for are mostly the last ones.
+    const auto node = std::find_if(track.nodes.rbegin(), track.nodes.rend(),
+                                   [&](const Track::Node& some) { return some.scan == scan; });
+    if (node == track.nodes.rend()) continue;
+    const auto motion = motion_of(track, parameters);
+    if (!motion) continue;
+    const auto at = static_cast<std::size_t>(track.nodes.rend() - node) - 1;
+    const int stay = scans_in_place(track, motion->length)[at];
+    if (is_marked(node->object, stay, *motion, parameters)) marked.push_back(node->object.cluster);
   }
   return marked;
 }

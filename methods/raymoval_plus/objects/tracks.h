@@ -42,12 +42,17 @@ struct Track {
 /// Follows dynamic objects from scan to scan. Scans come in ascending or in descending order.
 class ObjectTracker {
  public:
-  explicit ObjectTracker(const Parameters& parameters) : parameters_(parameters) {}
+  /// @param first_step metres a scan that an object may be faster than slow ones in its first step,
+  ///   of whose speed nothing is known yet
+  explicit ObjectTracker(const Parameters& parameters, double first_step = 0.0)
+      : parameters_(parameters), first_step_(first_step) {}
 
   /// Takes the objects of the next scan.
   void follow(std::size_t scan, const std::vector<ObjectSummary>& objects);
   /// All tracks so far. Those that ended with too few dynamic objects are forgotten.
   [[nodiscard]] std::vector<Track> finish();
+  /// Forgets the tracks that ended.
+  void forget_ended() { ended_.clear(); }
   /// The clusters of the last scan that were seen moving before, though their own rays do not say
   /// so.
   [[nodiscard]] std::vector<int> marked_now() const;
@@ -56,9 +61,15 @@ class ObjectTracker {
   void end_tracks(std::size_t scan);
 
   Parameters parameters_;
+  double first_step_;
   std::size_t scan_ = 0;
   std::vector<Track> active_, ended_;
 };
+
+/// The clusters of one scan that the objects of these tracks are, though their own rays do not say
+/// so.
+std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
+                           const Parameters& parameters);
 
 /// Step 7: the clusters of each scan that were seen moving before or after, though their own rays
 /// do not say so. A track of dynamic objects passes through them, forward or backward in time.

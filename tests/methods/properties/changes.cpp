@@ -172,10 +172,10 @@ const std::vector<Change>& changes() {
   return all;
 }
 
-ScanList with_other_labels(const ScanList& world) {
+ScanList with_other_labels(const ScanList& world, bool other_times) {
   ScanList other(world.sensor());
   for (Scan scan : world.scans()) {
-    scan.time_s = 1000.0 - 7.0 * scan.time_s;
+    if (other_times) scan.time_s = 1000.0 - 7.0 * scan.time_s;
     scan.name = "other " + scan.name;
     scan.reflectance.assign(scan.size(), static_cast<float>(scan.index));
     scan.stored_index.resize(scan.size());

@@ -32,7 +32,8 @@ struct Change {
 /// All changes, in the order of the columns of `claims`.
 const std::vector<Change>& changes();
 
-/// The same scans with other times, names and intensities, of which a method must take no notice.
-ScanList with_other_labels(const ScanList& world);
+/// The same scans with other names and intensities, and other times if `other_times`, of which a
+/// method must take no notice.
+ScanList with_other_labels(const ScanList& world, bool other_times);
 
 }  // namespace raymoval::toy

@@ -34,8 +34,10 @@ constexpr Line kLines[] = {
 
     // Runs of scans, gaps of tracks, kept scans and the ground's period count scans, empty ones
     // too. Means of voxels and of objects are sums, which round.
+    // With a delay, an empty scan at the end is one more that came before the last answers.
     {"raymoval_plus:offline", "= ? ? ~ ? = ? ? ?"},
     {"raymoval_plus:online", "= ? ? ~ ? = = ? ?"},
+    {"raymoval_plus:online-lag", "? ? ? ~ ? = = ? ?"},
     {"raymoval_plus:online-map", "? ? ? ~ ? = ? ? ?"},
 
     // A scan is a set of cells, hit or crossed once. Clamping makes the order of scans count. The

@@ -102,3 +102,26 @@ TEST_CASE("an object that did not move, or changed its size, marks nothing") {
   CHECK(marked_by_tracks(standing)[9].empty());
   CHECK(marked_by_tracks(growing)[7].empty());
 }
+
+TEST_CASE("a fast object is followed from its first step on if that is allowed") {
+  // A van of 4 m drives 1.5 m a scan, which no slow thing does between two scans.
+  Scans scans;
+  for (int i = 0; i < 8; ++i) {
+    scans.push_back({walker(0, i < 5 ? 18 : 0, 1.0)});
+    ObjectSummary& van = scans.back()[0];
+    van.center.x() = 10.0 + 1.5 * i;
+    van.low = van.center - Eigen::Vector3d(2.0, 0.8, 0.7);
+    van.high = van.center + Eigen::Vector3d(2.0, 0.8, 0.7);
+  }
+  const auto last_marked = [&](double first_step) {
+    ObjectTracker tracker(Parameters{}, first_step);
+    for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, scans[i]);
+    return tracker.marked_now();
+  };
+  CHECK(last_marked(0.0).empty());
+  CHECK(last_marked(1.4).empty());
+  CHECK(last_marked(4.0) == std::vector{0});
+  // What scans agree with for long stood there before, and is no fast thing.
+  for (std::size_t i = 1; i < 8; ++i) scans[i][0].agree_scans = 20.0F;
+  CHECK(last_marked(4.0).empty());
+}

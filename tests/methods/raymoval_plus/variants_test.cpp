@@ -30,7 +30,7 @@ TEST_CASE("raymoval_plus answers alike with and without reasons, for any number 
     void accept(std::size_t /*scan*/, const std::vector<std::uint8_t>& /*codes*/) override {}
   };
   const toy::World world = toy::street(14);
-  for (const char* const name : {"offline", "online-map", "online"}) {
+  for (const char* const name : {"offline", "online-map", "online", "online-lag"}) {
     const MaskStore masks = toy::masks_of(*variant(name).make(), world);
     for (const int threads : {1, 2, 3}) {
       toy::Masks others(world.size());
@@ -49,6 +49,21 @@ TEST_CASE("raymoval_plus online knows nothing of later scans") {
   const MaskStore all = toy::masks_of(*method.make(), toy::street(12));
   const MaskStore some = toy::masks_of(*method.make(), toy::street(7));
   CHECK(toy::different_verdicts(some, all, 7) == 0);
+}
+
+TEST_CASE("raymoval_plus online-lag knows the scans up to its delay, and none after") {
+  ConfiguredMethod method = variant("online-lag");
+  set_parameter(method.configuration, "delay", 0.3);  // Three scans.
+  const toy::World world = toy::street(14);
+  const MaskStore all = toy::masks_of(*method.make(), world);
+  const MaskStore some = toy::masks_of(*method.make(), toy::street(10));
+  CHECK(toy::different_verdicts(some, all, 7) == 0);
+  // It does use them: the answer to the last scan but two of the shorter drive was given too early.
+  CHECK(toy::different_verdicts(some, all, 10) > 0);
+  // More is removed than at once, and with all scans at hand what one pass removes.
+  const MaskStore at_once = toy::masks_of(*variant("online").make(), world);
+  CHECK(toy::removed_share(world, all, 3, 0, 10) > toy::removed_share(world, at_once, 3, 0, 10));
+  for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, all, fixed, 0, 13) < 0.005);
 }
 
 TEST_CASE("one pass removes nearly what four do") {
