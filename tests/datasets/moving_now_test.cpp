@@ -60,7 +60,7 @@ std::string moving(const Sequence& sequence, std::size_t scan) {
 TEST_CASE("what stands in a scan does not move now", "[semantickitti]") {
   const TemporaryFolder folder;
   write_street(folder);
-  const Sequence ever = open_sequence(folder.text());
+  const Sequence ever = open_sequence(folder.text(), {});
   for (std::size_t scan = 0; scan < 4; ++scan) CHECK(moving(ever, scan) == "0111");
   const Sequence now = open_sequence(folder.text(), moving_now());
   CHECK(moving(now, 0) == "0011");

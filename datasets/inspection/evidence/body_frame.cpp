@@ -39,8 +39,8 @@ bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen) 
   return !seen.empty() && 4 * same >= 3 * seen.size();
 }
 
-std::optional<Eigen::Matrix3d> turn_on_body(const Samples& samples,
-                                            const std::vector<SeenMotion>& seen) {
+std::vector<Eigen::Matrix3d> turns_on_body(const Samples& samples,
+                                           const std::vector<SeenMotion>& seen) {
   constexpr double kLeast = 1.0;  // metres of way, all pairs together
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   double way = 0.0;
@@ -50,13 +50,14 @@ std::optional<Eigen::Matrix3d> turn_on_body(const Samples& samples,
     moments += kTurnLever * kTurnLever * turn_vector(given) * turn_vector(one.motion).transpose();
     way += one.motion.translation().norm();
   }
-  if (way < kLeast) return std::nullopt;
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  moments += 1e-3 * moments.norm() * up * up.transpose();
+  if (way < kLeast) return {};
+  const double yaw = std::atan2(moments(1, 0) - moments(0, 1), moments(0, 0) + moments(1, 1));
+  const Eigen::Matrix3d upright =
+      Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moments, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d proper = Eigen::Matrix3d::Identity();
   proper(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0.0 ? 1.0 : -1.0;
-  return Eigen::Matrix3d(svd.matrixU() * proper * svd.matrixV().transpose());
+  return {upright, svd.matrixU() * proper * svd.matrixV().transpose()};
 }
 
 std::string turn_text(const Eigen::Matrix3d& turn) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +13,11 @@ namespace raymoval::inspection {
 /// does not depend on how the sensor is turned on the body that has the poses.
 bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen);
 
-/// R_body_sensor under which the poses of a body move as the scans do, whatever its position on the
-/// body. Motion along one line leaves the turn about that line open; then z stays as near to z as
-/// it can. Nothing if the scans hardly move.
-std::optional<Eigen::Matrix3d> turn_on_body(const Samples& samples,
-                                            const std::vector<SeenMotion>& seen);
+/// R_body_sensor under which the poses of a body move as the scans do, whatever the position of the
+/// sensor on the body: first the best turn about z, then the best of all turns, which a motion
+/// along nearly one line leaves open. Nothing if the scans hardly move.
+std::vector<Eigen::Matrix3d> turns_on_body(const Samples& samples,
+                                           const std::vector<SeenMotion>& seen);
 
 /// "90 degrees about z", or roll, pitch and yaw.
 std::string turn_text(const Eigen::Matrix3d& turn);

@@ -138,28 +138,30 @@ Reached best_of(const Samples& samples, const PairFit& fit,
   return best;
 }
 
-/// Poses of a body on which the sensor is turned; it says nothing where the scans do not tell.
-std::optional<PoseHypothesis> body_hypothesis(const Samples& samples,
-                                              const std::vector<SeenMotion>& seen) {
-  const auto turn = turn_on_body(samples, seen);
-  if (!turn) return std::nullopt;
+/// Poses of a body on which the sensor is turned, the simplest turn first.
+std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
+                                            const std::vector<SeenMotion>& seen) {
   const auto& poses = samples.poses();
-  PoseHypothesis hypothesis{
-      "poses-of-a-body",
-      "if the sensor is turned by " + turn_text(*turn) + " on the body that has the poses",
-      [&poses, turn = *turn](std::size_t i) {
-        Pose pose = poses[i];
-        pose.linear() *= turn;
-        return pose;
-      }};
-  if (samples.sequence().T_sensor) {
-    hypothesis.remedy =
-        "Multiply the pose of --T-sensor by " + mounting_text(*turn) + ", from the right.";
-  } else if (!samples.sequence().T_camera_lidar) {
-    hypothesis.remedy = "Say --T-sensor " + mounting_text(*turn) +
-                        ", with the position of the sensor on the body instead of the zeros.";
+  std::vector<PoseHypothesis> all;
+  for (const Eigen::Matrix3d& turn : turns_on_body(samples, seen)) {
+    PoseHypothesis hypothesis{
+        "poses-of-a-body",
+        "if the sensor is turned by " + turn_text(turn) + " on the body that has the poses",
+        [&poses, turn](std::size_t i) {
+          Pose pose = poses[i];
+          pose.linear() *= turn;
+          return pose;
+        }};
+    if (samples.sequence().T_sensor) {
+      hypothesis.remedy =
+          "Multiply the pose of --T-sensor by " + mounting_text(turn) + ", from the right.";
+    } else if (!samples.sequence().T_camera_lidar) {
+      hypothesis.remedy = "Say --T-sensor " + mounting_text(turn) +
+                          ", with the position of the sensor on the body instead of the zeros.";
+    }
+    all.push_back(std::move(hypothesis));
   }
-  return hypothesis;
+  return all;
 }
 
 /// Poses of other times; it says nothing where the scans do not tell.
@@ -186,16 +188,17 @@ Reached best_hypothesis(Samples& samples, const PairFit& fit,
     hypotheses.push_back(std::move(hypothesis));
   }
   std::vector<PoseHypothesis> fitted;
-  if (turns) {
-    if (auto body = body_hypothesis(samples, seen)) fitted.push_back(std::move(*body));
-  }
+  if (turns) fitted = body_hypotheses(samples, seen);
   if (auto time = time_hypothesis(samples)) {
     std::erase_if(hypotheses, [](const auto& other) { return other.check == "poses-shifted"; });
     fitted.push_back(std::move(*time));
   }
   Reached best = best_of(samples, fit, hypotheses);
-  Reached other = best_of(samples, fit, fitted);
-  return other.share > best.share + kSimpler ? other : best;
+  for (const PoseHypothesis& hypothesis : fitted) {
+    const double share = fit.share(hypothesis.pose);
+    if (share > best.share + kSimpler) best = {hypothesis, share};
+  }
+  return best;
 }
 
 /// The largest of 100, 10, 1 and 0.1 m of which all positions along an axis that is far from the

@@ -22,7 +22,8 @@ constexpr double kFarthest = 2.0, kLongest = 1.0;
 /// Seconds by which poses are shifted to see how much their motion depends on the time.
 constexpr double kNudge = 0.05;
 /// A shift is beyond doubt from so many seconds and standard deviations on.
-constexpr double kLeastOffset = 0.025, kDeviations = 5.0;
+constexpr double kLeastOffset = 0.025, kDeviations = 4.0;
+constexpr std::size_t kFewestChanged = 3;
 
 /// Metres between two motions, turns at `kTurnLever`.
 double distance(const Pose& a, const Pose& b) {
@@ -194,24 +195,26 @@ std::optional<TimeOffset> find_time_offset(Samples& samples) {
   offset.given_m = median_of(given);
   offset.shifted_m = median_of(shifted);
   offset.pairs = fit.size();
-  for (std::size_t k = 0; k < fit.size(); ++k) {
-    if (shifted[k] >= 0.0 && (given[k] < 0.0 || shifted[k] < given[k])) ++offset.better;
+  const std::vector<ScanPair> told = fit.pairs();
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    const auto before = motion_at(samples, told[k], 0.0),
+               after = motion_at(samples, told[k], shift);
+    if (!before || !after || distance(*before, *after) <= offset.shifted_m) continue;
+    ++offset.changed;
+    if (shifted[k] < given[k]) ++offset.better;
   }
-  offset.deviation = deviation_of(samples, fit.pairs(), shift, offset.shifted_m);
+  offset.deviation = deviation_of(samples, told, shift, offset.shifted_m);
   offset.seconds = shift;
   samples.measures.emplace_back("time_offset_s", offset.seconds);
   samples.measures.emplace_back("time_offset_deviation_s", offset.deviation);
   samples.measures.emplace_back("motion_off_m", offset.given_m);
   samples.measures.emplace_back("motion_off_with_time_offset_m", offset.shifted_m);
-  samples.measures.emplace_back(
-      "share_of_pairs_better_with_time_offset",
-      static_cast<double>(offset.better) / static_cast<double>(offset.pairs));
   return offset;
 }
 
 bool is_clear(const TimeOffset& offset) {
   return std::abs(offset.seconds) >= std::max(kLeastOffset, kDeviations * offset.deviation) &&
-         4 * offset.better >= 3 * offset.pairs;
+         offset.changed >= kFewestChanged && 4 * offset.better >= 3 * offset.changed;
 }
 
 std::string time_offset_option(const Samples& samples, const TimeOffset& offset) {

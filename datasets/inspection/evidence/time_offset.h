@@ -17,7 +17,9 @@ struct TimeOffset {
   /// and turns by the way that they move what is 10 m off.
   double given_m = 0.0, shifted_m = 0.0;
   std::size_t pairs = 0;
-  std::size_t better = 0;  ///< Pairs that are nearer with the shift.
+  /// Pairs whose motion the shift changes by more than what it leaves, and those of them that are
+  /// nearer with it.
+  std::size_t changed = 0, better = 0;
 };
 
 /// Compares the motions that some pairs of scans show with those of the poses at other times. The
