@@ -68,6 +68,14 @@ void check_topics(const Layout& layout, const std::string& path, const SequenceO
                    (options.topic ? "--topic" : "--pose-topic") + ". Leave it out.");
 }
 
+/// Refuses a rule that the data says too little for.
+void check_label_rule(const Sequence& sequence, const SequenceOptions& options) {
+  if (options.label_rule != kMovingNow || sequence.moving_now) return;
+  throw UsageError("--label-rule moving-now cannot be used on sequence " + sequence.name + ": " +
+                   (sequence.labels ? "its labels do not say who moves when" : "it has no labels") +
+                   ". Leave it out.");
+}
+
 [[noreturn]] void throw_unrecognised(const std::string& path) {
   if (is_folder(path)) {
     check_known_files(path);
@@ -117,6 +125,7 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   if (!layout->scenes && layout->scan_folder.empty()) check_not_part(path, options);
   check_topics(*layout, path, options);
   Sequence sequence = layout->open(path, options, context);
+  check_label_rule(sequence, options);
   std::optional<PointClock> clock;
   if (sequence.deskew) clock = point_clock_of(sequence);
   if (sequence.drop_ego.kind != EgoRegion::Kind::kNone) {

@@ -31,7 +31,7 @@ struct SequenceOptions {
   std::optional<FrameRange> frames;
   /// Pose file: a name in the sequence's folder, or a path; "identity" for a sensor that stands.
   std::optional<std::string> poses;
-  std::optional<std::filesystem::path> label_rule;  ///< JSON file.
+  std::optional<std::filesystem::path> label_rule;  ///< JSON file, or `kMovingNow`.
   std::optional<RangeLimits> range_m;
   std::optional<std::string> sensor;  ///< Name of a known sensor, or "estimated" or "" for none.
   std::optional<std::string> up;      ///< Which way is up in the world, see `parse_up`.
@@ -84,6 +84,7 @@ struct Sequence {
   std::optional<std::string> T_sensor = std::nullopt;         ///< As a user says it.
   std::optional<double> time_offset_s = std::nullopt;         ///< As a user says it.
   LabelRule label_rule;
+  bool moving_now = false;  ///< Labels move only in scans in which what they belong to moves.
   RangeLimits range_m;
   EgoRegion drop_ego;      ///< As the user asked; `scans` leave it out (see `EgoFreeSource`).
   std::string frames;      ///< The range as used, "2350:2670:2".

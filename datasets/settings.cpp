@@ -226,7 +226,10 @@ SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings 
     settings.up = parse_up(*options.up);
     if (!settings.up) throw UsageError("--up " + *options.up + ": " + kUpForm + ".");
   }
-  if (options.label_rule) {
+  if (options.label_rule == kMovingNow) {
+    settings.moving_now = true;
+    settings.label_rule.name = kMovingNow;
+  } else if (options.label_rule) {
     settings.input_files.push_back(*options.label_rule);
     LabelRule base;
     base.name = options.label_rule->stem().string();

@@ -28,6 +28,7 @@ struct SequenceSettings {
   RangeLimits range_m;
   LabelRule label_rule;
   bool label_rule_given = false;  ///< Whether an option or sequence.json gives it.
+  bool moving_now = false;        ///< Whether the rule is `kMovingNow`.
   std::optional<std::string> pose_format;
   std::optional<std::string> T_sensor;  ///< As the user gives it: a file, or seven numbers.
   std::optional<double> time_offset_s;

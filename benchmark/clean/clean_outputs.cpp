@@ -73,6 +73,7 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
   if (!paths.scans.empty() && is_bag) check_bag_copy(sequence, paths.scans);
   if (!paths.scans.empty() && !is_bag) plan = planned_scans(all, sequence);
   if (needs_rows) rows_.emplace(sequence, precision.coordinates, progress, cancel);
+  check_intensity_scale(all, paths, writing);
   for (const OutputPath& output : all) {
     if (is_map(output)) add_map(output, paths, writing, precision.origin);
   }
@@ -101,6 +102,19 @@ void CleanOutputs::note_losses(const OutputPath& output, const std::string& name
   }
 }
 
+void CleanOutputs::check_intensity_scale(const std::vector<OutputPath>& outputs,
+                                         const CleanPaths& paths,
+                                         const CleanWriting& writing) const {
+  if (!writing.intensity_scale) return;
+  const bool is_used = std::any_of(outputs.begin(), outputs.end(), [&](const OutputPath& output) {
+    return is_map(output) && shown_intensity(format_name(output, paths, writing), rows_->layout());
+  });
+  if (is_used) return;
+  throw UsageError(
+      "--intensity-scale has no effect: it is for .las maps of scans whose intensity is a real "
+      "number. Other formats keep every intensity as it is. Leave it out.");
+}
+
 void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
                            const CleanWriting& writing, const Eigen::Vector3d& voxel_origin) {
   const MapContent content = content_of(output);
@@ -108,22 +122,27 @@ void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
   const std::string name = format_name(output, paths, writing);
   if (rows_->is_widened()) check_coordinates(name, Coordinates::kDouble);
   note_losses(output, name, layout);
-  std::optional<std::string> crs = writing.crs;
-  if (crs && !holds_reference_system(name)) {
-    notes_.push_back(output.option + ": the file does not say that it is in " + *crs +
+  RecordWriting records;
+  records.crs = writing.crs;
+  records.intensity_scale = writing.intensity_scale.value_or(1.0);
+  if (records.crs && !holds_reference_system(name)) {
+    notes_.push_back(output.option + ": the file does not say that it is in " + *records.crs +
                      "; only .las does.");
-    crs.reset();
+    records.crs.reset();
   }
   std::unique_ptr<RowSink> sink;
   if (paths.tiled) {
     sink = std::make_unique<TileSink>(
         output.path, layout,
-        Tiling{writing.tile_size, sequence_.upright_frame(), writing.tile_extension, crs});
+        Tiling{writing.tile_size, sequence_.upright_frame(), writing.tile_extension, records});
   } else {
-    sink = std::make_unique<FileSink>(output.path, layout, crs);
+    sink = std::make_unique<FileSink>(output.path, layout, records);
   }
   auto map = std::make_unique<MapOutput>(std::move(sink), rows_->layout(), content,
                                          writing.voxel_size, voxel_origin);
+  if (auto shown = shown_intensity(name, layout)) {
+    map->count_intensity({std::move(*shown), records.intensity_scale}, output.option);
+  }
   if (first_map_ == nullptr) first_map_ = map.get();
   outputs_.push_back(std::move(map));
 }
@@ -164,11 +183,17 @@ std::optional<std::uint64_t> CleanOutputs::map_points() const {
 }
 
 std::vector<std::string> CleanOutputs::results() const {
-  if (scans_ == nullptr || scans_->empty_scans().empty()) return {};
+  std::vector<std::string> results;
+  for (const auto& output : outputs_) {
+    const std::vector<std::string> remarks = output->remarks();
+    results.insert(results.end(), remarks.begin(), remarks.end());
+  }
+  if (scans_ == nullptr || scans_->empty_scans().empty()) return results;
   const std::vector<std::string>& empty = scans_->empty_scans();
-  return {"No point is left of " + counted_text(empty.size(), "scan") + " (" + empty.front() +
-          (empty.size() > 1 ? ", ..." : "") +
-          "), which no reader takes: leave such scans out with --frames."};
+  results.push_back("No point is left of " + counted_text(empty.size(), "scan") + " (" +
+                    empty.front() + (empty.size() > 1 ? ", ..." : "") +
+                    "), which no reader takes: leave such scans out with --frames.");
+  return results;
 }
 
 }  // namespace raymoval

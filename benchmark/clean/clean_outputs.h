@@ -19,8 +19,9 @@ struct CleanWriting {
   double voxel_size = 0.0;  ///< Metres; 0 keeps every point.
   double tile_size = 0.0;   ///< Metres; for maps that are folders of tiles.
   std::string tile_extension = ".pcd";
-  std::optional<std::string> crs = std::nullopt;  ///< See `RecordWriting`.
-  std::string method = "clean";                   ///< What pictures and pages call it.
+  std::optional<std::string> crs = std::nullopt;         ///< See `RecordWriting`.
+  std::optional<double> intensity_scale = std::nullopt;  ///< See `RecordWriting`.
+  std::string method = "clean";                          ///< What pictures and pages call it.
 };
 
 /// The outputs of `raymoval clean`. All are opened at the beginning, so that a place where nothing
@@ -54,6 +55,9 @@ class CleanOutputs {
  private:
   void add_map(const OutputPath& output, const CleanPaths& paths, const CleanWriting& writing,
                const Eigen::Vector3d& voxel_origin);
+  /// @throws UsageError for a scale of intensities that no map shows as whole numbers
+  void check_intensity_scale(const std::vector<OutputPath>& outputs, const CleanPaths& paths,
+                             const CleanWriting& writing) const;
   void add_views(const CleanPaths& paths, const CleanWriting& writing);
   void note_losses(const OutputPath& output, const std::string& name, const RecordLayout& layout);
 

@@ -67,7 +67,9 @@ void SequenceFlags::add_to(CommandOptions& options) {
               "Topic of a recording with the scans (default: the only one with clouds)");
   options.add("--pose-topic", "NAME", pose_topic,
               "Topic of a recording with the poses (default: its odometry, else tf)");
-  options.add("--label-rule", "FILE", label_rule, "JSON file that says which labels move");
+  options.add("--label-rule", "FILE", label_rule,
+              "JSON file that says which labels move; or moving-now: what moves at the time of the "
+              "scan, where the data says it");
   options.add(
       "--range", "MIN:MAX", range,
       "Distance from the sensor in metres. Points outside it are not evaluated, but methods see "

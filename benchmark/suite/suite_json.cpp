@@ -109,7 +109,9 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
   options.up = text_of(object, "up");
   options.point_layout = text_of(object, "point_layout");
   if (const auto frames = text_of(object, "frames")) options.frames = parse_frame_range(*frames);
-  if (const auto rule = text_of(object, "label_rule")) options.label_rule = located(*rule, places);
+  if (const auto rule = text_of(object, "label_rule")) {
+    options.label_rule = *rule == kMovingNow ? *rule : located(*rule, places);
+  }
   if (object.has("drop_ego")) {
     options.drop_ego = ego_region_value(object.member("drop_ego"), where + ".drop_ego");
   }

@@ -30,6 +30,10 @@ struct LabelRule {
   [[nodiscard]] LabelClass classify(std::uint32_t word) const;
 };
 
+/// The name of a rule that needs no file: what moves at the time of the scan moves, and what stands
+/// then does not, though it moves at another time. Only some data says that.
+inline constexpr const char* kMovingNow = "moving-now";
+
 /// Reads {"moving": [ids], "ignored": [ids], "name": text}; missing keys keep `base`'s values.
 /// @throws ConfigurationError if an id is no whole number from 0 to 65535 or stands in both lists.
 LabelRule label_rule_from_json(const nlohmann::json& json, const LabelRule& base,

@@ -21,6 +21,12 @@ bool holds_reference_system(const std::filesystem::path& path) {
   return format_written(path).holds_reference_system;
 }
 
+std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
+                                              const RecordLayout& layout) {
+  const CloudFormat& format = format_written(path);
+  return format.shown_intensity == nullptr ? std::nullopt : format.shown_intensity(layout);
+}
+
 namespace {
 
 std::unique_ptr<RecordEncoder> encoder_for(const std::filesystem::path& path,

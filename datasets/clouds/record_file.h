@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,12 @@ std::vector<std::string> what_is_lost(const std::filesystem::path& path,
 /// Whether files of the format of `path` say which coordinate reference system they are in.
 /// @throws UsageError for an unknown extension
 bool holds_reference_system(const std::filesystem::path& path);
+
+/// The field of `layout` that files of the format of `path` also show rounded, times
+/// `RecordWriting::intensity_scale`. Nothing if there is none. @throws UsageError for an unknown
+/// extension
+std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
+                                              const RecordLayout& layout);
 
 /// The bytes of a file named `path` with these points, of any format that is read, in the form that
 /// `records` have: text, compressed, another byte order, packed by gzip, an archive of arrays.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/files/same_file.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/file_source.h"
@@ -18,11 +19,6 @@ namespace raymoval {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_same_file(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  return fs::equivalent(a, b, error) && !error;
-}
 
 /// @param others files that are no scans, wherever they stand: poses, T_sensor
 std::vector<NumberedFile> scan_files(const fs::path& folder, const std::vector<fs::path>& others) {

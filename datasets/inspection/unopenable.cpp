@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
+#include "core/files/same_file.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/frames.h"
@@ -28,6 +30,8 @@ std::vector<std::string> fitting_files(const fs::path& folder, std::size_t least
     try {
       const std::size_t rows = read_pose_file(path).rows.size();
       if (rows >= least && rows <= most) names.push_back(path.filename().string());
+    } catch (const UnreadableError&) {
+      throw;
     } catch (const Error&) {
       continue;  // Not a pose file.
     }
@@ -66,10 +70,8 @@ std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
     const auto files = list_files(folder / layout.scan_folder, cloud_extensions());
     // Poses may stand in an array or a cloud, which is no scan.
     least = most = static_cast<std::size_t>(
-        std::count_if(files.begin(), files.end(), [&](const fs::path& scan) {
-          std::error_code error;
-          return !fs::equivalent(scan, path, error);
-        }));
+        std::count_if(files.begin(), files.end(),
+                      [&](const fs::path& scan) { return !is_same_file(scan, path); }));
   }
   if (least == 0 || (rows >= least && rows <= most)) return {};
   return {count_finding(path, rows, folder, least, most)};
@@ -100,6 +102,8 @@ std::vector<Finding> unopenable_findings(const std::string& path, const Sequence
     if (!is_folder(folder)) return {};
     if (layout->pose_place == PosePlace::kScanFile) return check_viewpoints(folder, *layout);
     return check_count(folder, *layout, options);
+  } catch (const UnreadableError&) {
+    throw;  // Neither damaged nor absent.
   } catch (const Error&) {
     return {};  // Whoever opens the sequence says what is wrong.
   }

@@ -10,6 +10,7 @@
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/poses.h"
+#include "datasets/semantickitti/moving_now.h"
 #include "datasets/settings.h"
 #include "datasets/trajectories/pose_file.h"
 #include "datasets/trajectories/stamps.h"
@@ -84,6 +85,15 @@ std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
     frames.push_back({path, "", path.stem().string(), poses.times_s[i], *poses.poses[i]});
   }
   return frames;
+}
+
+/// The numbers of the frames that have a pose.
+std::vector<long> frame_numbers(const ChosenFrames& chosen, const ScanPoses& poses) {
+  std::vector<long> numbers;
+  for (std::size_t i = 0; i < chosen.files.size(); ++i) {
+    if (poses.poses[i]) numbers.push_back(chosen.files[i].number);
+  }
+  return numbers;
 }
 
 /// "0:3:2" of the frames there are; empty if no range has just them.
@@ -165,6 +175,12 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   sequence.notes = poses.notes;
   if (find_label_files(folder / "labels", entries)) {
     sequence.labels = std::make_shared<LabelFileSource>(entries);
+  }
+  if (settings.moving_now && sequence.labels) {
+    const auto movers = folder / kMoversFile;
+    sequence.input_files.push_back(movers);
+    sequence.labels = moving_now_labels(sequence.labels, movers, frame_numbers(chosen, poses));
+    sequence.moving_now = true;
   }
   FileScanSource::Traits traits;
   traits.point_frame = settings.points.value_or(PointFrame::kSensor);

@@ -25,7 +25,8 @@ Layout scenes_layout() {
   layout.expected = "the simulated scenes of `raymoval list scenes`";
   layout.forms = {{"SCENE", "a scene of `raymoval list scenes`, simulated once and cached"},
                   {"SCENE:key=value,...",
-                   "the same with scans=N, seed=N, sensor=NAME, pose_noise=F, rolling=skewed"}};
+                   "the same with scans=N, seed=N, sensor=NAME, pose_noise=F, rolling=skewed, "
+                   "turned=30, tilted=20"}};
   layout.recognise = names_scene;
   layout.open = open_scene;
   layout.scenes = SceneNames{

@@ -24,6 +24,9 @@ class SensorMotion {
   [[nodiscard]] virtual std::pair<Nanoseconds, Nanoseconds> span() const = 0;
   /// What is added to the times of scans to get those of the poses.
   [[nodiscard]] virtual Nanoseconds time_offset() const { return 0; }
+  /// Whether its poses are just those of the scans, by their order: at the times of the scans,
+  /// which perhaps nobody knows.
+  [[nodiscard]] virtual bool follows_scans() const { return false; }
 };
 
 /// A body's trajectory and a sensor on that body.
@@ -32,6 +35,7 @@ struct BodyMotion {
   Pose T_body_sensor = Pose::Identity();
   Nanoseconds time_offset = 0;  ///< Added to the times of scans.
   Nanoseconds max_gap = kUsualMaxGap;
+  bool follows_scans = false;  ///< See `SensorMotion`.
 };
 
 /// The motion of a sensor that is fixed on a body.
@@ -42,6 +46,7 @@ class TrajectoryMotion : public SensorMotion {
   [[nodiscard]] std::optional<Pose> at(Nanoseconds stamp) const override;
   [[nodiscard]] std::pair<Nanoseconds, Nanoseconds> span() const override;
   [[nodiscard]] Nanoseconds time_offset() const override { return body_.time_offset; }
+  [[nodiscard]] bool follows_scans() const override { return body_.follows_scans; }
 
  private:
   BodyMotion body_;

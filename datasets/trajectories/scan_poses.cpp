@@ -108,6 +108,7 @@ std::shared_ptr<const SensorMotion> motion_along(const std::vector<Nanoseconds>&
                                                  const std::vector<std::optional<Pose>>& poses) {
   BodyMotion body;
   body.max_gap = std::numeric_limits<Nanoseconds>::max();
+  body.follows_scans = true;
   std::vector<StampedPose> stamped;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     const bool later = stamped.empty() || stamps[i] > stamped.back().stamp;

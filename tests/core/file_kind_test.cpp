@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
+#include "core/files/same_file.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -42,6 +43,19 @@ TEST_CASE("A path is a file, a folder, or absent because nothing of its name exi
   CHECK_THROWS_WITH(has_file(folder.path()), Contains("is a folder, expected a file"));
   CHECK_THROWS_WITH(has_folder(file), Contains("is a file, expected a folder"));
   CHECK_THROWS_WITH(plain_file_size(folder.path() / "none"), Contains("no such file"));
+}
+
+TEST_CASE("Two paths name one file or they do not, unless nobody can tell") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "file", other = folder.path() / "other";
+  write_atomically(file, "x");
+  write_atomically(other, "x");
+  fs::create_symlink("file", folder.path() / "link");
+  fs::create_symlink("circle", folder.path() / "circle");
+  CHECK(is_same_file(file, folder.path() / "link"));
+  CHECK_FALSE(is_same_file(file, other));
+  CHECK_FALSE(is_same_file(file, folder.path() / "none"));
+  CHECK_THROWS_AS(is_same_file(file, folder.path() / "circle"), UnreadableError);
 }
 
 TEST_CASE("A link that leads nowhere is no absent file") {

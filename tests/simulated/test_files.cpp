@@ -188,6 +188,11 @@ TEST_CASE("the cache tells apart whatever changes the bytes") {
   folders.push_back(folder(other));
   other.scans = 3;
   folders.push_back(folder(other));
+  other.turned_deg = 30.0;
+  folders.push_back(folder(other));
+  other.tilted_deg = 30.0;
+  other.turned_deg = 0.0;
+  folders.push_back(folder(other));
   std::sort(folders.begin(), folders.end());
   CHECK(std::unique(folders.begin(), folders.end()) == folders.end());
 }
@@ -252,6 +257,25 @@ TEST_CASE("perfect poses are the true ones") {
   const auto sequence = make_simulated(options);
   CHECK(sequence->pose(2).matrix() == sequence->true_pose(2).matrix());
   options.pose_noise = -1.0;
+  CHECK_THROWS_AS(make_simulated(options), UsageError);
+}
+
+TEST_CASE("a world with other axes shows the sensor the same") {
+  SimulationOptions options = small_town(3);
+  const auto usual = make_simulated(options);
+  options.turned_deg = 90.0;
+  options.tilted_deg = 90.0;
+  const auto turned = make_simulated(options);
+  CHECK(turned->load(2).points == usual->load(2).points);
+  CHECK(turned->labels(turned->load(2)) == usual->labels(usual->load(2)));
+  const Eigen::Vector3d at = usual->pose(2).translation();
+  // The new x lies along the old y, the new y along the old z, and the new z along the old x.
+  const Eigen::Vector3d expected(at.y(), at.z(), at.x());
+  CHECK((turned->pose(2).translation() - expected).norm() < 1e-9);
+  CHECK((turned->pose(2).linear().col(2) - Eigen::Vector3d::UnitY()).norm() < 0.05);
+  CHECK((turned->movers(0.0)[0].T_world_mover.linear().col(2) - Eigen::Vector3d::UnitY()).norm() <
+        0.05);
+  options.tilted_deg = 400.0;
   CHECK_THROWS_AS(make_simulated(options), UsageError);
 }
 

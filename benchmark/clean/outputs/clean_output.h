@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "benchmark/clean/rows/map_rows.h"
 #include "core/files/replacements.h"
 #include "core/scan/scan.h"
@@ -34,6 +37,8 @@ class CleanOutput {
   virtual void commit_with(Replacements& together) = 0;
   /// Points in it after `finish`, where it is a map; else 0.
   [[nodiscard]] virtual std::uint64_t points() const { return 0; }
+  /// What a user should know of what was written after `finish`, in whole sentences.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 }  // namespace raymoval

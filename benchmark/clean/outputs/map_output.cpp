@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
 #include "benchmark/result/removals/removal_files.h"
 
@@ -32,6 +33,15 @@ MapOutput::MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, 
   if (content.removed) add_side(1);
 }
 
+void MapOutput::count_intensity(IntensityCount count, std::string option) {
+  intensity_ = std::move(count);
+  option_ = std::move(option);
+}
+
+std::vector<std::string> MapOutput::remarks() const {
+  return intensity_ ? intensity_->remarks(option_) : std::vector<std::string>();
+}
+
 ScanRows MapOutput::with_label(const ScanRows& rows,
                                const std::vector<std::uint8_t>& removed) const {
   const std::size_t size = rows.rows.size();
@@ -48,6 +58,7 @@ ScanRows MapOutput::with_label(const ScanRows& rows,
 
 void MapOutput::write(const ScanRows& rows) {
   points_ += rows.rows.size();
+  if (intensity_) intensity_->add(rows.rows);
   sink_->add(rows);
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmark/clean/outputs/clean_output.h"
+#include "benchmark/clean/outputs/intensity_count.h"
 #include "benchmark/clean/outputs/row_sink.h"
 #include "benchmark/clean/rows/voxel_rows.h"
 
@@ -32,10 +34,14 @@ class MapOutput : public CleanOutput {
   MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, MapContent content,
             double voxel_size, const Eigen::Vector3d& voxel_origin);
 
+  /// Counts the intensities that the map's file shows as whole numbers. @param option of the map
+  void count_intensity(IntensityCount count, std::string option);
+
   void add(const CleanedScan& scan) override;
   void finish() override;
   void commit_with(Replacements& together) override { sink_->commit_with(together); }
   [[nodiscard]] std::uint64_t points() const override { return points_; }
+  [[nodiscard]] std::vector<std::string> remarks() const override;
 
  private:
   /// The points that are kept, or those that are removed.
@@ -54,6 +60,8 @@ class MapOutput : public CleanOutput {
   std::vector<Side> sides_;
   bool has_cells_;
   std::uint64_t points_ = 0;
+  std::optional<IntensityCount> intensity_;
+  std::string option_;
 };
 
 }  // namespace raymoval

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <string>
 
 #include "benchmark/clean/rows/map_rows.h"
 #include "core/files/replacements.h"
@@ -33,8 +31,8 @@ class FileSink : public RowSink {
  public:
   /// @throws UsageError, DataError as `PointRecordWriter`
   FileSink(const std::filesystem::path& path, const RecordLayout& layout,
-           const std::optional<std::string>& crs)
-      : file_(path, {crs}) {
+           const RecordWriting& writing)
+      : file_(path, writing) {
     file_.start(layout);
   }
   void add(const ScanRows& rows) override { file_.add(rows.rows); }

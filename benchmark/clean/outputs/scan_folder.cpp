@@ -38,21 +38,30 @@ std::optional<fs::path> relative_to(const fs::path& path, const fs::path& root) 
 }
 
 /// All scans of a sequence have one format, and the same fields.
-void check_format(const Sequence& sequence, const FrameEntry& frame) {
-  const std::vector<std::string> lost = what_is_lost(frame.path, sequence.records->layout(0));
+void check_format(const FrameEntry& frame, const RecordLayout& layout) {
+  const std::vector<std::string> lost = what_is_lost(frame.path, layout);
   if (lost.empty()) return;
   throw UsageError("--scans cannot write the scans as they are: " + join(lost, " ") +
                    " Write a map with -o, which may have another format.");
 }
 
 /// What is said of archives that hold more than the points.
-std::vector<std::string> archive_notes(const Sequence& sequence, const fs::path& first) {
-  if (cloud_extension(first).find(".npz") == std::string::npos) return {};
-  const PointRecords records = sequence.records->records(0);
-  if (records.form.others.empty()) return {};
-  return {"--scans: of each archive only the array '" + records.form.array +
-          "' is written; the others, such as '" + records.form.others.front() +
+std::vector<std::string> archive_notes(const StoredForm& form) {
+  if (form.others.empty()) return {};
+  return {"--scans: of each archive only the array '" + form.array +
+          "' is written; the others, such as '" + form.others.front() +
           "', do not say which of their rows belong to a point."};
+}
+
+/// Refuses what cannot be written, and says what is left out. An archive is read once for both.
+std::vector<std::string> format_notes(const Sequence& sequence, const FrameEntry& first) {
+  if (!cloud_extension(first.path).starts_with(".npz")) {
+    check_format(first, sequence.records->layout(0));
+    return {};
+  }
+  const PointRecords records = sequence.records->records(0);
+  check_format(first, records.layout);
+  return archive_notes(records.form);
 }
 
 std::vector<fs::path> side_files(const Sequence& sequence, const fs::path& root) {
@@ -110,8 +119,7 @@ ScanFolderPlan plan_scan_folder(const Sequence& sequence) {
     plan.scans = plan.root.filename();
     plan.root = plan.root.parent_path();
   }
-  check_format(sequence, source->frames().front());
-  plan.notes = archive_notes(sequence, source->frames().front().path);
+  plan.notes = format_notes(sequence, source->frames().front());
   plan.copies = side_files(sequence, plan.root);
   const std::size_t stored = list_files(plan.root / plan.scans, cloud_extensions()).size();
   plan.own_poses = sequence.layout == "files" && stored != source->size();

@@ -35,7 +35,7 @@ ordered_json vector_json(const Eigen::Vector3d& vector) {
 TileSink::TileSink(const std::filesystem::path& folder, const RecordLayout& layout, Tiling tiling)
     : folder_(folder), layout_(layout), tiling_(std::move(tiling)) {
   // Refuses now what no tile could be written as.
-  PointRecordWriter trial(folder_.place() / ("tile" + tiling_.extension), {tiling_.crs});
+  PointRecordWriter trial(folder_.place() / ("tile" + tiling_.extension), tiling_.writing);
   trial.start(layout_);
 }
 
@@ -104,7 +104,7 @@ void TileSink::spool_all() {
 }
 
 void TileSink::write_tile(const Place& place, Tile& tile) const {
-  PointRecordWriter file(folder_.place() / (tile_name(place) + tiling_.extension), {tiling_.crs});
+  PointRecordWriter file(folder_.place() / (tile_name(place) + tiling_.extension), tiling_.writing);
   file.start(layout_);
   const auto give = [&](std::string_view bytes) {
     if (bytes.empty()) return;
@@ -133,7 +133,8 @@ void TileSink::write_manifest() const {
   manifest["format"] = tiling_.extension.substr(1);
   manifest["tile_size_m"] = tiling_.size_m;
   manifest["origin"] = {0.0, 0.0, 0.0};
-  manifest["crs"] = tiling_.crs ? ordered_json(*tiling_.crs) : ordered_json(nullptr);
+  manifest["crs"] =
+      tiling_.writing.crs ? ordered_json(*tiling_.writing.crs) : ordered_json(nullptr);
   manifest["fields"] = ordered_json::array();
   for (const PointField& field : layout_.fields) manifest["fields"].push_back(field.text());
   manifest["R_upright_world"] = ordered_json::array();

@@ -18,7 +18,7 @@ struct Tiling {
   /// The turn that brings up to z: tiles are squares in the horizontal plane.
   Pose T_upright_world = Pose::Identity();
   std::string extension = ".pcd";  ///< Says the format of the tiles.
-  std::optional<std::string> crs;
+  RecordWriting writing = {};
   std::size_t most_waiting = std::size_t{32} << 20;  ///< Bytes of rows that wait in memory.
 };
 

@@ -31,7 +31,7 @@ namespace {
 
 struct CleanFlags {
   std::string path, output, dynamic, labelled, labels, scans, page, picture;
-  std::string voxel, tiles, tile_format, crs, memory_limit;
+  std::string voxel, tiles, tile_format, crs, intensity_scale, memory_limit;
   std::string method = "raymoval_plus:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
@@ -142,6 +142,9 @@ CleanWriting writing_of(const CleanFlags& flags, const ConfiguredMethod& method)
     writing.tile_extension = '.' + flags.tile_format.substr(flags.tile_format.front() == '.');
   }
   if (!flags.crs.empty()) writing.crs = flags.crs;
+  if (!flags.intensity_scale.empty()) {
+    writing.intensity_scale = parse_positive("--intensity-scale", flags.intensity_scale);
+  }
   writing.method = method.full_name();
   return writing;
 }
@@ -155,7 +158,8 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
                     sequence.frames + ").");
   }
   std::vector<std::filesystem::path> inputs;
-  if (!flags.reading.label_rule.empty()) inputs.emplace_back(flags.reading.label_rule);
+  const std::string& rule = flags.reading.label_rule;
+  if (!rule.empty() && rule != kMovingNow) inputs.emplace_back(rule);
   if (!flags.reading.poses.empty()) inputs.emplace_back(flags.reading.poses);
   check_apart_from(sequence, paths, inputs);
   if (method.entry->needs_truth && !sequence.labels) {
@@ -309,6 +313,10 @@ Command add_clean_command(CommandParser& program) {
   options.add("--crs", "CRS", flags->crs,
               "Coordinate reference system that LAS files say: EPSG:CODE (UTM zones), WKT, or a "
               "file with WKT");
+  options.add("--intensity-scale", "FACTOR", flags->intensity_scale,
+              "What a real intensity is multiplied by where LAS files show it as a whole number up "
+              "to 65535, such as 65535 for intensities from 0 to 1 (default: 1); the exact values "
+              "stand beside it");
   options.add("--html", "FILE", flags->page,
               "Also write a page with a 3-D view of what was kept and removed (.html)");
   options.add("--picture", "FILE", flags->picture, "Also write the map from above (.png)");

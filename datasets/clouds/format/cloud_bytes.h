@@ -27,6 +27,12 @@ struct RecordReading {
   std::optional<std::string> point_layout = std::nullopt;
 };
 
+/// A real intensity that a file also has as a whole number from 0 to 65,535, for viewers.
+struct ShownIntensity {
+  PointField field;
+  std::string exact;  ///< The name of the field of the file that has the value as it is.
+};
+
 /// How a file of point records is to be written.
 struct RecordWriting {
   /// LAS: the coordinate reference system as WKT, a file with WKT, or "EPSG:32632" (see

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +68,8 @@ struct CloudFormat {
   /// Makes a file of what the encoder made. Formats that have it are written whole only, by
   /// `whole_file`.
   std::string (*wrap)(const std::string& content, const StoredForm& form) = nullptr;
+  /// As `shown_intensity`; null if the format shows no values otherwise than they are.
+  std::optional<ShownIntensity> (*shown_intensity)(const RecordLayout& layout) = nullptr;
 };
 
 }  // namespace raymoval

@@ -20,8 +20,7 @@ std::string cut(const std::string& text, std::size_t bytes) {
 std::string allowed_name(std::string name, const NameRules& rules) {
   if (!rules.with_blanks) {
     std::replace_if(
-        name.begin(), name.end(),
-        [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\x7F'; }, '_');
+        name.begin(), name.end(), [](char c) { return c == ' ' || is_unprinted(c); }, '_');
   }
   if (name.empty()) name = "field";
   return cut(name, rules.most_bytes);
@@ -31,6 +30,10 @@ std::string allowed_name(std::string name, const NameRules& rules) {
 constexpr std::size_t kSuffix = 6;
 
 }  // namespace
+
+bool is_unprinted(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == '\x7F';
+}
 
 std::vector<std::string> fitting_names(const std::vector<std::string>& wanted,
                                        const NameRules& rules) {

@@ -9,6 +9,9 @@
 
 namespace raymoval {
 
+/// Whether `c` is one of the characters that are not printed, a blank not among them.
+bool is_unprinted(char c);
+
 /// Which names of fields a format can hold, besides that no two are equal and none is empty.
 struct NameRules {
   bool with_blanks = false;             ///< Whether a name may have blanks and control characters.

@@ -16,10 +16,6 @@ constexpr const char* kForm =
     "expected the fields of a point in their order, as NAME or NAME:TYPE with the types f4 f8 i1 "
     "i2 i4 i8 u1 u2 u4 u8 (f4 where none is given), such as \"x y z intensity ring:u2 t:f8\".";
 
-bool is_control(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-}
-
 [[noreturn]] void fail(std::string_view text, std::string_view word, const std::string& what) {
   throw UsageError("point layout \"" + std::string(text.substr(0, 200)) + "\": '" +
                    std::string(word.substr(0, 60)) + "' " + what + "; " + kForm);
@@ -57,7 +53,7 @@ std::vector<PointField> point_layout_fields(std::string_view text) {
   for (const std::string_view word : split_blanks(text)) {
     const std::string_view name = word.substr(0, word.find(':'));
     if (name.empty()) fail(text, word, "has no name");
-    if (std::any_of(name.begin(), name.end(), is_control)) {
+    if (std::any_of(name.begin(), name.end(), is_unprinted)) {
       fail(text, word, "has a character that is not printed");
     }
     PointField field;

@@ -205,6 +205,17 @@ std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path,
   return std::make_unique<LasEncoder>(path, writing);
 }
 
+std::optional<ShownIntensity> shown_in_las(const RecordLayout& layout) {
+  const LasMapping mapping = map_to_las(layout);
+  const PointField* field = mapping.shown_intensity;
+  if (field == nullptr || field->type != 'F') return std::nullopt;
+  const auto exact =
+      std::find_if(mapping.extra.begin(), mapping.extra.end(),
+                   [&](const LasMapping::Extra& extra) { return extra.of == field->name; });
+  if (exact == mapping.extra.end()) return std::nullopt;
+  return ShownIntensity{*field, exact->name};
+}
+
 std::vector<std::string> lost_in_las(const RecordLayout& layout) {
   const LasMapping mapping = map_to_las(layout);
   std::vector<std::string> sentences = {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ namespace raymoval {
 /// @throws UsageError for a reference system that cannot be written
 std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path,
                                            const RecordWriting& writing);
+
+/// As `shown_intensity`.
+std::optional<ShownIntensity> shown_in_las(const RecordLayout& layout);
 
 /// As `what_is_lost`.
 std::vector<std::string> lost_in_las(const RecordLayout& layout);

@@ -82,7 +82,9 @@ PointRecords read_las_records(const CloudBytes& file) {
 }  // namespace
 
 CloudFormat las_format() {
-  return {".las", read_las_cloud, read_las_records, las_encoder, lost_in_las, true};
+  CloudFormat format{".las", read_las_cloud, read_las_records, las_encoder, lost_in_las, true};
+  format.shown_intensity = shown_in_las;
+  return format;
 }
 
 }  // namespace raymoval

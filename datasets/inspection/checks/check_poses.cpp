@@ -13,7 +13,7 @@ Check verdict_check(const std::string& name, const std::string& finds, const std
   const auto look = [name](Samples& samples) {
     const PoseVerdict& verdict = pose_verdict(samples);
     if (verdict.check != name) return std::vector<Finding>();
-    return std::vector<Finding>{{.what = verdict.what}};
+    return std::vector<Finding>{{.what = verdict.what, .remedy = verdict.remedy}};
   };
   return {name, finds, expected, remedy, look, Consequence::kRefused};
 }
@@ -115,6 +115,11 @@ std::vector<Check> pose_checks() {
           "poses-shifted", "poses are those of the scan before or after", agree,
           "Shift the rows of the pose file by one, so that row N belongs to scan N. If poses "
           "and scans have times, say --time-offset with the time of a scan, or its negative."),
+      verdict_check("poses-of-a-body", "poses are those of a body on which the sensor is turned",
+                    agree,
+                    "Say where the sensor is on the body (--T-sensor), or mend 'Tr' of calib.txt."),
+      verdict_check("poses-of-another-time", "scans and poses are of clocks that differ by much",
+                    agree, "Say --time-offset with the time of poses less that of scans."),
       verdict_check(
           "poses-of-another-sequence", "poses do not belong to these scans", agree,
           "Take the pose file that belongs to these scans (--poses FILE). If its poses are "

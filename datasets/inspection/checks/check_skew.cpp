@@ -140,13 +140,6 @@ std::vector<ScanPair> far_pairs(const Samples& samples) {
   return chosen;
 }
 
-std::vector<Surfel> surfels_of(const Samples& samples, std::size_t scan) {
-  if (samples.scans().count(scan) > 0) return samples.surfels(scan);
-  Scan read = samples.sequence().scans->load(scan);
-  for (Eigen::Vector3f& point : read.points) point *= static_cast<float>(samples.point_scale());
-  return find_surfels(without_near(std::move(read.points)));
-}
-
 double registered(const std::vector<Surfel>& from, const std::vector<Surfel>& to,
                   const Pose& motion) {
   const SurfaceMap map(from);
@@ -175,8 +168,8 @@ SkewFit fit_sweeps(const Samples& samples, const std::vector<ScanPair>& pairs,
   fit.undone.resize(sweeps.of(pairs.front().from).size());
   for (const ScanPair& pair : pairs) {
     const auto from_sweeps = sweeps.of(pair.from), to_sweeps = sweeps.of(pair.to);
-    const auto from = passed_once(surfels_of(samples, pair.from), from_sweeps.front());
-    const auto to = passed_once(surfels_of(samples, pair.to), to_sweeps.front());
+    const auto from = passed_once(samples.surfels(pair.from), from_sweeps.front());
+    const auto to = passed_once(samples.surfels(pair.to), to_sweeps.front());
     const Pose motion = samples.poses()[pair.from].inverse() * samples.poses()[pair.to];
     const Pose from_motion = motion_during(samples, pair.from);
     const Pose to_motion = motion_during(samples, pair.to);

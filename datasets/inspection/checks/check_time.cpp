@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
 #include "datasets/inspection/evidence/pose_fit.h"
+#include "datasets/inspection/evidence/time_offset.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -78,10 +80,23 @@ std::vector<Finding> look_for_jumps(Samples& samples) {
                                fixed_text(steps[at + 1], 2), and_more(jumps.size()))}};
 }
 
+/// What `pose_verdict` finds goes first: this is about poses that are nearly right.
+std::vector<Finding> look_for_time_offset(Samples& samples) {
+  if (!pose_verdict(samples).check.empty()) return {};
+  const std::optional<TimeOffset> offset = find_time_offset(samples);
+  if (!offset || !is_clear(*offset)) return {};
+  return {{.what = time_offset_text(*offset),
+           .remedy = "Say " + time_offset_option(samples, *offset) + "."}};
+}
+
 }  // namespace
 
 std::vector<Check> time_checks() {
   return {
+      {"time-offset", "scans and poses are of clocks that differ", "scans and poses on one clock",
+       "Say --time-offset with the time of poses less that of "
+       "scans.",
+       look_for_time_offset},
       {"gap-in-time", "scans are missing in between", "one scan a period",
        "Add the missing scans, or choose frames without the gap (--frames).", look_for_gaps},
       {"jump-in-motion", "scans were left out and the rest renumbered, or a pose is wrong",

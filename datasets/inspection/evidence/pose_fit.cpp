@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "core/sampling.h"
 #include "core/text.h"
+#include "datasets/inspection/evidence/body_frame.h"
+#include "datasets/inspection/evidence/pair_fit.h"
 #include "datasets/inspection/evidence/pose_hypotheses.h"
+#include "datasets/inspection/evidence/time_offset.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -21,105 +26,9 @@ constexpr double kBetter = 0.15;
 /// Below this share, and with no hypothesis that explains it, poses and scans do not belong
 /// together.
 constexpr double kForeign = 0.5;
-/// Below this agreement two scans do not show enough of the same.
-constexpr double kTooLittle = 0.25;
-constexpr std::size_t kMostSurfels = 1500;
-
-/// The pairs of scans, ready to be compared under any poses.
-class PairFit {
- public:
-  explicit PairFit(const Samples& samples) : samples_(samples) {
-    for (const ScanPair& pair : samples.pairs()) {
-      maps_.try_emplace(pair.from, samples.surfels(pair.from));
-      if (moving_.count(pair.to) == 0) moving_[pair.to] = thinned(samples.surfels(pair.to));
-    }
-  }
-
-  [[nodiscard]] double agreement(const ScanPair& pair, const Pose& motion) const {
-    return maps_.at(pair.from).agreement(moving_.at(pair.to), motion);
-  }
-  [[nodiscard]] Pose refine(const ScanPair& pair, const Pose& motion) const {
-    return maps_.at(pair.from).refine(moving_.at(pair.to), motion);
-  }
-
-  /// Mean agreement over all pairs, each at most its best.
-  template <class PoseOf>
-  [[nodiscard]] double share(PoseOf&& pose_of) const {
-    double sum = 0.0, most = 0.0;
-    for (std::size_t k = 0; k < samples_.pairs().size(); ++k) {
-      const ScanPair& pair = samples_.pairs()[k];
-      if (best_[k] < kTooLittle) continue;
-      sum += std::min(best_[k], agreement(pair, pose_of(pair.from).inverse() * pose_of(pair.to)));
-      most += best_[k];
-    }
-    return most > 0.0 ? sum / most : 1.0;
-  }
-
-  /// Registers each pair from the motions given and from guesses at the sensor's own.
-  void find_best(const std::vector<PoseHypothesis>& hypotheses) {
-    best_.assign(samples_.pairs().size(), 0.0);
-    Pose last = Pose::Identity();  // Of neighbours, a guess for scans farther apart.
-    for (std::size_t k = 0; k < samples_.pairs().size(); ++k) {
-      const ScanPair& pair = samples_.pairs()[k];
-      const auto& poses = samples_.poses();
-      std::vector<Pose> starts = {poses[pair.from].inverse() * poses[pair.to], Pose::Identity()};
-      for (const PoseHypothesis& hypothesis : hypotheses) {
-        starts.push_back(hypothesis.pose(pair.from).inverse() * hypothesis.pose(pair.to));
-      }
-      Pose repeated = Pose::Identity();
-      for (std::size_t step = pair.from; step < pair.to; ++step) repeated = repeated * last;
-      starts.push_back(repeated);
-      if (pair.to == pair.from + 1 && !hypotheses.empty()) add_drives(starts);
-      const Pose found = best_of(pair, starts, best_[k]);
-      if (pair.to == pair.from + 1) last = found;
-    }
-  }
-
-  [[nodiscard]] double mean_best() const {
-    double sum = 0.0;
-    for (const double best : best_) sum += best;
-    return best_.empty() ? 0.0 : sum / static_cast<double>(best_.size());
-  }
-  [[nodiscard]] bool says_something() const {
-    return std::any_of(best_.begin(), best_.end(), [](double b) { return b >= kTooLittle; });
-  }
-
- private:
-  static std::vector<Surfel> thinned(const std::vector<Surfel>& all) {
-    if (all.size() <= kMostSurfels) return all;
-    std::vector<Surfel> some;
-    for (std::size_t i = 0; i < kMostSurfels; ++i)
-      some.push_back(all[i * all.size() / kMostSurfels]);
-    return some;
-  }
-  /// A vehicle goes ahead by up to 3 m between scans.
-  static void add_drives(std::vector<Pose>& starts) {
-    for (const double ahead : {0.7, 1.4, 2.2, 3.0}) {
-      Pose drive = Pose::Identity();
-      drive.translation().x() = ahead;
-      starts.push_back(drive);
-    }
-  }
-  Pose best_of(const ScanPair& pair, const std::vector<Pose>& starts, double& best) const {
-    Pose found = starts.front();
-    for (const Pose& start : starts) {
-      const Pose refined = refine(pair, start);
-      for (const Pose& motion : {start, refined}) {
-        const double reached = agreement(pair, motion);
-        if (reached > best) {
-          best = reached;
-          found = motion;
-        }
-      }
-    }
-    return found;
-  }
-
-  const Samples& samples_;
-  std::map<std::size_t, SurfaceMap> maps_;
-  std::map<std::size_t, std::vector<Surfel>> moving_;
-  std::vector<double> best_;
-};
+/// What explains the scans with fewer numbers of its own is preferred up to so much less of a
+/// share.
+constexpr double kSimpler = 0.03;
 
 /// Surfels of one group whose coordinate along its axis, times `sign`, lies within the fullest half
 /// metre beyond 0.3 m, as a share of all planes; `beyond` counts those farther out.
@@ -210,18 +119,84 @@ bool is_identity(const PoseHypothesis& hypothesis) {
   return hypothesis.check == "points-in-world" || hypothesis.check == "viewpoint-twice";
 }
 
-/// The hypothesis under which the scans agree best, and its share.
-std::pair<PoseHypothesis, double> best_hypothesis(const Samples& samples, const PairFit& fit,
-                                                  std::vector<PoseHypothesis> hypotheses) {
-  for (PoseHypothesis& hypothesis : degree_hypotheses(samples)) {
-    hypotheses.push_back(std::move(hypothesis));
-  }
+/// A hypothesis and the share that it reaches.
+struct Reached {
+  PoseHypothesis hypothesis;
+  double share = 0.0;
+};
+
+/// That under which the scans agree best.
+Reached best_of(const Samples& samples, const PairFit& fit,
+                const std::vector<PoseHypothesis>& hypotheses) {
   const bool in_world = points_follow_poses(samples);
-  std::pair<PoseHypothesis, double> best{{}, 0.0};
+  Reached best;
   for (const PoseHypothesis& hypothesis : hypotheses) {
     if (is_identity(hypothesis) && !in_world) continue;
     const double share = fit.share(hypothesis.pose);
-    if (share > best.second) best = {hypothesis, share};
+    if (share > best.share) best = {hypothesis, share};
+  }
+  return best;
+}
+
+/// Poses of a body on which the sensor is turned, the simplest turn first.
+std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
+                                            const std::vector<SeenMotion>& seen) {
+  const auto& poses = samples.poses();
+  std::vector<PoseHypothesis> all;
+  for (const Eigen::Matrix3d& turn : turns_on_body(samples, seen)) {
+    PoseHypothesis hypothesis{
+        "poses-of-a-body",
+        "if the sensor is turned by " + turn_text(turn) + " on the body that has the poses",
+        [&poses, turn](std::size_t i) {
+          Pose pose = poses[i];
+          pose.linear() *= turn;
+          return pose;
+        }};
+    if (samples.sequence().T_sensor) {
+      hypothesis.remedy =
+          "Multiply the pose of --T-sensor by " + mounting_text(turn) + ", from the right.";
+    } else if (!samples.sequence().T_camera_lidar) {
+      hypothesis.remedy = "Say --T-sensor " + mounting_text(turn) +
+                          ", with the position of the sensor on the body instead of the zeros.";
+    }
+    all.push_back(std::move(hypothesis));
+  }
+  return all;
+}
+
+/// Poses of other times; it says nothing where the scans do not tell.
+std::optional<PoseHypothesis> time_hypothesis(Samples& samples) {
+  const auto offset = find_time_offset(samples);
+  if (!offset || !is_clear(*offset)) return std::nullopt;
+  PoseHypothesis hypothesis{
+      "poses-of-another-time", "with the poses of " + time_offset_option(samples, *offset),
+      [&samples, offset = *offset](std::size_t i) { return pose_with(samples, offset, i); }};
+  hypothesis.remedy = "Say " + time_offset_option(samples, *offset) + ".";
+  return hypothesis;
+}
+
+/// The hypothesis that explains the scans best. Two are fitted to the scans (the turn of a sensor
+/// on a body, a shift of the clock); one that is not is preferred if it does nearly as well.
+Reached best_hypothesis(Samples& samples, const PairFit& fit,
+                        std::vector<PoseHypothesis> hypotheses) {
+  const std::vector<SeenMotion> seen = fit.seen_motions();
+  // Degrees for radians turn scans by 57 times as much. A turn that is right is no such mistake,
+  // though on a straight road any heading is one of those that the mistake may have.
+  const bool turns = turns_as_much(samples, seen);
+  for (PoseHypothesis& hypothesis : degree_hypotheses(samples)) {
+    if (turns && hypothesis.check == "degrees-for-radians") continue;
+    hypotheses.push_back(std::move(hypothesis));
+  }
+  std::vector<PoseHypothesis> fitted;
+  if (turns) fitted = body_hypotheses(samples, seen);
+  if (auto time = time_hypothesis(samples)) {
+    std::erase_if(hypotheses, [](const auto& other) { return other.check == "poses-shifted"; });
+    fitted.push_back(std::move(*time));
+  }
+  Reached best = best_of(samples, fit, hypotheses);
+  for (const PoseHypothesis& hypothesis : fitted) {
+    const double share = fit.share(hypothesis.pose);
+    if (share > best.share + kSimpler) best = {hypothesis, share};
   }
   return best;
 }
@@ -261,7 +236,7 @@ PoseVerdict compare_hypotheses(Samples& samples) {
   samples.measures.emplace_back("agreement_of_best_hypothesis", reached);
   const std::string now = "the scans agree to " + percent(given) + " under the poses";
   if (reached >= kNamed && reached > given + kBetter) {
-    return {best.check, now + " and to " + percent(reached) + " " + best.phrase};
+    return {best.check, now + " and to " + percent(reached) + " " + best.phrase, best.remedy};
   }
   if (const double step = position_step(samples.poses()); step > 0.0) {
     return {"poses-coarse",

@@ -17,6 +17,7 @@ struct PoseHypothesis {
   std::string check;   ///< Check that is reported if the scans agree under it.
   std::string phrase;  ///< "the scans agree ... <phrase>".
   std::function<Pose(std::size_t)> pose;
+  std::string remedy = {};  ///< With numbers; empty: what the check says in general.
 };
 
 /// All that are worth trying for these poses; refers to `samples.poses()`.

@@ -81,7 +81,15 @@ void Samples::settle_point_scale() {
 const std::vector<Surfel>& Samples::surfels(std::size_t scan) const {
   const auto found = surfels_.find(scan);
   if (found != surfels_.end()) return found->second;
-  return surfels_.emplace(scan, find_surfels(without_near(scans_.at(scan).points))).first->second;
+  const auto read = scans_.find(scan);
+  std::vector<Eigen::Vector3f> points;
+  if (read != scans_.end()) {
+    points = read->second.points;
+  } else {
+    points = sequence_.scans->load(scan).points;
+    for (Eigen::Vector3f& point : points) point *= static_cast<float>(point_scale_);
+  }
+  return surfels_.emplace(scan, find_surfels(without_near(std::move(points)))).first->second;
 }
 
 std::string Samples::scan_name(std::size_t scan) const {

@@ -23,8 +23,9 @@ struct ScanPair {
 
 /// How the poses, or the frame of the points, would have to change for the scans to agree.
 struct PoseVerdict {
-  std::string check;  ///< Name of the check that reports it; empty if nothing is wrong.
-  std::string what;   ///< What the numbers say.
+  std::string check;        ///< Name of the check that reports it; empty if nothing is wrong.
+  std::string what;         ///< What the numbers say.
+  std::string remedy = {};  ///< With numbers; empty: what the check says in general.
 };
 
 /// What the checks look at: the poses and files of the whole sequence, and about thirty scans,
@@ -45,6 +46,7 @@ class Samples {
   /// What the points were multiplied with to be metres: 1, or 0.001 for data in millimetres.
   [[nodiscard]] double point_scale() const { return point_scale_; }
   [[nodiscard]] double median_range() const { return median_range_; }
+  /// Of any scan; one that is not among `scans` is read for it. @throws DataError as when reading
   [[nodiscard]] const std::vector<Surfel>& surfels(std::size_t scan) const;
   /// The sensor as five of the scans show it, whatever it is called; estimated when first asked
   /// for.

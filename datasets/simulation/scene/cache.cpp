@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
@@ -40,6 +41,10 @@ std::string identity(const SimulationOptions& options, const simulated::NamedTex
   add(number_text(options.pose_noise));
   add(std::to_string(static_cast<int>(options.rolling)));
   add(options.noise_free ? "noise-free" : "noisy");
+  for (const auto& [name, angle] :
+       {std::pair("turned", options.turned_deg), std::pair("tilted", options.tilted_deg)}) {
+    if (angle != 0.0) add(name + (" " + number_text(angle)));
+  }
   return hasher.digest();
 }
 

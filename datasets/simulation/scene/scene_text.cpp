@@ -26,7 +26,11 @@ const std::vector<std::pair<std::string, Setter>>& setters() {
       {"pose_noise", [](auto& options, auto& what,
                         auto& text) { options.pose_noise = parse_pose_noise(what, text); }},
       {"rolling",
-       [](auto& options, auto& what, auto& text) { options.rolling = parse_rolling(what, text); }}};
+       [](auto& options, auto& what, auto& text) { options.rolling = parse_rolling(what, text); }},
+      {"turned",
+       [](auto& options, auto& what, auto& text) { options.turned_deg = parse_turn(what, text); }},
+      {"tilted",
+       [](auto& options, auto& what, auto& text) { options.tilted_deg = parse_turn(what, text); }}};
   return all;
 }
 
@@ -97,6 +101,12 @@ double parse_pose_noise(const std::string& what, const std::string& text) {
   if (value && *value >= 0.0 && *value <= 100.0) return *value;
   throw UsageError(what + " " + text +
                    ": expected a number from 0 (perfect poses) to 100; 1 is a good odometry.");
+}
+
+double parse_turn(const std::string& what, const std::string& text) {
+  const auto value = parse_number<double>(text);
+  if (value && *value >= -360.0 && *value <= 360.0) return *value;
+  throw UsageError(what + " " + text + ": expected degrees from -360 to 360.");
 }
 
 Rolling parse_rolling(const std::string& what, const std::string& text) {

@@ -9,7 +9,8 @@ namespace raymoval {
 
 /// Form of `parse_scene`, for messages and listings.
 inline constexpr const char* kSceneForm =
-    "SCENE[:key=value,...] with the keys scans, seed, sensor, pose_noise and rolling";
+    "SCENE[:key=value,...] with the keys scans, seed, sensor, pose_noise, rolling, "
+    "turned and tilted";
 
 /// Whether `text` names a built-in scene or an existing scene file (*.json), with or without
 /// options. @throws DataError as `is_file`, for example for a file name that is too long
@@ -27,6 +28,8 @@ std::size_t parse_scan_count(const std::string& what, const std::string& text);
 std::uint64_t parse_seed(const std::string& what, const std::string& text);
 /// @throws UsageError unless a number from 0 to 100.
 double parse_pose_noise(const std::string& what, const std::string& text);
+/// Degrees. @throws UsageError unless a number from -360 to 360.
+double parse_turn(const std::string& what, const std::string& text);
 /// @throws UsageError unless "none", "skewed" or "corrected".
 Rolling parse_rolling(const std::string& what, const std::string& text);
 

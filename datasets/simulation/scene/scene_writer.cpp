@@ -77,17 +77,23 @@ void write_tables(const SimulatedSequence& sequence, simulated::SceneFolder& fol
   folder.write("calib.txt", calib + "Tr: " + row_text(Tr) + "\n");
 }
 
+/// What is said of the world's axes; nothing of 0 degrees.
+std::string angle_text(const std::string& what, double degrees) {
+  return degrees == 0.0 ? "" : what + number_text(degrees) + " degrees";
+}
+
 void write_description(const SimulationOptions& options, const SimulatedSequence& sequence,
                        simulated::SceneFolder& folder) {
   const auto known = sensor_model_names();
   const bool named = std::find(known.begin(), known.end(), sequence.sensor_name()) != known.end();
   nlohmann::ordered_json json;
   json["name"] = sequence.name();
-  json["source"] = "simulated by raymoval: scene " + sequence.name() + ", sensor " +
-                   sequence.sensor_name() + ", seed " + std::to_string(options.seed) +
-                   ", pose noise " + number_text(options.pose_noise) + ", rolling " +
-                   kRollingNames[static_cast<int>(options.rolling)] +
-                   (options.noise_free ? ", noise-free" : "");
+  json["source"] =
+      "simulated by raymoval: scene " + sequence.name() + ", sensor " + sequence.sensor_name() +
+      ", seed " + std::to_string(options.seed) + ", pose noise " + number_text(options.pose_noise) +
+      ", rolling " + kRollingNames[static_cast<int>(options.rolling)] +
+      (options.noise_free ? ", noise-free" : "") + angle_text(", turned by ", options.turned_deg) +
+      angle_text(", tilted by ", options.tilted_deg);
   json["sensor"] = named ? sequence.sensor_name() : "estimated";
   json["scan_period_s"] = sequence.scan_period_s();
   json["poses"] = "poses.txt";

@@ -29,6 +29,9 @@ struct SimulationOptions {
   double pose_noise = 1.0;     ///< Severity; 0 = perfect poses, 1 = a good LiDAR odometry.
   Rolling rolling = Rolling::kNone;
   bool noise_free = false;  ///< Perfect ranges without loss, for tests.
+  /// The axes of the sequence's world, in degrees: turned about z, which is up, and then tilted
+  /// about their own x, so that z is up no more. What the sensor sees stays the same to the bit.
+  double turned_deg = 0.0, tilted_deg = 0.0;
 };
 
 /// What one mover did, for the record and for tests.
@@ -43,7 +46,8 @@ struct MoverTruth {
 };
 
 /// A simulated sequence, traced when a scan is asked for. Its world frame is at the sensor of scan
-/// 0 (x forward, y left), as SemanticKITTI has it, but levelled: z is up. Thread-safe.
+/// 0 (x forward, y left), as SemanticKITTI has it, but levelled: z is up; unless the options turn
+/// or tilt it. Thread-safe.
 class SimulatedSequence : public ScanSource, public LabelSource {
  public:
   ~SimulatedSequence() override = default;

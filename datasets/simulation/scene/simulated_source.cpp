@@ -3,6 +3,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/simulation/scene/library.h"
@@ -34,6 +35,17 @@ Pose level(const Pose& pose) {
   result.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   result.translation() = pose.translation();
   return result;
+}
+
+/// T_sequence_world of a sequence that begins with the sensor at `first`.
+Pose sequence_frame(const SimulationOptions& options, const Pose& first) {
+  const Pose levelled = level(first).inverse();
+  if (options.turned_deg == 0.0 && options.tilted_deg == 0.0) return levelled;
+  const Eigen::AngleAxisd turn(-options.turned_deg * kDegree, Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd tilt(-options.tilted_deg * kDegree, Eigen::Vector3d::UnitX());
+  Pose result = Pose::Identity();
+  result.linear() = (tilt * turn).toRotationMatrix();
+  return result * levelled;
 }
 
 /// The last labels that were traced, so that asking for a scan and then its labels traces once.
@@ -77,7 +89,7 @@ class Simulation final : public SimulatedSequence {
         scanner_(
             world_, sensor_, [this](double t) { return world_.ego()->sensor_pose(t); },
             {options.seed, options.rolling, options.noise_free}, threads),
-        anchor_(level(world_.ego()->sensor_pose(0.0)).inverse()),
+        anchor_(sequence_frame(options, world_.ego()->sensor_pose(0.0))),
         errors_(simulated::pose_errors({}, options.pose_noise, count_, sensor_.period_s,
                                        options.seed)) {
     std::size_t whole = 0;
@@ -173,6 +185,11 @@ std::shared_ptr<const SimulatedSequence> make_simulated(const SimulationOptions&
   if (!(options.pose_noise >= 0.0 && options.pose_noise <= 1000.0)) {
     throw UsageError("the severity of pose noise is " + number_text(options.pose_noise) +
                      ", expected 0 (perfect) to 1000; 1 is a good LiDAR odometry.");
+  }
+  for (const double angle : {options.turned_deg, options.tilted_deg}) {
+    if (std::abs(angle) <= 360.0) continue;
+    throw UsageError("the axes of a simulated world are turned by " + number_text(angle) +
+                     " degrees, expected -360 to 360.");
   }
   if (options.scans > 1'000'000) throw UsageError("a simulation has at most 1,000,000 scans.");
   WorldFile world = simulated::parse_world(simulated::find_world(options.scene));

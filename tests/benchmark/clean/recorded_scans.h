@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "datasets/clouds/format/point_layout.h"
 #include "datasets/records/record_source.h"
 #include "datasets/sequence.h"
 
@@ -70,13 +71,7 @@ inline const std::atomic<bool> kGoOn{false};
 
 /// x y z as float32, then ring (uint16), time (float64) and a byte that means nothing.
 inline RecordLayout driver_layout() {
-  RecordLayout layout;
-  for (const char* axis : {"x", "y", "z"}) layout.add(axis, 'F', 4);
-  layout.add("intensity", 'F', 4);
-  layout.add("ring", 'U', 2);
-  layout.add("time", 'F', 8);
-  layout.row_bytes += 1;
-  return layout;
+  return parse_point_layout("x y z intensity ring:u2 time:f8 _:u1");
 }
 
 /// A row for each of `values`, whose numbers belong to the fields of `layout` in turn.

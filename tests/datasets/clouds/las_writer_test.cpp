@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "datasets/clouds/format/point_layout.h"
 #include "datasets/clouds/las/las_notes.h"
 #include "datasets/clouds/las/reference_system.h"
 #include "tests/datasets/clouds/record_files.h"
@@ -48,9 +49,7 @@ TEST_CASE("any layout goes through .las, coordinates to the millimetre", "[las]"
 TEST_CASE("LAS that is written says counts, bounds and offsets", "[las]") {
   const TemporaryFolder folder;
   PointRecords made;
-  for (const char* axis : {"x", "y", "z"}) made.layout.add(axis, 'F', 8);
-  made.layout.add("return_number", 'U', 1);
-  made.layout.add("intensity", 'F', 4);
+  made.layout = parse_point_layout("x:f8 y:f8 z:f8 return_number:u1 intensity");
   const auto add = [&](double x, double y, double z, std::uint8_t number, float intensity) {
     for (const double value : {x, y, z}) {
       const auto* raw = reinterpret_cast<const std::byte*>(&value);
@@ -97,8 +96,7 @@ TEST_CASE("LAS that is written says counts, bounds and offsets", "[las]") {
 TEST_CASE("what LAS cannot hold is an error before the file appears", "[las]") {
   const TemporaryFolder folder;
   PointRecords made;
-  for (const char* axis : {"x", "y", "z"}) made.layout.add(axis, 'F', 8);
-  made.layout.add("return_number", 'U', 1);
+  made.layout = parse_point_layout("x:f8 y:f8 z:f8 return_number:u1");
   made.bytes.resize(2 * made.layout.row_bytes);
   const auto says = [&] {
     const std::string message =

@@ -105,8 +105,7 @@ TEST_CASE("the layout of a file is that of its records", "[records]") {
 TEST_CASE("what PLY rounds is said, and is the nearest double", "[records]") {
   const TemporaryFolder folder;
   PointRecords records;
-  for (const char* axis : {"x", "y", "z"}) records.layout.add(axis, 'F', 4);
-  records.layout.add("t", 'U', 8);
+  records.layout = parse_point_layout("x y z t:u8");
   records.bytes.resize(records.layout.row_bytes);
   const std::uint64_t time = 1700000000123456789U;
   std::memcpy(records.bytes.data() + 12, &time, sizeof time);

@@ -6,6 +6,7 @@
 
 #include "core/files/files.h"
 #include "datasets/clouds/format/deflate.h"
+#include "datasets/clouds/format/point_layout.h"
 #include "datasets/clouds/numpy/zip_archive.h"
 #include "tests/datasets/clouds/record_files.h"
 
@@ -61,8 +62,7 @@ TEST_CASE("a compressed .pcd file may hold what cannot be packed, or nothing", "
   const TemporaryFolder folder;
   std::mt19937 random(22);
   PointRecords made;
-  for (const char* axis : {"x", "y", "z"}) made.layout.add(axis, 'F', 4);
-  made.layout.add("noise", 'U', 1, 40);
+  made.layout = parse_point_layout("x y z noise:u1[40]");
   made.form.packed = true;
   made.bytes.resize(500 * made.layout.row_bytes);
   for (std::byte& byte : made.bytes) byte = static_cast<std::byte>(random());
@@ -76,9 +76,7 @@ TEST_CASE("a compressed .pcd file may hold what cannot be packed, or nothing", "
 TEST_CASE(".ply files keep text and the order of bytes", "[records]") {
   const TemporaryFolder folder;
   PointRecords made;
-  for (const char* axis : {"x", "y", "z"}) made.layout.add(axis, 'F', 8);
-  made.layout.add("ring", 'U', 2);
-  made.layout.add("offset", 'I', 4);
+  made.layout = parse_point_layout("x:f8 y:f8 z:f8 ring:u2 offset:i4");
   made.bytes.resize(2 * made.layout.row_bytes);
   made.width = 2;
   made.set_value(0, made.layout.fields[0], 0.1);
@@ -102,9 +100,7 @@ TEST_CASE(".ply files keep text and the order of bytes", "[records]") {
 TEST_CASE("values in a text read back as the same numbers", "[records]") {
   const TemporaryFolder folder;
   PointRecords made;
-  for (const char* axis : {"x", "y", "z"}) made.layout.add(axis, 'F', 4);
-  made.layout.add("t", 'U', 8);
-  made.layout.add("s", 'I', 1);
+  made.layout = parse_point_layout("x y z t:u8 s:i1");
   made.bytes.resize(made.layout.row_bytes);
   made.width = 1;
   const float values[] = {0.1F, std::numeric_limits<float>::denorm_min(),

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
+#include "core/files/file_kind.h"
 #include "core/text.h"
 #include "datasets/inspection/unopenable.h"
 #include "tests/datasets/inspect_data.h"
@@ -66,6 +68,44 @@ std::vector<double> scalar_first(const Scan& scan) {
   const Eigen::Vector3d t = scan.T_world_sensor.translation();
   const Eigen::Quaterniond q(scan.T_world_sensor.linear());
   return {0.1 * static_cast<double>(scan.index), t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()};
+}
+
+/// The word behind `option` in the remedy of the only finding.
+std::string advised(const InspectionReport& report, const std::string& option) {
+  REQUIRE(report.findings.size() == 1);
+  const std::string& remedy = report.findings[0].remedy;
+  const std::size_t at = remedy.find(option + " ");
+  REQUIRE(at != std::string::npos);
+  const std::string rest = remedy.substr(at + option.size() + 1);
+  const std::string word = rest.substr(0, rest.find_first_of(" \n"));
+  return word.substr(0, word.find_last_not_of(".,") + 1);
+}
+
+/// A street with a car that turns, with `speed` over time.
+EditedSequence lively_drive(const std::string& speed) {
+  const TemporaryFolder folder;
+  std::string text = simulated_scene_text("suburb");
+  const std::string usual = "[[0, 6], [5, 6.5], [9, 5], [14, 7]]";
+  const std::size_t at = text.find(usual);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, usual.size(), speed);
+  SimulationOptions options = suburb(sparse_vlp16(), 24);
+  options.scene = folder.write("lively.json", text).string();
+  return EditedSequence(options);
+}
+
+/// Scans each 0.1 s, and poses whose clock is ahead of theirs by `ahead` seconds.
+void write_timed(const TemporaryFolder& folder, const EditedSequence& drive, double ahead) {
+  write_scans(folder, drive, 0.1, as_seen);
+  std::string times;
+  for (const Scan& scan : drive.scans) times += number_text(scan.time_s) + "\n";
+  folder.write("times.txt", times);
+  folder.write("poses.txt", pose_rows(drive, [&](const Scan& scan) {
+                 const Eigen::Vector3d t = scan.T_world_sensor.translation();
+                 const Eigen::Quaterniond q(scan.T_world_sensor.linear());
+                 return std::vector<double>{
+                     scan.time_s + ahead, t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+               }));
 }
 
 std::set<std::string> found_with(const TemporaryFolder& folder, const SequenceOptions& options) {
@@ -139,6 +179,9 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
   const auto findings = inspection::unopenable_findings(folder.text(), options);
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].what == "holds 4 poses for 3 scans");
+  // What cannot be looked at is no scan, and no finding either.
+  std::filesystem::create_symlink("3.bin", folder / "3.bin");
+  CHECK_THROWS_AS(inspection::unopenable_findings(folder.text(), options), UnreadableError);
 }
 
 TEST_CASE("points in the world frame are named, and brought back on request",
@@ -169,4 +212,55 @@ TEST_CASE("skewed scans are no finding any more once they are deskewed", "[inspe
   check_finds(inspect_path(folder.text(), options), "skewed-scans", "--deskew");
   options.deskew = true;
   CHECK(found_with(folder, options).empty());
+}
+
+TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspect]") {
+  const EditedSequence& drive = good_drive();
+  const TemporaryFolder folder;
+  write_scans(folder, drive, 0.1, as_seen);
+  for (const double degrees : {90.0, 37.0, 180.0, -115.0}) {
+    INFO(degrees);
+    const Pose turn(Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()));
+    folder.write("poses.txt", pose_rows(drive, [&](const Scan& scan) {
+                   return matrix_of(scan.T_world_sensor * turn.inverse());
+                 }));
+    SequenceOptions options;
+    const InspectionReport report = inspect_path(folder.text(), options);
+    check_finds(report, "poses-of-a-body", "--T-sensor 0,0,0,");
+    CHECK_THAT(report.findings[0].what, Catch::Contains(" degrees about z"));
+    options.T_sensor = advised(report, "--T-sensor");
+    CHECK(found_with(folder, options).empty());
+  }
+}
+
+TEST_CASE("clocks that differ are told by how much, and agree once that is said", "[inspect]") {
+  const TemporaryFolder folder;
+  const EditedSequence drive = lively_drive("[[0, 3], [1.2, 8], [2.4, 2]]");
+  for (const double ahead : {0.12, -0.08}) {
+    INFO(ahead);
+    write_timed(folder, drive, ahead);
+    SequenceOptions options;
+    const InspectionReport report = inspect_path(folder.text(), options);
+    check_finds(report, "time-offset", "--time-offset ");
+    const std::string advice = advised(report, "--time-offset");
+    CHECK(*parse_number<double>(advice) == Approx(ahead).margin(0.02));
+    options.time_offset_s = parse_number<double>(advice);
+    CHECK(found_with(folder, options).empty());
+  }
+  // What a user says already counts in what is advised.
+  SequenceOptions wrong;
+  wrong.time_offset_s = 0.1;
+  const InspectionReport report = inspect_path(folder.text(), wrong);
+  CHECK(*parse_number<double>(advised(report, "--time-offset")) == Approx(-0.08).margin(0.02));
+  write_timed(folder, drive, 0.0);
+  CHECK(found_with(folder, {}).empty());
+}
+
+TEST_CASE("at a steady speed nobody can tell that clocks differ", "[inspect]") {
+  SimulationOptions options = suburb(sparse_vlp16(), 14);
+  options.scene = "highway";
+  const EditedSequence drive(options);
+  const TemporaryFolder folder;
+  write_timed(folder, drive, 0.12);
+  CHECK(found_with(folder, {}).empty());
 }

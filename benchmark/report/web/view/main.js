@@ -4,7 +4,7 @@ import {Color} from 'three';
 
 import {COLOUR_BY, Cloud, SceneBuffers, sharedUniforms} from './cloud.js';
 import {rgbOf} from './colours.js';
-import {element, fillSelect, hideComparison, makeKinds, tellColours, tellKinds, tellPoint,
+import {element, fillSelect, hideComparison, makeKinds, switchKind, tellColours, tellKinds, tellPoint,
         tellThinning} from './panel.js';
 import {pick} from './picking.js';
 import {SceneData} from './scene_data.js';
@@ -133,7 +133,7 @@ class View {
       case '.': this.stepScan(1); return true;
       case 'Home': this.lookAtAll(); return true;
       case 'Escape': this.forgetPoint(); return true;
-      case '1': case '2': case '3': case '4': element(`kind-${event.key - 1}`).click(); return true;
+      case '1': case '2': case '3': case '4': switchKind(event.key); return true;
     }
     return false;
   }

@@ -44,8 +44,16 @@ export function makeKinds(unlabelled, colours, visible, changed) {
   }));
 }
 
+/** Shows or hides the kind at place `number` (from 1) of those in the list. */
+export function switchKind(number) {
+  const boxes = [...element('kinds').querySelectorAll('input')]
+      .filter((box) => box.parentElement.style.display !== 'none');
+  boxes[number - 1]?.click();
+}
+
 /** Takes away what says nothing where there is one method and no label. */
 export function hideComparison() {
+  element('kind-keys').replaceChildren(make('kbd', {}, '1'), ' and ', make('kbd', {}, '2'));
   const help = element('view-help').firstChild;
   help.textContent = help.textContent.replace('its scan, label and voxel, and why it was removed or kept',
                                               'its scan and voxel, and whether it was removed');

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "datasets/clouds/format/point_layout.h"
 #include "tests/benchmark/clean/recorded_scans.h"
 
 using namespace raymoval;
@@ -59,8 +60,7 @@ TEST_CASE("Far from the origin coordinates become float64, and nothing else chan
 }
 
 TEST_CASE("Points that are stored in the world frame stay bit for bit") {
-  RecordLayout layout;
-  for (const char* axis : {"x", "y", "z"}) layout.add(axis, 'F', 8);
+  const RecordLayout layout = parse_point_layout("x:f8 y:f8 z:f8");
   const double x = 691000.1234567891;
   const auto scans = std::make_shared<RecordedScans>(
       std::vector{records_of(layout, {{x, 1.1, 2.2}})}, std::vector{turned()}, PointFrame::kWorld);
@@ -70,8 +70,7 @@ TEST_CASE("Points that are stored in the world frame stay bit for bit") {
 }
 
 TEST_CASE("Stored doubles keep their digits, but for points that were moved") {
-  RecordLayout layout;
-  for (const char* axis : {"x", "y", "z"}) layout.add(axis, 'F', 8);
+  const RecordLayout layout = parse_point_layout("x:f8 y:f8 z:f8");
   const double x = 1.1234567890123;
   const auto scans =
       std::make_shared<RecordedScans>(std::vector{records_of(layout, {{x, 0, 0}, {x, 0, 0}})},

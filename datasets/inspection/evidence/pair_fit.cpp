@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/inspection/evidence/pair_fit.h"
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+namespace raymoval::inspection {
+namespace {
+
+constexpr std::size_t kMostSurfels = 1500;
+
+/// A vehicle goes ahead by up to 3 m between scans.
+void add_drives(std::vector<Pose>& starts) {
+  for (const double ahead : {0.7, 1.4, 2.2, 3.0}) {
+    Pose drive = Pose::Identity();
+    drive.translation().x() = ahead;
+    starts.push_back(drive);
+  }
+}
+
+/// The motion of a body that the sensor may be turned on, about z.
+void add_turned(const Pose& motion, std::vector<Pose>& starts) {
+  constexpr int kTurns = 8;
+  for (int k = 1; k < kTurns; ++k) {
+    const Pose turn(
+        Eigen::AngleAxisd(2.0 * std::numbers::pi * k / kTurns, Eigen::Vector3d::UnitZ()));
+    starts.push_back(turn.inverse() * motion * turn);
+  }
+}
+
+}  // namespace
+
+std::vector<Surfel> thinned(const std::vector<Surfel>& all) {
+  if (all.size() <= kMostSurfels) return all;
+  std::vector<Surfel> some;
+  for (std::size_t i = 0; i < kMostSurfels; ++i) some.push_back(all[i * all.size() / kMostSurfels]);
+  return some;
+}
+
+PairFit::PairFit(const Samples& samples) : samples_(samples) {
+  for (const ScanPair& pair : samples.pairs()) {
+    maps_.try_emplace(pair.from, samples.surfels(pair.from));
+    if (moving_.count(pair.to) == 0) moving_[pair.to] = thinned(samples.surfels(pair.to));
+  }
+}
+
+double PairFit::agreement(const ScanPair& pair, const Pose& motion) const {
+  return maps_.at(pair.from).agreement(moving_.at(pair.to), motion);
+}
+
+void PairFit::find_best(const std::vector<PoseHypothesis>& hypotheses) {
+  best_.assign(samples_.pairs().size(), 0.0);
+  motions_.assign(samples_.pairs().size(), Pose::Identity());
+  Pose last = Pose::Identity();  // Of neighbours, a guess for scans farther apart.
+  for (std::size_t k = 0; k < samples_.pairs().size(); ++k) {
+    const ScanPair& pair = samples_.pairs()[k];
+    const auto& poses = samples_.poses();
+    std::vector<Pose> starts = {poses[pair.from].inverse() * poses[pair.to], Pose::Identity()};
+    for (const PoseHypothesis& hypothesis : hypotheses) {
+      starts.push_back(hypothesis.pose(pair.from).inverse() * hypothesis.pose(pair.to));
+    }
+    Pose repeated = Pose::Identity();
+    for (std::size_t step = pair.from; step < pair.to; ++step) repeated = repeated * last;
+    starts.push_back(repeated);
+    if (pair.to == pair.from + 1 && !hypotheses.empty()) {
+      add_turned(starts.front(), starts);
+      add_drives(starts);
+    }
+    motions_[k] = best_of(pair, starts, best_[k]);
+    if (pair.to == pair.from + 1) last = motions_[k];
+  }
+}
+
+double PairFit::mean_best() const {
+  double sum = 0.0;
+  for (const double best : best_) sum += best;
+  return best_.empty() ? 0.0 : sum / static_cast<double>(best_.size());
+}
+
+bool PairFit::says_something() const {
+  return std::any_of(best_.begin(), best_.end(), [](double b) { return b >= kTooLittle; });
+}
+
+std::vector<SeenMotion> PairFit::seen_motions() const {
+  std::vector<SeenMotion> seen;
+  for (std::size_t k = 0; k < best_.size(); ++k) {
+    if (best_[k] >= kTooLittle) seen.push_back({samples_.pairs()[k], motions_[k]});
+  }
+  return seen;
+}
+
+Pose PairFit::best_of(const ScanPair& pair, const std::vector<Pose>& starts, double& best) const {
+  Pose found = starts.front();
+  for (const Pose& start : starts) {
+    const Pose refined = maps_.at(pair.from).refine(moving_.at(pair.to), start);
+    for (const Pose& motion : {start, refined}) {
+      const double reached = agreement(pair, motion);
+      if (reached > best) {
+        best = reached;
+        found = motion;
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace raymoval::inspection

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "datasets/geometry/surfels.h"
+#include "datasets/inspection/evidence/pose_hypotheses.h"
+#include "datasets/inspection/evidence/samples.h"
+
+namespace raymoval::inspection {
+
+/// Below this agreement two scans do not show enough of the same.
+inline constexpr double kTooLittle = 0.25;
+
+/// Metres at which a turn moves what is seen: it makes turns and shifts comparable.
+inline constexpr double kTurnLever = 10.0;
+
+/// A motion of the sensor that two scans show, without their poses.
+struct SeenMotion {
+  ScanPair pair;
+  Pose motion = Pose::Identity();  ///< T_from_to.
+};
+
+/// Surfels of a scan that are compared with another one; some of them, if there are many.
+std::vector<Surfel> thinned(const std::vector<Surfel>& all);
+
+/// The pairs of scans, ready to be compared under any poses.
+class PairFit {
+ public:
+  explicit PairFit(const Samples& samples);
+
+  /// Mean agreement over all pairs, each at most its best.
+  template <class PoseOf>
+  [[nodiscard]] double share(PoseOf&& pose_of) const {
+    double sum = 0.0, most = 0.0;
+    for (std::size_t k = 0; k < samples_.pairs().size(); ++k) {
+      const ScanPair& pair = samples_.pairs()[k];
+      if (best_[k] < kTooLittle) continue;
+      sum += std::min(best_[k], agreement(pair, pose_of(pair.from).inverse() * pose_of(pair.to)));
+      most += best_[k];
+    }
+    return most > 0.0 ? sum / most : 1.0;
+  }
+
+  /// Registers each pair from the motions given and from guesses at the sensor's own.
+  void find_best(const std::vector<PoseHypothesis>& hypotheses);
+  [[nodiscard]] double mean_best() const;
+  [[nodiscard]] bool says_something() const;
+  /// The motions of the pairs that agree enough, as `find_best` found them.
+  [[nodiscard]] std::vector<SeenMotion> seen_motions() const;
+
+ private:
+  [[nodiscard]] double agreement(const ScanPair& pair, const Pose& motion) const;
+  Pose best_of(const ScanPair& pair, const std::vector<Pose>& starts, double& best) const;
+
+  const Samples& samples_;
+  std::map<std::size_t, SurfaceMap> maps_;
+  std::map<std::size_t, std::vector<Surfel>> moving_;
+  std::vector<double> best_;   ///< Agreement, by pair.
+  std::vector<Pose> motions_;  ///< Where it is reached, by pair.
+};
+
+}  // namespace raymoval::inspection
