@@ -111,7 +111,7 @@ $program run "$suite" --out "$work/plain" --quiet >"$work/plain.txt"
 
 # Counts, rates, data, parameters: everything but times.
 $program compare "$work/slurm" "$work/plain"
-cut -d, -f1-12 "$work/slurm/results.csv" >"$work/slurm.csv"
-cut -d, -f1-12 "$work/plain/results.csv" >"$work/plain.csv"
+cut -d, -f1-15 "$work/slurm/results.csv" >"$work/slurm.csv"
+cut -d, -f1-15 "$work/plain/results.csv" >"$work/plain.csv"
 diff "$work/slurm.csv" "$work/plain.csv"
 echo "test_slurm.sh: $jobs jobs of Slurm gave the results of a plain run of $suite."

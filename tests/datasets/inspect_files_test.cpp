@@ -259,7 +259,8 @@ TEST_CASE("cleaning refuses what makes the map wrong, and does not mind labels",
                        "lidar-poses-as-camera", "degrees-for-radians", "radians-for-degrees",
                        "quaternion-order", "poses-in-millimetres", "poses-in-kilometres",
                        "poses-coarse", "viewpoint-twice", "viewpoint-missing", "sensor-elsewhere",
-                       "points-in-world", "poses-shifted", "poses-of-another-sequence"});
+                       "points-in-world", "poses-shifted", "poses-of-another-sequence",
+                       "poses-of-a-body", "poses-of-another-time"});
   CHECK(unused == std::set<std::string>{"labels-shifted", "label-count",
                                         "labels-in-intensity-by-value",
                                         "labels-in-intensity-by-bits"});

@@ -106,8 +106,8 @@ TEST_CASE("The CSV has rates to 3 decimals, F1 to 4, and nothing where undefined
   results.rows[0].seconds_per_scan = 0.25;
   results.rows[0].peak_memory_mib = 12.34;
   const std::string csv = results_csv(results);
-  CHECK_THAT(csv, Contains("\ns1,x,v,erasor,ok,90.000,60.000,0.7200,,,,,0.250000,12.3,x\n"));
-  CHECK_THAT(csv, Contains("\ns2,y_1,v,erasor,ok,50.000,,,,,,,,,y_1\n"));
+  CHECK_THAT(csv, Contains("\ns1,x,v,erasor,ok,90.000,60.000,0.7200,,,,,,,,0.250000,12.3,x\n"));
+  CHECK_THAT(csv, Contains("\ns2,y_1,v,erasor,ok,50.000,,,,,,,,,,,,y_1\n"));
 }
 
 TEST_CASE("Outside columns stand beside the run where a sequence is in both") {

@@ -202,6 +202,7 @@ TEST_CASE("Intensities that LAS shows as 0 or 1 are told, and a scale spreads th
   paths.map = folder.path() / "map.las";
   const auto results = [&](std::optional<double> scale, double voxel) {
     CleanWriting writing;
+    writing.tile_size = 100.0;
     writing.tile_extension = ".las";
     writing.intensity_scale = scale;
     writing.voxel_size = voxel;
