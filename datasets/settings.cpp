@@ -226,7 +226,7 @@ SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings 
     settings.up = parse_up(*options.up);
     if (!settings.up) throw UsageError("--up " + *options.up + ": " + kUpForm + ".");
   }
-  if (options.label_rule == kMovingNow) {
+  if (options.label_rule && !is_rule_file(*options.label_rule)) {
     settings.moving_now = true;
     settings.label_rule.name = kMovingNow;
   } else if (options.label_rule) {

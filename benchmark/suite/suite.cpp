@@ -68,7 +68,7 @@ SequenceRequest absolute_place(const SequenceRequest& place) {
   if (options.poses && has_file(*options.poses)) {
     options.poses = make_absolute(*options.poses).string();
   }
-  if (options.label_rule && options.label_rule != kMovingNow) {
+  if (options.label_rule && is_rule_file(*options.label_rule)) {
     options.label_rule = make_absolute(*options.label_rule);
   }
   return absolute;

@@ -33,6 +33,10 @@ struct LabelRule {
 /// The name of a rule that needs no file: what moves at the time of the scan moves, and what stands
 /// then does not, though it moves at another time. Only some data says that.
 inline constexpr const char* kMovingNow = "moving-now";
+/// Whether a rule so named is in a file.
+inline bool is_rule_file(const std::string& rule) {
+  return rule != kMovingNow;
+}
 
 /// Reads {"moving": [ids], "ignored": [ids], "name": text}; missing keys keep `base`'s values.
 /// @throws ConfigurationError if an id is no whole number from 0 to 65535 or stands in both lists.

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 
-#include "core/parallel.h"
 #include "methods/beautymap/judgement.h"
+#include "methods/common/prepared_scans.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 
@@ -15,16 +14,20 @@ namespace raymoval::beautymap_method {
 namespace {
 
 /// One pass in which `find(scan, work)` says what does not depend on other scans, on any thread,
-/// and `take(work)` takes it in, in order of time.
+/// and `take(work)` takes it in, in order of time; both are a stage.
 template <class Work, class Find, class Take>
 void for_scans_in_order(const char* what, const char* stage, const ScanSource& scans,
                         const RunContext& context, Find&& find, Take&& take) {
-  std::vector<Work> work(scans_in_a_batch(scans, context));
-  for_scan_batches(what, scans, context, [&](std::span<Scan> batch) {
-    const StageScope timed(context.times, stage);
-    parallel_for(context.threads, batch.size(), 1, [&](std::size_t i) { find(batch[i], work[i]); });
-    for (std::size_t i = 0; i < batch.size(); ++i) take(work[i]);
-  });
+  for_prepared_scans<Work>(
+      what, stage, scans, context,
+      [&](const Scan& scan, Work& work, const RunContext& here) {
+        const StageScope timed(here.times, stage);
+        find(scan, work);
+      },
+      [&](const Work& work, const RunContext& here) {
+        const StageScope timed(here.times, stage);
+        take(work);
+      });
 }
 
 /// Where columns begin: at the map's least x and y, or where those of the world do.

@@ -8,7 +8,7 @@ namespace raymoval::beautymap_method {
 namespace {
 
 /// The middle value, or the mean of both middle ones.
-double median(std::vector<double> values) {
+double middle_value(std::vector<double> values) {
   const std::size_t half = values.size() / 2;
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half),
                    values.end());
@@ -97,9 +97,9 @@ void ColumnMap::place_feet(const LowestPoints& lowest) {
   for (Column& column : columns_) {  // In order, since feet that were moved are neighbours, too.
     std::vector<double> around = lowest_around(column, lowest);
     if (static_cast<double>(around.size()) < parameters_.outlier_share * all) continue;
-    const double middle = median(around);
+    const double middle = middle_value(around);
     for (double& z : around) z = std::abs(z - middle);
-    const double reachable = parameters_.outlier_deviations * median(around);
+    const double reachable = parameters_.outlier_deviations * middle_value(around);
     const double foot = std::clamp(column.foot, middle - reachable, middle + reachable);
     column.is_outlier = foot != column.foot;
     column.foot = foot;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "core/sampling.h"
 
 namespace raymoval::beautymap_method {
 
@@ -41,8 +44,7 @@ void ScanWindow::find_columns() {
   cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
   for (int x = 0; x < side_; ++x) {
     for (int y = 0; y < side_; ++y) {
-      cells_[static_cast<std::size_t>(x * side_ + y)].column =
-          map_.find({first_.x + x, first_.y + y});
+      cells_[number(x, y)].column = map_.find({first_.x + x, first_.y + y});
     }
   }
 }
@@ -52,7 +54,7 @@ void ScanWindow::enter(const Parameters& parameters, const std::vector<PlacedPoi
     const ColumnIndex& column = map_.columns()[point.column].index;
     const int x = column.x - first_.x, y = column.y - first_.y;
     if (x < 0 || y < 0 || x >= side_ || y >= side_) continue;
-    Cell& cell = cells_[static_cast<std::size_t>(x * side_ + y)];
+    Cell& cell = cells_[number(x, y)];
     is_empty_ = false;
     cell.has_higher |= point.slice > kTopSlice;
     cell.has_lower |= point.slice <= kTopSlice;
@@ -88,10 +90,7 @@ double ScanWindow::foot_around(const Parameters& parameters) const {
       if (at(x, y).column != ColumnMap::kNone) feet.push_back(foot(x, y));
     }
   }
-  if (feet.empty()) return map_.lowest();
-  const auto middle = feet.begin() + static_cast<std::ptrdiff_t>(feet.size() / 2);
-  std::nth_element(feet.begin(), middle, feet.end());
-  return *middle;
+  return feet.empty() ? map_.lowest() : median(std::move(feet));
 }
 
 }  // namespace raymoval::beautymap_method

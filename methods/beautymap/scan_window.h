@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,10 +28,7 @@ class ScanWindow {
   [[nodiscard]] bool is_empty() const { return is_empty_; }
   [[nodiscard]] int side() const { return side_; }      ///< Columns.
   [[nodiscard]] int center() const { return center_; }  ///< The sensor's column, in x and in y.
-  [[nodiscard]] const Cell& at(int x, int y) const {
-    return cells_[static_cast<std::size_t>(x) * static_cast<std::size_t>(side_) +
-                  static_cast<std::size_t>(y)];
-  }
+  [[nodiscard]] const Cell& at(int x, int y) const { return cells_[number(x, y)]; }
   /// The foot of a column of the window, metres; where the map has none, the map's lowest point.
   [[nodiscard]] double foot(int x, int y) const;
   /// The foot of the sensor's own column, or what stands for it, metres.
@@ -40,6 +38,10 @@ class ScanWindow {
   [[nodiscard]] double steepest() const { return steepest_; }
 
  private:
+  [[nodiscard]] std::size_t number(int x, int y) const {
+    return static_cast<std::size_t>(x) * static_cast<std::size_t>(side_) +
+           static_cast<std::size_t>(y);
+  }
   void place(const Parameters& parameters);
   void find_columns();
   void enter(const Parameters& parameters, const std::vector<PlacedPoint>& placed);

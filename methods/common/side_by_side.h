@@ -20,4 +20,11 @@ void side_by_side(const RunContext& context, const char* stage, OneStep&& one_st
                [&](std::size_t step) { step == 0 ? one_step(of_step) : other_step(of_step); });
 }
 
+/// The same for steps that are part of a longer stage and need no context. The first may use all
+/// threads as soon as the second is done.
+template <class First, class Second>
+void side_by_side(const RunContext& context, First&& first, Second&& second) {
+  parallel_for(context.threads, 2, 1, [&](std::size_t step) { step == 0 ? first() : second(); });
+}
+
 }  // namespace raymoval

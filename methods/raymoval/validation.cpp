@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
+#include "core/sampling.h"
 #include "methods/common/range_adaptive_clusters.h"
 
 namespace raymoval::raymoval_method {
@@ -16,9 +18,7 @@ std::size_t at(int member) {
 double median_range(const std::vector<int>& members, const ScanPoints& points) {
   std::vector<double> values;
   for (const int member : members) values.push_back(points.range[at(member)]);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::move(values));
 }
 
 Extent extent_of(const std::vector<int>& members, const ScanPoints& points) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/scan/mask_store.h"
+#include "methods/common/prepared_scans.h"
 #include "methods/common/workspaces.h"
-#include "methods/raymoval_plus/common/prepared_scans.h"
 #include "methods/raymoval_plus/objects/low_points.h"
 #include "methods/raymoval_plus/objects/point_runs.h"
 #include "methods/raymoval_plus/objects/reasons.h"

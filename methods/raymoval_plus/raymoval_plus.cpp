@@ -4,9 +4,10 @@
 
 #include <span>
 
+#include "methods/common/prepared_scans.h"
 #include "methods/common/remover_from.h"
+#include "methods/common/side_by_side.h"
 #include "methods/raymoval_plus/answers.h"
-#include "methods/raymoval_plus/common/prepared_scans.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
 #include "methods/raymoval_plus/evidence/vote.h"
 #include "methods/raymoval_plus/objects/objects.h"

@@ -159,7 +159,7 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
   }
   std::vector<std::filesystem::path> inputs;
   const std::string& rule = flags.reading.label_rule;
-  if (!rule.empty() && rule != kMovingNow) inputs.emplace_back(rule);
+  if (!rule.empty() && is_rule_file(rule)) inputs.emplace_back(rule);
   if (!flags.reading.poses.empty()) inputs.emplace_back(flags.reading.poses);
   check_apart_from(sequence, paths, inputs);
   if (method.entry->needs_truth && !sequence.labels) {

@@ -10,6 +10,7 @@
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
+#include "core/files/same_file.h"
 #include "datasets/bags/chunks/pack.h"
 #include "datasets/bags/chunks/temporary_copy.h"
 #include "datasets/bags/open_bag.h"
@@ -148,8 +149,7 @@ void rewrite_file(const Bag& bag, const fs::path& output, const ChangeMessage& c
 }
 
 void check_rewriting(const fs::path& input, const fs::path& output) {
-  std::error_code error;
-  if (fs::equivalent(input, output, error)) {
+  if (is_same_file(input, output)) {
     throw UsageError(output.string() + ": is the recording that is read. Name another.");
   }
   if (is_folder(input)) {

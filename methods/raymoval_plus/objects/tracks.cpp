@@ -5,6 +5,9 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
+
+#include "core/sampling.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -132,11 +135,10 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
     if (first == nullptr) first = &node;
     last = &node;
   }
-  const auto median = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), median, widths.end());
+  const double typical = median(std::move(widths));
   const double moved = (last->object.center - first->object.center).head<2>().norm();
-  if (moved < std::max(kLeastMotion, kLeastMotionShare * *median)) return std::nullopt;
-  const Motion motion{*median, moved / scans_between(first->scan, last->scan)};
+  if (moved < std::max(kLeastMotion, kLeastMotionShare * typical)) return std::nullopt;
+  const Motion motion{typical, moved / scans_between(first->scan, last->scan)};
   return is_mostly_dynamic(track, motion, parameters) ? std::optional(motion) : std::nullopt;
 }
 
@@ -200,19 +202,6 @@ std::vector<Track> ObjectTracker::finish() {
   for (Track& track : active_) ended_.push_back(std::move(track));
   active_.clear();
   return std::move(ended_);
-}
-
-std::vector<int> ObjectTracker::marked_now() const {
-  std::vector<int> marked;
-  for (const Track& track : active_) {
-    const auto& [scan, object] = track.nodes.back();
-    if (scan != scan_) continue;
-    const auto motion = motion_of(track, parameters_);
-    if (!motion) continue;
-    const int stay = scans_in_place(track, motion->length).back();
-    if (is_marked(object, stay, *motion, parameters_)) marked.push_back(object.cluster);
-  }
-  return marked;
 }
 
 std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,

@@ -53,9 +53,6 @@ class ObjectTracker {
   [[nodiscard]] std::vector<Track> finish();
   /// Forgets the tracks that ended.
   void forget_ended() { ended_.clear(); }
-  /// The clusters of the last scan that were seen moving before, though their own rays do not say
-  /// so.
-  [[nodiscard]] std::vector<int> marked_now() const;
 
  private:
   void end_tracks(std::size_t scan);

@@ -43,7 +43,7 @@ TEST_CASE("an object is followed past its last evidence, a standing one is not")
   // Scan by scan: the walker of scan 7 is marked by its own past.
   ObjectTracker tracker{Parameters{}};
   for (std::size_t i = 0; i < 8; ++i) tracker.follow(i, scans[i]);
-  CHECK(tracker.marked_now() == std::vector{0});
+  CHECK(marked_in(7, tracker.finish(), Parameters{}) == std::vector{0});
   // Scans agree on it for far longer than half a metre at 0.2 m a scan explains: something else.
   for (auto& objects : scans) objects[0].agree_scans = 60.0F;
   CHECK(marked_by_tracks(scans)[9].empty());
@@ -116,7 +116,7 @@ TEST_CASE("a fast object is followed from its first step on if that is allowed")
   const auto last_marked = [&](double first_step) {
     ObjectTracker tracker(Parameters{}, first_step);
     for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, scans[i]);
-    return tracker.marked_now();
+    return marked_in(scans.size() - 1, tracker.finish(), Parameters{});
   };
   CHECK(last_marked(0.0).empty());
   CHECK(last_marked(1.4).empty());

@@ -7,7 +7,7 @@
 
 #include "methods/common/scan_passes.h"
 
-namespace raymoval::raymoval_plus_method {
+namespace raymoval {
 
 /// What a step gets if several scans are at hand at once: one thread, and no times, since what goes
 /// on side by side cannot be told apart.
@@ -54,11 +54,4 @@ void for_prepared_scans(const char* what, const char* stage, const ScanSource& s
   commit_all();
 }
 
-/// Takes two steps side by side if there are several threads. The first may use all of them as soon
-/// as the second is done.
-template <class First, class Second>
-void side_by_side(const RunContext& context, First&& first, Second&& second) {
-  parallel_for(context.threads, 2, 1, [&](std::size_t step) { step == 0 ? first() : second(); });
-}
-
-}  // namespace raymoval::raymoval_plus_method
+}  // namespace raymoval
