@@ -110,8 +110,7 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
   options.point_layout = text_of(object, "point_layout");
   if (const auto frames = text_of(object, "frames")) options.frames = parse_frame_range(*frames);
   if (const auto rule = text_of(object, "label_rule")) {
-    options.label_rule =
-        is_rule_file(*rule) ? located(*rule, places) : std::filesystem::path(*rule);
+    options.label_rule = is_rule_file(*rule) ? located(*rule, places) : *rule;
   }
   if (object.has("drop_ego")) {
     options.drop_ego = ego_region_value(object.member("drop_ego"), where + ".drop_ego");
