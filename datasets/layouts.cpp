@@ -8,6 +8,7 @@
 #include "datasets/bag_scans/bags_layout.h"
 #include "datasets/dynamicmap/dynamicmap.h"
 #include "datasets/files/files.h"
+#include "datasets/helimos/helimos.h"
 #include "datasets/semantickitti/semantickitti.h"
 #include "datasets/simulation/scenes_layout.h"
 #include "datasets/simulation/street/street.h"
@@ -22,6 +23,7 @@ std::list<Layout>& registry() {
     list.push_back(street_layout());
     list.push_back(scenes_layout());
     list.push_back(bags_layout());
+    list.push_back(helimos_layout());  // Before SemanticKITTI, whose layout its sensors have.
     list.push_back(semantickitti_layout());
     list.push_back(dynamicmap_layout());
     list.push_back(files_layout());

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "datasets/bag_scans/bag_motion.h"
 #include "datasets/bag_scans/bag_source.h"
+#include "datasets/bag_scans/indexed_labels.h"
 #include "datasets/bag_scans/scan_heads.h"
 #include "datasets/bag_scans/topics.h"
 #include "datasets/bags/bag.h"
@@ -41,6 +42,19 @@ std::size_t scan_topic(const Bag& bag, const std::optional<std::string>& named) 
                    "sensor_msgs/PointCloud2 or livox_ros_driver/CustomMsg. " +
                    topics_sentence(bag) +
                    " Packets of a driver are made into clouds by replaying the bag with it.");
+}
+
+/// Takes the labels of the file beside the recording, if it is there.
+/// @param stamps of the scans, as their messages say them
+void find_labels(const fs::path& folder, const SequenceSettings& settings,
+                 const std::vector<Nanoseconds>& stamps, Sequence& sequence) {
+  const fs::path file = folder / kIndexedLabelsFile;
+  if (!has_file(file)) return;
+  sequence.input_files.push_back(file);
+  IndexedLabels found = read_indexed_labels(file, stamps);
+  sequence.labels = std::move(found.labels);
+  sequence.notes.push_back(std::move(found.note));
+  if (!settings.label_rule_given) sequence.label_rule = indexed_label_rule();
 }
 
 /// The poses of the scans, and where they are from.
@@ -131,11 +145,13 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
           ? poses_of_file(heads, bag->topics()[topic], settings, folder, pose_settings, sequence)
           : poses_of_bag(*bag, heads, messages, settings, options.pose_topic, pose_settings);
   std::vector<BagScan> scans;
+  std::vector<Nanoseconds> stamps;
   for (std::size_t i = 0; i < heads.messages.size(); ++i) {
     if (!found.poses.poses[i]) continue;
     scans.push_back({heads.messages[i], to_seconds(heads.stamps[i] - heads.first_stamp),
                      *found.poses.poses[i], heads.layouts[i]});
     sequence.stamps.push_back(found.poses.stamps[i]);
+    stamps.push_back(heads.stamps[i]);
   }
   sequence.poses_file = found.name;
   sequence.motion = found.poses.motion;
@@ -145,6 +161,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
                            ".");
   take(sequence.notes, heads.notes);
   take(sequence.notes, std::move(found.poses.notes));
+  find_labels(folder, settings, stamps, sequence);
   const auto source = std::make_shared<BagScanSource>(bag, topic, std::move(scans),
                                                       found.point_frame, settings.sensor);
   sequence.scans = source;

@@ -72,7 +72,8 @@ Sequence open_root(Layout::Path path, const SequenceOptions& options, const Open
   const PaperSegment* segment = find_segment(selection);
   if (segment == nullptr) throw_not_in_root(root, selection, std::move(there));
   const fs::path folder = folder_in_root(path);
-  if (is_folder(folder)) return open_semantickitti(folder, options, selection, segment->frames);
+  if (is_folder(folder))
+    return open_semantickitti(folder, options, {selection, segment->frames, {}});
   throw DataError(folder.string() + ": no such folder; segment " + selection +
                   " is part of sequence " + segment->sequence +
                   " of SemanticKITTI, and sequences/ holds " +

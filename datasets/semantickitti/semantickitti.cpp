@@ -152,16 +152,17 @@ ScanPoses frame_poses(const std::filesystem::path& folder, const SequenceSetting
 }  // namespace
 
 Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
-                            const std::string& name, const FrameRange& frames) {
-  SequenceSettings defaults;
-  defaults.name = name;
-  defaults.frames = frames;
-  defaults.scan_period_s = kUsualScanPeriod;  // KITTI's HDL-64E turns at 10 Hz.
-  const SequenceSettings settings = read_settings(folder, options, defaults);
+                            const SemanticKittiDefaults& defaults) {
+  SequenceSettings base;
+  base.name = defaults.name;
+  base.frames = defaults.frames;
+  base.label_rule = defaults.label_rule;
+  base.scan_period_s = kUsualScanPeriod;  // KITTI's HDL-64E turns at 10 Hz.
+  const SequenceSettings settings = read_settings(folder, options, base);
 
   const auto files = list_numbered_files(folder / "velodyne", ".bin");
   const ChosenFrames chosen =
-      chosen_frames(files, settings.frames, folder, options.frames ? "" : name);
+      chosen_frames(files, settings.frames, folder, options.frames ? "" : defaults.name);
   Sequence sequence = make_sequence(settings, semantickitti_layout(), chosen.range);
   const StampColumn times = frame_stamps(folder, files, sequence.input_files);
   const ScanKeys keys = scan_keys(files, chosen.files, times, *settings.scan_period_s);

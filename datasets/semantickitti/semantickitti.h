@@ -31,12 +31,16 @@ Layout semantickitti_layout();
 /// `ROOT:05` or `ROOT:kitti-05`: a sequence of a root folder, or a segment of papers.
 Layout semantickitti_root_layout();
 
+/// What holds for a sequence where neither an option nor its sequence.json says anything.
+struct SemanticKittiDefaults {
+  std::string name;   ///< Empty: that of the folder. It stands above that of sequence.json.
+  FrameRange frames;  ///< They stand above those of sequence.json, too.
+  LabelRule label_rule;
+};
+
 /// Opens a sequence folder of `semantickitti_layout`.
-/// @param name name of the sequence where no option gives one; empty: that of sequence.json, else
-///   of the folder
-/// @param frames the frames where no option gives any
 /// @throws DataError, UsageError or ConfigurationError saying what was found and what was expected
 Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
-                            const std::string& name = "", const FrameRange& frames = {});
+                            const SemanticKittiDefaults& defaults = {});
 
 }  // namespace raymoval

@@ -130,6 +130,52 @@ TEST_CASE("A bag is a sequence: its clouds at the poses of its odometry", "[bags
   check_says(notes_of(sequence), {"/points (sensor_msgs/PointCloud2, 4 messages)", "/odom"});
 }
 
+TEST_CASE("A file of indices beside a bag labels some of its scans", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100, shift(0));
+  add_clouds(bag);
+  bag.odometry(101, shift(10));
+  const std::string path = bag.finish();
+  // Scans 1 and 2; a scan that is not there; blanks, a comma at the end, and an empty line.
+  folder.write("indices.csv", "100300000000,0\n\n100500000000, \r\n999000000000,0,1,\n");
+  const Sequence sequence = open_sequence(path, {});
+  REQUIRE(sequence.labels);
+  const auto labels = [&](std::size_t scan) {
+    return sequence.labels->labels(sequence.scans->load(scan));
+  };
+  CHECK(labels(0) == std::vector<std::uint32_t>{0});
+  CHECK(labels(1) == std::vector<std::uint32_t>{251});
+  CHECK(labels(2) == std::vector<std::uint32_t>{9});
+  CHECK(sequence.label_rule.classify(251) == LabelClass::kMoving);
+  CHECK(sequence.label_rule.classify(0) == LabelClass::kIgnored);
+  check_says(notes_of(sequence), {"2 of 4 scans are labelled", "1 lines of it are of scans that"});
+}
+
+TEST_CASE("A file of indices that does not belong to the bag is an error", "[bags]") {
+  const TemporaryFolder folder;
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100, shift(0));
+  add_clouds(bag);
+  bag.odometry(101, shift(10));
+  const std::string path = bag.finish();
+  const auto error = [&](const std::string& lines) {
+    folder.write("indices.csv", lines);
+    return message_of<DataError>([&] {
+      const Sequence sequence = open_sequence(path, {});
+      (void)sequence.labels->labels(sequence.scans->load(1));
+    });
+  };
+  check_says(error("5,0\n"), {"indices.csv", "none of its 1 lines", "4 scans"});
+  check_says(error(""), {"none of its 0 lines"});
+  check_says(error("time,0\n"), {"line 1", "'time' is no time", "nanoseconds"});
+  check_says(error("100300000000,0,-1\n"), {"line 1, field 3", "'-1'"});
+  check_says(error("100300000000,0 1\n"), {"line 1, field 2", "'0 1'"});
+  check_says(error("100300000000,0\n100300000000,1\n"), {"line 2", "time of line 1 again"});
+  // Point 1 stands for no return, and is there; point 2 is not.
+  check_says(error("100300000000,1,2\n"), {"line 1", "point 2 of a scan of 2"});
+}
+
 TEST_CASE("Frames of a bag are numbers of messages", "[bags]") {
   const TemporaryFolder folder;
   MadeBag bag(folder / "drive.bag");
