@@ -29,7 +29,15 @@ const std::map<std::string, PublishedForm>& published_forms() {
             "As printed by the benchmark, DUFOMap and BeautyMap, to 2 decimals; -: not printed. "
             "KITTI at every frame, without a range limit; which frames lie behind 01 is not "
             "known. More in results/published/.",
-        .files = {"dynamicmap_benchmark.json", "dynamicmap_other_methods.json"}}}};
+        .files = {"dynamicmap_benchmark.json", "dynamicmap_other_methods.json",
+                  "dynamicmap_claims.json"}}},
+      {"mos",
+       {.title = "Published, moving-object segmentation",
+        .decimals = 1,
+        .comparable = false,
+        .note = "As printed by HMM-MOS, with one decimal; -: not printed. More in "
+                "results/published/.",
+        .files = {"mos_hmm_mos.json"}}}};
   return forms;
 }
 

@@ -35,9 +35,9 @@ struct PublishedForm {
 const PublishedForm& published_form(const std::string& protocol);
 
 /// The methods of published tables, as columns to set beside a run: Table 2 of the paper, on the
-/// segments of the suite `semantickitti`, and the tables of the DynamicMap benchmark, on the
-/// sequences of `kth`. The tables are looked up in the source folder, else where they were
-/// installed.
+/// segments of the suite `semantickitti`, the tables of the DynamicMap benchmark, on the sequences
+/// of `kth`, and those of moving-object segmentation. The tables are looked up in the source
+/// folder, else where they were installed.
 /// @throws DataError if they are in neither place
 std::vector<OutsideColumn> published_columns();
 

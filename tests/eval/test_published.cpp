@@ -31,10 +31,10 @@ PublishedTable shipped(const std::string& name) {
 
 /// Largest deviation that rounding explains: half a unit of the last of 3 decimals, a little more
 /// for F1 whose PR and RR are rounded too. Transcriptions with 2 decimals are off by up to 0.005
-/// in a rate itself and by 0.01 in what follows from two of them.
-double tolerance(const ArithmeticCheck& check, bool two_decimals) {
-  if (check.metric == "F1") return 0.0006;
-  return two_decimals ? 0.0101 : 0.0006;
+/// in a rate itself and by 0.01 in what follows from two of them; with one decimal by 0.1.
+double tolerance(const ArithmeticCheck& check, int decimals) {
+  if (check.metric == "F1" || decimals == 3) return 0.0006;
+  return decimals == 2 ? 0.0101 : 0.101;
 }
 
 std::string write_file(const std::string& text) {
@@ -48,7 +48,7 @@ std::string write_file(const std::string& text) {
 
 TEST_CASE("every published table loads and has rows, units and notes", "[published]") {
   const auto files = shipped_files();
-  REQUIRE(files.size() == 10);
+  REQUIRE(files.size() == 13);
   for (const fs::path& file : files) {
     CAPTURE(file.filename().string());
     const PublishedTable table = load_published_table(file);
@@ -65,7 +65,8 @@ TEST_CASE("what is printed per segment agrees with its own table", "[published]"
     CAPTURE(file.filename().string());
     for (const ArithmeticCheck& check : check_arithmetic(load_published_table(file))) {
       if (check.rule != "harmonic_mean" && check.rule != "geometric_mean") continue;
-      if (std::abs(check.deviation()) >= tolerance(check, check.metric != "F1")) {
+      if (std::abs(check.deviation()) >=
+          tolerance(check, file.filename() == "dynamicmap_claims.json" ? 1 : 2)) {
         off.insert(check.method + " " + check.place + " " + check.metric);
       }
       f1_count += check.metric == "F1" ? 1 : 0;
@@ -88,7 +89,7 @@ TEST_CASE("the averages and totals hold exactly the known misprints", "[publishe
     for (const ArithmeticCheck& check : check_arithmetic(table)) {
       const bool average = check.rule == "mean" || check.rule == "mean_F1" || check.rule == "sum";
       if (!average || check.place == "average (computed)") continue;
-      if (std::abs(check.deviation()) > tolerance(check, false)) {
+      if (std::abs(check.deviation()) > tolerance(check, 3)) {
         found.insert({check.method, check.metric});
       }
     }
@@ -124,7 +125,7 @@ TEST_CASE("averages that were computed from 2 or 3 decimals follow from the rows
     for (const ArithmeticCheck& check : check_arithmetic(shipped(file))) {
       if (check.place != "average (computed)" || check.rule == "F1_of_means") continue;
       CAPTURE(file, check.method, check.metric, check.printed, check.recomputed);
-      CHECK(std::abs(check.deviation()) < tolerance(check, true));
+      CHECK(std::abs(check.deviation()) < tolerance(check, 2));
       ++count;
     }
   }
