@@ -39,6 +39,11 @@ std::vector<MethodVariant> variants() {
        "The general set with the order of operations that the paper describes.",
        false,
        {{"version", std::int64_t{2}}}},
+      {"auto",
+       "The general set with what it needs from the data: the ground around the sensor, and how "
+       "few points its beams leave in a bin.",
+       false,
+       {{"body", std::string("ground")}, {"points_by_beams", true}}},
   };
 }
 

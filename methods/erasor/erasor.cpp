@@ -12,6 +12,7 @@
 #include "methods/common/scan_passes.h"
 #include "methods/common/side_by_side.h"
 #include "methods/common/thinned_points.h"
+#include "methods/erasor/body_frame.h"
 #include "methods/erasor/ground_fit.h"
 #include "methods/erasor/naive_map.h"
 #include "methods/erasor/polar_bins.h"
@@ -50,6 +51,7 @@ class ErasorRun {
         scans_(scans),
         context_(context),
         bins_(parameters),
+        test_parameters_(parameters),
         actions_(bins_.size()) {}
 
   /// The map of all scans.
@@ -75,6 +77,9 @@ class ErasorRun {
 
   /// Compares every n-th scan with the map that the earlier ones left.
   void process_queries(NaiveMap& map) {
+    if (parameters_.points_by_beams) {
+      test_parameters_.minimum_points = minimum_points_of(scans_.sensor(), parameters_);
+    }
     const auto interval = static_cast<std::size_t>(parameters_.removal_interval);
     const std::size_t first =
         parameters_.phase < 0 ? interval - 1 : static_cast<std::size_t>(parameters_.phase);
@@ -101,6 +106,7 @@ class ErasorRun {
   void process(const Scan& scan, NaiveMap& map) {
     QueryBins query;
     MapBins around;
+    T_body_sensor_ = body_frame(scan.T_world_sensor, map, parameters_);
     side_by_side(
         context_, "query bins and map bins",
         [&](const RunContext& context) { query = describe(scan, context); },  // R-POD of the scan
@@ -108,7 +114,8 @@ class ErasorRun {
           around = describe(map, scan.T_world_sensor, context);
         });
     for (std::size_t b = 0; b < bins_.size(); ++b) {  // Scan ratio test
-      const BinFinding finding = compare_extents(around.extents[b], query.extents[b], parameters_);
+      const BinFinding finding =
+          compare_extents(around.extents[b], query.extents[b], test_parameters_);
       actions_[b] = action_for(finding, around.extents[b], parameters_);
     }
     remove_above_ground(around, scan.T_world_sensor, map);  // R-GPF
@@ -134,7 +141,7 @@ class ErasorRun {
   }
 
   [[nodiscard]] Eigen::Vector3d body_of(const Eigen::Vector3d& sensor_point) const {
-    return {sensor_point.x(), sensor_point.y(), sensor_point.z() + parameters_.sensor_height};
+    return T_body_sensor_ * sensor_point;
   }
 
   /// Thins the scan in its own frame and sorts what is left into bins.
@@ -250,6 +257,8 @@ class ErasorRun {
   const ScanSource& scans_;
   const RunContext& context_;
   PolarBins bins_;
+  Parameters test_parameters_;             ///< Those of the scan ratio test, for this sensor.
+  Pose T_body_sensor_ = Pose::Identity();  ///< Of the query that is processed.
   std::vector<BinAction> actions_;
 };
 

@@ -9,9 +9,14 @@ using P = Parameters;
 
 void add_map(Table& table) {
   table
+      .choice("body", &P::body, {{"sensor", Body::kSensor}, {"ground", Body::kGround}},
+              {.source = "sensor in the public code",
+               .sentence = "The frame that bins lie in: that of the sensor, lifted by "
+                           "sensor_height, or the ground that the map has around the sensor."})
       .number("sensor_height", &P::sensor_height,
               {"m", -10, 10, "lidar2body, 1.73 in all sets",
-               "Height of the sensor above the road; heights below are above that road."})
+               "Height of the sensor above the road; heights below are above that road. With body "
+               "= ground only where the map has none below the sensor."})
       .number("min_range", &P::minimum_range,
               {"m", 0, 20, "naive map, 2.7 in the public code",
                "Nearer points (horizontal distance) are the own car: in neither map nor query."})
@@ -54,6 +59,10 @@ void add_ratio_test(Table& table) {
       .integer("minimum_num_pts", &P::minimum_points,
                {"points", 1, 100000, "code 4; sets 6 6 6 10 6",
                 "A bin with fewer points of the thinned query is left alone."})
+      .flag("points_by_beams", &P::points_by_beams,
+            {.source = "ours",
+             .sentence = "minimum_num_pts is for beams as near each other as those of the HDL-64E; "
+                         "it is less where they are farther apart."})
       .number("min_object_height", &P::minimum_object_height,
               {"m", 0, 50, "0.5, a literal in the public code",
                "Version 3: nothing is removed from a bin whose map extent is not above this.",

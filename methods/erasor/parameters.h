@@ -11,12 +11,19 @@ enum class SparseGround {
   kZero,         ///< Zero, the road below the sensor, as in the public code.
 };
 
+/// The frame in which bins lie and heights are measured, see `body_frame`.
+enum class Body {
+  kSensor,  ///< That of the sensor, lifted by its height, as in the public code.
+  kGround,  ///< On the plane of the ground around the sensor.
+};
+
 /// Parameters of ERASOR. The table in parameters.cpp gives them the public code's names, so that
 /// its configuration files carry over. The values are the general set: of the five sets that the
 /// authors published in 2021 (KITTI 00, 01, 02, 05, 07) the median, which for every value is also
 /// the most frequent one.
 struct Parameters {
   // Body frame and naive map.
+  Body body = Body::kSensor;
   double sensor_height = 1.73;
   double minimum_range = 2.7;
   double map_voxel_size = 0.2;
@@ -34,6 +41,7 @@ struct Parameters {
   int version = 3;
   double ratio_threshold = 0.2;
   int minimum_points = 6;
+  bool points_by_beams = false;
   double minimum_object_height = 0.5;
   double minimum_top = 0.2;
   bool reinsert = true;

@@ -77,6 +77,7 @@ constexpr Line kLines[] = {
     {"erasor:kitti07", "= ? ? ~ ? = ? ? ?"},
     {"erasor:fine", "= ? ? ~ ? = ? ? ?"},
     {"erasor:version2", "= ? ? ~ ? = ? ? ?"},
+    {"erasor:auto", "= ? ? ~ ? = ? ? ?"},
 
     // Voids are united over scans, and a scan is a set of voxels. In halves, the points of one do
     // not protect their voxels from the beams of the other, and neither knows as much around it.
