@@ -41,7 +41,7 @@ TextTable parameter_table(const Description& description) {
   for (std::size_t i = 0; i < description.parameters.size(); ++i) {
     const ParameterSpec& spec = description.parameters[i];
     const ParameterNotes& notes = spec.notes;
-    table.rows.push_back({"`" + spec.name + "`",
+    table.rows.push_back({spec.name,
                           {{parameter_text(spec.default_value)},
                            {notes.unit},
                            {range_text(spec)},
