@@ -43,6 +43,9 @@ struct EvaluationInput {
 /// @throws DataError if `input` has no labels
 void check_input(const EvaluationInput& input, const std::string& asker);
 
+/// Counts by name, with a value for each scan.
+using CountsByScan = std::vector<std::pair<std::string, std::vector<std::int64_t>>>;
+
 /// What a protocol says of an answer. The rates follow from the counts.
 struct ProtocolResult {
   std::string protocol;
@@ -52,6 +55,9 @@ struct ProtocolResult {
   /// Of the protocol's main rates, by block bootstrap over scans; nothing if the protocol does not
   /// draw any.
   std::optional<Intervals> intervals = std::nullopt;
+  /// Counts of each scan, in order; nothing of a protocol in which scans do not stand for
+  /// themselves.
+  CountsByScan by_scan = {};
 
   /// @throws InternalError if there is no such count.
   [[nodiscard]] std::int64_t count(const std::string& name) const;

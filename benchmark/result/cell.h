@@ -50,6 +50,7 @@ struct Score {
   std::vector<Rate> rates = {};
   std::vector<std::string> warnings = {};
   std::optional<Intervals> intervals = std::nullopt;
+  CountsByScan by_scan = {};
 
   /// The value of a rate; no value if it is undefined or not part of this protocol.
   [[nodiscard]] std::optional<double> rate(const std::string& name) const;

@@ -112,6 +112,7 @@ void describe_result(Visitor& visitor, Result& result) {
   describe_rates(visitor, result.rates);
   visitor.field("warnings", result.warnings);
   visitor.optional("intervals", result.intervals);
+  visitor.optional("by_scan", result.by_scan);
 }
 
 template <class Visitor>

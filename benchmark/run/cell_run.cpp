@@ -48,7 +48,7 @@ void score_all(const CellTask& task, const MaskStore& masks, Cell& cell) {
     ProtocolResult& result = scores.protocols[i];
     cell.scores.push_back({protocol_record(*task.scored, i), std::move(result.counts),
                            std::move(result.rates), std::move(result.warnings),
-                           std::move(result.intervals)});
+                           std::move(result.intervals), std::move(result.by_scan)});
   }
   cell.columns = ColumnRecord{kColumnsVersion, std::move(scores.columns)};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/mos/mos.h"
 
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,20 @@ struct Confusion {
   }
 };
 
-/// What the rates are made of.
+/// What the rates are made of, and what it is called.
+constexpr const char* kCounts[] = {"flagged_dynamic_points", "dynamic_points", "kept_static_points",
+                                   "static_points"};
 std::vector<std::int64_t> counts_of(const Confusion& points) {
   return {points.flagged_dynamic, points.dynamic_points, points.kept_static, points.static_points};
+}
+
+CountsByScan counts_by_scan(const std::vector<std::vector<std::int64_t>>& scans) {
+  CountsByScan counts;
+  for (std::size_t i = 0; i < std::size(kCounts); ++i) {
+    auto& of_scans = counts.emplace_back(kCounts[i], std::vector<std::int64_t>()).second;
+    for (const std::vector<std::int64_t>& scan : scans) of_scans.push_back(scan[i]);
+  }
+  return counts;
 }
 
 std::vector<Rate> rates_of(const std::vector<std::int64_t>& counts) {
@@ -77,6 +89,7 @@ ProtocolResult result_of(const std::vector<Confusion>& scans) {
       {"out_of_range_points", all.out_of_range}, {"ignored_points", all.ignored}};
   result.rates = rates_of(counts_of(all));
   result.intervals = bootstrap(by_scan, rates_of);
+  result.by_scan = counts_by_scan(by_scan);
   return result;
 }
 

@@ -44,6 +44,15 @@ TEST_CASE("mos: rates of the moving class over the sums of all scans") {
   CHECK(*result.rate("IoU") == Approx(100.0 * 3 / 6));
 }
 
+TEST_CASE("mos: counts of each scan are told, too") {
+  const MemorySequence sequence = two_scans();
+  const CountsByScan expected = {{"flagged_dynamic_points", {2, 1}},
+                                 {"dynamic_points", {3, 2}},
+                                 {"kept_static_points", {3, 3}},
+                                 {"static_points", {4, 3}}};
+  CHECK(scored(sequence, sequence.masks()).by_scan == expected);
+}
+
 TEST_CASE("mos: answers whose rates are known") {
   const MemorySequence sequence = two_scans();
   const ProtocolResult oracle = scored(sequence, sequence.oracle_masks());

@@ -124,6 +124,10 @@ class Draw {
       });
       return intervals;
     });
+    score.by_scan = some([&](std::size_t k) {
+      const auto values = some([&](std::size_t) { return count(); });
+      return std::pair<std::string, std::vector<std::int64_t>>(name(k), values);
+    });
     return score;
   }
   Measurement measurement() {
