@@ -69,14 +69,17 @@ DepthView view_for(const SensorModel& sensor, const Parameters& parameters) {
   return view;
 }
 
-int DepthView::pixel_of(const Eigen::Vector3d& point) const {
-  const double elevation = std::atan2(point.z(), std::hypot(point.x(), point.y()));
-  const double row = std::floor((top + 0.5 * resolution - elevation) / resolution);
-  if (!(row >= 0.0 && row < rows)) return -1;
+int DepthView::pixel_of(const Eigen::Vector3f& point) const {
+  // Angles in single precision, which take half as long.
+  const float flat = std::sqrt(point.x() * point.x() + point.y() * point.y());
+  const double from_top = top + 0.5 * resolution - std::atan2(point.z(), flat);
+  if (!(from_top >= 0.0)) return -1;
+  const double row = from_top / resolution;
+  if (!(row < rows)) return -1;
   double from_start = std::atan2(point.y(), point.x()) - azimuth_min;
-  from_start -= kTurn * std::floor(from_start / kTurn);
-  const double column = std::floor(from_start / resolution);
-  if (!(column < columns)) return -1;
+  if (from_start < 0.0) from_start += kTurn;
+  const double column = from_start / resolution;
+  if (!(column >= 0.0 && column < columns)) return -1;
   return static_cast<int>(row) * columns + static_cast<int>(column);
 }
 
@@ -93,10 +96,9 @@ HoleImage depth_image(const Scan& scan, const DepthView& view) {
   image.values.assign(size, 255);
   image.is_hole.assign(size, 1);
   for (const Eigen::Vector3f& point : scan.points) {
-    const Eigen::Vector3d local = point.cast<double>();
-    const double depth = local.norm();
+    const double depth = point.cast<double>().norm();
     if (!(depth >= view.minimum && depth > 0.0 && depth <= kUnitsOfDepth * view.unit)) continue;
-    const int found = view.pixel_of(local);
+    const int found = view.pixel_of(point);
     if (found < 0) continue;
     const auto pixel = static_cast<std::size_t>(found);
     image.values[pixel] =

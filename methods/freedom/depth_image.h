@@ -20,7 +20,7 @@ struct DepthView {
   double minimum = 0.0, unit = 0.0;  ///< Nearest depth, and that of one grey level, metres.
 
   /// The number of the pixel in which a point is; -1 if it is in none. @param point sensor frame
-  [[nodiscard]] int pixel_of(const Eigen::Vector3d& point) const;
+  [[nodiscard]] int pixel_of(const Eigen::Vector3f& point) const;
   /// The unit vector to the middle of a pixel, sensor frame.
   [[nodiscard]] Eigen::Vector3d direction(int row, int column) const;
 };

@@ -27,35 +27,40 @@ class Front {
   Front(std::vector<State>& states, std::vector<double>& times, int width)
       : states_(states), times_(times), width_(width) {}
 
-  void begin_at(int pixel) { put(pixel, 0.0); }
-
-  /// Moves the front as far as `limit`. `enter(pixel)` is called for each pixel when its time is
-  /// known for the first time.
+  /// Moves the front from the pixels of `edge` (in order) as far as `limit`. `enter(pixel)` is
+  /// called for each pixel when its time is known for the first time.
   template <class Enter>
-  void move(double limit, Enter&& enter) {
+  void move(const std::vector<int>& edge, double limit, Enter&& enter) {
+    for (const int pixel : edge) {
+      times_[at(pixel)] = 0.0;
+      states_[at(pixel)] = State::kBand;
+    }
+    for (const int pixel : edge) pass(pixel, limit, enter);
     while (!band_.empty()) {
-      const auto [time, pixel] = band_.top();
-      if (time > limit) return;
+      const int pixel = band_.top().second;
       band_.pop();
-      if (states_[at(pixel)] == State::kReached) continue;
-      states_[at(pixel)] = State::kReached;
-      for (const int next : {pixel - width_, pixel - 1, pixel + width_, pixel + 1}) {
-        const State state = states_[at(next)];
-        if (state == State::kWall || state == State::kReached) continue;
-        const double solved = solve(next);
-        if (solved < times_[at(next)] || state == State::kFar) put(next, solved);
-        if (state == State::kFar) enter(next);
-      }
+      if (states_[at(pixel)] != State::kReached) pass(pixel, limit, enter);
     }
   }
 
  private:
   static std::size_t at(int pixel) { return static_cast<std::size_t>(pixel); }
 
-  void put(int pixel, double time) {
-    states_[at(pixel)] = State::kBand;
-    times_[at(pixel)] = time;
-    band_.emplace(time, pixel);
+  template <class Enter>
+  void pass(int pixel, double limit, Enter&& enter) {
+    states_[at(pixel)] = State::kReached;
+    for (const int next : {pixel - width_, pixel - 1, pixel + width_, pixel + 1}) {
+      State& state = states_[at(next)];
+      if (state == State::kWall || state == State::kReached) continue;
+      const double time = solve(next);
+      if (state == State::kBand && time >= times_[at(next)]) continue;
+      if (time > limit) continue;
+      const bool is_new = state == State::kFar;
+      state = State::kBand;
+      times_[at(next)] = time;
+      band_.emplace(time, next);
+      if (is_new) enter(next);
+    }
   }
 
   /// The time at which the front comes from the pixels around that it has passed.
@@ -156,14 +161,14 @@ class Inpainting {
       if (is_image_[i] != 0 && is_known_[i] == known) states[i] = State::kFar;
     }
     Front front(states, times_, width_);
-    for (const int pixel : edge_) front.begin_at(pixel);
-    front.move(limit, enter);
+    front.move(edge_, limit, enter);
   }
 
-  /// The difference of `field` across a pixel, by those of its two sides that are known.
-  template <class Field>
-  [[nodiscard]] double slope(const Field& field, int pixel, int step, double central) const {
-    const bool before = is_known_[at(pixel - step)] != 0, after = is_known_[at(pixel + step)] != 0;
+  /// The difference of `field` across a pixel, by those of its two sides for which `is_there`.
+  template <class Field, class IsThere>
+  [[nodiscard]] static double slope(const Field& field, int pixel, int step, double central,
+                                    IsThere&& is_there) {
+    const bool before = is_there(pixel - step), after = is_there(pixel + step);
     const auto value = [&](int of) { return static_cast<double>(field[at(of)]); };
     if (before && after) return central * (value(pixel + step) - value(pixel - step));
     if (after) return value(pixel + step) - value(pixel);
@@ -174,7 +179,12 @@ class Inpainting {
     const bool is_bounded = gradients_ == Gradients::kBounded;
     const double central = is_bounded ? 2.0 : 0.5;  // OpenCV doubles where it should halve.
     const double time = times_[at(pixel)];
-    const double time_x = slope(times_, pixel, 1, 0.5), time_y = slope(times_, pixel, width_, 0.5);
+    const auto is_known = [this](int of) { return is_known_[at(of)] != 0; };
+    const auto has_time = [&](int of) {
+      return is_known(of) || (is_bounded && is_image_[at(of)] == 0);
+    };
+    const double time_x = slope(times_, pixel, 1, 0.5, has_time);
+    const double time_y = slope(times_, pixel, width_, 0.5, has_time);
     double weights = 0.0, sum = 0.0, rise_x = 0.0, rise_y = 0.0;
     for (const Near& near : near_) {
       const int from = pixel + near.offset;
@@ -184,8 +194,8 @@ class Inpainting {
       const double weight = direction * near.inverse / (1.0 + std::abs(times_[at(from)] - time));
       weights += weight;
       sum += weight * values_[at(from)];
-      rise_x += weight * slope(values_, from, 1, central) * near.x;
-      rise_y += weight * slope(values_, from, width_, central) * near.y;
+      rise_x += weight * slope(values_, from, 1, central, is_known) * near.x;
+      rise_y += weight * slope(values_, from, width_, central, is_known) * near.y;
     }
     double value = (sum + rise_x + rise_y) / weights;
     if (is_bounded) {

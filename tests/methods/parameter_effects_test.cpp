@@ -191,6 +191,10 @@ TEST_CASE("beautymap's parameters act when they are said to", "[effects]") {
   check_method("beautymap");
 }
 
+TEST_CASE("freedom's parameters act when they are said to", "[effects]") {
+  check_method("freedom");
+}
+
 TEST_CASE("every condition names parameters of its method", "[effects]") {
   for (const auto& entry : MethodRegistry::built_in().entries()) {
     for (const MethodVariant& variant : entry->variants) {
