@@ -9,8 +9,6 @@ MethodEntry freedom_entry() {
                                {"public_revert", false},
                                {"public_full_blocks", false},
                                {"public_inpainting", false}};
-  Configuration sound_few = sound;
-  sound_few.emplace_back("counts_to_free", few);
   MethodEntry entry;
   entry.name = "freedom";
   entry.sentence =
@@ -21,13 +19,17 @@ MethodEntry freedom_entry() {
       "The default is the public program with its quirks, each of which has a switch (public_...).",
       "The public program gives a map with one point in a sub-voxel; here a point goes if its "
       "sub-voxel had a point of any scan and has no static one after the last scan.",
-      "A point that is out of range stays unless another scan put a point into its sub-voxel.",
+      "A point that is out of range in its own scan is answered by its sub-voxel, too, and stays "
+      "if "
+      "there never was a point in it.",
       "Heights of points and rays are measured along the world's z; ranges are distances in space.",
       "The image is that of the sensor's model (public settings: a file for each sensor).",
       "Depths are rounded down to grey levels. A pixel's ray goes through its middle.",
       "Holes are joined behind a full turn.",
-      "The image of a field of view, the erosion of holes and neighbourhoods of other sizes, which "
-      "the settings for KITTI do not use, are left out.",
+      "The inpainting is written from its publication; OpenCV's rule for gradients is kept, its "
+      "mixing in of unfilled pixels beside the first row and column is not.",
+      "The mask image of a field of view and the erosion of holes, which the settings for KITTI do "
+      "not use, are left out.",
       "Voxels become free once all rays of a scan are counted; only voxels that the scan passes "
       "do.",
       "Without public_revert, only neighbours that were free count anew.",
@@ -42,8 +44,6 @@ MethodEntry freedom_entry() {
        false,
        {{"counts_to_free", few}}},
       {"sound", "Without the quirks of the public program.", false, sound},
-      {"sound-few-counts", "Without the quirks, and three scans make a voxel free.", false,
-       sound_few},
   };
   entry.bind(freedom_method::parameter_table(), freedom_method::make_freedom);
   return entry;

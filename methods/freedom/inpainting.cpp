@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <queue>
-#include <utility>
 
 namespace raymoval::freedom_method {
 namespace {
@@ -37,7 +37,7 @@ class Front {
     }
     for (const int pixel : edge) pass(pixel, limit, enter);
     while (!band_.empty()) {
-      const int pixel = band_.top().second;
+      const auto pixel = static_cast<int>(band_.top() & 0xFFFFFFFF);
       band_.pop();
       if (states_[at(pixel)] != State::kReached) pass(pixel, limit, enter);
     }
@@ -58,7 +58,7 @@ class Front {
       const bool is_new = state == State::kFar;
       state = State::kBand;
       times_[at(next)] = time;
-      band_.emplace(time, next);
+      band_.push(entry(time, next));
       if (is_new) enter(next);
     }
   }
@@ -76,7 +76,13 @@ class Front {
     return states_[at(pixel)] == State::kReached ? times_[at(pixel)] : kNever;
   }
 
-  using Entry = std::pair<double, int>;
+  /// Orders pixels by time and then by number. Bits of positive numbers have the numbers' order.
+  using Entry = std::uint64_t;
+  static Entry entry(double time, int pixel) {
+    return static_cast<Entry>(std::bit_cast<std::uint32_t>(static_cast<float>(time))) << 32 |
+           static_cast<Entry>(pixel);
+  }
+
   std::vector<State>& states_;
   std::vector<double>& times_;
   int width_;
@@ -199,7 +205,8 @@ class Inpainting {
     }
     double value = (sum + rise_x + rise_y) / weights;
     if (is_bounded) {
-      value = sum / weights - (rise_x + rise_y) / (std::hypot(rise_x, rise_y) + 1e-20) + 0.5;
+      value = sum / weights -
+              (rise_x + rise_y) / (std::sqrt(rise_x * rise_x + rise_y * rise_y) + 1e-20) + 0.5;
     }
     values_[at(pixel)] = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
     is_known_[at(pixel)] = 1;

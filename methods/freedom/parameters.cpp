@@ -52,7 +52,7 @@ void add_counts(Table& table) {
       .choice("conservative_neighbours", &P::conservative_neighbours,
               {{"6", Neighbours::k6}, {"18", Neighbours::k18}, {"26", Neighbours::k26}},
               {.source = kKitti,
-               .sentence = "Neighbours of what was hit in free space that go with it."})
+               .sentence = "Neighbours of a conservative voxel that become moderate."})
       .choice("aggressive_neighbours", &P::aggressive_neighbours,
               {{"6", Neighbours::k6},
                {"18", Neighbours::k18},
@@ -60,8 +60,8 @@ void add_counts(Table& table) {
                {"80", Neighbours::k80},
                {"124", Neighbours::k124}},
               {.source = kKitti,
-               .sentence = "Neighbours of those neighbours that go unless another scan puts a "
-                           "point there; 80 is 26 and then 6, 124 is 26 twice."});
+               .sentence = "Neighbours of a moderate voxel that become aggressive; 80 is 26 and "
+                           "then 6 of those, 124 is 26 twice."});
 }
 
 void add_view(Table& table) {

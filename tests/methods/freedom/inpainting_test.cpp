@@ -99,7 +99,9 @@ class SlowInpainting {
     for (;;) {
       std::size_t next = hole_.size();
       for (std::size_t i = 0; i < hole_.size(); ++i) {
-        if (band[i] != 0 && (next == hole_.size() || times_[i] < times_[next])) next = i;
+        if (band[i] != 0 && (next == hole_.size() ||
+                             static_cast<float>(times_[i]) < static_cast<float>(times_[next])))
+          next = i;
       }
       if (next == hole_.size()) return;
       band[next] = 0;

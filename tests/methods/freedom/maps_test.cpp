@@ -8,9 +8,9 @@ using namespace raymoval::freedom_method;
 
 namespace {
 
-/// The middle of a voxel of 0.4 m.
+/// The middle of the voxel's sub-voxel (2, 2, 2), off all walls.
 Eigen::Vector3f middle(int x, int y = 0, int z = 0) {
-  return ((VoxelIndex(x, y, z).cast<double>().array() + 0.5) * 0.4).matrix().cast<float>();
+  return ((VoxelIndex(x, y, z).cast<double>().array() + 0.625) * 0.4).matrix().cast<float>();
 }
 
 ScanMap scan_of(const std::vector<Eigen::Vector3f>& points, Parameters parameters = {}) {
@@ -92,14 +92,15 @@ TEST_CASE("freedom: sub-voxels lie in their voxels on both sides of the origin")
 TEST_CASE("freedom: a scan's voxels have the mean of their points, and those in range only") {
   Scan scan;
   scan.T_world_sensor.translation() << 0.0, 0.0, 50.0;
-  scan.points = {{4.1F, 0.1F, 0.1F},  {4.3F, 0.1F, 0.3F},   {2.6F, 0.0F, 0.0F}, {81.0F, 0.0F, 0.0F},
-                 {3.0F, 0.0F, 21.0F}, {3.0F, 0.0F, -21.0F}, {-4.1F, 0.1F, 0.1F}};
+  scan.points = {{4.15F, 0.05F, 0.15F}, {4.35F, 0.05F, 0.35F}, {2.6F, 0.0F, 0.0F},
+                 {81.0F, 0.0F, 0.0F},   {3.0F, 0.0F, 21.0F},   {3.0F, 0.0F, -21.0F},
+                 {-4.1F, 0.1F, 0.1F}};
   ScanMap voxels;
   voxels.fill(scan, {});
   REQUIRE(voxels.voxels().size() == 2);
   const ScanVoxel& first = voxels.voxels()[0];
   CHECK(first.at == VoxelIndex(10, 0, 125));
-  CHECK((first.mean() - Eigen::Vector3d(10.5, 0.25, 125.5)).norm() < 1e-5);
+  CHECK((first.mean() - Eigen::Vector3d(10.625, 0.125, 125.625)).norm() < 1e-5);
   CHECK(first.sub_voxels ==
         (std::uint64_t{1} << 17 | std::uint64_t{1} << 51));  // (1,0,1), (3,0,3).
   CHECK(voxels.voxels()[1].at == VoxelIndex(-11, 0, 125));

@@ -28,10 +28,10 @@ int reach_of(Neighbours neighbours) {
 }
 
 /// Steps 2 and 5 grow alike. `take(cell, level)` says whether a cell takes the level.
-void grow(const Parameters& p, bool in_map, std::set<Cell> frontier,
+void grow(const Parameters& p, bool in_map, Cells frontier,
           const std::function<bool(const Cell&, Level)>& take) {
   const auto spread = [&](int reach, Level level) {
-    std::set<Cell> taken;
+    Cells taken;
     for (const Cell& cell : frontier) {
       for (const Cell& next : around(cell, reach)) {
         if (take(next, level)) taken.insert(next);
@@ -123,7 +123,7 @@ void Oracle::revert(const Cell& voxel) {
 }
 
 void Oracle::grow_in_scan(ScanVoxels& voxels) const {
-  std::set<Cell> seeds;
+  Cells seeds;
   for (const auto& [cell, seen] : voxels) {
     if (seen.level == Level::kConservative) seeds.insert(cell);
   }
@@ -135,10 +135,10 @@ void Oracle::grow_in_scan(ScanVoxels& voxels) const {
   });
 }
 
-std::set<Cell> Oracle::passed_by_rays(const Scan& scan, const ScanVoxels& voxels,
-                                      const SensorModel& sensor) const {
+Cells Oracle::passed_by_rays(const Scan& scan, const ScanVoxels& voxels,
+                             const SensorModel& sensor) const {
   const Eigen::Vector3d position = scan.T_world_sensor.translation();
-  std::set<Cell> passed;
+  Cells passed;
   for (const auto& [cell, seen] : voxels) {
     follow(position, seen.sum / seen.points - position, voxels, passed);
   }
@@ -149,7 +149,7 @@ std::set<Cell> Oracle::passed_by_rays(const Scan& scan, const ScanVoxels& voxels
 }
 
 void Oracle::follow(const Eigen::Vector3d& sensor, Eigen::Vector3d way, const ScanVoxels& voxels,
-                    std::set<Cell>& passed) const {
+                    Cells& passed) const {
   if (way.norm() > p_.ray_range) way *= p_.ray_range / way.norm();
   if (way.z() > p_.ray_highest) way *= p_.ray_highest / way.z();
   if (way.z() < p_.ray_lowest) way *= p_.ray_lowest / way.z();
@@ -183,8 +183,8 @@ bool Oracle::is_full(const Cell& block) const {
   return true;
 }
 
-std::set<Cell> Oracle::take_passes(const std::set<Cell>& passed) {
-  std::set<Cell> full, counted, newly_free;
+Cells Oracle::take_passes(const Cells& passed) {
+  Cells full, counted, newly_free;
   for (const Cell& block : blocks_) {
     if (p_.public_full_blocks && is_full(block)) full.insert(block);
   }
@@ -208,15 +208,15 @@ std::set<Cell> Oracle::take_passes(const std::set<Cell>& passed) {
   return newly_free;
 }
 
-void Oracle::remove_from_map(const std::set<Cell>& newly_free) {
-  std::map<std::size_t, std::map<Cell, std::vector<Cell>>> by_scan;  // Voxel, its sub-voxels.
+void Oracle::remove_from_map(const Cells& newly_free) {
+  std::map<std::size_t, CellMap<std::vector<Cell>>> by_scan;  // Voxel, its sub-voxels.
   for (const auto& [cell, point] : points_) {
     if (point.level != Level::kEmpty) by_scan[point.scan][voxel_of(cell)].push_back(cell);
   }
-  std::set<Cell> touched;
+  Cells touched;
   for (auto& [scan, voxels] : by_scan) {
-    std::map<Cell, Level> levels;
-    std::set<Cell> seeds;
+    CellMap<Level> levels;
+    Cells seeds;
     for (const Cell& cell : newly_free) {
       if (voxels.count(cell) == 0) continue;
       levels[cell] = Level::kConservative;
@@ -232,7 +232,7 @@ void Oracle::remove_from_map(const std::set<Cell>& newly_free) {
       }
     }
   }
-  std::set<Cell> with_static;
+  Cells with_static;
   for (const auto& [cell, point] : points_) {
     if (point.level == Level::kStatic) with_static.insert(voxel_of(cell));
   }

@@ -6,7 +6,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "core/scan/scan_source.h"
@@ -17,6 +18,15 @@ namespace raymoval::freedom_test {
 using namespace freedom_method;
 
 using Cell = std::array<int, 3>;
+
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    return VoxelKeyHash{}(voxel_key(cell[0], cell[1], cell[2]));
+  }
+};
+using Cells = std::unordered_set<Cell, CellHash>;
+template <class Value>
+using CellMap = std::unordered_map<Cell, Value, CellHash>;
 
 class Oracle {
  public:
@@ -29,7 +39,7 @@ class Oracle {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     int points = 0;
     Level level = Level::kStatic;
-    std::set<Cell> sub_voxels;
+    Cells sub_voxels;
   };
   struct Space {
     int passes = 0, hits = 0;
@@ -39,7 +49,7 @@ class Oracle {
     std::size_t scan = 0;
     Level level = Level::kEmpty;
   };
-  using ScanVoxels = std::map<Cell, Seen>;
+  using ScanVoxels = CellMap<Seen>;
 
   [[nodiscard]] static Cell cell_of(const Eigen::Vector3d& point, double size) {
     const Eigen::Vector3d v = point / size;
@@ -53,20 +63,20 @@ class Oracle {
   void take_hits(ScanVoxels& voxels);
   void revert(const Cell& voxel);
   void grow_in_scan(ScanVoxels& voxels) const;
-  [[nodiscard]] std::set<Cell> passed_by_rays(const Scan& scan, const ScanVoxels& voxels,
-                                              const SensorModel& sensor) const;
+  [[nodiscard]] Cells passed_by_rays(const Scan& scan, const ScanVoxels& voxels,
+                                     const SensorModel& sensor) const;
   void follow(const Eigen::Vector3d& sensor, Eigen::Vector3d way, const ScanVoxels& voxels,
-              std::set<Cell>& passed) const;
+              Cells& passed) const;
   [[nodiscard]] bool is_full(const Cell& block) const;
-  [[nodiscard]] std::set<Cell> take_passes(const std::set<Cell>& passed);
-  void remove_from_map(const std::set<Cell>& newly_free);
+  [[nodiscard]] Cells take_passes(const Cells& passed);
+  void remove_from_map(const Cells& newly_free);
   void integrate(const ScanVoxels& voxels, std::size_t scan);
 
   Parameters p_;
   double voxel_;
-  std::map<Cell, Space> space_;
-  std::set<Cell> blocks_;         ///< In which any voxel was passed.
-  std::map<Cell, Point> points_;  ///< By sub-voxel.
+  CellMap<Space> space_;
+  Cells blocks_;           ///< In which any voxel was passed.
+  CellMap<Point> points_;  ///< By sub-voxel.
 };
 
 }  // namespace raymoval::freedom_test

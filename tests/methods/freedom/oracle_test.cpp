@@ -45,10 +45,10 @@ freedom_method::Parameters some_parameters(int variant, std::mt19937& random) {
 TEST_CASE("freedom: the fast way gives what the description says") {
   std::mt19937 random(5);
   std::size_t removed = 0;
-  for (int variant = 0; variant < 5; ++variant) {
+  for (int variant = 0; variant < 4; ++variant) {
     const freedom_method::Parameters parameters = some_parameters(variant, random);
     const toy::ScanList world = toy::random_world(
-        {.scans = 8, .walls = 3, .movers = 4, .seed = 20U + static_cast<unsigned>(variant)});
+        {.scans = 5, .walls = 3, .movers = 4, .seed = 20U + static_cast<unsigned>(variant)});
     INFO("variant " << variant);
     const Oracle oracle(parameters, world);
     const MaskStore masks =

@@ -96,7 +96,6 @@ constexpr Line kLines[] = {
     {"freedom:published", "= = ? = = = ? ? ?"},
     {"freedom:few-counts", "= = ? = = = ? ? ?"},
     {"freedom:sound", "= = ? = = = ? ? ?"},
-    {"freedom:sound-few-counts", "= = ? = = = ? ? ?"},
 };
 
 }  // namespace
