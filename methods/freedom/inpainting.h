@@ -26,8 +26,12 @@ enum class Gradients {
 ///  - direction: how far the way from them runs along the gradient of T,
 ///  - distance: one over its square,
 ///  - level set: one over 1 + the difference in T.
-/// Each of them is extrapolated by its own gradient. OpenCV adds the mean's gradients with the
-/// wrong sign, scaled to a length of at most the square root of 2, and rounds up.
+/// Each of them is extrapolated by its own gradient.
+///
+/// OpenCV adds the mean's gradients with the wrong sign, scaled to a length of at most the square
+/// root of 2, takes differences to both sides four times as large, takes T beyond the image for
+/// known and very large, and rounds up.
+///
 /// The values under holes do not matter. Where nothing at all is known they become 0.
 /// @note the publication is silent on: the order of equal T (that of pixels), differences at the
 /// image's edge and beside holes (to the one side there is), T at a pixel's own filling (it is
