@@ -31,6 +31,14 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"raymoval_plus:online.low_points", "something dynamic must reach the ground"},
     {"beautymap.public_top", "a column must be higher than 30 slices (see beautymap_test)"},
     {"raymoval_plus:online.recent_scans", "as for tracks"},
+    {"freedom.counts_to_revert", "something must stay in free space (see free_map_test)"},
+    {"freedom.image_rows", "the sensor's steps must be unknown"},
+    {"freedom.image_minimum", "a point must be near the sensor (see depth_image_test)"},
+    {"freedom.inpainting_radius", "depths around a hole must differ (see inpainting_test)"},
+    {"freedom.hole_area", "a hole of few pixels must be open to the top (see depth_image_test)"},
+    {"freedom.top_margin", "a hole must end below the top (see depth_image_test)"},
+    {"freedom.public_revert", "as for counts_to_revert"},
+    {"freedom.public_full_blocks", "a block of 3.2 m must be all free (see free_map_test)"},
     {"octomap.ground_points", "a scan must have few points"},
     {"erasor.sparse_ground", "a bin must have as few points as are skipped as outliers"},
     {"removert.clamp_fov", "the sensor must see beyond the images' field of view"},
@@ -189,6 +197,10 @@ TEST_CASE("dufomap's parameters act when they are said to", "[effects]") {
 }
 TEST_CASE("beautymap's parameters act when they are said to", "[effects]") {
   check_method("beautymap");
+}
+
+TEST_CASE("freedom's parameters act when they are said to", "[effects]") {
+  check_method("freedom");
 }
 
 TEST_CASE("every condition names parameters of its method", "[effects]") {

@@ -91,6 +91,12 @@ constexpr Line kLines[] = {
     {"beautymap:semi-indoor", "= = ? = ? ? ? = ="},
     {"beautymap:sound", "= = ? = ? ? ? = ="},
     {"beautymap:wide", "= = ? = ? ? ? = ="},
+
+    // A scan is a set of sub-voxels with the mean points of its voxels, and is counted. The blocks
+    // that are skipped lie on a lattice of their own.
+    {"freedom:published", "= = ? = = = ? ? ?"},
+    {"freedom:few-counts", "= = ? = = = ? ? ?"},
+    {"freedom:sound", "= = ? = = = ? ? ?"},
 };
 
 }  // namespace

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "methods/freedom/free_map.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace raymoval::freedom_method {
+namespace {
+
+constexpr int kSideBits = 3;
+constexpr int kSide = 1 << kSideBits;
+
+VoxelIndex block_of(const VoxelIndex& voxel) {
+  return {voxel.x() >> kSideBits, voxel.y() >> kSideBits, voxel.z() >> kSideBits};
+}
+
+/// The place of a voxel in its block: its word, and its bit in it.
+struct Place {
+  std::size_t word, bit;
+
+  explicit Place(const VoxelIndex& voxel)
+      : word(static_cast<std::size_t>(voxel.x() & (kSide - 1))),
+        bit(static_cast<std::size_t>((voxel.y() & (kSide - 1)) * kSide +
+                                     (voxel.z() & (kSide - 1)))) {}
+  [[nodiscard]] std::size_t index() const { return word * 64 + bit; }
+  [[nodiscard]] std::uint64_t mask() const { return std::uint64_t{1} << bit; }
+};
+
+bool any(const BlockBits& bits) {
+  return std::any_of(bits.begin(), bits.end(), [](std::uint64_t word) { return word != 0; });
+}
+
+void count_up(std::uint8_t& count) {
+  if (count < 255) ++count;
+}
+
+/// Calls `visit(block, passed)` for each block of 8 x 8 x 8 voxels with those that rays pass and
+/// the scan does not hit.
+template <class Visit>
+void for_each_passed_block(const scan_grid::ScanBlock& columns, Visit&& visit) {
+  constexpr int kGroups = scan_grid::kSide / kSide, kLayers = scan_grid::kHeight / kSide;
+  const VoxelIndex first = columns.at.cwiseProduct(VoxelIndex(kGroups, kGroups, kLayers));
+  for (int group = 0; group < kGroups * kGroups; ++group) {
+    const int group_x = group / kGroups, group_y = group % kGroups;
+    std::array<std::uint64_t, 64> passed;
+    std::uint64_t all = 0;
+    for (int i = 0; i < 64; ++i) {
+      const auto& column = columns.columns[static_cast<std::size_t>(
+          (group_x * kSide + i / kSide) * scan_grid::kSide + group_y * kSide + i % kSide)];
+      all |= passed[static_cast<std::size_t>(i)] = column.free & ~column.hit;
+    }
+    for (int layer = 0; layer < kLayers; ++layer) {
+      if ((all >> layer * kSide & 0xFF) == 0) continue;
+      BlockBits bits{};
+      for (std::size_t i = 0; i < 64; ++i) {
+        bits[i / kSide] |= (passed[i] >> layer * kSide & 0xFF) << i % kSide * kSide;
+      }
+      visit(first + VoxelIndex(group_x, group_y, layer), bits);
+    }
+  }
+}
+
+}  // namespace
+
+bool FreeMap::is_free(const VoxelIndex& voxel) const {
+  const FreeBlock* block = find(block_of(voxel));
+  const Place place(voxel);
+  return block != nullptr && (block->is_free[place.word] & place.mask()) != 0;
+}
+
+FreeBlock& FreeMap::at(const VoxelIndex& block) {
+  const auto next = static_cast<std::uint32_t>(blocks_.size());
+  const auto [found, is_new] = numbers_.try_emplace(voxel_key(block), next);
+  if (is_new) blocks_.push_back(std::make_unique<FreeBlock>());
+  return *blocks_[found->second];
+}
+
+void FreeMap::take_hits(ScanMap& scan) {
+  std::vector<VoxelIndex> reverted;
+  for (ScanVoxel& voxel : scan.voxels()) {
+    FreeBlock* block = find(block_of(voxel.at));
+    if (block == nullptr) continue;
+    const Place place(voxel.at);
+    block->passes[place.index()] = 0;
+    block->is_ready[place.word] &= ~place.mask();
+    count_up(block->hits[place.index()]);
+    if ((block->is_free[place.word] & place.mask()) != 0) voxel.level = Level::kConservative;
+    if (block->hits[place.index()] >= p_.counts_to_revert) reverted.push_back(voxel.at);
+  }
+  // Not before all are classified, so that their order does not matter.
+  for (const VoxelIndex& voxel : reverted) {
+    revert(voxel);
+    for (const VoxelIndex& offset : neighbour_offsets(26)) revert(voxel + offset);
+  }
+}
+
+void FreeMap::revert(const VoxelIndex& voxel) {
+  FreeBlock* block = find(block_of(voxel));
+  const Place place(voxel);
+  if (block == nullptr || (block->is_free[place.word] & place.mask()) == 0) return;
+  block->is_free[place.word] &= ~place.mask();
+  if (p_.public_revert) return;
+  block->passes[place.index()] = 0;
+  block->is_ready[place.word] &= ~place.mask();
+}
+
+void FreeMap::pass(const VoxelIndex& index, const BlockBits& passed,
+                   std::vector<Candidates>& candidates) {
+  FreeBlock& block = at(index);
+  const auto is_full = [](std::uint64_t word) { return word == ~std::uint64_t{0}; };
+  if (p_.public_full_blocks && std::all_of(block.is_free.begin(), block.is_free.end(), is_full)) {
+    return;
+  }
+  Candidates found{index, {}};
+  for (std::size_t word = 0; word < passed.size(); ++word) {
+    for (std::uint64_t left = passed[word]; left != 0; left &= left - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+      std::uint8_t& passes = block.passes[word * 64 + bit];
+      count_up(passes);
+      block.hits[word * 64 + bit] = 0;
+      if (passes >= p_.counts_to_free) block.is_ready[word] |= std::uint64_t{1} << bit;
+    }
+    found.voxels[word] = passed[word] & block.is_ready[word] & ~block.is_free[word];
+  }
+  if (any(found.voxels)) candidates.push_back(found);
+}
+
+BlockBits FreeMap::all_neighbours_ready(const VoxelIndex& index) const {
+  constexpr int kWide = kSide + 2;  // With a voxel of the neighbours on either side.
+  std::array<std::array<std::array<const FreeBlock*, 3>, 3>, 3> around;
+  for (std::size_t i = 0; i < 27; ++i) {
+    const VoxelIndex offset(static_cast<int>(i / 9) - 1, static_cast<int>(i / 3 % 3) - 1,
+                            static_cast<int>(i % 3) - 1);
+    around[i / 9][i / 3 % 3][i % 3] = find(index + offset);
+  }
+  // The column at (x, y), whose voxels stay if those below and above are ready too.
+  const auto eroded_column = [&](std::size_t x, std::size_t y) -> std::uint64_t {
+    const auto& blocks = around[(x + kSide - 1) / kSide][(y + kSide - 1) / kSide];
+    const auto bits_of = [&](std::size_t layer) -> std::uint64_t {
+      if (blocks[layer] == nullptr) return 0;
+      const std::uint64_t word = blocks[layer]->is_ready[(x + kSide - 1) % kSide];
+      return word >> (y + kSide - 1) % kSide * kSide & 0xFF;
+    };
+    const std::uint64_t column = bits_of(0) >> 7 | bits_of(1) << 1 | bits_of(2) << 9;
+    return column & column >> 1 & column >> 2 & 0xFF;
+  };
+  std::array<std::array<std::uint64_t, kWide>, kWide> columns;
+  for (std::size_t x = 0; x < kWide; ++x) {
+    for (std::size_t y = 0; y < kWide; ++y) columns[x][y] = eroded_column(x, y);
+  }
+  BlockBits ready{};
+  for (std::size_t x = 0; x < kSide; ++x) {
+    for (std::size_t y = 0; y < kSide; ++y) {
+      std::uint64_t column = 0xFF;
+      for (std::size_t i = 0; i < 9; ++i) column &= columns[x + i / 3][y + i % 3];
+      ready[x] |= column << y * kSide;
+    }
+  }
+  return ready;
+}
+
+std::vector<VoxelIndex> FreeMap::take_passes(const scan_grid::ScanGrid& rays) {
+  std::vector<Candidates> candidates;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    for_each_passed_block(rays[i], [&](const VoxelIndex& block, const BlockBits& passed) {
+      pass(block, passed, candidates);
+    });
+  }
+  // Once all are counted, so that their order does not matter.
+  std::vector<VoxelIndex> newly_free;
+  for (const Candidates& found : candidates) {
+    const BlockBits ready = all_neighbours_ready(found.block);
+    FreeBlock& block = at(found.block);
+    for (std::size_t word = 0; word < ready.size(); ++word) {
+      const std::uint64_t free = found.voxels[word] & ready[word];
+      block.is_free[word] |= free;
+      for (std::uint64_t left = free; left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left);
+        newly_free.push_back(found.block * kSide +
+                             VoxelIndex(static_cast<int>(word), bit / kSide, bit % kSide));
+      }
+    }
+  }
+  return newly_free;
+}
+
+}  // namespace raymoval::freedom_method

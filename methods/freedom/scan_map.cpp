@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "methods/freedom/scan_map.h"
+
+#include "core/scan/range_limits.h"
+
+namespace raymoval::freedom_method {
+
+void ScanMap::fill(const Scan& scan, const Parameters& parameters) {
+  voxels_.clear();
+  numbers_.clear();
+  const Lattice lattice(parameters);
+  const RangeLimits ranges{parameters.minimum_range, parameters.maximum_range};
+  std::uint32_t last = kNone;  // Points that follow each other mostly share their voxel.
+  for (const Eigen::Vector3f& point : scan.points) {
+    const Eigen::Vector3d local = point.cast<double>();
+    const Eigen::Vector3d from_sensor = scan.T_world_sensor.linear() * local;
+    const double height = from_sensor.z();
+    if (!ranges.contains(local.norm()) || height < parameters.lowest ||
+        height > parameters.highest) {
+      continue;
+    }
+    const Eigen::Vector3d world = from_sensor + scan.T_world_sensor.translation();
+    const VoxelIndex sub_voxel = lattice.sub_voxel_of(world);
+    const VoxelIndex voxel = lattice.voxel_of(sub_voxel);
+    if (last == kNone || voxels_[last].at != voxel) {
+      const auto next = static_cast<std::uint32_t>(voxels_.size());
+      const auto [found, is_new] = numbers_.try_emplace(voxel_key(voxel), next);
+      if (is_new) voxels_.emplace_back().at = voxel;
+      last = found->second;
+    }
+    voxels_[last].add(lattice.in_voxels(world), lattice.place_of(sub_voxel, voxel));
+  }
+}
+
+void ScanMap::grow(const Growth& growth) {
+  std::vector<std::uint32_t> seeds;
+  for (std::uint32_t i = 0; i < voxels_.size(); ++i) {
+    if (voxels_[i].level == Level::kConservative) seeds.push_back(i);
+  }
+  grow_levels(growth, std::move(seeds), [this](const auto& frontier, int neighbours, Level level) {
+    std::vector<std::uint32_t> reached;
+    for (const std::uint32_t from : frontier) {
+      for (const VoxelIndex& offset : neighbour_offsets(neighbours)) {
+        const std::uint32_t to = find(voxels_[from].at + offset);
+        if (to == kNone || voxels_[to].level != Level::kStatic) continue;
+        voxels_[to].level = level;
+        reached.push_back(to);
+      }
+    }
+    return reached;
+  });
+}
+
+}  // namespace raymoval::freedom_method

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/scan/cell_set.h"
+#include "core/scan/voxel_numbers.h"
+#include "methods/freedom/scan_map.h"
+
+namespace raymoval::freedom_method {
+
+/// What is known of a sub-voxel: which scan its point is of, and that point's level.
+struct SubVoxel {
+  static constexpr std::uint32_t kMostScans = 1U << 29;
+
+  std::uint32_t scan : 29 = 0;
+  std::uint32_t level : 3 = static_cast<std::uint32_t>(Level::kEmpty);
+
+  [[nodiscard]] bool holds(std::size_t of_scan) const {
+    return scan == of_scan && !is(Level::kEmpty);
+  }
+  void set(std::size_t of_scan, Level of_level) {
+    scan = static_cast<std::uint32_t>(of_scan) & 0x1FFFFFFF;
+    level = static_cast<std::uint32_t>(of_level) & 7;
+  }
+  [[nodiscard]] bool is(Level of_level) const {
+    return level == static_cast<std::uint32_t>(of_level);
+  }
+};
+
+/// The sub-voxels of a voxel that ever had a point. They are packed in the order of their places.
+class SubVoxels {
+ public:
+  /// The one at a place; it is made, empty, if there is none.
+  SubVoxel& at(int place);
+  [[nodiscard]] std::span<SubVoxel> all() { return {cells_.get(), count()}; }
+  [[nodiscard]] std::span<const SubVoxel> all() const { return {cells_.get(), count()}; }
+  /// The places of `all`, a bit each.
+  [[nodiscard]] std::uint64_t places() const { return places_; }
+  [[nodiscard]] bool holds(std::size_t scan) const;
+
+ private:
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(std::popcount(places_));
+  }
+
+  std::uint64_t places_ = 0;
+  std::unique_ptr<SubVoxel[]> cells_;  ///< Room for `room_for(count())`.
+};
+
+/// The points of all scans so far, one in a sub-voxel, without their coordinates. It takes about 40
+/// bytes a voxel and 6 for each of its sub-voxels.
+class StaticMap {
+ public:
+  explicit StaticMap(const Parameters& parameters)
+      : lattice_(parameters), growth_(growth_of(parameters, true)) {}
+
+  /// Step 5: raises levels in and around newly free voxels, scan by scan.
+  void remove(const std::vector<VoxelIndex>& newly_free);
+  /// Step 6: takes in the points of scan number `scan`.
+  void integrate(const ScanMap& voxels, std::size_t scan);
+  /// Step 7: the sub-voxels that had points and have no static one.
+  [[nodiscard]] CellSet removed() const;
+
+  /// The level of a sub-voxel; kEmpty also where there never was a point.
+  [[nodiscard]] Level level_of(const VoxelIndex& sub_voxel) const;
+  [[nodiscard]] std::size_t size() const { return voxels_.size(); }
+
+ private:
+  using Number = VoxelNumbers::Number;
+  /// The points of one scan in a voxel.
+  struct Seed {
+    std::uint32_t scan;
+    Number voxel;
+    friend auto operator<=>(const Seed&, const Seed&) = default;
+  };
+
+  [[nodiscard]] auto key_of() const {
+    return [this](Number number) { return keys_[number]; };
+  }
+  [[nodiscard]] Number find(const VoxelIndex& voxel) const {
+    return numbers_.find(voxel_key(voxel), key_of());
+  }
+  [[nodiscard]] std::vector<Seed> seeds_in(const std::vector<VoxelIndex>& newly_free) const;
+  void raise(Number voxel, std::uint32_t scan, Level level);
+  void grow(std::span<const Seed> seeds);
+  void clear_without_static();
+
+  Lattice lattice_;
+  Growth growth_;
+  VoxelNumbers numbers_;
+  std::vector<VoxelKey> keys_;
+  std::vector<SubVoxels> voxels_;
+  // Of step 5 at hand.
+  std::vector<std::uint32_t> reached_;  ///< By voxel: the growth that reached it last.
+  std::uint32_t growths_ = 0;
+  std::vector<Number> touched_;
+};
+
+}  // namespace raymoval::freedom_method

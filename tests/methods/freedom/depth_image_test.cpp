@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "methods/freedom/depth_image.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "core/angle.h"
+
+using namespace raymoval;
+using namespace raymoval::freedom_method;
+
+namespace {
+
+/// '#' is a return, '.' none.
+HoleImage drawn(const std::vector<std::string>& rows) {
+  HoleImage image{static_cast<int>(rows.size()), static_cast<int>(rows[0].size()), {}, {}};
+  for (const std::string& row : rows) {
+    for (const char c : row) {
+      image.values.push_back(100);
+      image.is_hole.push_back(c == '.' ? 1 : 0);
+    }
+  }
+  return image;
+}
+
+/// 'o' is a hole that is open, others as they were.
+std::vector<std::string> opened(const std::vector<std::string>& rows, bool is_full_turn,
+                                const Parameters& parameters = {}) {
+  const std::vector<std::uint8_t> open = open_holes(drawn(rows), is_full_turn, parameters);
+  std::vector<std::string> result = rows;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (open[i] != 0) result[i / rows[0].size()][i % rows[0].size()] = 'o';
+  }
+  return result;
+}
+
+/// Four rows from +3 to 0 degrees in steps of a degree, all around.
+SensorModel four_rows() {
+  SensorModel sensor;
+  sensor.elevation_min = 0.0;
+  sensor.elevation_max = 3.0 * kDegree;
+  sensor.elevation_step = kDegree;
+  sensor.range_max = 100.0;
+  return sensor;
+}
+
+Eigen::Vector3f point_at(double azimuth, double elevation, double range) {
+  const double a = azimuth * kDegree, e = elevation * kDegree;
+  return (range *
+          Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)))
+      .cast<float>();
+}
+
+}  // namespace
+
+TEST_CASE("freedom: only holes that are open to the top and not to the bottom are used") {
+  CHECK(opened({"#..#.#..",  //
+                "#.##.##.",  //
+                "##.#.###",  //
+                "##.#.#.#"},
+               false) == std::vector<std::string>{"#oo#.#oo",  //
+                                                  "#o##.##o",  //
+                                                  "##.#.###",  // Corners join nothing.
+                                                  "##.#.#.#"});
+}
+
+TEST_CASE("freedom: holes go on behind a full turn") {
+  // The hole on the right reaches the last row on the left.
+  const std::vector<std::string> image = {"##.",  //
+                                          ".#.",  //
+                                          ".##"};
+  CHECK(opened(image, true) == image);
+  CHECK(opened(image, false) == std::vector<std::string>{"##o", ".#o", ".##"});
+}
+
+TEST_CASE("freedom: small holes and those below the margin are left out") {
+  const std::vector<std::string> image = {"#.#..", "###.#", ".####", "#####"};
+  Parameters parameters;
+  parameters.hole_area = 1;
+  CHECK(opened(image, false, parameters) ==
+        std::vector<std::string>{"#.#oo", "###o#", ".####", "#####"});
+  parameters.hole_area = 0;
+  parameters.top_margin = 2;
+  CHECK(opened(image, false, parameters) ==
+        std::vector<std::string>{"#o#oo", "###o#", "o####", "#####"});
+}
+
+TEST_CASE("freedom: the view is the sensor's, or the given one") {
+  Parameters parameters;
+  DepthView view = view_for(sensor_model_named("hdl64e"), parameters);
+  CHECK(view.rows == 64);
+  CHECK(view.columns == 844);  // 360 degrees by 26.9 / 63.
+  CHECK(view.is_full_turn);
+  CHECK(view.unit == Approx(80.0 / 255.0));
+  parameters.view_of_sensor = false;
+  view = view_for(four_rows(), parameters);
+  CHECK(view.rows == 64);
+  CHECK(view.resolution == Approx(26.8 / 63.0 * kDegree));
+  CHECK(view.columns == 847);
+  SensorModel narrow = four_rows();
+  narrow.azimuth_min = -40.0 * kDegree;
+  narrow.azimuth_max = 40.0 * kDegree;
+  narrow.range_max = 51.0;
+  view = view_for(narrow, Parameters{});
+  CHECK(view.columns == 80);
+  CHECK_FALSE(view.is_full_turn);
+  CHECK(view.unit == Approx(0.2));
+  CHECK(view.pixel_of(point_at(-39.5, 3.0, 5.0)) == 0);
+  CHECK(view.pixel_of(point_at(39.5, 0.0, 5.0)) == 319);
+  CHECK(view.pixel_of(point_at(41.0, 0.0, 5.0)) == -1);
+  CHECK(view.pixel_of(point_at(0.5, 3.6, 5.0)) == -1);
+  CHECK(view.pixel_of(point_at(0.5, -0.6, 5.0)) == -1);
+  SECTION("of a sensor of unknown steps it has the given rows") {
+    narrow.elevation_step = 0.0;
+    CHECK(view_for(narrow, Parameters{}).rows == 64);
+  }
+  SECTION("a sensor whose model makes no sense gives an image of bounded size") {
+    narrow.elevation_max = narrow.elevation_min;
+    narrow.elevation_step = 1e-9;
+    const DepthView flat = view_for(narrow, Parameters{});
+    CHECK(flat.rows == 2);
+    CHECK(flat.columns <= 7200);
+  }
+}
+
+TEST_CASE("freedom: each pixel's middle lies in it") {
+  const DepthView view = view_for(four_rows(), Parameters{});
+  for (int row = 0; row < view.rows; ++row) {
+    for (int column = 0; column < view.columns; ++column) {
+      const Eigen::Vector3f middle = (7.0 * view.direction(row, column)).cast<float>();
+      REQUIRE(view.pixel_of(middle) == row * view.columns + column);
+    }
+  }
+}
+
+TEST_CASE("freedom: the nearest return of a pixel counts, from the least range on") {
+  const DepthView view = view_for(four_rows(), Parameters{});
+  Scan scan;
+  for (const double range : {30.0, 20.0, 40.0, 0.1, 81.0}) {
+    scan.points.push_back(point_at(0.5, 1.0, range));
+  }
+  scan.points.push_back({0.0F, 0.0F, 0.0F});
+  const HoleImage image = depth_image(scan, view);
+  const std::size_t pixel = static_cast<std::size_t>(view.pixel_of(scan.points[0]));
+  CHECK(image.is_hole[pixel] == 0);
+  CHECK(image.values[pixel] == 63);  // 20 m of 80 / 255 m, rounded down.
+  CHECK(std::count(image.is_hole.begin(), image.is_hole.end(), 0) == 1);
+}
+
+TEST_CASE("freedom: rays go into the sky above a wall as far as the wall is away") {
+  // A wall of 20 m all around in the lower three rows, and above it in all but ten columns, five of
+  // which are on either side of the back.
+  Scan scan;
+  for (int column = 0; column < 360; ++column) {
+    const double azimuth = column + 0.5 - 180.0;
+    for (int row = column < 5 || column >= 355 ? 1 : 0; row < 4; ++row) {
+      scan.points.push_back(point_at(azimuth, 3.0 - row, 20.0));
+    }
+  }
+  Parameters parameters;
+  const DepthView view = view_for(four_rows(), parameters);
+  for (const bool is_public : {true, false}) {
+    parameters.public_inpainting = is_public;
+    const std::vector<Eigen::Vector3d> ends = find_hole_ends(scan, view, parameters);
+    REQUIRE(ends.size() == 10);
+    for (const Eigen::Vector3d& end : ends) {
+      CHECK(std::asin(end.z() / end.norm()) == Approx(3.0 * kDegree));
+      // 63 units but one for the margin of 0.2 m. Bounded gradients and rounding up add up to two.
+      CHECK(std::abs(end.norm() / view.unit - 62) < (is_public ? 2.1 : 1e-6));
+    }
+  }
+  SECTION("not as far with a margin") {
+    parameters.depth_margin = 1.0;  // Four units.
+    parameters.public_inpainting = false;
+    CHECK(find_hole_ends(scan, view, parameters)[0].norm() == Approx(59 * view.unit));
+    parameters.depth_margin = 30.0;
+    CHECK(find_hole_ends(scan, view, parameters).empty());
+  }
+  SECTION("not at all") {
+    parameters.enhancement = false;
+    CHECK(find_hole_ends(scan, view, parameters).empty());
+    parameters.enhancement = true;
+    CHECK(find_hole_ends(Scan{}, view, parameters).empty());  // A hole down to the last row.
+  }
+}

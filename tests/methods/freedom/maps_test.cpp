@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include <catch2/catch.hpp>
+
+#include "methods/freedom/static_map.h"
+
+using namespace raymoval;
+using namespace raymoval::freedom_method;
+
+namespace {
+
+/// The middle of the voxel's sub-voxel (2, 2, 2), off all walls.
+Eigen::Vector3f middle(int x, int y = 0, int z = 0) {
+  return ((VoxelIndex(x, y, z).cast<double>().array() + 0.625) * 0.4).matrix().cast<float>();
+}
+
+ScanMap scan_of(const std::vector<Eigen::Vector3f>& points, Parameters parameters = {}) {
+  Scan scan;
+  scan.points = points;
+  parameters.minimum_range = 0.0;
+  ScanMap voxels;
+  voxels.fill(scan, parameters);
+  return voxels;
+}
+
+/// A scan with points in the middle of voxels along x, all with one level.
+ScanMap row_of(const std::vector<int>& voxels, Level level = Level::kStatic) {
+  std::vector<Eigen::Vector3f> points;
+  for (const int x : voxels) points.push_back(middle(x));
+  ScanMap scan = scan_of(points);
+  for (ScanVoxel& voxel : scan.voxels()) voxel.level = level;
+  return scan;
+}
+
+/// The levels of the middle sub-voxels along x, a letter each.
+std::string levels(const StaticMap& map, int count) {
+  std::string text;
+  for (int x = 0; x < count; ++x) {
+    const auto level = static_cast<std::size_t>(map.level_of({4 * x + 2, 2, 2}));
+    text += "SAMC-"[level];
+  }
+  return text;
+}
+
+Parameters without_quirks() {
+  Parameters parameters;
+  parameters.public_second_round = false;
+  return parameters;
+}
+
+}  // namespace
+
+TEST_CASE("freedom: neighbours share a face, an edge or a corner") {
+  CHECK(neighbour_offsets(26).size() == 26);
+  for (int i = 0; i < 26; ++i) {
+    const int axes = neighbour_offsets(26)[static_cast<std::size_t>(i)].cwiseAbs().sum();
+    CHECK(axes == (i < 6 ? 1 : (i < 18 ? 2 : 3)));
+  }
+}
+
+TEST_CASE("freedom: growth is that of the parameters, and in the map one round less") {
+  Parameters parameters;
+  using Rounds = std::array<int, 2>;
+  CHECK(growth_of(parameters, false).aggressive == Rounds{26, 26});
+  CHECK(growth_of(parameters, true).aggressive == Rounds{26, 0});
+  parameters.aggressive_neighbours = Neighbours::k80;
+  CHECK(growth_of(parameters, false).aggressive == Rounds{26, 6});
+  parameters.aggressive_neighbours = Neighbours::k18;
+  parameters.conservative_neighbours = Neighbours::k6;
+  CHECK(growth_of(parameters, false).aggressive == Rounds{18, 0});
+  CHECK(growth_of(parameters, false).moderate == 6);
+  parameters.aggressive_neighbours = Neighbours::k80;
+  parameters.public_second_round = false;
+  CHECK(growth_of(parameters, true).aggressive == Rounds{26, 6});
+}
+
+TEST_CASE("freedom: sub-voxels lie in their voxels on both sides of the origin") {
+  for (int per_edge = 1; per_edge <= 4; ++per_edge) {
+    Parameters parameters;
+    parameters.sub_voxels = per_edge;
+    const Lattice lattice(parameters);
+    for (int i = -9; i <= 9; ++i) {
+      const VoxelIndex sub_voxel(i, -i, i + 1), voxel = lattice.voxel_of(sub_voxel);
+      const int expected = i >= 0 ? i / per_edge : -((-i + per_edge - 1) / per_edge);
+      CHECK(voxel.x() == expected);
+      const int place = lattice.place_of(sub_voxel, voxel);
+      CHECK((place >= 0 && place < per_edge * per_edge * per_edge));
+      CHECK(lattice.sub_voxel_at(voxel, place) == sub_voxel);
+    }
+  }
+}
+
+TEST_CASE("freedom: a scan's voxels have the mean of their points, and those in range only") {
+  Scan scan;
+  scan.T_world_sensor.translation() << 0.0, 0.0, 50.0;
+  scan.points = {{4.15F, 0.05F, 0.15F}, {4.35F, 0.05F, 0.35F}, {2.6F, 0.0F, 0.0F},
+                 {81.0F, 0.0F, 0.0F},   {3.0F, 0.0F, 21.0F},   {3.0F, 0.0F, -21.0F},
+                 {-4.1F, 0.1F, 0.1F}};
+  ScanMap voxels;
+  voxels.fill(scan, {});
+  REQUIRE(voxels.voxels().size() == 2);
+  const ScanVoxel& first = voxels.voxels()[0];
+  CHECK(first.at == VoxelIndex(10, 0, 125));
+  CHECK((first.mean() - Eigen::Vector3d(10.625, 0.125, 125.625)).norm() < 1e-5);
+  CHECK(first.sub_voxels ==
+        (std::uint64_t{1} << 17 | std::uint64_t{1} << 51));  // (1,0,1), (3,0,3).
+  CHECK(voxels.voxels()[1].at == VoxelIndex(-11, 0, 125));
+}
+
+TEST_CASE("freedom: in a scan levels grow over three neighbours") {
+  ScanMap scan = row_of({0, 1, 2, 3, 4, 6});
+  scan.voxels()[0].level = Level::kConservative;
+  Parameters parameters;
+  const auto grown = [&](const Growth& growth) {
+    ScanMap copy = scan;
+    copy.grow(growth);
+    std::string text;
+    for (const ScanVoxel& voxel : copy.voxels()) {
+      text += "SAMC-"[static_cast<std::size_t>(voxel.level)];
+    }
+    return text;
+  };
+  CHECK(grown(growth_of(parameters, false)) == "CMAASS");
+  parameters.aggressive_neighbours = Neighbours::k26;
+  CHECK(grown(growth_of(parameters, false)) == "CMASSS");
+}
+
+TEST_CASE("freedom: a point replaces those of a higher level only") {
+  StaticMap map{Parameters{}};
+  map.integrate(row_of({0}, Level::kModerate), 0);
+  CHECK(levels(map, 1) == "M");
+  map.integrate(row_of({0}, Level::kConservative), 1);
+  CHECK(levels(map, 1) == "M");
+  map.integrate(row_of({0}, Level::kAggressive), 2);
+  CHECK(levels(map, 1) == "A");
+  map.integrate(row_of({0}), 3);
+  map.integrate(row_of({0}, Level::kAggressive), 4);
+  CHECK(levels(map, 1) == "S");
+  // The point is that of scan 3: it goes with what that scan has in newly free voxels.
+  map.integrate(row_of({1, 2}), 4);
+  map.remove({{1, 0, 0}});
+  CHECK(levels(map, 3) == "S--");
+}
+
+TEST_CASE("freedom: in the map levels grow among points of one scan") {
+  StaticMap map{without_quirks()};
+  map.integrate(row_of({0, 1, 2, 3, 4}), 0);
+  map.integrate(scan_of({middle(2) + Eigen::Vector3f(0.1F, 0.0F, 0.0F)}), 1);
+  map.remove({{0, 0, 0}});
+  // Without a static point left a voxel is emptied; where scan 1 has one, scan 0's is aggressive.
+  CHECK(levels(map, 5) == "--A-S");
+  CHECK(map.level_of({4 * 2 + 3, 2, 2}) == Level::kStatic);
+
+  StaticMap other{without_quirks()};
+  other.integrate(row_of({0, 2, 3}), 0);
+  other.integrate(row_of({1}), 1);  // Another scan's: scan 0 does not go on behind it.
+  other.remove({{0, 0, 0}});
+  CHECK(levels(other, 4) == "-SSS");
+}
+
+TEST_CASE("freedom: in the map the public program's second aggressive round never runs") {
+  StaticMap map{Parameters{}};
+  map.integrate(row_of({0, 1, 2, 3, 4}), 0);
+  map.remove({{0, 0, 0}});
+  CHECK(levels(map, 5) == "---SS");
+}
+
+TEST_CASE("freedom: what was emptied takes any point again, and is not in the map till then") {
+  StaticMap map{Parameters{}};
+  map.integrate(row_of({0, 5}), 0);
+  map.remove({{0, 0, 0}, {9, 9, 9}});
+  CHECK(levels(map, 6) == "-----S");
+  const CellSet removed = map.removed();
+  CHECK(removed.contains(voxel_key(2, 2, 2)));
+  CHECK_FALSE(removed.contains(voxel_key(22, 2, 2)));
+  CHECK_FALSE(removed.contains(voxel_key(3, 2, 2)));  // There never was a point.
+  map.integrate(row_of({0}, Level::kConservative), 1);
+  CHECK(levels(map, 1) == "C");
+  CHECK(map.removed().contains(voxel_key(2, 2, 2)));
+  map.integrate(row_of({0}), 2);
+  CHECK_FALSE(map.removed().contains(voxel_key(2, 2, 2)));
+}
+
+TEST_CASE("freedom: sub-voxels stay in order whatever comes first") {
+  StaticMap map{Parameters{}};
+  for (int i = 0; i < 64; ++i) {
+    const int place = i * 37 % 64;
+    const Eigen::Vector3f point(0.05F + 0.1F * static_cast<float>(place / 16),
+                                0.05F + 0.1F * static_cast<float>(place / 4 % 4),
+                                0.05F + 0.1F * static_cast<float>(place % 4));
+    ScanMap scan = scan_of({point});
+    scan.voxels()[0].level = place % 3 == 0 ? Level::kStatic : Level::kModerate;
+    map.integrate(scan, static_cast<std::size_t>(i));
+  }
+  for (int place = 0; place < 64; ++place) {
+    const VoxelIndex at(place / 16, place / 4 % 4, place % 4);
+    CHECK(map.level_of(at) == (place % 3 == 0 ? Level::kStatic : Level::kModerate));
+  }
+  CHECK(map.size() == 1);
+}
