@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "methods/common/workspaces.h"
+#include "methods/hmm_mos/belief.h"
+#include "methods/hmm_mos/distances.h"
+#include "methods/hmm_mos/scan_voxels.h"
+
+namespace raymoval::hmm_mos_method {
+
+/// What is believed of the voxels around the sensor that were observed lately.
+class BeliefMap {
+ public:
+  explicit BeliefMap(const Parameters& parameters);
+
+  /// Steps 3 and 4 for the observed voxels of a scan. Marks which of them `appeared`.
+  /// @param before the scan before; empty if there is none
+  void observe(ScanGrid& now, const ScanGrid& before, const RunContext& context);
+  /// Step 5: forgets voxels that are far from the sensor or were not seen for long, after each
+  /// scan.
+  /// @param sensor world position, metres
+  void forget(const Eigen::Vector3d& sensor);
+
+  /// Of a column of voxels, those whose state is known: occupied or free.
+  [[nodiscard]] std::uint64_t known(const VoxelIndex& block, std::size_t column) const {
+    const auto found = blocks_.find(voxel_key(block));
+    return found == blocks_.end() ? 0 : found->second->known[column];
+  }
+  /// Whether a voxel's state is free.
+  [[nodiscard]] bool is_free(const VoxelIndex& voxel) const;
+  /// How many voxels are in the map, for tests. The time grows with the map.
+  [[nodiscard]] std::size_t size() const;
+
+ private:
+  static constexpr int kBrickBits = 3;
+  static constexpr int kBrickSide = 1 << kBrickBits;
+  static constexpr std::size_t kBrickVoxels = 512;
+  static constexpr std::size_t kBricks = 128;  ///< Of a block.
+  using ScanNumber = std::uint32_t;            ///< Counted from 1; 0 is never.
+
+  /// 8 x 8 x 8 voxels.
+  struct Brick {
+    Brick() { occupied.fill(BeliefModel::kUnobserved); }
+    std::array<double, kBrickVoxels> occupied;    ///< Probability.
+    std::array<ScanNumber, kBrickVoxels> seen{};  ///< When last; 0 if it is not in the map.
+    /// No voxel was last seen earlier, or later.
+    ScanNumber oldest = std::numeric_limits<ScanNumber>::max(), newest = 0;
+  };
+  struct Block {
+    VoxelIndex at = VoxelIndex::Zero();
+    std::array<std::uint64_t, kColumns> known{};  ///< By column.
+    std::array<std::uint64_t, kColumns> free{};   ///< As far as known.
+    std::array<std::unique_ptr<Brick>, kBricks> bricks;
+  };
+  /// Where a voxel stands in its block.
+  static std::size_t brick_of(std::size_t column, int height);
+  static std::size_t place_of(std::size_t column, int height);
+
+  void observe_block(ScanBlock& seen, const DistanceField& distances, Block& block) const;
+  void observe_voxel(std::size_t column, int height, int distance, Block& block) const;
+  /// @return whether nothing of the block is left
+  bool forget_in(const Eigen::Vector3d& sensor, Block& block) const;
+  void forget_in(const Eigen::Vector3d& sensor, bool is_near, Block& block,
+                 std::size_t brick) const;
+  static void forget_voxel(Block& block, Brick& brick, const VoxelIndex& place);
+  [[nodiscard]] bool is_within(const VoxelIndex& first, const VoxelIndex& sides,
+                               const Eigen::Vector3d& sensor) const;
+
+  Lattice lattice_;
+  BeliefModel model_;
+  double range_;  ///< What is farther from the sensor is forgotten, metres.
+  int scans_;     ///< What was not seen for more is forgotten.
+  ScanNumber now_ = 0;
+  VoxelMap<std::unique_ptr<Block>> blocks_;
+  Workspaces<DistanceField> distances_;
+};
+
+}  // namespace raymoval::hmm_mos_method

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "methods/hmm_mos/scan_voxels.h"
+
+namespace raymoval::hmm_mos_method {
+
+/// Step 3: squared distances from the observed voxels of a block to the nearest occupied voxel of
+/// this scan and the one before, in voxels. They are exact below a bound, from which on all are
+/// alike (Euclidean distance transform, one axis after the other).
+///
+/// Inside, bytes hold how much nearer than the bound something is: 0 is as far as the bound, and
+/// the nearest has the largest.
+class DistanceField {
+ public:
+  /// @param far the bound, 1 to 254
+  explicit DistanceField(int far);
+
+  /// @param block of `now`
+  void find(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
+
+  /// The squared distance of an observed voxel of the block, at most `far`.
+  [[nodiscard]] int at(std::size_t column, int height) const {
+    return far_ - nearness_[column][static_cast<std::size_t>(height)];
+  }
+
+ private:
+  using Row = std::array<std::uint8_t, kHeight>;
+  /// What is occupied of a column, and the ends of those below and above it.
+  struct Occupied {
+    std::uint64_t below = 0, here = 0, above = 0;
+  };
+
+  [[nodiscard]] Occupied occupied(int x, int y) const;
+  void find_neighbours(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
+  void find_heights(const ScanBlock& block);
+  void along_z();
+  void along_y();
+  void along_x(const ScanBlock& block);
+
+  int far_, margin_;  ///< `margin_`: voxels around a block that may be nearer than `far_`.
+  int width_;         ///< Of a block with its margins.
+  std::size_t first_part_ = 0, last_part_ = 0;  ///< Of rows, that hold something observed.
+  /// Of both scans, the blocks around by their offsets, x slowest; or null.
+  std::array<std::array<const ScanBlock*, 27>, 2> around_{};
+  std::vector<std::uint8_t> ramp_;      ///< Nearness by difference of heights.
+  std::vector<Row> of_columns_;         ///< Nearness to what is in the same column, by x, y.
+  std::vector<Row> of_rows_;            ///< In the same x, by x (with margins), y.
+  std::vector<std::uint64_t> columns_;  ///< By x: bit y, if `of_columns_` has something there.
+  std::vector<std::uint32_t> rows_;     ///< By x: bit y, if `of_rows_` has something there.
+  std::vector<Row> nearness_;           ///< By column of the block.
+};
+
+}  // namespace raymoval::hmm_mos_method
