@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "methods/hmm_mos/nearness_kernel.h"
 #include "methods/hmm_mos/scan_voxels.h"
 
 namespace raymoval::hmm_mos_method {
@@ -30,30 +30,30 @@ class DistanceField {
   }
 
  private:
-  using Row = std::array<std::uint8_t, kHeight>;
-  /// What is occupied of a column, and the ends of those below and above it.
-  struct Occupied {
-    std::uint64_t below = 0, here = 0, above = 0;
-  };
+  using Row = std::array<std::uint8_t, kHeight>;  ///< Nearness of the voxels of a column.
 
-  [[nodiscard]] Occupied occupied(int x, int y) const;
-  void find_neighbours(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
   void find_heights(const ScanBlock& block);
+  void find_neighbours(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
   void along_z();
+  void along_z(int x, int y);
   void along_y();
   void along_x(const ScanBlock& block);
 
-  int far_, margin_;  ///< `margin_`: voxels around a block that may be nearer than `far_`.
-  int width_;         ///< Of a block with its margins.
-  std::size_t first_part_ = 0, last_part_ = 0;  ///< Of rows, that hold something observed.
+  int far_;
+  int margin_;  ///< Voxels around a block that may be nearer than `far_`.
+  int width_;   ///< Of a block with its margins.
+  kernels::TakeNearest take_nearest_;
+  std::vector<std::uint8_t> ramp_;  ///< Nearness by difference of heights, from the least one.
+  std::vector<std::uint8_t> away_;  ///< Squares of -margin to +margin.
+
+  std::size_t lowest_ = 0, highest_ = 0;  ///< Heights of the block that are observed.
   /// Of both scans, the blocks around by their offsets, x slowest; or null.
   std::array<std::array<const ScanBlock*, 27>, 2> around_{};
-  std::vector<std::uint8_t> ramp_;      ///< Nearness by difference of heights.
-  std::vector<Row> of_columns_;         ///< Nearness to what is in the same column, by x, y.
-  std::vector<Row> of_rows_;            ///< In the same x, by x (with margins), y.
-  std::vector<std::uint64_t> columns_;  ///< By x: bit y, if `of_columns_` has something there.
-  std::vector<std::uint32_t> rows_;     ///< By x: bit y, if `of_rows_` has something there.
+  std::vector<Row> of_columns_;         ///< To what is in the same column; by x, y, with margins.
+  std::vector<Row> of_rows_;            ///< To what has the same x; by x, with margins, and y.
   std::vector<Row> nearness_;           ///< By column of the block.
+  std::vector<std::uint64_t> columns_;  ///< By x: bit y, if `of_columns_` has something there.
+  std::array<std::uint64_t, kSide> rows_{};  ///< By y: bit x, if `of_rows_` has something there.
 };
 
 }  // namespace raymoval::hmm_mos_method
