@@ -13,6 +13,7 @@ BeliefMap::BeliefMap(const Parameters& parameters)
       model_(parameters),
       range_(parameters.max_range * parameters.map_range_factor),
       scans_(parameters.map_scans),
+      offline_(parameters.offline),
       distances_([far = model_.far()] { return std::make_unique<DistanceField>(far); }) {}
 
 void BeliefMap::observe(ScanGrid& now, const ScanGrid& before, const RunContext& context) {
@@ -82,7 +83,7 @@ void BeliefMap::forget(const Eigen::Vector3d& sensor) {
   }
 }
 
-bool BeliefMap::forget_in(const Eigen::Vector3d& sensor, Block& block) const {
+bool BeliefMap::forget_in(const Eigen::Vector3d& sensor, Block& block) {
   const VoxelIndex sides(kSide, kSide, kHeight);
   const bool is_near = is_within(block.at.cwiseProduct(sides), sides, sensor);
   bool is_empty = true;
@@ -105,7 +106,7 @@ bool BeliefMap::is_within(const VoxelIndex& first, const VoxelIndex& sides,
 
 /// @param is_near whether all of the block is within range
 void BeliefMap::forget_in(const Eigen::Vector3d& sensor, bool is_near, Block& block,
-                          std::size_t number) const {
+                          std::size_t number) {
   Brick& brick = *block.bricks[number];
   const auto at = static_cast<int>(number);
   const VoxelIndex first = VoxelIndex(at >> 5, at >> 3 & 3, at & 7) * kBrickSide;
@@ -135,14 +136,20 @@ void BeliefMap::forget_voxel(Block& block, Brick& brick, const VoxelIndex& place
   const std::size_t i = place_of(column, place.z());
   brick.seen[i] = 0;
   brick.occupied[i] = BeliefModel::kUnobserved;
+  if (offline_ && (block.known[column] & bit_of(place)) != 0) {
+    const VoxelKey voxel = voxel_key(voxel_at(block.at, column, place.z()));
+    if ((block.free[column] & bit_of(place)) != 0) {
+      forgotten_free_.insert(voxel);
+    } else {
+      forgotten_free_.erase(voxel);
+    }
+  }
   block.known[column] &= ~bit_of(place);
 }
 
-bool BeliefMap::is_free(const VoxelIndex& voxel) const {
-  const auto found = blocks_.find(voxel_key(block_of(voxel)));
-  if (found == blocks_.end()) return false;
-  const std::size_t column = column_of(voxel);
-  return (found->second->known[column] & found->second->free[column] & bit_of(voxel)) != 0;
+void BeliefMap::forget_all() {
+  range_ = 0.0;
+  forget(Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()));
 }
 
 std::size_t BeliefMap::size() const {

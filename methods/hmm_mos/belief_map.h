@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/scan/cell_set.h"
 #include "methods/common/workspaces.h"
 #include "methods/hmm_mos/belief.h"
 #include "methods/hmm_mos/distances.h"
@@ -32,8 +33,10 @@ class BeliefMap {
     const auto found = blocks_.find(voxel_key(block));
     return found == blocks_.end() ? 0 : found->second->known[column];
   }
-  /// Whether a voxel's state is free.
-  [[nodiscard]] bool is_free(const VoxelIndex& voxel) const;
+  /// Forgets all voxels, after the last scan.
+  void forget_all();
+  /// The voxels that were free when they were last forgotten; none unless `offline`.
+  [[nodiscard]] const CellSet& forgotten_free() const { return forgotten_free_; }
   /// How many voxels are in the map, for tests. The time grows with the map.
   [[nodiscard]] std::size_t size() const;
 
@@ -65,10 +68,9 @@ class BeliefMap {
   void observe_block(ScanBlock& seen, const DistanceField& distances, Block& block) const;
   void observe_voxel(std::size_t column, int height, int distance, Block& block) const;
   /// @return whether nothing of the block is left
-  bool forget_in(const Eigen::Vector3d& sensor, Block& block) const;
-  void forget_in(const Eigen::Vector3d& sensor, bool is_near, Block& block,
-                 std::size_t brick) const;
-  static void forget_voxel(Block& block, Brick& brick, const VoxelIndex& place);
+  bool forget_in(const Eigen::Vector3d& sensor, Block& block);
+  void forget_in(const Eigen::Vector3d& sensor, bool is_near, Block& block, std::size_t number);
+  void forget_voxel(Block& block, Brick& brick, const VoxelIndex& place);
   [[nodiscard]] bool is_within(const VoxelIndex& first, const VoxelIndex& sides,
                                const Eigen::Vector3d& sensor) const;
 
@@ -76,7 +78,9 @@ class BeliefMap {
   BeliefModel model_;
   double range_;  ///< What is farther from the sensor is forgotten, metres.
   int scans_;     ///< What was not seen for more is forgotten.
+  bool offline_;
   ScanNumber now_ = 0;
+  CellSet forgotten_free_;
   VoxelMap<std::unique_ptr<Block>> blocks_;
   Workspaces<DistanceField> distances_;
 };

@@ -18,6 +18,10 @@ MethodEntry hmm_mos_entry() {
       {"published", "As the public program is set.", true, {}},
       {"fine", "With voxels of 0.2 m, as its README says.", true, {{"voxel_size", 0.2}}},
       {"sound", "Without the quirks of the public program.", true, {{"public_lattice", false}}},
+      {"offline",
+       "By the last state of each voxel.",
+       false,
+       {{"public_lattice", false}, {"offline", true}}},
   };
   entry.bind(hmm_mos_method::parameter_table(), hmm_mos_method::make_hmm_mos);
   return entry;
