@@ -100,7 +100,8 @@ TEST_CASE("a bound too far for the distances is refused", "[hmm_mos]") {
   CHECK_THROWS_AS(BeliefModel(parameters), ConfigurationError);
 }
 
-TEST_CASE("distances to the nearest occupied voxel of two scans, over the borders of blocks", "[hmm_mos]") {
+TEST_CASE("distances to the nearest occupied voxel of two scans, over the borders of blocks",
+          "[hmm_mos]") {
   std::mt19937 random(5);
   for (const int far : {1, 2, 20, 96, 254}) {
     for (const InstructionSet set : supported_instruction_sets()) {
