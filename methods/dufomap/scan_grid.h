@@ -1,11 +1,35 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "methods/common/column_grid.h"
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/scan/voxel_key.h"
 
 namespace raymoval::dufomap_method {
 
-using namespace column_blocks;
+/// Voxels come in blocks of 32 x 32 upright columns of 64. A word holds a column: the beams of a
+/// LiDAR run mostly level, so that neighbours on a beam lie in different words and marking one does
+/// not wait for the other.
+inline constexpr int kSideBits = 5;
+inline constexpr int kSide = 1 << kSideBits;
+inline constexpr int kHeightBits = 6;
+inline constexpr int kHeight = 1 << kHeightBits;
+inline constexpr int kColumns = kSide * kSide;
+
+/// Block of a voxel: its indices divided by the block's sides, rounded down.
+inline VoxelIndex block_of(const VoxelIndex& voxel) {
+  return {voxel.x() >> kSideBits, voxel.y() >> kSideBits, voxel.z() >> kHeightBits};
+}
+/// Column of a voxel in its block.
+inline std::size_t column_of(const VoxelIndex& voxel) {
+  return static_cast<std::size_t>((voxel.x() & (kSide - 1)) * kSide + (voxel.y() & (kSide - 1)));
+}
+/// Bit of a voxel in its column.
+inline std::uint64_t bit_of(const VoxelIndex& voxel) {
+  return std::uint64_t{1} << (voxel.z() & (kHeight - 1));
+}
 
 /// What one scan says of a column of voxels. Each voxel has a bit, the lowest voxel the lowest bit.
 struct Column {
@@ -13,13 +37,64 @@ struct Column {
   std::uint64_t hit = 0;   ///< The set H of step 2.
 };
 
-using ScanBlock = ColumnBlock<Column>;
+struct ScanBlock {
+  VoxelIndex at = VoxelIndex::Zero();  ///< Block indices (see `block_of`).
+  /// The neighbours below and above along x, y and z, or null where no beam went there.
+  std::array<std::array<ScanBlock*, 2>, 3> beside{};
+  std::array<Column, kColumns> columns{};
+};
 
-/// The hits and the free voxels of one scan.
-class ScanGrid : public ColumnGrid<Column> {
+/// The hits and the free voxels of one scan, in sparse blocks. `clear` keeps the memory for the
+/// next scan.
+class ScanGrid {
  public:
-  ScanGrid()
-      : ColumnGrid("dufomap", "Set dufomap.maximum_range, or a larger dufomap.voxel_size.") {}
+  /// The largest number of blocks (16 KiB each). No scan of a real place needs as many.
+  static constexpr std::size_t kMostBlocks = std::size_t{1} << 18;
+
+  /// The block at these block indices. It is made if there is none yet. References stay valid until
+  /// `clear`. @throws DataError beyond `kMostBlocks`.
+  ScanBlock& block(const VoxelIndex& at) {
+    if (last_ != nullptr && last_->at == at) return *last_;
+    const VoxelKey key = voxel_key(at);
+    const auto found = index_.find(key);
+    last_ = found != index_.end() ? blocks_[found->second].get() : &add_block(at, key);
+    return *last_;
+  }
+  /// The neighbour of a block along an axis; `step` is +1 or -1. It is made if there is none yet.
+  ScanBlock& beside(ScanBlock& from, Eigen::Index axis, int step) {
+    ScanBlock*& link = from.beside[static_cast<std::size_t>(axis)][step > 0 ? 1 : 0];
+    if (link == nullptr) {
+      VoxelIndex at = from.at;
+      at[axis] += step;
+      link = &block(at);
+    }
+    return *link;
+  }
+  /// The block at these block indices, or null.
+  [[nodiscard]] const ScanBlock* find(const VoxelIndex& at) const {
+    const auto found = index_.find(voxel_key(at));
+    return found == index_.end() ? nullptr : blocks_[found->second].get();
+  }
+  Column& column(const VoxelIndex& voxel) {
+    return block(block_of(voxel)).columns[column_of(voxel)];
+  }
+
+  [[nodiscard]] std::size_t size() const { return used_; }
+  [[nodiscard]] const ScanBlock& operator[](std::size_t i) const { return *blocks_[i]; }
+  void clear() {
+    index_.clear();
+    used_ = 0;
+    last_ = nullptr;
+  }
+
+ private:
+  ScanBlock& add_block(const VoxelIndex& at, VoxelKey key);
+
+  VoxelMap<std::uint32_t> index_;
+  std::vector<std::unique_ptr<ScanBlock>> blocks_;  ///< The first `used_` are this scan's.
+  std::size_t used_ = 0;
+  ScanBlock* last_ =
+      nullptr;  ///< The block that was asked for last, which is mostly asked for again.
 };
 
 }  // namespace raymoval::dufomap_method
