@@ -7,8 +7,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "methods/common/diamond_angle.h"
+#include "methods/common/free_walk.h"
 #include "methods/dufomap/cell_walk.h"
-#include "methods/dufomap/free_walk.h"
 
 namespace raymoval::dufomap_method {
 namespace {

@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "core/scan/scan.h"
+#include "methods/common/scan_grid.h"
 #include "methods/dufomap/parameters.h"
-#include "methods/dufomap/scan_grid.h"
 #include "methods/remover.h"
 
 namespace raymoval::dufomap_method {
+
+using namespace scan_grid;  // Its blocks and columns.
 
 /// Voxel of each point of `scan`. @throws DataError beyond the lattice.
 std::vector<VoxelIndex> voxels_of(const Scan& scan, double voxel_size);

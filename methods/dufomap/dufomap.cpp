@@ -14,7 +14,7 @@ namespace {
 /// What the steps find out about one scan; its memory is used again for later scans.
 struct ScanWork {
   std::vector<VoxelIndex> voxels;  ///< The voxel of each point.
-  ScanGrid grid;
+  ScanGrid grid{"Set dufomap.maximum_range to bound beams, or a larger dufomap.voxel_size."};
   ScanVoids voids;
   StageTimes times;
 };

@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "methods/dufomap/scan_grid.h"
+#include "methods/common/scan_grid.h"
 
 namespace raymoval::dufomap_method {
+
+using namespace scan_grid;  // Its blocks and columns.
 
 /// Void voxels of a block, a word for each column.
 using VoidBits = std::array<std::uint64_t, kColumns>;

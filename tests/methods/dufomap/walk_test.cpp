@@ -8,7 +8,7 @@
 
 #include "methods/dufomap/beams.h"
 #include "methods/dufomap/cell_walk.h"
-#include "methods/dufomap/free_walk.h"
+#include "methods/common/free_walk.h"
 #include "tests/methods/held_scans.h"
 
 using namespace raymoval;

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scan/voxel_key.h"
 
-namespace raymoval::dufomap_method {
+namespace raymoval::scan_grid {
 
 /// Voxels come in blocks of 32 x 32 upright columns of 64. A word holds a column: the beams of a
 /// LiDAR run mostly level, so that neighbours on a beam lie in different words and marking one does
@@ -33,8 +35,8 @@ inline std::uint64_t bit_of(const VoxelIndex& voxel) {
 
 /// What one scan says of a column of voxels. Each voxel has a bit, the lowest voxel the lowest bit.
 struct Column {
-  std::uint64_t free = 0;  ///< The set F of step 3.
-  std::uint64_t hit = 0;   ///< The set H of step 2.
+  std::uint64_t free = 0;  ///< Beams of the scan pass through it.
+  std::uint64_t hit = 0;   ///< The scan has a return there.
 };
 
 struct ScanBlock {
@@ -50,6 +52,10 @@ class ScanGrid {
  public:
   /// The largest number of blocks (16 KiB each). No scan of a real place needs as many.
   static constexpr std::size_t kMostBlocks = std::size_t{1} << 18;
+
+  /// @param remedy what to do about more than `kMostBlocks`: a sentence of an error
+  explicit ScanGrid(std::string remedy = "Remove the farthest points.")
+      : remedy_(std::move(remedy)) {}
 
   /// The block at these block indices. It is made if there is none yet. References stay valid until
   /// `clear`. @throws DataError beyond `kMostBlocks`.
@@ -90,6 +96,7 @@ class ScanGrid {
  private:
   ScanBlock& add_block(const VoxelIndex& at, VoxelKey key);
 
+  std::string remedy_;
   VoxelMap<std::uint32_t> index_;
   std::vector<std::unique_ptr<ScanBlock>> blocks_;  ///< The first `used_` are this scan's.
   std::size_t used_ = 0;
@@ -97,4 +104,4 @@ class ScanGrid {
       nullptr;  ///< The block that was asked for last, which is mostly asked for again.
 };
 
-}  // namespace raymoval::dufomap_method
+}  // namespace raymoval::scan_grid

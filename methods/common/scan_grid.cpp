@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "methods/dufomap/scan_grid.h"
+#include "methods/common/scan_grid.h"
 
 #include "core/error.h"
 #include "core/text.h"
 
-namespace raymoval::dufomap_method {
+namespace raymoval::scan_grid {
 
 ScanBlock& ScanGrid::add_block(const VoxelIndex& at, VoxelKey key) {
   if (used_ >= kMostBlocks) {
-    throw DataError("dufomap: the beams of one scan cross more than " +
+    throw DataError("the beams of one scan cross more than " +
                     grouped_text(kMostBlocks * kSide * kSide * kHeight) +
-                    " voxels; expected points within reach of a LiDAR. Set dufomap.maximum_range, "
-                    "or a larger dufomap.voxel_size.");
+                    " voxels; expected points within reach of a LiDAR. " + remedy_);
   }
   index_.emplace(key, static_cast<std::uint32_t>(used_));
   if (used_ == blocks_.size()) blocks_.push_back(std::make_unique<ScanBlock>());
@@ -22,4 +21,4 @@ ScanBlock& ScanGrid::add_block(const VoxelIndex& at, VoxelKey key) {
   return block;
 }
 
-}  // namespace raymoval::dufomap_method
+}  // namespace raymoval::scan_grid

@@ -2,12 +2,12 @@
 // A beam goes from voxel to voxel after Amanatides and Woo (1987). As most beams run nearly level,
 // the inner loop walks the columns of one block at one height: whole-number arithmetic without
 // branches on the direction, which no processor can foretell.
-#include "methods/dufomap/free_walk.h"
+#include "methods/common/free_walk.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace raymoval::dufomap_method {
+namespace raymoval::scan_grid {
 namespace {
 
 using Fixed = std::int64_t;  ///< Voxels times 2^40.
@@ -144,4 +144,4 @@ VoxelIndex FreeWalk::mark_free(const Eigen::Vector3d& direction, double length) 
   return Walk(grid_, stopping_hits_, sensor_block_, sensor_, direction, length).run();
 }
 
-}  // namespace raymoval::dufomap_method
+}  // namespace raymoval::scan_grid

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "methods/dufomap/scan_grid.h"
+#include "methods/common/scan_grid.h"
 
-namespace raymoval::dufomap_method {
+namespace raymoval::scan_grid {
 
-/// Marks the voxels that beams of one scan pass through (first part of step 3).
+/// Marks the voxels that beams of one scan pass through.
 class FreeWalk {
  public:
   /// Longest beam, in voxels.
@@ -29,4 +29,4 @@ class FreeWalk {
   Eigen::Vector3d sensor_;  ///< Voxels from the low corner of the sensor's block.
 };
 
-}  // namespace raymoval::dufomap_method
+}  // namespace raymoval::scan_grid
