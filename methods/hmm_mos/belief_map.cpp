@@ -16,7 +16,7 @@ BeliefMap::BeliefMap(const Parameters& parameters)
       offline_(parameters.offline),
       distances_([far = model_.far()] { return std::make_unique<DistanceField>(far); }) {}
 
-void BeliefMap::observe(ScanGrid& now, const ScanGrid& before, const RunContext& context) {
+void BeliefMap::observe(const ScanGrid& now, const ScanGrid& before, const RunContext& context) {
   ++now_;
   std::vector<Block*> blocks;
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -34,6 +34,10 @@ void BeliefMap::observe(ScanGrid& now, const ScanGrid& before, const RunContext&
       observe_block(now[i], distances, *blocks[i]);
     });
   });
+  appeared_.clear();
+  for (const Block* block : blocks) {
+    appeared_.insert(appeared_.end(), block->appeared.begin(), block->appeared.end());
+  }
 }
 
 std::size_t BeliefMap::brick_of(std::size_t column, int height) {
@@ -47,11 +51,16 @@ std::size_t BeliefMap::place_of(std::size_t column, int height) {
   return (x & kLow) << 6 | (y & kLow) << 3 | (z & kLow);
 }
 
-void BeliefMap::observe_block(ScanBlock& seen, const DistanceField& distances, Block& block) const {
+void BeliefMap::observe_block(const ScanBlock& seen, const DistanceField& distances,
+                              Block& block) const {
+  block.appeared.clear();
   for (std::size_t column = 0; column < kColumns; ++column) {
-    Column& here = seen.columns[column];
-    here.appeared = here.occupied & block.known[column] & block.free[column];
-    for (std::uint64_t left = here.observed; left != 0; left &= left - 1) {
+    const Column& here = seen.columns[column];
+    for (std::uint64_t left = here.hit & block.known[column] & block.free[column]; left != 0;
+         left &= left - 1) {
+      block.appeared.push_back(voxel_at(block.at, column, std::countr_zero(left)));
+    }
+    for (std::uint64_t left = here.free; left != 0; left &= left - 1) {
       const int height = std::countr_zero(left);
       observe_voxel(column, height, distances.at(column, height), block);
     }

@@ -20,9 +20,11 @@ class BeliefMap {
  public:
   explicit BeliefMap(const Parameters& parameters);
 
-  /// Steps 3 and 4 for the observed voxels of a scan. Marks which of them `appeared`.
+  /// Steps 3 and 4 for the observed voxels of a scan.
   /// @param before the scan before; empty if there is none
-  void observe(ScanGrid& now, const ScanGrid& before, const RunContext& context);
+  void observe(const ScanGrid& now, const ScanGrid& before, const RunContext& context);
+  /// The voxels that are occupied in the scan observed last and were free before.
+  [[nodiscard]] const std::vector<VoxelIndex>& appeared() const { return appeared_; }
   /// Step 5: forgets voxels that are far from the sensor or were not seen for long, after each
   /// scan.
   /// @param sensor world position, metres
@@ -60,12 +62,13 @@ class BeliefMap {
     std::array<std::uint64_t, kColumns> known{};  ///< By column.
     std::array<std::uint64_t, kColumns> free{};   ///< As far as known.
     std::array<std::unique_ptr<Brick>, kBricks> bricks;
+    std::vector<VoxelIndex> appeared;  ///< In the scan observed last.
   };
   /// Where a voxel stands in its block.
   static std::size_t brick_of(std::size_t column, int height);
   static std::size_t place_of(std::size_t column, int height);
 
-  void observe_block(ScanBlock& seen, const DistanceField& distances, Block& block) const;
+  void observe_block(const ScanBlock& seen, const DistanceField& distances, Block& block) const;
   void observe_voxel(std::size_t column, int height, int distance, Block& block) const;
   /// @return whether nothing of the block is left
   bool forget_in(const Eigen::Vector3d& sensor, Block& block);
@@ -82,6 +85,7 @@ class BeliefMap {
   ScanNumber now_ = 0;
   CellSet forgotten_free_;
   VoxelMap<std::unique_ptr<Block>> blocks_;
+  std::vector<VoxelIndex> appeared_;
   Workspaces<DistanceField> distances_;
 };
 

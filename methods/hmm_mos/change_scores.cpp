@@ -25,57 +25,19 @@ void for_columns_of_cube(const VoxelIndex& voxel, int reach, Visit&& visit) {
   }
 }
 
-/// Calls `visit(voxel)` for each voxel of a grid that has a bit in the word `word(column)`.
-template <class Word, class Visit>
-void for_voxels(const ScanGrid& grid, Word&& word, Visit&& visit) {
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    for (std::size_t column = 0; column < kColumns; ++column) {
-      for (std::uint64_t left = word(grid[i].columns[column]); left != 0; left &= left - 1) {
-        visit(voxel_at(grid[i].at, column, std::countr_zero(left)));
-      }
-    }
-  }
-}
-
-/// The block that was asked for last is mostly asked for again.
-class LastBlock {
- public:
-  explicit LastBlock(const ScanGrid& grid) : grid_(grid), found_(grid.find(at_)) {}
-  /// The column; an empty one where the scan has nothing.
-  const Column& column(const VoxelIndex& block, std::size_t column) {
-    static constexpr Column kEmpty{};
-    if (at_ != block) {
-      found_ = grid_.find(block);
-      at_ = block;
-    }
-    return found_ == nullptr ? kEmpty : found_->columns[column];
-  }
-  bool is_occupied(const VoxelIndex& voxel) {
-    return (column(block_of(voxel), column_of(voxel)).occupied & bit_of(voxel)) != 0;
-  }
-
- private:
-  const ScanGrid& grid_;
-  VoxelIndex at_ = VoxelIndex::Zero();
-  const ScanBlock* found_;
-};
-
 }  // namespace
 
 Scores change_scores(const ScanGrid& now, const BeliefMap& map, int reach) {
-  // Counted from those that appeared, which are few.
   Scores scores;
-  LastBlock blocks(now);
-  for_voxels(
-      now, [](const Column& column) { return column.appeared; },
-      [&](const VoxelIndex& appeared) {
-        for_columns_of_cube(
-            appeared, reach, [&](const VoxelIndex& block, std::size_t column, std::uint64_t bits) {
-              for (bits &= blocks.column(block, column).occupied; bits != 0; bits &= bits - 1) {
-                ++scores[voxel_key(voxel_at(block, column, std::countr_zero(bits)))];
-              }
-            });
-      });
+  ColumnLookup columns(now);
+  for (const VoxelIndex& appeared : map.appeared()) {  // They are few.
+    for_columns_of_cube(
+        appeared, reach, [&](const VoxelIndex& block, std::size_t column, std::uint64_t bits) {
+          for (bits &= columns.column(block, column).hit; bits != 0; bits &= bits - 1) {
+            ++scores[voxel_key(voxel_at(block, column, std::countr_zero(bits)))];
+          }
+        });
+  }
   for (auto entry = scores.begin(); entry != scores.end();) {
     int& score = entry.value();
     for_columns_of_cube(voxel_index(entry.key()), reach,
@@ -88,13 +50,13 @@ Scores change_scores(const ScanGrid& now, const BeliefMap& map, int reach) {
 }
 
 Scores median_scores(const ScanGrid& now, const Scores& scores) {
-  LastBlock blocks(now);
+  ColumnLookup columns(now);
   Scores medians;
   std::vector<int> around;
   const auto median_at = [&](const VoxelIndex& voxel) {
     around.clear();
     for_neighbourhood(voxel, [&](const VoxelIndex& neighbour) {
-      if (!blocks.is_occupied(neighbour)) return;
+      if (!columns.is_occupied(neighbour)) return;
       const auto found = scores.find(voxel_key(neighbour));
       around.push_back(found == scores.end() ? 0 : found->second);
     });
@@ -105,7 +67,7 @@ Scores median_scores(const ScanGrid& now, const Scores& scores) {
   VoxelSet looked_at;
   for (const auto& [key, score] : scores) {
     for_neighbourhood(voxel_index(key), [&](const VoxelIndex& voxel) {
-      if (!blocks.is_occupied(voxel) || !looked_at.insert(voxel_key(voxel)).second) return;
+      if (!columns.is_occupied(voxel) || !looked_at.insert(voxel_key(voxel)).second) return;
       if (const int median = median_at(voxel); median > 0) medians[voxel_key(voxel)] = median;
     });
   }

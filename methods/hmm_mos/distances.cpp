@@ -46,7 +46,7 @@ void DistanceField::find(const ScanGrid& now, const ScanGrid& before, const Scan
 
 void DistanceField::find_heights(const ScanBlock& block) {
   std::uint64_t observed = 0;
-  for (const Column& column : block.columns) observed |= column.observed;
+  for (const Column& column : block.columns) observed |= column.free;
   if (observed == 0) return;
   lowest_ = static_cast<std::size_t>(std::countr_zero(observed));
   highest_ = static_cast<std::size_t>(std::bit_width(observed)) - 1;
@@ -76,7 +76,7 @@ void DistanceField::along_z(int x, int y) {
   for (const auto& blocks : around_) {
     for (std::size_t z = 0; z < 3; ++z) {
       const ScanBlock* block = blocks[static_cast<std::size_t>(stack) + z];
-      if (block != nullptr) occupied[z] |= block->columns[column].occupied;
+      if (block != nullptr) occupied[z] |= block->columns[column].hit;
     }
   }
   occupied[0] = margin_ == 0 ? 0 : occupied[0] >> (kHeight - margin_);
@@ -113,7 +113,7 @@ void DistanceField::along_x(const ScanBlock& block) {
   for (int x = 0; x < kSide; ++x) {
     for (int y = 0; y < kSide; ++y) {
       const std::size_t column = column_at(x, y);
-      if (block.columns[column].observed == 0) continue;
+      if (block.columns[column].free == 0) continue;
       Row& row = nearness_[column];
       row.fill(0);
       const std::uint64_t near =

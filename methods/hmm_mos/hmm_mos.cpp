@@ -34,7 +34,7 @@ struct Knowledge {
   explicit Knowledge(const Parameters& parameters) : map(parameters), moving(parameters) {}
   BeliefMap map;
   MovingVoxels moving;
-  ScanGrid before;  ///< Of the scan before.
+  ScanGrid before = empty_grid();  ///< Of the scan before.
 };
 
 /// Steps 3 to 11.
@@ -56,7 +56,8 @@ void take_in(const Scan& scan, ScanGrid& grid, const RunContext& context, Knowle
 template <class Answer>
 void for_scans_in_time(const Parameters& parameters, const ScanSource& scans,
                        const RunContext& context, Knowledge& known, Answer&& answer) {
-  std::vector<ScanGrid> grids(scans_in_a_batch(scans, context));
+  std::vector<ScanGrid> grids;
+  for (std::size_t i = 0; i < scans_in_a_batch(scans, context); ++i) grids.push_back(empty_grid());
   for_scan_batches("hmm_mos", scans, context, [&](std::span<Scan> batch) {
     {
       const StageScope timed(context.times, "raycasting");

@@ -17,11 +17,12 @@ void MovingVoxels::add(const ScanGrid& now, const BeliefMap& map) {
 std::vector<ScoreCount> MovingVoxels::count_scores(const ScanGrid& now) const {
   std::int64_t occupied = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    for (const Column& column : now[i].columns) occupied += std::popcount(column.occupied);
+    for (const Column& column : now[i].columns) occupied += std::popcount(column.hit);
   }
+  ColumnLookup columns(now);
   std::map<int, std::int64_t> voxels;
   for (const auto& [key, sum] : window_.sums()) {
-    if (!now.is_occupied(voxel_index(key))) continue;
+    if (!columns.is_occupied(voxel_index(key))) continue;
     ++voxels[sum];
     --occupied;
   }
@@ -34,16 +35,17 @@ std::vector<ScoreCount> MovingVoxels::count_scores(const ScanGrid& now) const {
 void MovingVoxels::find_dynamic(const ScanGrid& now) {
   const std::optional<double> threshold = otsu_threshold(count_scores(now), parameters_.bins);
   is_static_ = !threshold || *threshold <= parameters_.least_threshold;
+  ColumnLookup columns(now);
   VoxelSet seeds;
   for (const auto& [key, sum] : window_.sums()) {  // Steps 9 and 10.
     const bool is_above = threshold && sum > *threshold;
     const bool stays = sum > parameters_.least_threshold && dynamic_.contains(key);
-    if ((is_above || stays) && now.is_occupied(voxel_index(key))) seeds.insert(key);
+    if ((is_above || stays) && columns.is_occupied(voxel_index(key))) seeds.insert(key);
   }
   dynamic_.clear();
   for (const VoxelKey key : seeds) {  // Step 11.
     for_neighbourhood(voxel_index(key), [&](const VoxelIndex& voxel) {
-      if (now.is_occupied(voxel)) dynamic_.insert(voxel_key(voxel));
+      if (columns.is_occupied(voxel)) dynamic_.insert(voxel_key(voxel));
     });
   }
 }

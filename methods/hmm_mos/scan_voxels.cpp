@@ -23,7 +23,7 @@ class LineWalk {
 
   [[nodiscard]] int length() const { return length_; }  ///< Steps to the end.
   void mark() {
-    block_->columns[column_at(place_.x(), place_.y())].observed |= std::uint64_t{1} << place_.z();
+    block_->columns[column_at(place_.x(), place_.y())].free |= std::uint64_t{1} << place_.z();
   }
   [[nodiscard]] VoxelIndex voxel() const {
     return block_->at.cwiseProduct(VoxelIndex(kSide, kSide, kHeight)) + place_;
@@ -112,7 +112,7 @@ std::vector<VoxelIndex> ray_ends(const Scan& scan, const Parameters& parameters,
       if (beyond.insert(voxel_key(voxel)).second) ends.push_back(voxel);
       continue;
     }
-    std::uint64_t& occupied = grid.column(voxel).occupied;
+    std::uint64_t& occupied = grid.column(voxel).hit;
     if ((occupied & bit_of(voxel)) != 0) continue;
     occupied |= bit_of(voxel);
     ends.push_back(voxel);

@@ -4,38 +4,55 @@
 #include <cstdint>
 
 #include "core/scan/scan.h"
-#include "methods/common/column_grid.h"
+#include "methods/common/scan_grid.h"
 #include "methods/hmm_mos/lattice.h"
 #include "methods/remover.h"
 
 namespace raymoval::hmm_mos_method {
 
-using namespace column_blocks;
+/// In a scan's grid, `hit` is what is occupied, and `free` all that is observed, ends of rays too.
+using namespace scan_grid;
 
-/// What one scan says of a column of voxels. Each voxel has a bit, the lowest voxel the lowest bit.
-struct Column {
-  std::uint64_t observed = 0;  ///< A ray passes or ends here.
-  std::uint64_t occupied = 0;  ///< A ray ends here.
-  std::uint64_t appeared = 0;  ///< Occupied, and free before: its state changes with this scan.
-};
+/// The number of a column in its block, from its indices in it.
+constexpr std::size_t column_at(int x, int y) {
+  return static_cast<std::size_t>(x * kSide + y);
+}
+/// The voxel of a bit of a column of a block.
+inline VoxelIndex voxel_at(const VoxelIndex& block, std::size_t column, int height) {
+  const int place = static_cast<int>(column);
+  return {block.x() * kSide + place / kSide, block.y() * kSide + place % kSide,
+          block.z() * kHeight + height};
+}
 
-using ScanBlock = ColumnBlock<Column>;
+/// A grid for the voxels of scans.
+inline ScanGrid empty_grid() {
+  return ScanGrid("Set a smaller hmm_mos.max_range, or a larger hmm_mos.voxel_size.");
+}
 
-/// The voxels of one scan within range of its sensor.
-class ScanGrid : public ColumnGrid<Column> {
+/// Looks columns up in a grid that stays as it is. The block that was asked for last is mostly
+/// asked for again.
+class ColumnLookup {
  public:
-  ScanGrid()
-      : ColumnGrid("hmm_mos", "Set a smaller hmm_mos.max_range, or a larger hmm_mos.voxel_size.") {}
+  explicit ColumnLookup(const ScanGrid& grid) : grid_(grid), found_(grid.find(at_)) {}
 
-  /// The column of a voxel; an empty one where the scan has nothing.
-  [[nodiscard]] const Column& column_if(const VoxelIndex& voxel) const {
+  /// A column of a block; an empty one where the scan has nothing.
+  const Column& column(const VoxelIndex& block, std::size_t column) {
     static constexpr Column kEmpty{};
-    const ScanBlock* found = find(block_of(voxel));
-    return found == nullptr ? kEmpty : found->columns[column_of(voxel)];
+    if (at_ != block) {
+      found_ = grid_.find(block);
+      at_ = block;
+    }
+    return found_ == nullptr ? kEmpty : found_->columns[column];
   }
-  [[nodiscard]] bool is_occupied(const VoxelIndex& voxel) const {
-    return (column_if(voxel).occupied & bit_of(voxel)) != 0;
+  const Column& column(const VoxelIndex& voxel) {
+    return column(block_of(voxel), column_of(voxel));
   }
+  bool is_occupied(const VoxelIndex& voxel) { return (column(voxel).hit & bit_of(voxel)) != 0; }
+
+ private:
+  const ScanGrid& grid_;
+  VoxelIndex at_ = VoxelIndex::Zero();
+  const ScanBlock* found_;
 };
 
 /// Whether a point is far enough from its sensor to count. One that is not finite is not.

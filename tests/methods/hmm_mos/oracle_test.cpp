@@ -83,8 +83,8 @@ TEST_CASE("each step finds what the plain sets find", "[hmm_mos]") {
       const Scan scan = scans.load(i);
       oracle.add(scan);
       find_voxels(scan, parameters, {}, grid);
-      CHECK(cells_of(grid, &Column::occupied) == oracle.occupied);
-      CHECK(cells_of(grid, &Column::observed) == oracle.observed);
+      CHECK(cells_of(grid, &Column::hit) == oracle.occupied);
+      CHECK(cells_of(grid, &Column::free) == oracle.observed);
       map.observe(grid, before, {});
       map.forget(scan.T_world_sensor.translation());
       check_map(oracle, map);

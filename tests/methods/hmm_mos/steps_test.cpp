@@ -30,7 +30,7 @@ int scans_until_free(const BeliefModel& model, int distance) {
 }
 
 void occupy(ScanGrid& grid, const VoxelIndex& voxel) {
-  grid.column(voxel).occupied |= bit_of(voxel);
+  grid.column(voxel).hit |= bit_of(voxel);
 }
 
 /// A random voxel around the corner where eight blocks meet.
@@ -112,7 +112,7 @@ TEST_CASE("distances to the nearest occupied voxel of two scans, over the border
         occupied.push_back(random_voxel(random, 24));
         occupy(i % 3 == 0 ? before : now, occupied.back());
         observed.push_back(random_voxel(random, 30));
-        now.column(observed.back()).observed |= bit_of(observed.back());
+        now.column(observed.back()).free |= bit_of(observed.back());
       }
       DistanceField field(far);
       std::size_t differences = 0;
@@ -161,13 +161,14 @@ TEST_CASE("what is observed is within range, whatever lies farther off", "[hmm_m
   std::size_t observed = 0, occupied = 0, missing = 0;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     for (const Column& column : grid[i].columns) {
-      observed += static_cast<std::size_t>(std::popcount(column.observed));
-      occupied += static_cast<std::size_t>(std::popcount(column.occupied));
+      observed += static_cast<std::size_t>(std::popcount(column.free));
+      occupied += static_cast<std::size_t>(std::popcount(column.hit));
     }
   }
+  ColumnLookup columns(grid);
   for (const Cell& cell : oracle.observed) {
     const VoxelIndex voxel(cell[0], cell[1], cell[2]);
-    missing += (grid.column_if(voxel).observed & bit_of(voxel)) == 0 ? 1 : 0;
+    missing += (columns.column(voxel).free & bit_of(voxel)) == 0 ? 1 : 0;
   }
   CHECK(observed == oracle.observed.size());
   CHECK(occupied == oracle.occupied.size());
