@@ -63,31 +63,45 @@ void DistanceField::find_neighbours(const ScanGrid& now, const ScanGrid& before,
 
 void DistanceField::along_z() {
   for (int x = 0; x < width_; ++x) {
+    find_occupied(x - margin_);
     columns_[static_cast<std::size_t>(x)] = 0;
-    for (int y = 0; y < width_; ++y) along_z(x, y);
+    for (int y = 0; y < width_; ++y) {
+      const auto at = static_cast<std::size_t>(y);
+      const std::array<std::uint64_t, 3> occupied{
+          margin_ == 0 ? 0 : occupied_[0][at] >> (kHeight - margin_), occupied_[1][at],
+          occupied_[2][at] & low_bits(margin_)};
+      if ((occupied[0] | occupied[1] | occupied[2]) == 0) continue;
+      columns_[static_cast<std::size_t>(x)] |= std::uint64_t{1} << y;
+      fill_column(occupied, of_columns_[static_cast<std::size_t>(x * width_ + y)]);
+    }
   }
 }
 
-void DistanceField::along_z(int x, int y) {
-  const int in_x = x - margin_, in_y = y - margin_;  // Of the block.
-  const int stack = ((in_x >> kSideBits) + 1) * 9 + ((in_y >> kSideBits) + 1) * 3;
-  const std::size_t column = column_at(in_x & (kSide - 1), in_y & (kSide - 1));
-  std::array<std::uint64_t, 3> occupied{};  // Below the block, in it, and above.
+/// @param x of the block's first column
+void DistanceField::find_occupied(int x) {
+  for (auto& words : occupied_) words.fill(0);
+  const auto stack = static_cast<std::size_t>((x >> kSideBits) + 1) * 9;
   for (const auto& blocks : around_) {
-    for (std::size_t z = 0; z < 3; ++z) {
-      const ScanBlock* block = blocks[static_cast<std::size_t>(stack) + z];
-      if (block != nullptr) occupied[z] |= block->columns[column].hit;
+    for (std::size_t i = 0; i < 9; ++i) {
+      const ScanBlock* block = blocks[stack + i];
+      if (block == nullptr) continue;
+      const int first = (static_cast<int>(i / 3) - 1) * kSide;  // From the block's first column.
+      const int begin = std::max(first, -margin_);
+      const int end = std::min(first + kSide, kSide + margin_);
+      const Column* columns = &block->columns[column_at(x & (kSide - 1), begin - first)];
+      std::uint64_t* words = &occupied_[i % 3][static_cast<std::size_t>(begin + margin_)];
+      for (int y = begin; y < end; ++y) *words++ |= (columns++)->hit;
     }
   }
-  occupied[0] = margin_ == 0 ? 0 : occupied[0] >> (kHeight - margin_);
-  occupied[2] &= low_bits(margin_);
-  if ((occupied[0] | occupied[1] | occupied[2]) == 0) return;
-  columns_[static_cast<std::size_t>(x)] |= std::uint64_t{1} << y;
-  Row& row = of_columns_[static_cast<std::size_t>(x * width_ + y)];
-  row.fill(0);
+}
+
+/// @param occupied of the column, below the block, in it, and above
+void DistanceField::fill_column(const std::array<std::uint64_t, 3>& occupied, Row& row) const {
   constexpr std::ptrdiff_t kHigher = -1;  // The next higher voxel's ramp begins a byte before.
   const std::array<int, 3> first{-margin_, 0, kHeight};
+  row.fill(0);
   for (std::size_t z = 0; z < 3; ++z) {
+    if (occupied[z] == 0) continue;
     const std::uint8_t* ramp = &ramp_[static_cast<std::size_t>(kHeight + margin_ - first[z])];
     take_nearest_({ramp, kHigher, occupied[z], kNotAway.data()}, lowest_, highest_, row.data());
   }

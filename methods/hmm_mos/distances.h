@@ -35,7 +35,8 @@ class DistanceField {
   void find_heights(const ScanBlock& block);
   void find_neighbours(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
   void along_z();
-  void along_z(int x, int y);
+  void find_occupied(int x);
+  void fill_column(const std::array<std::uint64_t, 3>& occupied, Row& row) const;
   void along_y();
   void along_x(const ScanBlock& block);
 
@@ -49,6 +50,8 @@ class DistanceField {
   std::size_t lowest_ = 0, highest_ = 0;  ///< Heights of the block that are observed.
   /// Of both scans, the blocks around by their offsets, x slowest; or null.
   std::array<std::array<const ScanBlock*, 27>, 2> around_{};
+  /// What both scans occupy at some x, by y with margins: below the block, in it, and above.
+  std::array<std::array<std::uint64_t, 64>, 3> occupied_{};
   std::vector<Row> of_columns_;         ///< To what is in the same column; by x, y, with margins.
   std::vector<Row> of_rows_;            ///< To what has the same x; by x, with margins, and y.
   std::vector<Row> nearness_;           ///< By column of the block.

@@ -2,8 +2,8 @@
 #include "methods/hmm_mos/scan_voxels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
 namespace raymoval::hmm_mos_method {
 namespace {
@@ -14,9 +14,9 @@ class LineWalk {
  public:
   LineWalk(ScanGrid& grid, const VoxelIndex& from, const VoxelIndex& to)
       : grid_(grid),
-        length_((to - from).cwiseAbs().maxCoeff()),
         step_((to - from).cwiseSign()),
         difference_((to - from).cwiseAbs()),
+        length_(difference_.maxCoeff(&main_)),
         error_(VoxelIndex::Constant(length_ / 2)),
         block_(&grid.block(block_of(from))),
         place_(from.x() & (kSide - 1), from.y() & (kSide - 1), from.z() & (kHeight - 1)) {}
@@ -31,27 +31,75 @@ class LineWalk {
   void advance() {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       error_[axis] -= difference_[axis];
-      const int over = error_[axis] >> 31;  // All ones or all zeros: no branch to foretell.
-      error_[axis] += length_ & over;
-      place_[axis] += step_[axis] & over;
+      if (error_[axis] >= 0) continue;
+      error_[axis] += length_;
+      place_[axis] += step_[axis];
+      if (place_[axis] >= 0 && place_[axis] < side(axis)) continue;
+      block_ = &grid_.beside(*block_, axis, step_[axis]);
+      place_[axis] -= step_[axis] * side(axis);
     }
-    const auto level = static_cast<unsigned>(place_.x() | place_.y());
-    if (level >= kSide || static_cast<unsigned>(place_.z()) >= kHeight) change_block();
+  }
+  /// Marks and advances so many times.
+  void mark_and_advance(int steps) {
+    while (steps > 0) {
+      const int inside = std::min(steps, steps_inside());
+      mark_inside(inside);
+      steps -= inside;
+      if (steps == 0) return;
+      mark();
+      advance();
+      --steps;
+    }
   }
 
  private:
-  void change_block() {
+  static int side(Eigen::Index axis) { return axis == 2 ? kHeight : kSide; }
+
+  /// How many steps stay in the block.
+  [[nodiscard]] int steps_inside() const {
+    int steps = length_;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const int side = axis == 2 ? kHeight : kSide;
-      if (place_[axis] >= 0 && place_[axis] < side) continue;
-      block_ = &grid_.beside(*block_, axis, step_[axis]);
-      place_[axis] -= step_[axis] * side;
+      if (difference_[axis] == 0) continue;
+      const int left = step_[axis] > 0 ? side(axis) - 1 - place_[axis] : place_[axis];
+      steps = std::min(steps, (error_[axis] + left * length_) / difference_[axis]);
     }
+    return steps;
+  }
+
+  /// `mark_and_advance` within the block. A place is one number, so that whole-number arithmetic
+  /// without branches, which no processor could foretell, goes from one to the next.
+  void mark_inside(int steps) {
+    constexpr std::array<int, 3> kStride{kSide * kHeight, kHeight, 1};
+    const auto one = static_cast<Eigen::Index>(main_ == 0 ? 1 : 0);
+    const auto other = static_cast<Eigen::Index>(main_ == 2 ? 1 : 2);
+    const auto stride = [&](Eigen::Index axis) {
+      return step_[axis] * kStride[static_cast<std::size_t>(axis)];
+    };
+    const int main_stride = stride(main_), one_stride = stride(one), other_stride = stride(other);
+    const int one_difference = difference_[one], other_difference = difference_[other];
+    const int length = length_;
+    int one_error = error_[one], other_error = error_[other];
+    int place = (place_.x() * kSide + place_.y()) * kHeight + place_.z();
+    Column* const columns = block_->columns.data();
+    for (int i = 0; i < steps; ++i) {
+      columns[place >> kHeightBits].free |= std::uint64_t{1} << (place & (kHeight - 1));
+      one_error -= one_difference;
+      other_error -= other_difference;
+      const int one_over = one_error >> 31, other_over = other_error >> 31;  // All ones or zeros.
+      one_error += length & one_over;
+      other_error += length & other_over;
+      place += main_stride + (one_stride & one_over) + (other_stride & other_over);
+    }
+    error_[one] = one_error;
+    error_[other] = other_error;
+    place_ = {place / kHeight / kSide, place / kHeight % kSide, place % kHeight};
   }
 
   ScanGrid& grid_;
+  VoxelIndex step_, difference_;
+  Eigen::Index main_ = 0;  ///< The axis with the largest difference.
   int length_;
-  VoxelIndex step_, difference_, error_;
+  VoxelIndex error_;
   ScanBlock* block_;
   VoxelIndex place_;  ///< Of the voxel in its block.
 };
@@ -82,9 +130,8 @@ class Observation {
     const double reach = max_range_ / lattice_.size();
     const int sure = std::min(walk.length(), static_cast<int>((reach - kSlack) * steps));
     const int last = std::min(walk.length(), static_cast<int>((reach + kSlack) * steps) + 1);
-    int step = 0;
-    for (; step < sure; ++step, walk.advance()) walk.mark();
-    for (;; ++step, walk.advance()) {
+    walk.mark_and_advance(sure);
+    for (int step = std::max(sure, 0);; ++step, walk.advance()) {
       if (is_within_range(walk.voxel())) walk.mark();
       if (step >= last) return;
     }
