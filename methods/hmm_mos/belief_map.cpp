@@ -116,22 +116,37 @@ bool BeliefMap::is_within(const VoxelIndex& first, const VoxelIndex& sides,
 /// @param is_near whether all of the block is within range
 void BeliefMap::forget_in(const Eigen::Vector3d& sensor, bool is_near, Block& block,
                           std::size_t number) {
-  Brick& brick = *block.bricks[number];
-  const auto at = static_cast<int>(number);
-  const VoxelIndex first = VoxelIndex(at >> 5, at >> 3 & 3, at & 7) * kBrickSide;
-  const VoxelIndex origin = block.at.cwiseProduct(VoxelIndex(kSide, kSide, kHeight)) + first;
-  is_near = is_near || is_within(origin, VoxelIndex::Constant(kBrickSide), sensor);
+  const VoxelIndex origin = block.at.cwiseProduct(VoxelIndex(kSide, kSide, kHeight));
+  is_near =
+      is_near || is_within(origin + corner_of(number), VoxelIndex::Constant(kBrickSide), sensor);
   const ScanNumber last = now_ > static_cast<ScanNumber>(scans_) ? now_ - scans_ : 0;
-  if (is_near && brick.oldest >= last) return;
+  if (is_near && block.bricks[number]->oldest >= last) return;
+  forget_voxels(block, number, [&](ScanNumber seen, const VoxelIndex& place) {
+    return seen < last ||
+           (!is_near && (lattice_.position(origin + place) - sensor).norm() > range_);
+  });
+}
+
+/// The place of a brick's lowest voxel in its block.
+VoxelIndex BeliefMap::corner_of(std::size_t brick) {
+  const auto at = static_cast<int>(brick);
+  return VoxelIndex(at >> 5, at >> 3 & 3, at & 7) * kBrickSide;
+}
+
+/// Forgets the voxels of a brick for which `is_gone(seen, place in the block)`.
+template <class IsGone>
+void BeliefMap::forget_voxels(Block& block, std::size_t number, IsGone&& is_gone) {
+  Brick& brick = *block.bricks[number];
+  const VoxelIndex corner = corner_of(number);
   brick.oldest = std::numeric_limits<ScanNumber>::max();
   brick.newest = 0;
   for (std::size_t i = 0; i < kBrickVoxels; ++i) {
     const ScanNumber seen = brick.seen[i];
     if (seen == 0) continue;
     const auto k = static_cast<int>(i);
-    const VoxelIndex place(k >> 6, k >> 3 & 7, k & 7);
-    if (seen < last || (!is_near && (lattice_.position(origin + place) - sensor).norm() > range_)) {
-      forget_voxel(block, brick, first + place);
+    const VoxelIndex place = corner + VoxelIndex(k >> 6, k >> 3 & 7, k & 7);
+    if (is_gone(seen, place)) {
+      forget_voxel(block, brick, place);
       continue;
     }
     brick.oldest = std::min(brick.oldest, seen);
@@ -157,8 +172,14 @@ void BeliefMap::forget_voxel(Block& block, Brick& brick, const VoxelIndex& place
 }
 
 void BeliefMap::forget_all() {
-  range_ = 0.0;
-  forget(Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()));
+  for (auto entry = blocks_.begin(); entry != blocks_.end(); ++entry) {
+    Block& block = *entry.value();
+    for (std::size_t brick = 0; brick < kBricks; ++brick) {
+      if (block.bricks[brick] == nullptr) continue;
+      forget_voxels(block, brick, [](ScanNumber, const VoxelIndex&) { return true; });
+    }
+  }
+  blocks_.clear();
 }
 
 std::size_t BeliefMap::size() const {

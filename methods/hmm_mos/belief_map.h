@@ -67,12 +67,15 @@ class BeliefMap {
   /// Where a voxel stands in its block.
   static std::size_t brick_of(std::size_t column, int height);
   static std::size_t place_of(std::size_t column, int height);
+  static VoxelIndex corner_of(std::size_t brick);
 
   void observe_block(const ScanBlock& seen, const DistanceField& distances, Block& block) const;
   void observe_voxel(std::size_t column, int height, int distance, Block& block) const;
   /// @return whether nothing of the block is left
   bool forget_in(const Eigen::Vector3d& sensor, Block& block);
   void forget_in(const Eigen::Vector3d& sensor, bool is_near, Block& block, std::size_t number);
+  template <class IsGone>
+  void forget_voxels(Block& block, std::size_t number, IsGone&& is_gone);
   void forget_voxel(Block& block, Brick& brick, const VoxelIndex& place);
   [[nodiscard]] bool is_within(const VoxelIndex& first, const VoxelIndex& sides,
                                const Eigen::Vector3d& sensor) const;

@@ -71,9 +71,10 @@ Table make_table() {
                          "origin are twice as wide, and a voxel lies at its corner; the sensor's "
                          "voxel is rounded down all the same. Else all are rounded down, and a "
                          "voxel lies at its middle."})
-      .flag("offline", &P::offline,
-            {.sentence = "Points whose voxel was free when it was last known go as well, by all "
-                         "scans."});
+      .flag(
+          "offline", &P::offline,
+          {.sentence = "Answer after the last scan: points whose voxel was free when its state was "
+                       "last known go as well."});
   return table;
 }
 
