@@ -8,6 +8,7 @@
 #include "methods/erasor/erasor.h"
 #include "methods/external/external.h"
 #include "methods/freedom/freedom.h"
+#include "methods/hmm_mos/hmm_mos.h"
 #include "methods/octomap/octomap.h"
 #include "methods/peopleremover/peopleremover.h"
 #include "methods/raymoval/raymoval.h"
@@ -31,6 +32,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(dufomap_entry());
     methods.add(beautymap_entry());
     methods.add(freedom_entry());
+    methods.add(hmm_mos_entry());
     return methods;
   }();
   return registry;

@@ -33,6 +33,12 @@ bool knows_axes(const ConfiguredMethod& method) {
   return name == "beautymap:published" || name == "beautymap:semi-indoor";
 }
 
+/// Public programs whose own lattice is cut off towards zero, about the world's origin.
+bool knows_origin(const ConfiguredMethod& method) {
+  const std::string name = method.full_name();
+  return name == "hmm_mos:published" || name == "hmm_mos:fine";
+}
+
 }  // namespace
 
 // Where the world's origin lies and which way its axes point is nobody's business: what a method
@@ -40,9 +46,11 @@ bool knows_axes(const ConfiguredMethod& method) {
 TEST_CASE("whole voxels and quarter turns change no verdict", "[every-method]") {
   const toy::World world = toy::street(8);
   for (const ConfiguredMethod& method : all_methods()) {
+    if (knows_origin(method)) continue;
     INFO(method.full_name());
     const MaskStore here = masks_of(*method.make(), world);
-    // 64 m, 32 m and 16 m are whole numbers of 0.05, 0.1, 0.2, 0.4 and 1 m and of powers of two.
+    // 64 m, 32 m and 16 m are whole numbers of 0.05, 0.1, 0.2, 0.25, 0.4 and 1 m and of powers of
+    // two.
     std::vector<Pose> motions = {toy::whole_motion(64, -32, 16, 0)};
     if (!knows_axes(method)) motions.push_back(toy::whole_motion(0, 0, 0, 1));
     for (const Pose& motion : motions) {

@@ -30,6 +30,9 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"raymoval_plus:online.object_points", "a cluster of three points must be dynamic"},
     {"raymoval_plus:online.low_points", "something dynamic must reach the ground"},
     {"beautymap.public_top", "a column must be higher than 30 slices (see beautymap_test)"},
+    {"hmm_mos.map_scans", "what moves must be out of sight for some scans (see oracle_test)"},
+    {"hmm_mos.map_range_factor", "the sensor must go far away and come back (see oracle_test)"},
+    {"hmm_mos.public_lattice", "something must move in the origin's planes (see steps_test)"},
     {"raymoval_plus:online.recent_scans", "as for tracks"},
     {"freedom.counts_to_revert", "something must stay in free space (see free_map_test)"},
     {"freedom.image_rows", "the sensor's steps must be unknown"},
@@ -121,6 +124,9 @@ ConfiguredMethod configured(const std::string& name) {
   if (method.entry->name == "octomap") {  // Neighbours of outliers take most of the time.
     set_parameter(method.configuration, "noise_neighbours", std::int64_t{5});
   }
+  if (method.entry->name == "hmm_mos") {  // Most of the time goes with the number of voxels.
+    set_parameter(method.configuration, "voxel_size", 0.4);
+  }
   return method;
 }
 
@@ -197,6 +203,9 @@ TEST_CASE("dufomap's parameters act when they are said to", "[effects]") {
 }
 TEST_CASE("beautymap's parameters act when they are said to", "[effects]") {
   check_method("beautymap");
+}
+TEST_CASE("hmm_mos's parameters act when they are said to", "[effects]") {
+  check_method("hmm_mos");
 }
 
 TEST_CASE("freedom's parameters act when they are said to", "[effects]") {

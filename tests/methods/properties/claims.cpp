@@ -97,6 +97,12 @@ constexpr Line kLines[] = {
     {"freedom:published", "= = ? = = = ? ? ?"},
     {"freedom:few-counts", "= = ? = = = ? ? ?"},
     {"freedom:sound", "= = ? = = = ? ? ?"},
+    // A scan is a set of voxels, and scans are taken in turn. An empty one is the scan before of
+    // the next. The public lattice is cut off towards the origin.
+    {"hmm_mos:published", "= ? ? = = ? = ? ?"},
+    {"hmm_mos:fine", "= ? ? = = ? = ? ?"},
+    {"hmm_mos:sound", "= ? ? = = = = ? ?"},
+    {"hmm_mos:offline", "= ? ? = = = ? ? ?"},
 };
 
 }  // namespace

@@ -68,6 +68,9 @@ ConfiguredMethod configured(const std::string& variant) {
   }
   if (variant == "peopleremover:reduced") set_parameter(method.configuration, "reduce_angle", 0.05);
   if (method.entry->name == "removert") coarsen_removert(method.configuration);
+  if (method.entry->name == "hmm_mos") {  // Worlds are moved by whole numbers of 0.2 m.
+    set_parameter(method.configuration, "voxel_size", 0.2);
+  }
   if (answer_delay(method) > 0.0) set_parameter(method.configuration, "delay", kDelay);
   return method;
 }
@@ -284,4 +287,7 @@ TEST_CASE("what may change an answer of dufomap", "[properties][every-method]") 
 }
 TEST_CASE("what may change an answer of freedom", "[properties][every-method]") {
   check_method("freedom");
+}
+TEST_CASE("what may change an answer of hmm_mos", "[properties][every-method]") {
+  check_method("hmm_mos");
 }

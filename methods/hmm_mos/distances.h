@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "methods/hmm_mos/nearness_kernel.h"
+#include "methods/hmm_mos/scan_voxels.h"
+
+namespace raymoval::hmm_mos_method {
+
+/// Step 3: squared distances from the observed voxels of a block to the nearest occupied voxel of
+/// this scan and the one before, in voxels. They are exact below a bound, from which on all are
+/// alike (Euclidean distance transform, one axis after the other).
+///
+/// Inside, bytes hold how much nearer than the bound something is: 0 is as far as the bound, and
+/// the nearest has the largest.
+class DistanceField {
+ public:
+  /// @param far the bound, 1 to 254
+  explicit DistanceField(int far);
+
+  /// @param block of `now`
+  void find(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
+
+  /// The squared distance of an observed voxel of the block, at most `far`.
+  [[nodiscard]] int at(std::size_t column, int height) const {
+    return far_ - nearness_[column][static_cast<std::size_t>(height)];
+  }
+
+ private:
+  using Row = std::array<std::uint8_t, kHeight>;  ///< Nearness of the voxels of a column.
+
+  void find_heights(const ScanBlock& block);
+  void find_neighbours(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
+  void along_z();
+  void find_occupied(int x);
+  void fill_column(const std::array<std::uint64_t, 3>& occupied, Row& row) const;
+  void along_y();
+  void along_x(const ScanBlock& block);
+
+  int far_;
+  int margin_;  ///< Voxels around a block that may be nearer than `far_`.
+  int width_;   ///< Of a block with its margins.
+  kernels::TakeNearest take_nearest_;
+  std::vector<std::uint8_t> ramp_;  ///< Nearness by difference of heights, from the least one.
+  std::vector<std::uint8_t> away_;  ///< Squares of -margin to +margin.
+
+  std::size_t lowest_ = 0, highest_ = 0;  ///< Heights of the block that are observed.
+  /// Of both scans, the blocks around by their offsets, x slowest; or null.
+  std::array<std::array<const ScanBlock*, 27>, 2> around_{};
+  /// What both scans occupy at some x, by y with margins: below the block, in it, and above.
+  std::array<std::array<std::uint64_t, 64>, 3> occupied_{};
+  std::vector<Row> of_columns_;         ///< To what is in the same column; by x, y, with margins.
+  std::vector<Row> of_rows_;            ///< To what has the same x; by x, with margins, and y.
+  std::vector<Row> nearness_;           ///< By column of the block.
+  std::vector<std::uint64_t> columns_;  ///< By x: bit y, if `of_columns_` has something there.
+  std::array<std::uint64_t, kSide> rows_{};  ///< By y: bit x, if `of_rows_` has something there.
+};
+
+}  // namespace raymoval::hmm_mos_method

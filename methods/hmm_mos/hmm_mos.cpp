@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// "Moving Object Segmentation ... using Hidden Markov Models"; the steps are those of hmm_mos.h.
+#include "methods/hmm_mos/hmm_mos.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "core/parallel.h"
+#include "core/scan/mask_store.h"
+#include "methods/common/remover_from.h"
+#include "methods/common/scan_passes.h"
+#include "methods/hmm_mos/belief_map.h"
+#include "methods/hmm_mos/moving_voxels.h"
+
+namespace raymoval::hmm_mos_method {
+namespace {
+
+/// Step 12: removes the points whose voxel `moves`.
+template <class Moves>
+Mask mask_of(const Scan& scan, const Parameters& parameters, Moves&& moves) {
+  Mask mask(scan.size(), 0);
+  const Lattice lattice(parameters);
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    if (!counts(scan.points[k], parameters)) continue;
+    const VoxelIndex voxel = lattice.voxel_of(scan.T_world_sensor * scan.points[k].cast<double>());
+    mask[k] = moves(voxel_key(voxel)) ? 1 : 0;
+  }
+  return mask;
+}
+
+/// What is known after the scans so far.
+struct Knowledge {
+  explicit Knowledge(const Parameters& parameters) : map(parameters), moving(parameters) {}
+  BeliefMap map;
+  MovingVoxels moving;
+  ScanGrid before = empty_grid();  ///< Of the scan before.
+};
+
+/// Steps 3 to 11.
+void take_in(const Scan& scan, ScanGrid& grid, const RunContext& context, Knowledge& known) {
+  {
+    const StageScope timed(context.times, "belief");
+    known.map.observe(grid, known.before, context);
+  }
+  {
+    const StageScope timed(context.times, "forgetting");
+    known.map.forget(scan.T_world_sensor.translation());
+  }
+  const StageScope timed(context.times, "change");
+  known.moving.add(grid, known.map);
+  std::swap(known.before, grid);
+}
+
+/// Goes through the scans in order of time and calls `answer(scan, knowledge)` after each.
+template <class Answer>
+void for_scans_in_time(const Parameters& parameters, const ScanSource& scans,
+                       const RunContext& context, Knowledge& known, Answer&& answer) {
+  std::vector<ScanGrid> grids;
+  for (std::size_t i = 0; i < scans_in_a_batch(scans, context); ++i) grids.push_back(empty_grid());
+  for_scan_batches("hmm_mos", scans, context, [&](std::span<Scan> batch) {
+    {
+      const StageScope timed(context.times, "raycasting");
+      parallel_for(context.threads, batch.size(), 1,
+                   [&](std::size_t i) { find_voxels(batch[i], parameters, context, grids[i]); });
+    }
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      take_in(batch[i], grids[i], context, known);
+      const StageScope timed(context.times, "answer");
+      answer(batch[i]);
+    }
+  });
+}
+
+/// The masks by what moved when it was seen, and by the last state of each voxel.
+void answer_offline(const Parameters& parameters, const ScanSource& scans, const MaskStore& moved,
+                    const CellSet& free, RemovalSink& sink, const RunContext& context) {
+  for_scans_at_once("hmm_mos, answers", "answer", scans, context, [&](const Scan& scan) {
+    Mask mask = mask_of(scan, parameters, [&](VoxelKey voxel) { return free.contains(voxel); });
+    const Mask before = moved.get(scan.index);
+    std::transform(mask.begin(), mask.end(), before.begin(), mask.begin(), std::bit_or<>());
+    sink.accept(scan.index, mask);
+  });
+}
+
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  Knowledge known(parameters);
+  MaskStore moved(parameters.offline ? scans.size() : 0);
+  for_scans_in_time(parameters, scans, context, known, [&](const Scan& scan) {
+    const VoxelSet& moving = known.moving.found();
+    const Mask mask =
+        mask_of(scan, parameters, [&](VoxelKey voxel) { return moving.contains(voxel); });
+    parameters.offline ? moved.set(scan.index, mask) : sink.accept(scan.index, mask);
+  });
+  if (!parameters.offline) return;
+  known.map.forget_all();
+  answer_offline(parameters, scans, moved, known.map.forgotten_free(), sink, context);
+}
+
+}  // namespace
+
+std::unique_ptr<Remover> make_hmm_mos(const Parameters& parameters) {
+  return remover_from(parameters, run);
+}
+
+}  // namespace raymoval::hmm_mos_method

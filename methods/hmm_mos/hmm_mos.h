@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "methods/hmm_mos/parameters.h"
+#include "methods/method_entry.h"
+
+namespace raymoval {
+namespace hmm_mos_method {
+
+/// V. Bhandari, J. James, T. Phillips, P. R. McAree: "Moving Object Segmentation in Point Cloud
+/// Data using Hidden Markov Models", IROS 2024 workshop. For each scan:
+///  1. Its points' voxels are occupied.
+///  2. Voxels on the rays to them, and they themselves, are observed.
+///  3. Each observed voxel has a distance to the nearest voxel that is occupied now or was in the
+///     scan before.
+///  4. By it, a hidden Markov model of each voxel (unobserved, occupied, free) takes a step. The
+///     state is that of which the model is sure.
+///  5. What is far from the sensor, or was not seen for long, is forgotten.
+///  6. An occupied voxel's score is how many of the cube around it became occupied just now, less
+///     those of which nothing is known.
+///  7. The median of the neighbours' scores; 8. the sum over the last scans.
+///  9. A histogram's threshold parts moving voxels from the rest; 10. those of the scan before stay
+///     for less; 11. their neighbours move as well.
+///  12. Their points are removed, unless the threshold is so low that nothing moves.
+/// Decisions and deviations from the public program: `notes` of the entry.
+std::unique_ptr<Remover> make_hmm_mos(const Parameters& parameters);
+
+}  // namespace hmm_mos_method
+
+MethodEntry hmm_mos_entry();
+
+}  // namespace raymoval

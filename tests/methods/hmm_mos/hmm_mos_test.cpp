@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "methods/hmm_mos/hmm_mos.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "methods/registry.h"
+#include "tests/methods/hmm_mos/scenes.h"
+#include "tests/methods/moved_world.h"
+
+using namespace raymoval;
+using namespace raymoval::hmm_mos_test;
+using namespace raymoval::hmm_mos_method;
+
+namespace {
+
+Parameters sound() {
+  Parameters parameters;
+  parameters.public_lattice = false;
+  return parameters;
+}
+
+/// Share of the removed points of a scan among those nearer than `x`, and farther, metres.
+struct Shares {
+  double near = 0.0, far = 0.0;
+};
+Shares removed_shares(const Scan& scan, const Mask& mask, double x = 3.0) {
+  double near = 0.0, far = 0.0;
+  Shares removed;
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const bool is_near = scan.points[k].x() < x;
+    (is_near ? near : far) += 1.0;
+    (is_near ? removed.near : removed.far) += mask[k];
+  }
+  return {near == 0.0 ? 0.0 : removed.near / near, far == 0.0 ? 0.0 : removed.far / far};
+}
+
+}  // namespace
+
+TEST_CASE("what moves before a wall goes and the wall stays", "[hmm_mos]") {
+  const toy::HeldScans scans = wall_and_mover(11, 8);
+  for (const bool public_lattice : {true, false}) {
+    Parameters parameters;
+    parameters.public_lattice = public_lattice;
+    const MaskStore masks = toy::masks_of(*make_hmm_mos(parameters), scans);
+    // The first six scans only fill the map.
+    for (std::size_t i = 0; i < 6; ++i) CHECK(masks.get(i) == Mask(scans.load(i).size(), 0));
+    for (std::size_t i = 7; i < 10; ++i) {
+      const Shares shares = removed_shares(scans.load(i), masks.get(i));
+      CAPTURE(public_lattice, i);
+      CHECK(shares.near > 0.7);
+      CHECK(shares.far == 0.0);
+    }
+  }
+}
+
+TEST_CASE("nothing goes where nothing moves", "[hmm_mos]") {
+  const toy::HeldScans scans = wall_with({Plate{}}, 12);
+  CHECK(toy::masks_of(*make_hmm_mos(sound()), scans).removed_count() == 0);
+}
+
+// It comes into a place that was free in scan 7 and stands still: from scan 12 on its voxels have
+// not changed for five scans.
+TEST_CASE("what came and stands is static again after the window", "[hmm_mos]") {
+  Plate plate;
+  plate.first = 7;
+  const toy::HeldScans scans = wall_with({plate}, 15);
+  const MaskStore masks = toy::masks_of(*make_hmm_mos(sound()), scans);
+  CHECK(removed_shares(scans.load(7), masks.get(7)).near > 0.9);
+  CHECK(removed_shares(scans.load(10), masks.get(10)).near > 0.9);
+  for (std::size_t i = 12; i < scans.size(); ++i) {
+    CHECK(removed_shares(scans.load(i), masks.get(i)).near == 0.0);
+  }
+}
+
+// It stands still and drives off in scan 8: no voxel appears where it was, but the last state of
+// its voxels is free.
+TEST_CASE("what left is found by the last states only", "[hmm_mos]") {
+  Plate plate;
+  plate.last = 7;
+  const toy::HeldScans scans = wall_with({plate}, 14);
+  Parameters parameters = sound();
+  CHECK(toy::masks_of(*make_hmm_mos(parameters), scans).removed_count() == 0);
+  parameters.offline = true;
+  const MaskStore masks = toy::masks_of(*make_hmm_mos(parameters), scans);
+  for (const std::size_t i : {0U, 7U}) {
+    const Shares shares = removed_shares(scans.load(i), masks.get(i));
+    CHECK(shares.near > 0.9);
+    CHECK(shares.far == 0.0);
+  }
+}
+
+TEST_CASE("a scan alone, empty scans and points that are not numbers say nothing", "[hmm_mos]") {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  toy::HeldScans broken;
+  broken.add({{nan, nan, nan}, {1.0F, nan, 2.0F}});
+  broken.add({});
+  broken.add({{3.0F, 1.0F, 0.5F}, {nan, 0.0F, 0.0F}});
+  Parameters offline = sound();
+  offline.offline = true;
+  for (const Parameters& parameters : {Parameters{}, sound(), offline}) {
+    const MaskStore masks = toy::masks_of(*make_hmm_mos(parameters), broken);
+    CHECK(masks.removed_count() == 0);
+    CHECK(masks.get(2).size() == 2);
+    const toy::HeldScans one = wall_and_mover(1, 0);
+    CHECK(toy::masks_of(*make_hmm_mos(parameters), one).removed_count() == 0);
+  }
+}
+
+TEST_CASE("hmm_mos answers the same on any number of threads", "[hmm_mos]") {
+  const toy::HeldScans scans = wall_and_mover(10, 8, 3, 0.05);
+  for (Parameters parameters : {Parameters{}, sound()}) {
+    for (const bool offline : {false, true}) {
+      parameters.offline = offline;
+      const MaskStore one = toy::masks_of(*make_hmm_mos(parameters), scans, 1);
+      CHECK(one.removed_count() > 0);
+      for (const int threads : {2, 8}) {
+        const MaskStore many = toy::masks_of(*make_hmm_mos(parameters), scans, threads);
+        CHECK(toy::different_verdicts(one, many, scans.size()) == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("parameters of hmm_mos that are out of range are refused by name", "[hmm_mos]") {
+  const auto& specs = parameter_table().specs();
+  for (const auto& [name, value] :
+       std::vector<std::pair<std::string, std::string>>{{"voxel_size", "0"},
+                                                        {"spread", "2"},
+                                                        {"belief", "1"},
+                                                        {"window_scans", "0"},
+                                                        {"reach", "5"},
+                                                        {"bins", "1"},
+                                                        {"map_range_factor", "0.5"},
+                                                        {"max_range", "nan"}}) {
+    INFO(name);
+    CHECK_THROWS_WITH(
+        checked_value_from_text("hmm_mos", find_parameter("hmm_mos", specs, name), value),
+        Catch::Contains("hmm_mos." + name));
+  }
+}
