@@ -24,8 +24,8 @@ void add_field(Table& table) {
                "not updated."})
       .integer("max_weight", &P::max_weight,
                {"scans", 1, 65535, kShipped,
-                "A voxel's distance is the mean over its scans, the last one of which weighs at "
-                "least one part in this."})
+                "A voxel's distance is the mean over its scans, of which the earlier ones weigh no "
+                "more than so many together."})
       .choice(
           "image", &P::image, {{"sensor", ImageSource::kSensor}, {"fixed", ImageSource::kFixed}},
           {.source = kOurs,

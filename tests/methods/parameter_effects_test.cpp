@@ -30,6 +30,11 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"raymoval_plus:online.object_points", "a cluster of three points must be dynamic"},
     {"raymoval_plus:online.low_points", "something dynamic must reach the ground"},
     {"beautymap.public_top", "a column must be higher than 30 slices (see beautymap_test)"},
+    {"dynablox.temporal_buffer", "a voxel must be occupied for long, with breaks"},
+    {"dynablox.frames_to_reset", "something must stay where it was free"},
+    {"dynablox.public_boxes", "clusters must be high above the sensor (see dynablox/steps_test)"},
+    {"dynablox.public_merges", "three clusters must be in a row (see dynablox/steps_test)"},
+    {"dynablox.public_unmapped", "a cluster must reach where nobody has looked"},
     {"raymoval_plus:online.recent_scans", "as for tracks"},
     {"octomap.ground_points", "a scan must have few points"},
     {"erasor.sparse_ground", "a bin must have as few points as are skipped as outliers"},
@@ -189,6 +194,10 @@ TEST_CASE("dufomap's parameters act when they are said to", "[effects]") {
 }
 TEST_CASE("beautymap's parameters act when they are said to", "[effects]") {
   check_method("beautymap");
+}
+
+TEST_CASE("dynablox's parameters act when they are said to", "[effects]") {
+  check_method("dynablox");
 }
 
 TEST_CASE("every condition names parameters of its method", "[effects]") {

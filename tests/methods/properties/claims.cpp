@@ -90,6 +90,16 @@ constexpr Line kLines[] = {
     {"beautymap:semi-indoor", "= = ? = ? ? ? = ="},
     {"beautymap:sound", "= = ? = ? ? ? = ="},
     {"beautymap:wide", "= = ? = ? ? ? = ="},
+
+    // Scans are counted, empty ones too. A pixel has its nearest return and a voxel is hit or not,
+    // but a cluster has a least number of points. The last scan is judged before it is taken in,
+    // and free space is looked at again when an empty one comes.
+    {"dynablox:published", "= ? ? = ? ~ = ? ?"},
+    {"dynablox:public-code", "= ? ? = ? ? = ? ?"},
+    {"dynablox:header", "= ? ? = ? ~ = ? ?"},
+    {"dynablox:wide", "= ? ? = ? ~ = ? ?"},
+    {"dynablox:offline", "? ? ? = = ~ ? ? ?"},
+    {"dynablox:offline-wide", "? ? ? = = ~ ? ? ?"},
 };
 
 }  // namespace
