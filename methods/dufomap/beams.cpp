@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "methods/common/cell_walk.h"
 #include "methods/common/diamond_angle.h"
+#include "methods/dufomap/cell_walk.h"
 #include "methods/dufomap/free_walk.h"
 
 namespace raymoval::dufomap_method {

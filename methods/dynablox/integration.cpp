@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "methods/common/cell_walk.h"
 
 namespace raymoval::dynablox_method {
 namespace {
@@ -18,13 +17,36 @@ constexpr std::size_t kBlocksAtOnce = 4;
 /// The blocks within reach of a sensor, as flags.
 class BlocksAround {
  public:
-  BlocksAround(const VoxelIndex& centre, int reach)
-      : lowest_(centre.array() - reach), side_(2 * reach + 1) {
+  /// @param sensor in blocks
+  BlocksAround(const Eigen::Vector3d& sensor, int reach)
+      : lowest_(voxel_index(sensor, 1.0).array() - reach),
+        side_(2 * reach + 1),
+        sensor_(sensor - lowest_.cast<double>()) {
     const auto side = static_cast<std::size_t>(side_);
     flags_.assign(side * side * side, 0);
   }
-  void mark(const VoxelIndex& at) { flags_[place(at)] = 1; }
-  void mark(const BlocksAround& other) {
+  /// Marks the blocks that a ray goes through.
+  /// @param ahead unit vector
+  /// @param reach in blocks, at least one less than that of all
+  void mark_ray(const Eigen::Vector3d& ahead, double reach) {
+    mark(sensor_.cast<int>());
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (ahead[axis] == 0.0) continue;
+      // Every wall across this axis, one after the other, with the block behind it.
+      const double delta = 1.0 / std::abs(ahead[axis]);
+      const int step = ahead[axis] > 0.0 ? 1 : -1;
+      int behind = static_cast<int>(sensor_[axis]);
+      const double inside = sensor_[axis] - behind;
+      for (double way = (step > 0 ? 1.0 - inside : inside) * delta; way <= reach; way += delta) {
+        behind += step;
+        // All coordinates are positive, so that cutting off is rounding down.
+        VoxelIndex at = (sensor_ + way * ahead).cast<int>();
+        at[axis] = behind;
+        mark(at);
+      }
+    }
+  }
+  void add(const BlocksAround& other) {
     for (std::size_t i = 0; i < flags_.size(); ++i) flags_[i] |= other.flags_[i];
   }
   /// Calls `visit(at)` for each marked block in order of z, y, x.
@@ -41,30 +63,23 @@ class BlocksAround {
   }
 
  private:
-  [[nodiscard]] std::size_t place(const VoxelIndex& at) const {
-    const VoxelIndex from = at - lowest_;
-    return static_cast<std::size_t>((from.z() * side_ + from.y()) * side_ + from.x());
+  void mark(const VoxelIndex& at) {
+    flags_[static_cast<std::size_t>((at.z() * side_ + at.y()) * side_ + at.x())] = 1;
   }
 
   VoxelIndex lowest_;
   int side_;
+  Eigen::Vector3d sensor_;  ///< From the corner of the lowest block.
   std::vector<std::uint8_t> flags_;
 };
 
-/// A scan's rays in the lattice of blocks; lengths in blocks.
+/// A scan's rays.
 struct Rays {
   const Scan& scan;
   const Parameters& parameters;
   double max_range = 0.0;  ///< Metres.
   double edge = 0.0;       ///< Of a block, metres.
-  Eigen::Vector3d sensor;
-  VoxelIndex first;  ///< The sensor's block.
 
-  Rays(const Scan& of_scan, const Parameters& with, double furthest)
-      : scan(of_scan), parameters(with), max_range(furthest), edge(kSide * with.voxel_size) {
-    sensor = scan.T_world_sensor.translation() / edge;
-    first = voxel_index(sensor, 1.0);
-  }
   /// Marks the blocks that a point's ray goes through, up to where voxels are no longer updated.
   void mark(const Eigen::Vector3f& point, BlocksAround& blocks) const {
     const Eigen::Vector3d ahead = point.cast<double>();
@@ -72,12 +87,7 @@ struct Rays {
     if (!(range >= parameters.min_range && range > 0.0)) return;
     if (range > max_range && !parameters.clearing) return;
     const double reach = std::min(range + parameters.truncation, max_range) / edge;
-    CellWalk walk(sensor, scan.T_world_sensor.linear() * (ahead / range), first);
-    blocks.mark(walk.cell());
-    while (walk.next_distance() <= reach) {
-      walk.advance();
-      blocks.mark(walk.cell());
-    }
+    blocks.mark_ray(scan.T_world_sensor.linear() * (ahead / range), reach);
   }
 };
 
@@ -90,8 +100,8 @@ class ViewCones {
     const double low = grid.elevation_min - half_row;
     const double high = grid.elevation_min + (grid.rows - 1) / grid.rows_per_radian + half_row;
     // What lies above a rising cone, or below a falling one, is convex.
-    has_low_ = low < 0.0 && low > -kQuarterTurn;
-    has_high_ = high > 0.0 && high < kQuarterTurn;
+    has_low_ = low < 0.0 && low > -kernels::kQuarterTurn;
+    has_high_ = high > 0.0 && high < kernels::kQuarterTurn;
     low_slope_ = static_cast<float>(std::tan(low));
     high_slope_ = static_cast<float>(std::tan(high));
   }
@@ -189,16 +199,16 @@ void Integrator::integrate(const Scan& scan, const RunContext& context, BlockMap
 
 void Integrator::touch_blocks(const Scan& scan, const RunContext& context, BlockMap& map,
                               std::vector<Block*>& touched) const {
-  const Rays rays(scan, parameters_, max_range_);
+  const Rays rays{scan, parameters_, max_range_, kSide * parameters_.voxel_size};
   const int reach = static_cast<int>(std::ceil(max_range_ / rays.edge)) + 1;
-  BlocksAround all(rays.first, reach);
+  BlocksAround all(scan.T_world_sensor.translation() / rays.edge, reach);
   std::vector<BlocksAround> parts((scan.size() + kPointsAtOnce - 1) / kPointsAtOnce, all);
   parallel_chunks(context.threads, scan.size(), kPointsAtOnce,
                   [&](std::size_t begin, std::size_t end) {
                     BlocksAround& part = parts[begin / kPointsAtOnce];
                     for (std::size_t k = begin; k < end; ++k) rays.mark(scan.points[k], part);
                   });
-  for (const BlocksAround& part : parts) all.mark(part);
+  for (const BlocksAround& part : parts) all.add(part);
   touched.clear();
   all.for_each([&](const VoxelIndex& at) {
     touched.push_back(&map.find_or_make(at, static_cast<std::int32_t>(scan.index)));

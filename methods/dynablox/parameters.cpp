@@ -8,7 +8,7 @@ using Table = ParameterTable<Parameters>;
 using P = Parameters;
 
 const char* const kShipped = "the public program's configuration";
-const char* const kOurs = "";
+const char* const kOurs = "not in the paper";
 const char* const kOnline = "offline is false";
 
 void add_field(Table& table) {

@@ -2,6 +2,8 @@
 #include "methods/dynablox/range_image.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/angle.h"
 
@@ -17,19 +19,6 @@ int steps_in(double whole, double step, int published, int most) {
 }
 
 }  // namespace
-
-float arc_tangent(float y, float x) {
-  const float across = std::abs(x), up = std::abs(y);
-  const float most = std::max(across, up);
-  const float a = std::min(across, up) / std::max(most, kLeastDivisor);
-  const float square = a * a;
-  float sum = kArcTangent[6];
-  for (std::size_t k = 6; k-- > 0;) sum = sum * square + kArcTangent[k];
-  float angle = sum * a;
-  if (up > across) angle = kQuarterTurn - angle;
-  if (x < 0.0F) angle = kHalfTurn - angle;
-  return std::copysign(angle, y);
-}
 
 ImageGrid::ImageGrid(const Parameters& parameters, const SensorModel& sensor) {
   const Parameters published;
@@ -47,26 +36,44 @@ ImageGrid::ImageGrid(const Parameters& parameters, const SensorModel& sensor) {
   elevation_min = static_cast<float>(low);
 }
 
+template <class Visit>
+void RangeImage::for_pixels(const Scan& scan, const kernels::Projection& job, Visit&& visit) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  const std::size_t lanes = kernels_.most_lanes, points = scan.size();
+  const std::size_t whole = points - points % lanes;
+  pixels_.resize(whole + lanes);
+  seen_.resize(whole + lanes);
+  if (whole > 0) {
+    kernels_.project(job, scan.points.front().data(), whole, pixels_.data(), seen_.data());
+  }
+  // The rest, with points at the origin behind them, which are in no pixel.
+  std::vector<Eigen::Vector3f> rest(scan.points.begin() + static_cast<std::ptrdiff_t>(whole),
+                                    scan.points.end());
+  rest.resize(lanes, Eigen::Vector3f::Zero());
+  kernels_.project(job, rest.front().data(), lanes, pixels_.data() + whole, seen_.data() + whole);
+  for (std::size_t k = 0; k < points; ++k) {
+    if (pixels_[k] >= 0) visit(pixels_[k], seen_[k]);
+  }
+}
+
 void RangeImage::fill(const Scan& scan, const Parameters& parameters, float max_range) {
   const auto stored_columns = static_cast<std::size_t>(grid_.columns + 1);
   ranges_.assign(stored_columns * static_cast<std::size_t>(grid_.rows + 2), 0.0F);
-  const auto nearest = static_cast<float>(parameters.min_range);
+  constexpr float kAny = std::numeric_limits<float>::max();
+  const kernels::Projection job{.columns = grid_.columns,
+                                .rows = grid_.rows,
+                                .columns_per_radian = grid_.columns_per_radian,
+                                .rows_per_radian = grid_.rows_per_radian,
+                                .elevation_min = grid_.elevation_min,
+                                .min_range = static_cast<float>(parameters.min_range),
+                                .max_range = parameters.clearing ? kAny : max_range};
   // A voxel within `max_range` is at the full distance before what is beyond this.
   const float furthest = max_range + static_cast<float>(parameters.truncation);
-  for (const Eigen::Vector3f& p : scan.points) {
-    const float level = std::sqrt(p.x() * p.x() + p.y() * p.y());
-    const float range = std::sqrt(p.x() * p.x() + p.y() * p.y() + p.z() * p.z());
-    if (!(range >= nearest && range > 0.0F)) continue;
-    if (range > max_range && !parameters.clearing) continue;
-    const float u = (arc_tangent(p.y(), p.x()) + kHalfTurn) * grid_.columns_per_radian;
-    const float v = (arc_tangent(p.z(), level) - grid_.elevation_min) * grid_.rows_per_radian;
-    const int row = static_cast<int>(std::floor(v + 0.5F));
-    if (row < 0 || row >= grid_.rows) continue;
-    const int column = std::min(static_cast<int>(u), grid_.columns - 1);
-    float& pixel = ranges_[grid_.stored(column, row)];
+  for_pixels(scan, job, [&](std::int32_t pixel, float range) {
+    float& stored = ranges_[static_cast<std::size_t>(pixel)];
     const float seen = std::min(range, furthest);
-    pixel = pixel == 0.0F ? seen : std::min(pixel, seen);
-  }
+    stored = stored == 0.0F ? seen : std::min(stored, seen);
+  });
   for (int row = 0; row < grid_.rows; ++row) {
     ranges_[grid_.stored(grid_.columns, row)] = ranges_[grid_.stored(0, row)];
   }

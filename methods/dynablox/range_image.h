@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/scan/scan.h"
 #include "core/scan/sensor_model.h"
 #include "methods/dynablox/parameters.h"
+#include "methods/dynablox/voxel_kernels.h"
 
 namespace raymoval::dynablox_method {
-
-/// Coefficients of atan(a) = a P(a a) for 0 <= a <= 1, right to 1e-6: the polynomial that agrees at
-/// Chebyshev's nodes.
-inline constexpr std::array<float, 7> kArcTangent = {
-    0.9999992256F,  -0.3332567804F,  0.1987204027F,  -0.1344786406F,
-    0.08312645301F, -0.03636043086F, 0.007648353927F};
-inline constexpr float kHalfTurn = 3.14159265358979F;
-inline constexpr float kQuarterTurn = 1.57079632679490F;
-inline constexpr float kLeastDivisor = 1e-30F;
-
-/// atan2(y, x) to 2e-6, in the same operations as the kernel's.
-float arc_tangent(float y, float x);
 
 /// The spherical image of ranges around a sensor. Columns go around the whole circle from azimuth
 /// -pi, each as wide as the next; rows go up, the first and the last are centred on the ends of the
@@ -45,7 +33,7 @@ struct ImageGrid {
 /// Ranges of a scan's nearest returns, metres; 0 where there is none.
 class RangeImage {
  public:
-  explicit RangeImage(const ImageGrid& grid) : grid_(grid) {}
+  explicit RangeImage(const ImageGrid& grid) : grid_(grid), kernels_(kernels::best_kernels()) {}
 
   /// Takes the place of the last scan's. Returns nearer than `min_range` are left out, those beyond
   /// `max_range` are as far as a voxel within can be told from them, or left out if not clearing.
@@ -55,8 +43,15 @@ class RangeImage {
   [[nodiscard]] const std::vector<float>& ranges() const { return ranges_; }
 
  private:
+  /// Calls `visit(pixel, range)` for each point that is in a pixel.
+  template <class Visit>
+  void for_pixels(const Scan& scan, const kernels::Projection& job, Visit&& visit);
+
   ImageGrid grid_;
+  kernels::Kernels kernels_;
   std::vector<float> ranges_;
+  std::vector<std::int32_t> pixels_;  ///< Of points, and
+  std::vector<float> seen_;           ///< their ranges.
 };
 
 }  // namespace raymoval::dynablox_method

@@ -2,7 +2,6 @@
 #include "methods/dynablox/voxel_kernels.h"
 
 #include "core/simd/compiled_sets.h"
-#include "methods/dynablox/range_image.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "methods/dynablox/voxel_kernels.cpp"
@@ -29,7 +28,7 @@ HWY_INLINE F number(float value) {
   return hn::Set(Floats(), value);
 }
 
-/// `arc_tangent` of range_image.h, operation by operation.
+/// atan2(y, x) to 2e-6.
 HWY_INLINE F angle_of(F y, F x) {
   const Floats d;
   const F across = hn::Abs(x), up = hn::Abs(y);
@@ -41,6 +40,33 @@ HWY_INLINE F angle_of(F y, F x) {
   angle = hn::IfThenElse(hn::Gt(up, across), hn::Sub(number(kQuarterTurn), angle), angle);
   angle = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(number(kHalfTurn), angle), angle);
   return hn::CopySign(angle, y);
+}
+
+void project(const Projection& image, const float* points, std::size_t count, std::int32_t* pixel,
+             float* range_of) {
+  const Floats d;
+  const Ints ints;
+  for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
+    F x, y, z;
+    hn::LoadInterleaved3(d, points + 3 * k, x, y, z);
+    const F level_square = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+    const F range = hn::Sqrt(hn::Add(level_square, hn::Mul(z, z)));
+    const F turned = hn::Add(angle_of(y, x), number(kHalfTurn));
+    const F raised = hn::Sub(angle_of(z, hn::Sqrt(level_square)), number(image.elevation_min));
+    const F u = hn::Mul(turned, number(image.columns_per_radian));
+    const F v = hn::Floor(hn::Add(hn::Mul(raised, number(image.rows_per_radian)), number(0.5F)));
+    auto inside =
+        hn::And(hn::Ge(v, hn::Zero(d)), hn::Lt(v, number(static_cast<float>(image.rows))));
+    inside = hn::And(inside,
+                     hn::And(hn::Ge(range, number(image.min_range)), hn::Gt(range, hn::Zero(d))));
+    inside = hn::And(inside, hn::Le(range, number(image.max_range)));
+    const I row = hn::Add(hn::ConvertTo(ints, hn::IfThenElseZero(inside, v)), hn::Set(ints, 1));
+    const I column = hn::Min(hn::ConvertTo(ints, u), hn::Set(ints, image.columns - 1));
+    const I at = hn::Add(hn::Mul(row, hn::Set(ints, image.columns + 1)), column);
+    const I none = hn::Set(ints, -1);
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(ints, inside), at, none), ints, pixel + k);
+    hn::StoreU(range, d, range_of + k);
+  }
 }
 
 /// The range between four pixels: their mean, weighed by how near they are, without those that have
@@ -200,7 +226,7 @@ void settle(const Sweep& scan, const SweptLayer& layer) {
 }  // namespace
 
 Kernels kernels() {
-  return {&integrate, &sweep, &settle};
+  return {hn::Lanes(Floats()), &project, &integrate, &sweep, &settle};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -2,10 +2,28 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
-/// Loops over the voxels of a layer, compiled for each instruction set.
+/// Loops over the points of a scan and the voxels of a layer, compiled for each instruction set.
 namespace raymoval::dynablox_method::kernels {
+
+/// Coefficients of atan(a) = a P(a a) for 0 <= a <= 1, right to 1e-6: the polynomial that agrees at
+/// Chebyshev's nodes.
+inline constexpr std::array<float, 7> kArcTangent = {
+    0.9999992256F,  -0.3332567804F,  0.1987204027F,  -0.1344786406F,
+    0.08312645301F, -0.03636043086F, 0.007648353927F};
+inline constexpr float kHalfTurn = 3.14159265358979F;
+inline constexpr float kQuarterTurn = 1.57079632679490F;
+inline constexpr float kLeastDivisor = 1e-30F;
+
+/// How points are sorted into an image.
+struct Projection {
+  int columns = 0, rows = 0;
+  float columns_per_radian = 0.0F, rows_per_radian = 0.0F, elevation_min = 0.0F;
+  float min_range = 0.0F;  ///< Nearer points are in no pixel,
+  float max_range = 0.0F;  ///< nor are those beyond.
+};
 
 /// What all voxels have in common while one scan is integrated.
 struct Integration {
@@ -43,6 +61,11 @@ struct SweptLayer {
 };
 
 struct Kernels {
+  std::size_t most_lanes;  ///< `project` takes points in so many at a time, or fewer.
+  /// @param points x y z of each, a multiple of `most_lanes` of them
+  /// @param pixel gets the number in the stored image (see `ImageGrid`), or -1
+  void (*project)(const Projection& image, const float* points, std::size_t count,
+                  std::int32_t* pixel, float* range);
   /// @return whether any voxel was updated
   bool (*integrate)(const Integration& scan, const LayerFields& layer);
   void (*sweep)(const Sweep& scan, const SweptLayer& layer);

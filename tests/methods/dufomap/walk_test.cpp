@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "methods/common/cell_walk.h"
 #include "methods/dufomap/beams.h"
+#include "methods/dufomap/cell_walk.h"
 #include "methods/dufomap/free_walk.h"
 #include "tests/methods/held_scans.h"
 

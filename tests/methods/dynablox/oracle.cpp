@@ -35,6 +35,19 @@ std::vector<Cell> around(const Cell& cell, Neighbours neighbours) {
 
 }  // namespace
 
+float arc_tangent(float y, float x) {
+  const float across = std::abs(x), up = std::abs(y);
+  const float most = std::max(across, up);
+  const float a = std::min(across, up) / std::max(most, kernels::kLeastDivisor);
+  const float square = a * a;
+  float sum = kernels::kArcTangent[6];
+  for (std::size_t k = 6; k-- > 0;) sum = sum * square + kernels::kArcTangent[k];
+  float angle = sum * a;
+  if (up > across) angle = kernels::kQuarterTurn - angle;
+  if (x < 0.0F) angle = kernels::kHalfTurn - angle;
+  return std::copysign(angle, y);
+}
+
 Oracle::Oracle(const Parameters& parameters, const SensorModel& sensor)
     : parameters_(parameters),
       grid_(parameters, sensor),
@@ -244,7 +257,7 @@ std::vector<float> Oracle::image_of(const Scan& scan) const {
     const float range = std::sqrt(p.x() * p.x() + p.y() * p.y() + p.z() * p.z());
     if (range < static_cast<float>(parameters_.min_range)) continue;
     if (range > max_range_ && !parameters_.clearing) continue;
-    const float turned = arc_tangent(p.y(), p.x()) + kHalfTurn;
+    const float turned = arc_tangent(p.y(), p.x()) + kernels::kHalfTurn;
     const float raised = arc_tangent(p.z(), level) - grid_.elevation_min;
     const int row = floor_of(raised * grid_.rows_per_radian + 0.5F);
     const int column = std::min(floor_of(turned * grid_.columns_per_radian), grid_.columns - 1);
@@ -295,7 +308,8 @@ void Oracle::update(const Scan& scan, const std::vector<float>& image, const Cel
   const float v =
       (arc_tangent(p.z(), std::sqrt(level_square)) - grid_.elevation_min) * grid_.rows_per_radian;
   if (v < -0.5F || v >= static_cast<float>(grid_.rows) - 0.5F) return;
-  const float u = (arc_tangent(p.y(), p.x()) + kHalfTurn) * grid_.columns_per_radian - 0.5F;
+  const float u =
+      (arc_tangent(p.y(), p.x()) + kernels::kHalfTurn) * grid_.columns_per_radian - 0.5F;
   const float seen = range_at(image, u, v);
   const auto truncation = static_cast<float>(parameters_.truncation);
   if (seen == 0.0F || seen - range <= -truncation) return;

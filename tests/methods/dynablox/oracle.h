@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Dynablox written straight from its eight steps with a record for every voxel: slow and plain.
-// Only the arc tangent is the method's own, whose last digits decide for voxels beside a threshold.
+// The arc tangent has the method's own operations, since its last digits decide beside thresholds.
 #pragma once
 
 #include <array>
@@ -24,6 +24,9 @@ struct Voxel {
   int last_occupied = 0;
   bool ever_free = false;
 };
+
+/// atan2(y, x) as the kernels find it.
+float arc_tangent(float y, float x);
 
 class Oracle {
  public:

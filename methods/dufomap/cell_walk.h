@@ -6,7 +6,7 @@
 
 #include "core/scan/voxel_key.h"
 
-namespace raymoval {
+namespace raymoval::dufomap_method {
 
 /// Walks a line from voxel to voxel (Amanatides and Woo 1987). Lengths in voxels.
 class CellWalk {
@@ -48,4 +48,4 @@ class CellWalk {
   std::array<double, 3> next_{kNever, kNever, kNever}, delta_{kNever, kNever, kNever};
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::dufomap_method
