@@ -12,7 +12,7 @@ const char* const kOurs = "not in the paper";
 const char* const kOnline = "offline is false";
 
 void add_field(Table& table) {
-  table.number("voxel_size", &P::voxel_size, {"m", 0.05, 2, kShipped, "Edge of a voxel."})
+  table.number("voxel_size", &P::voxel_size, {"m", 0.1, 2, kShipped, "Edge of a voxel."})
       .number("min_range", &P::min_range,
               {"m", 0, 50, kShipped, "Nearer points and voxels take no part."})
       .number("max_range", &P::max_range,
@@ -81,7 +81,7 @@ void add_clusters(Table& table) {
                          "free, and those beside these. Else the first only.",
              .acts_when = kOnline})
       .number("separation", &P::separation,
-              {"m", 0, 2, "'min_cluster_separation'",
+              {"m", 0, 1, "'min_cluster_separation'",
                "Clusters are one if centres of their voxels are no further apart.", kOnline})
       .integer("min_points", &P::min_points,
                {"points", 1, 1000000, kShipped, "A smaller cluster is none.", kOnline})
