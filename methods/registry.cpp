@@ -5,6 +5,7 @@
 #include "methods/beautymap/beautymap.h"
 #include "methods/controls/controls.h"
 #include "methods/dufomap/dufomap.h"
+#include "methods/dynablox/dynablox.h"
 #include "methods/erasor/erasor.h"
 #include "methods/external/external.h"
 #include "methods/freedom/freedom.h"
@@ -33,6 +34,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(beautymap_entry());
     methods.add(freedom_entry());
     methods.add(hmm_mos_entry());
+    methods.add(dynablox_entry());
     return methods;
   }();
   return registry;

@@ -15,7 +15,7 @@ folders="
 core                   . files process scan simd
 datasets               records clouds|fields|geometry trajectories bags ego|world_axes|deskew
 datasets               sequence_record sequence reading|settings layout
-datasets               semantickitti|dynamicmap|files|bag_scans
+datasets               semantickitti|dynamicmap|files|bag_scans helimos
 datasets               simulation layouts open_sequence inspection
 datasets/bags          bag|damage_notes chunks|messages ros1|mcap ros2 open_bag rewriting
 datasets/clouds        format pcd|ply|bin|las|numpy .
@@ -23,7 +23,7 @@ datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
 methods                remover method_entry common
 methods                controls|external|raymoval|raymoval_plus
-methods                |octomap|peopleremover|removert|erasor|dufomap|beautymap|freedom|hmm_mos registry
+methods                |octomap|peopleremover|removert|erasor|dufomap|beautymap|freedom|hmm_mos|dynablox registry
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects online .
 eval                   . points lattice dynamicmap|erasor|mos protocol_registry columns|comparison|published

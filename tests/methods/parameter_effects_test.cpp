@@ -33,6 +33,11 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"hmm_mos.map_scans", "what moves must be out of sight for some scans (see oracle_test)"},
     {"hmm_mos.map_range_factor", "the sensor must go far away and come back (see oracle_test)"},
     {"hmm_mos.public_lattice", "something must move in the origin's planes (see steps_test)"},
+    {"dynablox.temporal_buffer", "a voxel must be occupied for long, with breaks"},
+    {"dynablox.frames_to_reset", "something must stay where it was free"},
+    {"dynablox.public_boxes", "clusters must be high above the sensor (see dynablox/steps_test)"},
+    {"dynablox.public_merges", "three clusters must be in a row (see dynablox/steps_test)"},
+    {"dynablox.public_unmapped", "a cluster must reach where nobody has looked"},
     {"raymoval_plus:online.recent_scans", "as for tracks"},
     {"freedom.counts_to_revert", "something must stay in free space (see free_map_test)"},
     {"freedom.image_rows", "the sensor's steps must be unknown"},
@@ -210,6 +215,10 @@ TEST_CASE("hmm_mos's parameters act when they are said to", "[effects]") {
 
 TEST_CASE("freedom's parameters act when they are said to", "[effects]") {
   check_method("freedom");
+}
+
+TEST_CASE("dynablox's parameters act when they are said to", "[effects]") {
+  check_method("dynablox");
 }
 
 TEST_CASE("every condition names parameters of its method", "[effects]") {

@@ -103,6 +103,16 @@ constexpr Line kLines[] = {
     {"hmm_mos:fine", "= ? ? = = ? = ? ?"},
     {"hmm_mos:sound", "= ? ? = = = = ? ?"},
     {"hmm_mos:offline", "= ? ? = = = ? ? ?"},
+    // Scans are counted, empty ones too. A pixel has its nearest return and a voxel is hit or not,
+    // but a cluster has a least number of points. The last scan is judged before it is taken in,
+    // and free space is looked at again when an empty one comes. The boxes of public-code compare
+    // heights with x, which the moved worlds do not show.
+    {"dynablox:published", "= ? ? = ? ~ = ? ?"},
+    {"dynablox:public-code", "= ? ? = ? ~ = ? ?"},
+    {"dynablox:header", "= ? ? = ? ~ = ? ?"},
+    {"dynablox:wide", "= ? ? = ? ~ = ? ?"},
+    {"dynablox:offline", "? ? ? = = ~ ? ? ?"},
+    {"dynablox:offline-wide", "? ? ? = = ~ ? ? ?"},
 };
 
 }  // namespace

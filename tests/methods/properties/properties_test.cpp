@@ -291,3 +291,6 @@ TEST_CASE("what may change an answer of freedom", "[properties][every-method]") 
 TEST_CASE("what may change an answer of hmm_mos", "[properties][every-method]") {
   check_method("hmm_mos");
 }
+TEST_CASE("what may change an answer of dynablox", "[properties][every-method]") {
+  check_method("dynablox");
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+/// Loops over the points of a scan and the voxels of a layer, compiled for each instruction set.
+namespace raymoval::dynablox_method::kernels {
+
+/// Coefficients of atan(a) = a P(a a) for 0 <= a <= 1, right to 1e-6: the polynomial that agrees at
+/// Chebyshev's nodes.
+inline constexpr std::array<float, 7> kArcTangent = {
+    0.9999992256F,  -0.3332567804F,  0.1987204027F,  -0.1344786406F,
+    0.08312645301F, -0.03636043086F, 0.007648353927F};
+inline constexpr float kHalfTurn = 3.14159265358979F;
+inline constexpr float kQuarterTurn = 1.57079632679490F;
+inline constexpr float kLeastDivisor = 1e-30F;
+
+/// How points are sorted into an image.
+struct Projection {
+  int columns = 0, rows = 0;
+  float columns_per_radian = 0.0F, rows_per_radian = 0.0F, elevation_min = 0.0F;
+  float min_range = 0.0F;  ///< Nearer points are in no pixel,
+  float max_range = 0.0F;  ///< nor are those beyond.
+};
+
+/// What all voxels have in common while one scan is integrated.
+struct Integration {
+  const float* image = nullptr;  ///< As `RangeImage` stores it.
+  int columns = 0, rows = 0;
+  float columns_per_radian = 0.0F, rows_per_radian = 0.0F, elevation_min = 0.0F;
+  float min_range = 0.0F, max_range = 0.0F, truncation = 0.0F, max_weight = 0.0F;
+  /// From a voxel's centre to the next one's along x and y, sensor frame, metres.
+  std::array<float, 3> along_x{}, along_y{};
+};
+
+/// A layer to integrate the scan into.
+struct LayerFields {
+  std::array<float, 3> first{};  ///< The centre of its first voxel in the sensor frame, metres.
+  float* distance = nullptr;
+  std::uint16_t* weight = nullptr;
+};
+
+/// What all voxels have in common when it is seen which were occupied.
+struct Sweep {
+  float occupied_below = 0.0F;
+  std::int32_t scan = 0;
+  std::int32_t temporal_buffer = 0, burn_in = 0, frames_to_reset = 0;
+};
+
+/// A layer to sweep: what it holds, and bits of its rows.
+struct SweptLayer {
+  const float* distance = nullptr;
+  const std::uint16_t* weight = nullptr;
+  std::int32_t* last_occupied = nullptr;
+  std::uint16_t* occupied_scans = nullptr;
+  const std::uint16_t* hit = nullptr;  ///< Null where the scan has no point in the block.
+  std::uint16_t* settled = nullptr;    ///< Gets which are settled.
+  std::uint16_t* lasting = nullptr;    ///< Gets which are occupied for long enough to be reset.
+};
+
+struct Kernels {
+  std::size_t most_lanes;  ///< `project` takes points in so many at a time, or fewer.
+  /// @param points x y z of each, a multiple of `most_lanes` of them
+  /// @param pixel gets the number in the stored image (see `ImageGrid`), or -1
+  void (*project)(const Projection& image, const float* points, std::size_t count,
+                  std::int32_t* pixel, float* range);
+  /// @return whether any voxel was updated
+  bool (*integrate)(const Integration& scan, const LayerFields& layer);
+  void (*sweep)(const Sweep& scan, const SweptLayer& layer);
+  /// Only says which voxels are settled.
+  void (*settle)(const Sweep& scan, const SweptLayer& layer);
+};
+
+/// The kernels for the best set that this processor has.
+Kernels best_kernels();
+
+}  // namespace raymoval::dynablox_method::kernels

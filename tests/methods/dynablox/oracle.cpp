@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+#include "tests/methods/dynablox/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raymoval::dynablox_test {
+namespace {
+
+constexpr int kBlockSide = 16;
+
+int floor_of(double value) {
+  return static_cast<int>(std::floor(value));
+}
+
+Cell block_with(const Cell& cell) {
+  Cell block;
+  for (std::size_t k = 0; k < 3; ++k) block[k] = floor_of(cell[k] / double{kBlockSide});
+  return block;
+}
+
+/// The 6, 18 or 26 cells around a cell.
+std::vector<Cell> around(const Cell& cell, Neighbours neighbours) {
+  const int most = neighbours == Neighbours::kFaces ? 1 : neighbours == Neighbours::kEdges ? 2 : 3;
+  std::vector<Cell> cells;
+  for (int i = 0; i < 27; ++i) {
+    const int dx = i % 3 - 1, dy = i / 3 % 3 - 1, dz = i / 9 - 1;
+    const int differing = dx * dx + dy * dy + dz * dz;
+    if (differing > 0 && differing <= most) {
+      cells.push_back({cell[0] + dz, cell[1] + dy, cell[2] + dx});
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+float arc_tangent(float y, float x) {
+  const float across = std::abs(x), up = std::abs(y);
+  const float most = std::max(across, up);
+  const float a = std::min(across, up) / std::max(most, kernels::kLeastDivisor);
+  const float square = a * a;
+  float sum = kernels::kArcTangent[6];
+  for (std::size_t k = 6; k-- > 0;) sum = sum * square + kernels::kArcTangent[k];
+  float angle = sum * a;
+  if (up > across) angle = kernels::kQuarterTurn - angle;
+  if (x < 0.0F) angle = kernels::kHalfTurn - angle;
+  return std::copysign(angle, y);
+}
+
+Oracle::Oracle(const Parameters& parameters, const SensorModel& sensor)
+    : parameters_(parameters),
+      grid_(parameters, sensor),
+      max_range_(static_cast<float>(std::min(parameters.max_range, sensor.range_max))) {}
+
+Cell Oracle::cell_of(const Scan& scan, std::size_t point) const {
+  const Eigen::Vector3d world = scan.T_world_sensor * scan.points[point].cast<double>();
+  const double inverse = 1.0 / parameters_.voxel_size;
+  return {floor_of(world.z() * inverse), floor_of(world.y() * inverse),
+          floor_of(world.x() * inverse)};
+}
+
+bool Oracle::takes_part(const Eigen::Vector3f& point) const {
+  return point.norm() >= static_cast<float>(parameters_.min_range) && point.norm() <= max_range_;
+}
+
+const Voxel* Oracle::find(const Cell& cell) const {
+  const auto block = blocks_.find(block_with(cell));
+  return block == blocks_.end() ? nullptr : &block->second.at(cell);
+}
+
+Voxel* Oracle::find(const Cell& cell) {
+  return const_cast<Voxel*>(static_cast<const Oracle*>(this)->find(cell));
+}
+
+int Oracle::ever_free_count() const {
+  int count = 0;
+  for (const auto& [at, block] : blocks_) {
+    for (const auto& [cell, voxel] : block) count += voxel.ever_free ? 1 : 0;
+  }
+  return count;
+}
+
+std::vector<Mask> Oracle::masks(const ScanSource& scans) {
+  std::vector<Mask> masks;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Scan scan = scans.load(i);
+    masks.push_back(judge(scan));
+    update_free_space(scan);
+    integrate(scan);
+  }
+  for (std::size_t i = 0; parameters_.offline && i < scans.size(); ++i) {
+    const Scan scan = scans.load(i);
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      const Voxel* voxel = find(cell_of(scan, k));
+      masks[i][k] = voxel != nullptr && voxel->ever_free ? 1 : 0;
+    }
+  }
+  return masks;
+}
+
+Mask Oracle::judge(const Scan& scan) const {
+  std::map<Cell, std::vector<std::size_t>> points;
+  std::set<Cell> hit;
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    if (!takes_part(scan.points[k])) continue;
+    const Cell cell = cell_of(scan, k);
+    if (parameters_.public_unmapped && find(cell) == nullptr) continue;
+    points[cell].push_back(k);
+    hit.insert(cell);
+  }
+  std::vector<Cluster> clusters = grow(hit);
+  merge(clusters);
+  Mask mask(scan.size(), 0);
+  for (const Cluster& cluster : clusters) {
+    std::vector<std::size_t> its;
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+    for (const Cell& cell : cluster.voxels) {
+      for (const std::size_t k : points[cell]) {
+        const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
+        low = low.cwiseMin(world);
+        high = high.cwiseMax(world);
+        its.push_back(k);
+      }
+    }
+    const double extent = (high - low).norm(), count = static_cast<double>(its.size());
+    if (count < parameters_.min_points || count > parameters_.max_points) continue;
+    if (extent < parameters_.min_extent || extent > parameters_.max_extent) continue;
+    for (const std::size_t k : its) mask[k] = 1;
+  }
+  return mask;
+}
+
+std::vector<Oracle::Cluster> Oracle::grow(const std::set<Cell>& hit) const {
+  std::map<Cell, int> round;  // In which a voxel was taken in.
+  for (const Cell& cell : hit) {
+    const Voxel* voxel = find(cell);
+    if (voxel != nullptr && voxel->ever_free) round[cell] = 0;
+  }
+  const int rounds = parameters_.grow_twice ? 2 : 1;
+  std::vector<std::pair<Cell, Cell>> joins;
+  for (int now = 0; now < rounds; ++now) {
+    const std::map<Cell, int> before = round;
+    for (const auto& [cell, its_round] : before) {
+      if (its_round != now) continue;
+      for (const Cell& next : around(cell, parameters_.cluster_neighbours)) {
+        if (hit.count(next) == 0) continue;
+        round.try_emplace(next, now + 1);
+        joins.emplace_back(cell, next);
+      }
+    }
+  }
+  // Numbers spread until nothing changes.
+  std::map<Cell, int> number;
+  int next = 0;
+  for (const auto& [cell, its_round] : round) {
+    if (its_round == 0) number[cell] = next++;
+  }
+  for (const auto& [cell, its_round] : round) number.try_emplace(cell, next++);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [a, b] : joins) {
+      const int least = std::min(number[a], number[b]);
+      changed = changed || number[a] != least || number[b] != least;
+      number[a] = number[b] = least;
+    }
+  }
+  std::map<int, Cluster> clusters;
+  for (const auto& [cell, its] : number) clusters[its].voxels.insert(cell);
+  std::vector<Cluster> listed;
+  for (auto& [its, cluster] : clusters) {
+    cluster.own = cluster.voxels;
+    listed.push_back(cluster);
+  }
+  return listed;
+}
+
+bool Oracle::are_near(const Cluster& a, const Cluster& b) const {
+  if (parameters_.public_boxes) {
+    int low_z = 1 << 30, high_x = -(1 << 30);
+    for (const Cell& cell : a.own) low_z = std::min(low_z, cell[0]);
+    for (const Cell& cell : b.own) high_x = std::max(high_x, cell[2]);
+    if (low_z > high_x + parameters_.separation / parameters_.voxel_size + 1.0) return false;
+  }
+  const double most = parameters_.separation * (1.0 + 1e-9);
+  for (const Cell& p : a.own) {
+    for (const Cell& q : b.own) {
+      double square = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) square += double(p[k] - q[k]) * (p[k] - q[k]);
+      if (std::sqrt(square) * parameters_.voxel_size <= most) return true;
+    }
+  }
+  return false;
+}
+
+void Oracle::merge(std::vector<Cluster>& clusters) const {
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    for (std::size_t j = i + 1; j < clusters.size();) {
+      if (!are_near(clusters[i], clusters[j])) {
+        ++j;
+        continue;
+      }
+      clusters[i].voxels.insert(clusters[j].voxels.begin(), clusters[j].voxels.end());
+      if (!parameters_.public_merges) clusters[i].own = clusters[i].voxels;
+      clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(j));
+      if (!parameters_.public_merges) j = i + 1;
+    }
+  }
+}
+
+void Oracle::update_free_space(const Scan& scan) {
+  const int now = static_cast<int>(scan.index);
+  std::set<Cell> hit;
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    if (takes_part(scan.points[k])) hit.insert(cell_of(scan, k));
+  }
+  std::vector<Cell> reset;
+  for (const Cell& at : touched_) {
+    for (auto& [cell, voxel] : blocks_.at(at)) {
+      const bool is_near = voxel.distance < static_cast<float>(parameters_.occupied_below);
+      if (!is_near && hit.count(cell) == 0) continue;
+      const bool goes_on = voxel.last_occupied >= now - parameters_.temporal_buffer;
+      voxel.occupied_scans = goes_on ? voxel.occupied_scans + 1 : 1;
+      voxel.last_occupied = now;
+      if (voxel.ever_free && voxel.occupied_scans >= parameters_.frames_to_reset) {
+        reset.push_back(cell);
+      }
+    }
+  }
+  for (const Cell& cell : reset) {
+    find(cell)->ever_free = false;
+    for (const Cell& other : around(cell, parameters_.free_neighbours)) {
+      if (Voxel* voxel = find(other)) voxel->ever_free = false;
+    }
+  }
+  for (const Cell& at : touched_) {
+    for (auto& [cell, voxel] : blocks_.at(at)) become_ever_free(cell, voxel, now);
+  }
+}
+
+void Oracle::become_ever_free(const Cell& cell, Voxel& voxel, int now) {
+  const auto is_settled = [&](const Voxel& any) {
+    return any.weight > 0 && any.last_occupied <= now - parameters_.burn_in;
+  };
+  if (voxel.ever_free || !is_settled(voxel)) return;
+  for (const Cell& other : around(cell, parameters_.free_neighbours)) {
+    const Voxel* neighbour = find(other);
+    if (neighbour == nullptr || !is_settled(*neighbour)) return;
+  }
+  voxel.ever_free = true;
+}
+
+std::vector<float> Oracle::image_of(const Scan& scan) const {
+  std::vector<float> image(static_cast<std::size_t>(grid_.columns * grid_.rows), 0.0F);
+  for (const Eigen::Vector3f& p : scan.points) {
+    const float level = std::sqrt(p.x() * p.x() + p.y() * p.y());
+    const float range = std::sqrt(p.x() * p.x() + p.y() * p.y() + p.z() * p.z());
+    if (range < static_cast<float>(parameters_.min_range)) continue;
+    if (range > max_range_ && !parameters_.clearing) continue;
+    const float turned = arc_tangent(p.y(), p.x()) + kernels::kHalfTurn;
+    const float raised = arc_tangent(p.z(), level) - grid_.elevation_min;
+    const int row = floor_of(raised * grid_.rows_per_radian + 0.5F);
+    const int column = std::min(floor_of(turned * grid_.columns_per_radian), grid_.columns - 1);
+    if (row < 0 || row >= grid_.rows) continue;
+    float& pixel = image[static_cast<std::size_t>(row * grid_.columns + column)];
+    const float seen = std::min(range, max_range_ + static_cast<float>(parameters_.truncation));
+    if (pixel == 0.0F || seen < pixel) pixel = seen;
+  }
+  return image;
+}
+
+float Oracle::range_at(const std::vector<float>& image, float u, float v) const {
+  const float left = std::floor(u), below = std::floor(v);
+  float sum = 0.0F, weight = 0.0F;
+  for (const int up : {0, 1}) {
+    for (const int across : {0, 1}) {
+      const int row = static_cast<int>(below) + up;
+      const int column = (static_cast<int>(left) + across + grid_.columns) % grid_.columns;
+      if (row < 0 || row >= grid_.rows) continue;
+      const float range = image[static_cast<std::size_t>(row * grid_.columns + column)];
+      if (range == 0.0F) continue;
+      const float share_across = across == 1 ? u - left : 1.0F - (u - left);
+      const float share_up = up == 1 ? v - below : 1.0F - (v - below);
+      sum += share_across * share_up * range;
+      weight += share_across * share_up;
+    }
+  }
+  return weight > 0.0F ? sum / weight : 0.0F;
+}
+
+void Oracle::update(const Scan& scan, const std::vector<float>& image, const Cell& cell,
+                    Voxel& voxel) {
+  const Pose T_sensor_world = scan.T_world_sensor.inverse();
+  const Cell block = block_with(cell);
+  const double size = parameters_.voxel_size;
+  // Single precision from the first voxel of the layer on, in the method's order of additions.
+  const Eigen::Vector3d first((block[2] * kBlockSide + 0.5) * size,
+                              (block[1] * kBlockSide + 0.5) * size, (cell[0] + 0.5) * size);
+  const Eigen::Vector3f along_x = (T_sensor_world.linear().col(0) * size).cast<float>();
+  const Eigen::Vector3f along_y = (T_sensor_world.linear().col(1) * size).cast<float>();
+  const Eigen::Vector3f row_first = (T_sensor_world * first).cast<float>() +
+                                    static_cast<float>(cell[1] - block[1] * kBlockSide) * along_y;
+  const Eigen::Vector3f p =
+      row_first + static_cast<float>(cell[2] - block[2] * kBlockSide) * along_x;
+  const float level_square = p.x() * p.x() + p.y() * p.y();
+  const float range = std::sqrt(level_square + p.z() * p.z());
+  if (range < static_cast<float>(parameters_.min_range) || range > max_range_) return;
+  const float v =
+      (arc_tangent(p.z(), std::sqrt(level_square)) - grid_.elevation_min) * grid_.rows_per_radian;
+  if (v < -0.5F || v >= static_cast<float>(grid_.rows) - 0.5F) return;
+  const float u =
+      (arc_tangent(p.y(), p.x()) + kernels::kHalfTurn) * grid_.columns_per_radian - 0.5F;
+  const float seen = range_at(image, u, v);
+  const auto truncation = static_cast<float>(parameters_.truncation);
+  if (seen == 0.0F || seen - range <= -truncation) return;
+  const auto weight = static_cast<float>(voxel.weight);
+  voxel.distance = (voxel.distance * weight + std::min(seen - range, truncation)) / (weight + 1.0F);
+  voxel.weight = std::min(voxel.weight + 1, parameters_.max_weight);
+}
+
+/// Makes the blocks that the rays go through, which are found by cutting rays with boxes.
+void Oracle::touch(const Scan& scan) {
+  touched_.clear();
+  const double edge = kBlockSide * parameters_.voxel_size;
+  const Eigen::Vector3d sensor = scan.T_world_sensor.translation();
+  for (const Eigen::Vector3f& point : scan.points) {
+    const Eigen::Vector3d ahead = scan.T_world_sensor.linear() * point.cast<double>();
+    const double range = point.cast<double>().norm();
+    if (range < parameters_.min_range || (range > max_range_ && !parameters_.clearing)) continue;
+    const double reach = std::min(range + parameters_.truncation, double{max_range_});
+    const Eigen::Vector3d end = sensor + ahead / range * reach;
+    Cell low, high;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      low[static_cast<std::size_t>(2 - k)] = floor_of(std::min(sensor[k], end[k]) / edge);
+      high[static_cast<std::size_t>(2 - k)] = floor_of(std::max(sensor[k], end[k]) / edge);
+    }
+    for (int z = low[0]; z <= high[0]; ++z) {
+      for (int y = low[1]; y <= high[1]; ++y) {
+        for (int x = low[2]; x <= high[2]; ++x) {
+          if (touched_.count({z, y, x}) != 0) continue;
+          double near = 0.0, far = 1.0;
+          const std::array<int, 3> at = {x, y, z};
+          for (Eigen::Index k = 0; k < 3; ++k) {
+            const double a = (at[static_cast<std::size_t>(k)] * edge - sensor[k]);
+            const double whole = end[k] - sensor[k];
+            near = std::max(near, std::min(a / whole, (a + edge) / whole));
+            far = std::min(far, std::max(a / whole, (a + edge) / whole));
+          }
+          if (near <= far) touched_.insert({z, y, x});
+        }
+      }
+    }
+  }
+}
+
+void Oracle::integrate(const Scan& scan) {
+  touch(scan);
+  const std::vector<float> image = image_of(scan);
+  for (const Cell& at : touched_) {
+    const auto [found, is_new] = blocks_.try_emplace(at);
+    for (int i = 0; is_new && i < kBlockSide * kBlockSide * kBlockSide; ++i) {
+      const Cell cell = {at[0] * kBlockSide + i / 256, at[1] * kBlockSide + i / 16 % 16,
+                         at[2] * kBlockSide + i % 16};
+      found->second[cell].last_occupied = static_cast<int>(scan.index);
+    }
+    for (auto& [cell, voxel] : found->second) update(scan, image, cell, voxel);
+  }
+}
+
+}  // namespace raymoval::dynablox_test
