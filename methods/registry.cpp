@@ -7,6 +7,7 @@
 #include "methods/dufomap/dufomap.h"
 #include "methods/erasor/erasor.h"
 #include "methods/external/external.h"
+#include "methods/mapcleaner/mapcleaner.h"
 #include "methods/octomap/octomap.h"
 #include "methods/peopleremover/peopleremover.h"
 #include "methods/raymoval/raymoval.h"
@@ -29,6 +30,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(erasor_entry());
     methods.add(dufomap_entry());
     methods.add(beautymap_entry());
+    methods.add(mapcleaner_entry());
     return methods;
   }();
   return registry;
