@@ -190,6 +190,9 @@ TEST_CASE("dufomap's parameters act when they are said to", "[effects]") {
 TEST_CASE("beautymap's parameters act when they are said to", "[effects]") {
   check_method("beautymap");
 }
+TEST_CASE("mapcleaner's parameters act when they are said to", "[effects]") {
+  check_method("mapcleaner");
+}
 
 TEST_CASE("every condition names parameters of its method", "[effects]") {
   for (const auto& entry : MethodRegistry::built_in().entries()) {

@@ -90,6 +90,12 @@ constexpr Line kLines[] = {
     {"beautymap:semi-indoor", "= = ? = ? ? ? = ="},
     {"beautymap:sound", "= = ? = ? ? ? = ="},
     {"beautymap:wide", "= = ? = ? ? ? = ="},
+
+    // Thresholds of the ground adapt from scan to scan, and the majority of the scans decides. Means
+    // of heights and of voxels are sums, which round; the public program's images hold the last
+    // point of a pixel, and its sectors begin at the world's x axis.
+    {"mapcleaner:published", "= = ? ? ? = ? ? ?"},
+    {"mapcleaner:sound", "= = ? ~ ? = ? ? ?"},
 };
 
 }  // namespace
