@@ -282,3 +282,6 @@ TEST_CASE("what may change an answer of erasor", "[properties][every-method]") {
 TEST_CASE("what may change an answer of dufomap", "[properties][every-method]") {
   check_method("dufomap");
 }
+TEST_CASE("what may change an answer of mapcleaner", "[properties][every-method]") {
+  check_method("mapcleaner");
+}
