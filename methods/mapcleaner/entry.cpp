@@ -6,11 +6,29 @@ namespace {
 
 std::vector<std::string> notes() {
   return {
-      "The default is the public program set for KITTI, whose ground segmentation is Patchwork++ "
-      "instead of the paper's; its quirks have switches (public_...).",
+      "The default is the public program set for KITTI, whose ground segmentation is "
+      "Patchwork++ instead of the paper's; its quirks have switches (public_...).",
       "Dynamic is what is voted dynamic. The public program saves what lies below the terrain "
-      "nowhere, so that it goes (remove_below); what has no terrain it saves in a file of its own "
-      "as neither static nor dynamic, so that it stays (remove_other).",
+      "nowhere, so that it goes (remove_below); what has no terrain it saves in a file of its "
+      "own as neither static nor dynamic, so that it stays (remove_other).",
+      "Scans are not thinned before they come into the map, which the public program may do.",
+      "Voxels and terrain cells are those of the lattice at the world's origin.",
+      "Patchwork++: variances are those of the sample; where only one plane is known, its "
+      "deviation is 0; where no plane of a ring is low enough, none is taken for being like "
+      "them; a bin all of whose points lie below 1.2 sensor heights begins with all of them.",
+      "Filling: a cell at the distance of the radius does not count; one with too few others "
+      "around it to have a smooth height does not count in the second round.",
+      "A cell without neighbours along an axis is level along it.",
+      "A scan without points votes on nothing, and no terrain begins and no voxels are chosen "
+      "anew below it.",
+      "sound begins the terrain at the cells nearest to a sensor that has none below it, up to "
+      "12.4 m away, where the innermost zone of Patchwork++ ends: else a sensor that stands has "
+      "no terrain.",
+      "sound has images a pixel larger on each side than the sensor's field of view.",
+      "sound tells the sensor's height by the median of the upright planes that its first scan "
+      "with ground has in the innermost zone.",
+      "Pixels of points and of voxels are found in single precision, and the terrain is filled "
+      "in it, relative to a height nearby.",
   };
 }
 

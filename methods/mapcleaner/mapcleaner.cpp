@@ -102,6 +102,9 @@ void answer(const Parameters& parameters, const ScanSource& scans, const Split& 
     return part == Part::kCandidate && votes.is_dynamic(voxels.find(world_point(scan, i)));
   };
   const auto answer_scan = [&](const Scan& scan, int threads) {
+    // Several scans at once are timed as one pass.
+    const bool is_alone = ground.is_needed() || context.threads == 1;
+    const StageScope timed(is_alone ? context.times : nullptr, "answers");
     Mask mask(scan.size());
     split_points(scan, ground.of(scan, threads), split, threads,
                  [&](std::size_t i, Part part) { mask[i] = is_removed(scan, i, part) ? 1 : 0; });
@@ -112,10 +115,8 @@ void answer(const Parameters& parameters, const ScanSource& scans, const Split& 
                       [&](const Scan& scan) { answer_scan(scan, 1); });
     return;
   }
-  for_each_scan("mapcleaner, answers", scans, context, [&](const Scan& scan) {
-    const StageScope timed(context.times, "answers");
-    answer_scan(scan, context.threads);
-  });
+  for_each_scan("mapcleaner, answers", scans, context,
+                [&](const Scan& scan) { answer_scan(scan, context.threads); });
 }
 
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,

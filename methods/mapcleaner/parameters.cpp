@@ -82,8 +82,8 @@ void add_votes(Table& table) {
                {"pixels", 0, 20, kKitti, "The same for rows, above and below."})
       .number("tolerance", &P::tolerance,
               {"m", 0.01, 10, kKitti,
-               "A scan sees a voxel if a range there differs by no more, which saves it. If all "
-               "are larger, it sees through it."})
+               "A scan sees a voxel if a range in that window differs by no more. If all are "
+               "larger, it sees through it."})
       .number("submap_radius", &P::submap_radius,
               {"m", 1, 500, kPublic, "Voxels within this distance of the sensor are compared."})
       .number("submap_travel", &P::submap_travel,

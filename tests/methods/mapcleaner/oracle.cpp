@@ -67,24 +67,26 @@ void Oracle::measure() {
 Oracle::Cells Oracle::filled(const Cells& cells, double radius, double deviation) const {
   if (radius == 0) return cells;
   const int reach = static_cast<int>(radius / p_.terrain_cell) + 1;
-  const auto kernel = [&](int x, int y) {
-    const double d = std::sqrt(x * x + y * y) * p_.terrain_cell / radius;
-    if (d > 1 - 1e-9) return 0.0;
-    return (2 + std::cos(2 * M_PI * d)) / 3 * (1 - d) + std::sin(2 * M_PI * d) / (2 * M_PI);
-  };
+  std::map<std::pair<int, int>, double> kernel;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const double d = std::sqrt(x * x + y * y) * p_.terrain_cell / radius;
+      if (d > 1 - 1e-9) continue;
+      kernel[{x, y}] =
+          (2 + std::cos(2 * M_PI * d)) / 3 * (1 - d) + std::sin(2 * M_PI * d) / (2 * M_PI);
+    }
+  }
   Cells smooth = cells, result = cells;
   for (int y = -kHalf; y < kHalf; ++y) {
     for (int x = -kHalf; x < kHalf; ++x) {
       double sum = 0, weights = 0;
       int count = 0;
-      for (int dy = -reach; dy <= reach; ++dy) {
-        for (int dx = -reach; dx <= reach; ++dx) {
-          const double z = at(cells, x + dx, y + dy), k = kernel(dx, dy);
-          if (std::isnan(z) || k == 0) continue;
-          ++count;
-          sum += k * z;
-          weights += k;
-        }
+      for (const auto& [step, k] : kernel) {
+        const double z = at(cells, x + step.first, y + step.second);
+        if (std::isnan(z)) continue;
+        ++count;
+        sum += k * z;
+        weights += k;
       }
       put(smooth, x, y) = count >= p_.fill_cells ? sum / weights : kNone;
     }
@@ -93,14 +95,13 @@ Oracle::Cells Oracle::filled(const Cells& cells, double radius, double deviation
     for (int x = -kHalf; x < kHalf; ++x) {
       if (!std::isnan(at(cells, x, y)) || std::isnan(at(smooth, x, y))) continue;
       double sum = 0, weights = 0;
-      for (int dy = -reach; dy <= reach; ++dy) {
-        for (int dx = -reach; dx <= reach; ++dx) {
-          const double z = at(cells, x + dx, y + dy), z1 = at(smooth, x + dx, y + dy);
-          if (std::isnan(z) || std::isnan(z1)) continue;
-          const double c = std::exp(-(z - z1) * (z - z1) / (2 * deviation * deviation));
-          sum += c * kernel(dx, dy) * z;
-          weights += c * kernel(dx, dy);
-        }
+      for (const auto& [step, k] : kernel) {
+        const double z = at(cells, x + step.first, y + step.second);
+        const double z1 = at(smooth, x + step.first, y + step.second);
+        if (std::isnan(z) || std::isnan(z1)) continue;
+        const double c = std::exp(-(z - z1) * (z - z1) / (2 * deviation * deviation));
+        sum += c * k * z;
+        weights += c * k;
       }
       if (weights > 0) put(result, x, y) = sum / weights;
     }

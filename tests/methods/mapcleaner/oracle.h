@@ -54,7 +54,7 @@ class Oracle {
 
  private:
   /// Cells -kHalf .. kHalf - 1 along x and y.
-  static constexpr int kHalf = 75;
+  static constexpr int kHalf = 66;
   using Cells = std::vector<double>;
   using Voxel = std::vector<int>;
 
