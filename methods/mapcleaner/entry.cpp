@@ -35,9 +35,9 @@ std::vector<std::string> notes() {
 }  // namespace
 
 MethodEntry mapcleaner_entry() {
-  const Configuration sound = {{"public_height", false}, {"public_axes", false},
-                               {"public_image", false},  {"public_overwrite", false},
-                               {"remove_below", false},  {"start_radius", 12.4}};
+  const Configuration sound = {{"public_height", false},        {"public_axes", false},
+                               {"public_field_of_view", false}, {"public_overwrite", false},
+                               {"remove_below", false},         {"start_radius", 12.4}};
   MethodEntry entry;
   entry.name = "mapcleaner";
   entry.sentence =

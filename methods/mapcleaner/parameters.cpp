@@ -74,7 +74,7 @@ void add_votes(Table& table) {
           "vertical_view", &P::vertical_view,
           {"deg", 1, 180, kPublic,
            "Height of the images, half of it above the horizon. What lies beyond is not judged.",
-           "public_image is true"})
+           "public_field_of_view is true"})
       .integer("window_columns", &P::window_columns,
                {"pixels", 0, 20, kKitti,
                 "A voxel is compared with so many columns to either side of its own."})
@@ -93,7 +93,7 @@ void add_votes(Table& table) {
 
 void add_switches(Table& table) {
   table
-      .flag("public_image", &P::public_image,
+      .flag("public_field_of_view", &P::public_field_of_view,
             {.source = kPublic,
              .sentence = "Images go all around and have vertical_view. Else they have the sensor's "
                          "field of view, and no pixel is smaller than the sensor's steps."})

@@ -35,7 +35,7 @@ struct Parameters : patchwork::GroundParameters {
   double submap_radius = 70.0;
   double submap_travel = 10.0;
   // As the public program does it.
-  bool public_image = true;
+  bool public_field_of_view = true;
   bool public_overwrite = true;
 };
 

@@ -47,9 +47,7 @@ ImageFrame::ImageFrame(const Parameters& parameters, const SensorModel& sensor)
   double width = kTurn, height = parameters.vertical_view * kDegree;
   azimuth_from = -kTurn / 2.0;
   elevation_from = -height / 2.0;
-  if (!parameters.public_image) {
-    row_height = std::max(row_height, sensor.elevation_step);
-    column_width = std::max(column_width, sensor.azimuth_step);
+  if (!parameters.public_field_of_view) {
     is_circle = sensor.full_circle();
     // A pixel more on each side: the outermost beams spread.
     elevation_from = sensor.elevation_min - row_height;

@@ -24,7 +24,7 @@ Parameters here() {
 Parameters sound() {
   Parameters parameters;
   parameters.public_height = parameters.public_axes = false;
-  parameters.public_image = parameters.public_overwrite = false;
+  parameters.public_field_of_view = parameters.public_overwrite = false;
   parameters.remove_below = false;
   parameters.start_radius = 12.4;
   return parameters;
@@ -187,8 +187,8 @@ TEST_CASE("mapcleaner: the fast way gives what the description says") {
     Parameters parameters = variant % 2 == 0 ? here() : sound();
     if (variant > 1) {
       for (bool Parameters::*flag :
-           {&Parameters::public_overwrite, &Parameters::public_image, &Parameters::on_terrain_only,
-            &Parameters::remove_below, &Parameters::remove_other}) {
+           {&Parameters::public_overwrite, &Parameters::public_field_of_view,
+            &Parameters::on_terrain_only, &Parameters::remove_below, &Parameters::remove_other}) {
         parameters.*flag = random() % 2 == 0;
       }
       parameters.submap_radius = variant == 3 ? 6.0 : 70.0;

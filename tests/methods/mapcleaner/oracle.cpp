@@ -219,9 +219,7 @@ void Oracle::vote() {
   double high = p_.vertical_view / 2 * degree, right = M_PI;
   low_ = -high;
   left_ = -M_PI;
-  if (!p_.public_image) {
-    row_height_ = std::max(row_height_, sensor_.elevation_step);
-    column_width_ = std::max(column_width_, sensor_.azimuth_step);
+  if (!p_.public_field_of_view) {
     is_circle_ = sensor_.azimuth_max - sensor_.azimuth_min > 6.2;
     low_ = sensor_.elevation_min - row_height_;
     high = sensor_.elevation_max + row_height_;

@@ -60,7 +60,7 @@ TEST_CASE("mapcleaner: images go all around, 15 degrees up and down") {
 
 TEST_CASE("mapcleaner: images have the sensor's field of view if they are to") {
   Parameters parameters;
-  parameters.public_image = false;
+  parameters.public_field_of_view = false;
   SensorModel sensor;
   sensor.azimuth_min = 150 * kDegree;  // Through the back, 60 degrees wide.
   sensor.azimuth_max = 210 * kDegree;
