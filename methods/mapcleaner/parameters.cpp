@@ -96,7 +96,7 @@ void add_switches(Table& table) {
       .flag("public_field_of_view", &P::public_field_of_view,
             {.source = kPublic,
              .sentence = "Images go all around and have vertical_view. Else they have the sensor's "
-                         "field of view, and no pixel is smaller than the sensor's steps."})
+                         "field of view."})
       .flag(
           "public_overwrite", &P::public_overwrite,
           {.source = kPublic,

@@ -181,7 +181,6 @@ TEST_CASE("mapcleaner: the fast way gives what the description says") {
   SensorModel sensor;
   sensor.elevation_min = -40 * kDegree;
   sensor.elevation_max = 30 * kDegree;
-  sensor.elevation_step = 0.7 * kDegree;
   std::mt19937 random(4);
   for (int variant = 0; variant < 6; ++variant) {
     Parameters parameters = variant % 2 == 0 ? here() : sound();

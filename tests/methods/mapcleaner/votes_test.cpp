@@ -66,10 +66,9 @@ TEST_CASE("mapcleaner: images have the sensor's field of view if they are to") {
   sensor.azimuth_max = 210 * kDegree;
   sensor.elevation_min = -24.8 * kDegree;
   sensor.elevation_max = 2.0 * kDegree;
-  sensor.azimuth_step = 0.5 * kDegree;
-  sensor.elevation_step = 0.2 * kDegree;
+  parameters.column_width = 0.5;
   const ImageFrame frame(parameters, sensor);
-  // Columns of the sensor's step, rows of the published 0.4; one more on either side.
+  // Columns of 0.5 and rows of 0.4 degrees, one more on either side.
   CHECK(frame.columns == 122);
   CHECK(frame.rows == 69);
   CHECK_FALSE(frame.is_circle);
