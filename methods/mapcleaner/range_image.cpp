@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 /// Work for a thread at a time. They change no answer.
-constexpr std::size_t kPointsATask = 16 * ImageFrame::Batch::kSize, kRowsATask = 4;
+constexpr std::size_t kImagePointsATask = 16 * ImageFrame::Batch::kSize, kRowsATask = 4;
 
 /// How many pixels an angle has room for.
 int pixels_in(double angle, double pixel) {
@@ -96,7 +96,7 @@ RangeImage::RangeImage(const Parameters& parameters, const SensorModel& sensor)
 void RangeImage::fill(const Scan& scan, int threads) {
   pixels_.resize(scan.size());
   point_ranges_.resize(scan.size());
-  parallel_chunks(threads, scan.size(), kPointsATask, [&](std::size_t from, std::size_t to) {
+  parallel_chunks(threads, scan.size(), kImagePointsATask, [&](std::size_t from, std::size_t to) {
     ImageFrame::Batch batch;
     for (std::size_t begin = from; begin < to; begin += ImageFrame::Batch::kSize) {
       const std::size_t count = std::min<std::size_t>(ImageFrame::Batch::kSize, to - begin);
