@@ -10,6 +10,7 @@
 #include "methods/external/external.h"
 #include "methods/freedom/freedom.h"
 #include "methods/hmm_mos/hmm_mos.h"
+#include "methods/mapcleaner/mapcleaner.h"
 #include "methods/octomap/octomap.h"
 #include "methods/peopleremover/peopleremover.h"
 #include "methods/raymoval/raymoval.h"
@@ -35,6 +36,7 @@ const MethodRegistry& MethodRegistry::built_in() {
     methods.add(freedom_entry());
     methods.add(hmm_mos_entry());
     methods.add(dynablox_entry());
+    methods.add(mapcleaner_entry());
     return methods;
   }();
   return registry;

@@ -25,6 +25,12 @@ class ThinnedPoints {
     counts_[found->second] += 1.0;
     return found->second;
   }
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  /// The number of the centroid of a point's voxel; `kNone` if no point of it was added.
+  [[nodiscard]] std::size_t find(const Eigen::Vector3d& point) const {
+    const auto found = numbers_.find(voxel_key(voxel_index(point, inverse_)));
+    return found == numbers_.end() ? kNone : found->second;
+  }
   [[nodiscard]] std::size_t size() const { return sums_.size(); }
   [[nodiscard]] Eigen::Vector3d centroid(std::size_t i) const { return sums_[i] / counts_[i]; }
 

@@ -47,6 +47,10 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"freedom.top_margin", "a hole must end below the top (see depth_image_test)"},
     {"freedom.public_revert", "as for counts_to_revert"},
     {"freedom.public_full_blocks", "a block of 3.2 m must be all free (see free_map_test)"},
+    {"mapcleaner.noise_reflectance", "points must have reflectance (see ground_segmentation_test)"},
+    {"mapcleaner.public_height", "the sensor must be much lower (see ground_segmentation_test)"},
+    {"mapcleaner.public_axes", "the sensor must turn"},
+    {"mapcleaner.submap_travel", "the sensor must go farther (see votes_test)"},
     {"octomap.ground_points", "a scan must have few points"},
     {"erasor.sparse_ground", "a bin must have as few points as are skipped as outliers"},
     {"removert.clamp_fov", "the sensor must see beyond the images' field of view"},
@@ -219,6 +223,10 @@ TEST_CASE("freedom's parameters act when they are said to", "[effects]") {
 
 TEST_CASE("dynablox's parameters act when they are said to", "[effects]") {
   check_method("dynablox");
+}
+
+TEST_CASE("mapcleaner's parameters act when they are said to", "[effects]") {
+  check_method("mapcleaner");
 }
 
 TEST_CASE("every condition names parameters of its method", "[effects]") {

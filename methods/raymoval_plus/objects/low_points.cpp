@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "methods/raymoval_plus/common/dense_blocks.h"
+#include "methods/common/dense_blocks.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scan/voxel_key.h"
-#include "methods/raymoval_plus/common/dense_blocks.h"
+#include "methods/common/dense_blocks.h"
 #include "methods/raymoval_plus/common/parameters.h"
 #include "methods/raymoval_plus/common/scan_cells.h"
 #include "methods/remover.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
-#include <random>
 
 #include "tests/methods/erasor/scenes.h"
 
@@ -95,40 +94,6 @@ TEST_CASE("a bin with fewer points than are skipped starts from its lowest point
   CHECK(count(find_ground(points, parameters)) == 5);  // No seeds: nothing is removed.
   for (Eigen::Vector3d& point : points) point.z() -= 2.0;
   CHECK(find_ground(points, parameters) == Mask{1, 1, 1, 1, 0});
-}
-
-TEST_CASE("one point, two points and a line have an upright plane", "[erasor]") {
-  CHECK(fit_plane({{3, 1, 0.5}}, {1}).normal.z() == Approx(1.0));
-  const Plane level = fit_plane({{3, 1, 0.5}, {4, 2, 0.5}}, {1, 1});
-  CHECK(level.normal.z() == Approx(1.0));
-  CHECK(level.height_of({9, 9, 0.7}) == Approx(0.2));
-  // A line that climbs 1 in 2: the most upright plane through it climbs with it.
-  const Plane ramp = fit_plane({{0, 0, 0}, {1, 0, 0.5}, {2, 0, 1}}, {1, 1, 1});
-  CHECK(ramp.normal.z() == Approx(2.0 / std::sqrt(5.0)));
-  CHECK(ramp.height_of({1, 5, 0.5}) == Approx(0.0).margin(1e-12));
-  // A vertical line is on its plane whatever that is.
-  const Plane wall = fit_plane({{3, 1, 0}, {3, 1, 1}, {3, 1, 2}}, {1, 1, 1});
-  CHECK(wall.height_of({3, 1, 7}) == Approx(0.0).margin(1e-12));
-}
-
-TEST_CASE("a plane is recovered from random points and points up", "[erasor]") {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (int round = 0; round < 200; ++round) {
-    const Eigen::Vector3d normal =
-        Eigen::Vector3d(uniform(random), uniform(random), 1.0 + uniform(random)).normalized();
-    const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
-    const Eigen::Vector3d origin(30 * uniform(random), 30 * uniform(random), uniform(random));
-    BodyPoints points;
-    for (int i = 0; i < 20; ++i)
-      points.push_back(origin + uniform(random) * u + 2 * uniform(random) * v);
-    const Plane plane = fit_plane(points, Mask(points.size(), 1));
-    CHECK((plane.normal - normal).norm() < 1e-9);
-    CHECK(std::abs(plane.height_of(origin)) < 1e-9);
-    // The order of the points does not matter.
-    std::reverse(points.begin(), points.end());
-    CHECK((fit_plane(points, Mask(points.size(), 1)).normal - normal).norm() < 1e-9);
-  }
 }
 
 TEST_CASE("no points, no ground to find", "[erasor]") {

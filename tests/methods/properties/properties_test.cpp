@@ -294,3 +294,6 @@ TEST_CASE("what may change an answer of hmm_mos", "[properties][every-method]") 
 TEST_CASE("what may change an answer of dynablox", "[properties][every-method]") {
   check_method("dynablox");
 }
+TEST_CASE("what may change an answer of mapcleaner", "[properties][every-method]") {
+  check_method("mapcleaner");
+}

@@ -9,7 +9,7 @@
 
 #include "core/scan/voxel_key.h"
 
-namespace raymoval::raymoval_plus_method {
+namespace raymoval {
 
 /// A grid without bounds. It consists of dense blocks of 2^`kBitsXY` x 2^`kBitsXY` x 2^`kBitsZ`
 /// cells, which are found by a hash. The cells of a new block hold `empty`.
@@ -105,4 +105,4 @@ class DenseBlocks {
   std::vector<Value> values_;
 };
 
-}  // namespace raymoval::raymoval_plus_method
+}  // namespace raymoval

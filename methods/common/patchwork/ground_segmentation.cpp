@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// "Patchwork++"; the steps are numbered in ground_segmentation.h.
+#include "methods/common/patchwork/ground_segmentation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/angle.h"
+#include "core/parallel.h"
+#include "core/sampling.h"
+#include "core/scan/local_frame.h"
+
+namespace raymoval::patchwork {
+namespace {
+
+// Constants of Patchwork++.
+/// A mirrored point lies so many metres below the ground, in steeper directions than this.
+constexpr double kMirroredDepth = 0.8, kMirroredElevation = -15.0 * kDegree;
+/// A plane that is neither low nor flat is compared with the mean flatness of its ring and so many
+/// deviations.
+constexpr double kRingDeviations = 1.5;
+/// One with so many points is ground if it is flat by itself.
+constexpr double kManyPoints = 1500.0;
+/// One whose points vary so much more along it than across is a line, and no ground.
+constexpr double kLineRatio = 8.0;
+// Work for a thread at a time. They change no answer.
+constexpr std::size_t kPointsATask = 8192, kBinsATask = 8;
+
+double first_height(const GroundParameters& parameters) {
+  return parameters.public_height ? parameters.sensor_height
+                                  : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+GroundSegmentation::GroundSegmentation(const GroundParameters& parameters)
+    : parameters_(parameters),
+      zones_(parameters.ground_min_range, parameters.ground_max_range),
+      thresholds_(first_height(parameters)),
+      is_height_known_(parameters.public_height) {}
+
+Mask GroundSegmentation::find_ground(const Scan& scan, int threads) {
+  place_points(scan, threads);
+  fit_bins(threads);
+  if (!is_height_known_) {
+    find_sensor_height();
+    if (is_height_known_) {  // Now mirrored points can be told.
+      place_points(scan, threads);
+      fit_bins(threads);
+    }
+  }
+  for (int ring = 0; ring < ZoneModel::kAllRings; ++ring) judge_ring(ring);
+  thresholds_.adapt();
+  Mask mask(scan.size(), 0);
+  for (std::size_t i = 0; i < point_.size(); ++i) mask[point_[i]] = ground_[i];
+  return mask;
+}
+
+bool GroundSegmentation::is_mirrored(const Eigen::Vector3d& point, const Scan& scan,
+                                     std::size_t i) const {
+  if (scan.reflectance.empty()) return false;
+  if (!(point.z() < -thresholds_.sensor_height() - kMirroredDepth)) return false;
+  if (!(static_cast<double>(scan.reflectance[i]) < parameters_.noise_reflectance)) return false;
+  return std::atan2(point.z(), point.head<2>().norm()) < kMirroredElevation;
+}
+
+void GroundSegmentation::place_points(const Scan& scan, int threads) {
+  const Eigen::Matrix3d turn = parameters_.public_axes
+                                   ? Eigen::Matrix3d(scan.T_world_sensor.linear())
+                                   : turn_to_z(scan.T_world_sensor.linear().row(2).transpose());
+  level_.resize(scan.size());
+  bin_.resize(scan.size());
+  parallel_for(threads, scan.size(), kPointsATask, [&](std::size_t i) {
+    const Eigen::Vector3d point = turn * scan.points[i].cast<double>();
+    level_[i] = point;
+    bin_[i] = is_mirrored(point, scan, i) ? ZoneModel::kNone : zones_.bin_of(point.x(), point.y());
+  });
+  begin_.assign(ZoneModel::kAllBins + 1, 0);
+  for (const int bin : bin_) {
+    if (bin != ZoneModel::kNone) ++begin_[static_cast<std::size_t>(bin) + 1];
+  }
+  for (std::size_t bin = 0; bin < ZoneModel::kAllBins; ++bin) begin_[bin + 1] += begin_[bin];
+  point_.resize(begin_.back());
+  in_bins_.resize(begin_.back());
+  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::size_t i = 0; i < bin_.size(); ++i) {
+    if (bin_[i] == ZoneModel::kNone) continue;
+    const std::size_t at = next[static_cast<std::size_t>(bin_[i])]++;
+    point_[at] = static_cast<std::uint32_t>(i);
+    in_bins_[at] = level_[i];
+  }
+}
+
+void GroundSegmentation::fit_bins(int threads) {
+  planes_.assign(ZoneModel::kAllBins, {});
+  ground_.assign(point_.size(), 0);
+  parallel_for(threads, ZoneModel::kAllBins, kBinsATask, [&](std::size_t i) {
+    const int bin = static_cast<int>(i);
+    if (points_in(bin) < static_cast<std::size_t>(parameters_.bin_points)) return;
+    const BinSurroundings surroundings{ZoneModel::is_innermost_zone(bin),
+                                       thresholds_.sensor_height()};
+    planes_[i].fit =
+        find_bin_ground(std::span(in_bins_).subspan(begin(bin), points_in(bin)), surroundings,
+                        parameters_, std::span(ground_).subspan(begin(bin), points_in(bin)));
+  });
+}
+
+void GroundSegmentation::find_sensor_height() {
+  std::vector<double> heights;
+  for (int bin = 0; ZoneModel::is_innermost_zone(bin); ++bin) {
+    const BinPlane& plane = planes_[static_cast<std::size_t>(bin)];
+    if (!plane.fit || !(plane.fit->plane.normal.z() > parameters_.upright)) continue;
+    if (plane.elevation() < 0.0) heights.push_back(-plane.elevation());
+  }
+  if (heights.empty()) return;
+  thresholds_.set_sensor_height(median(std::move(heights)));
+  is_height_known_ = true;
+}
+
+void GroundSegmentation::judge_ring(int ring) {
+  std::deque<double> flatnesses;  // Of the ring's planes that are low enough.
+  std::vector<int> candidates;
+  for (int bin = ZoneModel::first_bin(ring); bin < ZoneModel::first_bin(ring + 1); ++bin) {
+    const BinPlane& plane = planes_[static_cast<std::size_t>(bin)];
+    if (!plane.fit) continue;
+    if (!(plane.fit->plane.normal.z() > parameters_.upright)) {
+      drop_ground(bin);
+      continue;
+    }
+    if (ring >= kProvedRings) continue;
+    const bool is_low = plane.elevation() < thresholds_.elevation(ring);
+    if (is_low) {
+      thresholds_.store(ring, plane.elevation(), plane.flatness());
+      flatnesses.push_back(plane.flatness());
+    }
+    if (!plane.faces_sensor()) {
+      drop_ground(bin);
+    } else if (!is_low && !(plane.flatness() < thresholds_.flatness(ring))) {
+      candidates.push_back(bin);
+    }
+  }
+  for (const int bin : candidates) {
+    if (!is_like_ring(planes_[static_cast<std::size_t>(bin)], flatnesses)) drop_ground(bin);
+  }
+}
+
+bool GroundSegmentation::is_like_ring(const BinPlane& plane,
+                                      const std::deque<double>& flatnesses) const {
+  if (plane.length_squared() > kLineRatio * plane.width_squared()) return false;
+  const double own = parameters_.ground_distance * parameters_.ground_distance;
+  if (plane.fit->points > kManyPoints && plane.flatness() < own) return true;
+  if (flatnesses.empty()) return false;
+  // The likeness is a logistic function of the flatness, which is above one half below its middle.
+  const MeanAndDeviation ring = mean_and_deviation(flatnesses);
+  return plane.flatness() < ring.mean + kRingDeviations * ring.deviation;
+}
+
+void GroundSegmentation::drop_ground(int bin) {
+  std::fill_n(ground_.begin() + static_cast<std::ptrdiff_t>(begin(bin)), points_in(bin),
+              std::uint8_t{0});
+}
+
+}  // namespace raymoval::patchwork

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/scan/scan.h"
+#include "core/scan/sensor_model.h"
+#include "methods/mapcleaner/parameters.h"
+
+namespace raymoval::mapcleaner_method {
+
+/// Where directions of the sensor frame fall in an image: rows from below to above, columns
+/// counter-clockwise.
+struct ImageFrame {
+  ImageFrame(const Parameters& parameters, const SensorModel& sensor);
+
+  /// Some points of the sensor frame with their pixels, which a compiler finds several at a time.
+  struct Batch {
+    static constexpr int kSize = 256;
+    std::array<float, kSize> x, y, z;             ///< In: metres.
+    std::array<float, kSize> row, column, range;  ///< Out: pixels in fractions, metres.
+  };
+  /// Fills the rows, columns and ranges of a batch's first points. Angles are good to 1e-6 rad.
+  void project(Batch& batch, int count) const;
+  /// The pixel of a point of a batch, -1 where it lies outside the image or in the sensor itself.
+  [[nodiscard]] int pixel_of(const Batch& batch, int i) const {
+    const auto at = static_cast<std::size_t>(i);
+    const float row = batch.row[at], column = batch.column[at];
+    if (!(row >= 0.0F && row < static_cast<float>(rows)) || !(batch.range[at] > 0.0F)) return -1;
+    if (!(column < static_cast<float>(columns)))
+      return is_circle ? static_cast<int>(row) * columns : -1;
+    return static_cast<int>(row) * columns + static_cast<int>(column);
+  }
+
+  int rows = 0, columns = 0;
+  bool is_circle = true;                            ///< The last column is beside the first.
+  double row_height = 0.0, column_width = 0.0;      ///< Radians.
+  double elevation_from = 0.0, azimuth_from = 0.0;  ///< Where the first row and column begin.
+};
+
+/// What a scan says of a place.
+enum class Sight : std::int8_t { kNothing, kSeen, kSeenThrough };
+
+/// The range image of a scan, and what it says of places.
+class RangeImage {
+ public:
+  RangeImage(const Parameters& parameters, const SensorModel& sensor);
+
+  [[nodiscard]] const ImageFrame& frame() const { return frame_; }
+  /// Replaces the image by that of a scan.
+  void fill(const Scan& scan, int threads);
+  /// Range of the image in a pixel, metres; 0 where it is empty.
+  [[nodiscard]] float at(int row, int column) const { return ranges_[index(row, column)]; }
+  /// Compares a place with the window around its pixel: it is seen where a range is equal but for
+  /// the tolerance; else nothing is told where one is smaller; else it is seen through where one is
+  /// larger.
+  /// @param range metres from the sensor
+  [[nodiscard]] Sight look(int pixel, float range) const {
+    const auto place = static_cast<std::size_t>(pixel);
+    const float highest = highest_[place], lowest = lowest_[place];
+    if (highest == 0.0F || range - highest > tolerance_) return Sight::kNothing;
+    if (lowest - range > tolerance_) return Sight::kSeenThrough;
+    if (is_equal(lowest, range) || is_equal(highest, range)) return Sight::kSeen;
+    return has_equal(pixel, range) ? Sight::kSeen : Sight::kNothing;
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.columns) +
+           static_cast<std::size_t>(column);
+  }
+  [[nodiscard]] bool is_equal(float seen, float range) const {
+    const float difference = seen - range;
+    return difference <= tolerance_ && difference >= -tolerance_;
+  }
+  [[nodiscard]] bool has_equal(int pixel, float range) const;
+  /// The lowest and highest ranges of windows.
+  void find_extremes(int threads);
+
+  ImageFrame frame_;
+  bool keeps_last_;
+  int wide_, high_;  ///< Half sizes of the window, pixels.
+  float tolerance_;  ///< Metres.
+  std::vector<float> ranges_;
+  std::vector<float> lowest_, highest_;  ///< In the window of each pixel; infinite and 0 if empty.
+  // Scratch.
+  std::vector<int> pixels_;
+  std::vector<float> point_ranges_, row_lowest_, row_highest_;
+};
+
+}  // namespace raymoval::mapcleaner_method

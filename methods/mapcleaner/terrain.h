@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "methods/mapcleaner/height_grid.h"
+#include "methods/mapcleaner/parameters.h"
+#include "methods/remover.h"
+
+namespace raymoval::mapcleaner_method {
+
+/// The cells with a height of `grid` that can be reached from `starts` (cells), over eight
+/// neighbours, through cells whose slope is below `slope` radians. Where a start has no such cell,
+/// the way begins at the nearest ones, if they are at most `start_radius` cells away.
+HeightGrid reachable(const HeightGrid& grid, const std::vector<VoxelIndex>& starts, double cell,
+                     double slope, double start_radius);
+
+/// Replaces each height by the median of those of the cell and its eight neighbours.
+HeightGrid smoothed(const HeightGrid& grid, int threads);
+
+/// The height of the terrain, where the ground goes on without steps from below the sensors.
+/// Memory grows with the area of the ground.
+class Terrain {
+ public:
+  using Cursor = HeightGrid::Cursor;
+  explicit Terrain(const Parameters& parameters);
+
+  /// Takes in the ground points of a scan. @param ground one value per point, 1 = ground
+  void add(const Scan& scan, const Mask& ground);
+  /// Finds the terrain, once all scans were added.
+  void finish(const RunContext& context);
+  /// The height of the terrain below or above a world point, metres; NaN where there is none.
+  [[nodiscard]] double height_at(const Eigen::Vector3d& world, Cursor& cursor) const {
+    return heights_.get(terrain_cell(world, inverse_cell_), cursor);
+  }
+  [[nodiscard]] const HeightGrid& heights() const { return heights_; }
+
+ private:
+  /// Of the heights of a cell's ground points.
+  struct Statistics {
+    double count = 0.0, mean = 0.0;
+    double squares = 0.0;  ///< Sum of the squares of what they differ from their mean by.
+  };
+  using StatisticsGrid = DenseBlocks<Statistics, 6, 0>;
+
+  [[nodiscard]] HeightGrid measured() const;
+
+  Parameters parameters_;
+  double inverse_cell_;
+  StatisticsGrid statistics_{Statistics{}};
+  std::vector<VoxelIndex> below_sensors_;  ///< Cells below the sensor, a scan after the other.
+  HeightGrid heights_{kNoHeight};
+};
+
+}  // namespace raymoval::mapcleaner_method

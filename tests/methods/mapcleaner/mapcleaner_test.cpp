@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "methods/mapcleaner/mapcleaner.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <catch2/catch.hpp>
+
+#include "tests/methods/mapcleaner/oracle.h"
+#include "tests/methods/mapcleaner/scenes.h"
+#include "tests/methods/moved_world.h"
+
+using namespace raymoval;
+using namespace raymoval::mapcleaner_method;
+using namespace raymoval::mapcleaner_test;
+
+namespace {
+
+/// Ground is known below the sensor itself, as where it drove before.
+Parameters here() {
+  Parameters parameters;
+  parameters.ground_min_range = 0.3;
+  return parameters;
+}
+
+Parameters sound() {
+  Parameters parameters;
+  parameters.public_height = parameters.public_axes = false;
+  parameters.public_field_of_view = parameters.public_overwrite = false;
+  parameters.remove_below = false;
+  parameters.start_radius = 12.4;
+  return parameters;
+}
+
+/// How many of the last points of scan 0 go.
+int removed_of_last(const ScanSource& scans, std::size_t points, const Parameters& parameters) {
+  const Mask mask = toy::masks_of(*make_mapcleaner(parameters), scans).get(0);
+  int removed = 0;
+  for (std::size_t i = mask.size() - points; i < mask.size(); ++i) removed += mask[i];
+  return removed;
+}
+
+/// Ground, a wall at 11 m, and `more` before it: the last point of a pixel counts.
+WorldPoints street_with(const WorldPoints& more, const WorldPoints& ground = level_ground()) {
+  WorldPoints points = ground;
+  add_face(11.0, 0.05, 4.5, points);
+  points.insert(points.end(), more.begin(), more.end());
+  return points;
+}
+
+/// A scan of the street with something, and two without.
+toy::HeldScans passing(const WorldPoints& more) {
+  toy::HeldScans scans;
+  scans.add_world(kSensor, street_with(more));
+  scans.add_world(kSensor, street_with({}));
+  scans.add_world(kSensor, street_with({}));
+  return scans;
+}
+
+}  // namespace
+
+TEST_CASE("mapcleaner: what more scans see through than see goes") {
+  WorldPoints box;
+  add_face(6.0, 1.8, 2.9, box);
+  for (const Parameters& parameters : {here(), sound()}) {
+    const toy::HeldScans scans = passing(box);
+    const MaskStore masks = toy::masks_of(*make_mapcleaner(parameters), scans);
+    CHECK(removed_of_last(scans, box.size(), parameters) == static_cast<int>(box.size()));
+    CHECK(masks.removed_count() == box.size());
+  }
+  SECTION("one that sees it and one that does not are no majority") {
+    toy::HeldScans scans;
+    scans.add_world(kSensor, street_with(box));
+    scans.add_world(kSensor, street_with({}));
+    CHECK(removed_of_last(scans, box.size(), here()) == 0);
+  }
+  SECTION("what stands stays, and so does what is hidden") {
+    WorldPoints both;
+    add_face(8.0, 1.9, 2.5, both);
+    both.insert(both.end(), box.begin(), box.end());  // It hides the other.
+    toy::HeldScans scans;
+    scans.add_world(kSensor, street_with(both));
+    for (int i = 0; i < 3; ++i) scans.add_world(kSensor, street_with(box));
+    CHECK(removed_of_last(scans, both.size(), here()) == 0);
+  }
+}
+
+TEST_CASE("mapcleaner: what is near the terrain stays, whatever scans say") {
+  WorldPoints low;
+  for (int i = 0; i < 10; ++i) low.emplace_back(6.0 + 0.2 * i, 0.1, 0.16);
+  CHECK(removed_of_last(passing(low), low.size(), here()) == 0);
+  for (Eigen::Vector3d& point : low) point.z() = 0.3;
+  CHECK(removed_of_last(passing(low), low.size(), here()) > 0);
+}
+
+TEST_CASE("mapcleaner: below the terrain, and without terrain, nothing is voted") {
+  WorldPoints points;
+  for (int i = 0; i < 5; ++i) points.emplace_back(5.0 + 0.2 * i, 0.1, -0.3);
+  for (int i = 0; i < 5; ++i) points.emplace_back(20.0, 0.1 * i, 1.0);
+  const toy::HeldScans scans = passing(points);
+  for (const bool below : {false, true}) {
+    for (const bool other : {false, true}) {
+      Parameters parameters = here();
+      parameters.remove_below = below;
+      parameters.remove_other = other;
+      const Mask mask = toy::masks_of(*make_mapcleaner(parameters), scans).get(0);
+      const auto last = mask.end() - 10;
+      for (int i = 0; i < 5; ++i) CHECK((last[i] != 0) == below);
+      for (int i = 5; i < 10; ++i) CHECK((last[i] != 0) == other);
+    }
+  }
+}
+
+TEST_CASE("mapcleaner: where there is no terrain, what is no ground may be judged as well") {
+  // Ground that rises by 20 degrees from x = 3 on is no terrain; the box stands on it.
+  const WorldPoints hill =
+      ground([](double x, double) { return x < 3.0 ? 0.0 : (x - 3.0) * std::tan(20 * kDegree); });
+  WorldPoints box;
+  add_face(8.0, 2.5, 3.5, box);
+  Parameters parameters = here();
+  parameters.refill_radius = 0.0;
+  toy::HeldScans scans;
+  scans.add_world(kSensor, street_with(box, hill));
+  for (int i = 0; i < 2; ++i) scans.add_world(kSensor, street_with({}, hill));
+  CHECK(removed_of_last(scans, box.size(), parameters) == 0);
+  parameters.on_terrain_only = false;
+  const MaskStore masks = toy::masks_of(*make_mapcleaner(parameters), scans);
+  CHECK(removed_of_last(scans, box.size(), parameters) == static_cast<int>(box.size()));
+  // The hill is ground and stays, but for points at its edge in bins that have fewer than ten.
+  CHECK(masks.removed_count() < box.size() + 10);
+}
+
+TEST_CASE("mapcleaner: one scan, empty scans, no ground at all") {
+  WorldPoints box;
+  add_face(6.0, 1.8, 2.9, box);
+  for (const Parameters& parameters : {here(), sound(), Parameters{}}) {
+    toy::HeldScans scans;
+    scans.add_world(kSensor, street_with(box));
+    CHECK(toy::masks_of(*make_mapcleaner(parameters), scans).removed_count() == 0);
+    scans.add({});
+    CHECK(toy::masks_of(*make_mapcleaner(parameters), scans).removed_count() == 0);
+    toy::HeldScans bare;
+    bare.add_world(kSensor, box);
+    bare.add_world(kSensor, {});
+    CHECK(toy::masks_of(*make_mapcleaner(parameters), bare).removed_count() == 0);
+  }
+}
+
+TEST_CASE("mapcleaner: the terrain may begin beside a sensor that sees none below itself") {
+  WorldPoints box;
+  add_face(6.0, 1.8, 2.9, box);
+  // The sensor stands: its blind circle of 2.7 m is filled by 1 m only.
+  Parameters parameters;
+  CHECK(removed_of_last(passing(box), box.size(), parameters) == 0);
+  parameters.start_radius = 1.5;
+  CHECK(removed_of_last(passing(box), box.size(), parameters) == 0);
+  parameters.start_radius = 2.7;
+  CHECK(removed_of_last(passing(box), box.size(), parameters) == static_cast<int>(box.size()));
+}
+
+TEST_CASE("mapcleaner: a sensor that is carried low and tilted needs no settings") {
+  // 0.9 m above the ground, pitched by 25 degrees.
+  const Pose pose = Pose(Eigen::Translation3d(0.05, 0.05, 0.9)) *
+                    Pose(Eigen::AngleAxisd(25 * kDegree, Eigen::Vector3d::UnitY()));
+  WorldPoints box;
+  add_face(6.0, 1.0, 2.0, box);
+  toy::HeldScans scans;
+  scans.add_world(pose, street_with(box));
+  for (int i = 0; i < 2; ++i) scans.add_world(pose, street_with({}));
+  CHECK(removed_of_last(scans, box.size(), sound()) == static_cast<int>(box.size()));
+}
+
+TEST_CASE("mapcleaner: a parameter out of its range is refused") {
+  const MethodEntry entry = mapcleaner_entry();
+  const ParameterSpec& spec = find_parameter("mapcleaner", entry.parameters, "voxel_size");
+  CHECK_THROWS_WITH(checked_value_from_text("mapcleaner", spec, "0"),
+                    Catch::Contains("voxel_size") && Catch::Contains("0.05"));
+  CHECK_THROWS_AS(find_parameter("mapcleaner", entry.parameters, "voxel"), ConfigurationError);
+}
+
+TEST_CASE("mapcleaner: the fast way gives what the description says") {
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
+  SensorModel sensor;
+  sensor.elevation_min = -40 * kDegree;
+  sensor.elevation_max = 30 * kDegree;
+  std::mt19937 random(4);
+  for (int variant = 0; variant < 6; ++variant) {
+    Parameters parameters = variant % 2 == 0 ? here() : sound();
+    if (variant > 1) {
+      for (bool Parameters::*flag :
+           {&Parameters::public_overwrite, &Parameters::public_field_of_view,
+            &Parameters::on_terrain_only, &Parameters::remove_below, &Parameters::remove_other}) {
+        parameters.*flag = random() % 2 == 0;
+      }
+      parameters.submap_radius = variant == 3 ? 6.0 : 70.0;
+      parameters.submap_travel = variant == 3 ? 0.6 : 10.0;
+      parameters.window_columns = static_cast<int>(random() % 4);
+      parameters.refill_deviation = variant == 4 ? 0.05 : 0.5;
+      parameters.tolerance = variant == 5 ? 0.2 : 0.5;
+    }
+    INFO("variant " << variant);
+    const toy::HeldScans scans = random_scans(20 + static_cast<unsigned>(variant), sensor);
+    const Oracle oracle(parameters, scans);
+    const MaskStore masks = toy::masks_of(*make_mapcleaner(parameters), scans, 1 + variant % 3);
+    std::size_t differences = 0, removed = 0, points = 0;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      const Mask expected = oracle.mask(i), found = masks.get(i);
+      REQUIRE(expected.size() == found.size());
+      points += found.size();
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        differences += expected[k] != found[k] ? 1 : 0;
+        removed += found[k];
+      }
+    }
+    CHECK(differences == 0);
+    CHECK(removed > 100);
+    CHECK(removed < points / 2);
+  }
+}

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include "tests/methods/mapcleaner/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace raymoval::mapcleaner_test {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double& Oracle::put(Cells& cells, int x, int y) {
+  if (x < -kHalf || x >= kHalf || y < -kHalf || y >= kHalf) throw std::out_of_range("oracle");
+  return cells[static_cast<std::size_t>((y + kHalf) * 2 * kHalf + x + kHalf)];
+}
+
+double Oracle::at(const Cells& cells, int x, int y) {
+  if (x < -kHalf || x >= kHalf || y < -kHalf || y >= kHalf) return kNone;
+  return cells[static_cast<std::size_t>((y + kHalf) * 2 * kHalf + x + kHalf)];
+}
+
+int Oracle::cell(double c) const {
+  return static_cast<int>(std::floor(c / p_.terrain_cell));
+}
+
+Oracle::Voxel Oracle::voxel(const Eigen::Vector3d& world) const {
+  Voxel voxel;
+  for (int k = 0; k < 3; ++k)
+    voxel.push_back(static_cast<int>(std::floor(world[k] / p_.voxel_size)));
+  return voxel;
+}
+
+Oracle::Oracle(const Parameters& parameters, const ScanSource& scans)
+    : p_(parameters), sensor_(scans.sensor()) {
+  GroundOracle ground(p_);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    scans_.push_back(scans.load(i));
+    grounds_.push_back(ground.ground(scans_.back()));
+  }
+  measure();
+  terrain_ = filled(terrain_, p_.fill_radius, p_.fill_deviation);
+  terrain_ = reached(terrain_);
+  terrain_ = smoothed(filled(terrain_, p_.refill_radius, p_.refill_deviation));
+  vote();
+}
+
+void Oracle::measure() {
+  std::map<std::pair<int, int>, std::vector<double>> heights;
+  for (std::size_t s = 0; s < scans_.size(); ++s) {
+    for (std::size_t i = 0; i < scans_[s].size(); ++i) {
+      const Eigen::Vector3d point = world(s, i);
+      if (grounds_[s][i] != 0) heights[{cell(point.x()), cell(point.y())}].push_back(point.z());
+    }
+  }
+  terrain_.assign(4UL * kHalf * kHalf, kNone);
+  for (const auto& [place, zs] : heights) {
+    const auto count = static_cast<double>(zs.size());
+    double mean = 0, variance = 0;
+    for (const double z : zs) mean += z / count;
+    for (const double z : zs) variance += (z - mean) * (z - mean) / count;
+    if (count < p_.terrain_points || !(variance < p_.terrain_variance)) continue;
+    put(terrain_, place.first, place.second) = mean;
+  }
+}
+
+Oracle::Cells Oracle::filled(const Cells& cells, double radius, double deviation) const {
+  if (radius == 0) return cells;
+  const int reach = static_cast<int>(radius / p_.terrain_cell) + 1;
+  std::map<std::pair<int, int>, double> kernel;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const double d = std::sqrt(x * x + y * y) * p_.terrain_cell / radius;
+      if (d > 1 - 1e-9) continue;
+      kernel[{x, y}] =
+          (2 + std::cos(2 * M_PI * d)) / 3 * (1 - d) + std::sin(2 * M_PI * d) / (2 * M_PI);
+    }
+  }
+  Cells smooth = cells, result = cells;
+  for (int y = -kHalf; y < kHalf; ++y) {
+    for (int x = -kHalf; x < kHalf; ++x) {
+      double sum = 0, weights = 0;
+      int count = 0;
+      for (const auto& [step, k] : kernel) {
+        const double z = at(cells, x + step.first, y + step.second);
+        if (std::isnan(z)) continue;
+        ++count;
+        sum += k * z;
+        weights += k;
+      }
+      put(smooth, x, y) = count >= p_.fill_cells ? sum / weights : kNone;
+    }
+  }
+  for (int y = -kHalf; y < kHalf; ++y) {
+    for (int x = -kHalf; x < kHalf; ++x) {
+      if (!std::isnan(at(cells, x, y)) || std::isnan(at(smooth, x, y))) continue;
+      double sum = 0, weights = 0;
+      for (const auto& [step, k] : kernel) {
+        const double z = at(cells, x + step.first, y + step.second);
+        const double z1 = at(smooth, x + step.first, y + step.second);
+        if (std::isnan(z) || std::isnan(z1)) continue;
+        const double c = std::exp(-(z - z1) * (z - z1) / (2 * deviation * deviation));
+        sum += c * k * z;
+        weights += c * k;
+      }
+      if (weights > 0) put(result, x, y) = sum / weights;
+    }
+  }
+  return result;
+}
+
+bool Oracle::is_passable(const Cells& cells, int x, int y) const {
+  const double here = at(cells, x, y);
+  const auto slope = [&](double before, double after) {
+    if (!std::isnan(before) && !std::isnan(after)) return (after - before) / 2 / p_.terrain_cell;
+    if (!std::isnan(after)) return (after - here) / p_.terrain_cell;
+    return std::isnan(before) ? 0 : (here - before) / p_.terrain_cell;
+  };
+  const double u = slope(at(cells, x - 1, y), at(cells, x + 1, y));
+  const double v = slope(at(cells, x, y - 1), at(cells, x, y + 1));
+  const double angle = std::acos(1 / std::sqrt(1 + u * u + v * v));
+  return !std::isnan(here) && angle < p_.terrain_slope * M_PI / 180;
+}
+
+Oracle::Cells Oracle::reached(const Cells& cells) const {
+  Cells kept(cells.size(), kNone);
+  std::vector<std::pair<int, int>> next;
+  for (const Scan& scan : scans_) {
+    if (scan.points.empty()) continue;
+    const int x = cell(scan.T_world_sensor.translation().x());
+    const int y = cell(scan.T_world_sensor.translation().y());
+    const double radius = std::isnan(at(cells, x, y)) ? p_.start_radius / p_.terrain_cell : 0;
+    std::map<int, std::vector<std::pair<int, int>>> by_distance;
+    for (int dy = -kHalf; dy <= kHalf; ++dy) {
+      for (int dx = -kHalf; dx <= kHalf; ++dx) {
+        const int square = dx * dx + dy * dy;
+        if (square > radius * radius || !is_passable(cells, x + dx, y + dy)) continue;
+        by_distance[square].emplace_back(x + dx, y + dy);
+      }
+    }
+    if (by_distance.empty()) continue;
+    const auto& nearest = by_distance.begin()->second;
+    next.insert(next.end(), nearest.begin(), nearest.end());
+  }
+  while (!next.empty()) {
+    const auto [x, y] = next.back();
+    next.pop_back();
+    if (!is_passable(cells, x, y) || !std::isnan(at(kept, x, y))) continue;
+    put(kept, x, y) = at(cells, x, y);
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) next.emplace_back(x + dx, y + dy);
+    }
+  }
+  return kept;
+}
+
+Oracle::Cells Oracle::smoothed(const Cells& cells) {
+  Cells result = cells;
+  for (int y = -kHalf; y < kHalf; ++y) {
+    for (int x = -kHalf; x < kHalf; ++x) {
+      if (std::isnan(at(cells, x, y))) continue;
+      std::vector<double> around;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (!std::isnan(at(cells, x + dx, y + dy))) around.push_back(at(cells, x + dx, y + dy));
+        }
+      }
+      std::sort(around.begin(), around.end());
+      put(result, x, y) = around[around.size() / 2];
+    }
+  }
+  return result;
+}
+
+char Oracle::part(std::size_t scan, std::size_t point) const {
+  const Eigen::Vector3d place = world(scan, point);
+  const double terrain = at(terrain_, cell(place.x()), cell(place.y()));
+  if (std::isnan(terrain)) return p_.on_terrain_only ? 'o' : grounds_[scan][point] != 0 ? 'g' : 'c';
+  if (std::abs(place.z() - terrain) <= p_.ground_height) return 'g';
+  return place.z() < terrain ? 'b' : 'c';
+}
+
+std::pair<int, int> Oracle::pixel(const Eigen::Vector3d& point) const {
+  const double elevation = std::atan2(point.z(), point.head<2>().norm());
+  double turned = std::atan2(point.y(), point.x()) - left_;
+  while (turned < 0) turned += 2 * M_PI;
+  while (turned >= 2 * M_PI) turned -= 2 * M_PI;
+  const int row = static_cast<int>(std::floor((elevation - low_) / row_height_));
+  int column = static_cast<int>(std::floor(turned / column_width_));
+  if (is_circle_) column %= columns_;
+  const bool is_inside = row >= 0 && row < rows_ && column < columns_ && point.norm() > 0;
+  return is_inside ? std::pair(row, column) : std::pair(-1, -1);
+}
+
+int Oracle::look(const std::map<std::pair<int, int>, double>& image,
+                 const Eigen::Vector3d& point) const {
+  const auto [row, column] = pixel(point);
+  if (row < 0) return 0;
+  bool is_seen = false, is_hidden = false, is_through = false;
+  for (int dy = -p_.window_rows; dy <= p_.window_rows; ++dy) {
+    for (int dx = -p_.window_columns; dx <= p_.window_columns; ++dx) {
+      const int x = is_circle_ ? (column + dx + columns_) % columns_ : column + dx;
+      const auto found = image.find({row + dy, x});
+      if (found == image.end()) continue;
+      const double difference = point.norm() - found->second;
+      if (std::abs(difference) <= p_.tolerance) is_seen = true;
+      if (difference > p_.tolerance) is_hidden = true;
+      if (difference < -p_.tolerance) is_through = true;
+    }
+  }
+  if (is_seen) return -1;
+  return is_hidden ? 0 : is_through ? 1 : 0;
+}
+
+void Oracle::vote() {
+  const double degree = M_PI / 180;
+  row_height_ = p_.row_height * degree;
+  column_width_ = p_.column_width * degree;
+  double high = p_.vertical_view / 2 * degree, right = M_PI;
+  low_ = -high;
+  left_ = -M_PI;
+  if (!p_.public_field_of_view) {
+    is_circle_ = sensor_.azimuth_max - sensor_.azimuth_min > 6.2;
+    low_ = sensor_.elevation_min - row_height_;
+    high = sensor_.elevation_max + row_height_;
+    if (!is_circle_) left_ = sensor_.azimuth_min - column_width_;
+    if (!is_circle_) right = sensor_.azimuth_max + column_width_;
+  }
+  rows_ = static_cast<int>(std::ceil((high - low_) / row_height_ - 1e-6));
+  columns_ = static_cast<int>(std::ceil((right - left_) / column_width_ - 1e-6));
+  std::map<Voxel, std::pair<Eigen::Vector3d, int>> sums;
+  for (std::size_t s = 0; s < scans_.size(); ++s) {
+    for (std::size_t i = 0; i < scans_[s].size(); ++i) {
+      if (part(s, i) != 'c') continue;
+      const auto zero = std::pair<Eigen::Vector3d, int>(Eigen::Vector3d::Zero(), 0);
+      auto& sum = sums.try_emplace(voxel(world(s, i)), zero).first->second;
+      sum.first += world(s, i);
+      ++sum.second;
+    }
+  }
+  bool has_origin = false;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  for (const Scan& scan : scans_) {
+    if (scan.points.empty()) continue;
+    const Eigen::Vector3d place = scan.T_world_sensor.translation();
+    if (!has_origin || (place - origin).norm() > p_.submap_travel) origin = place;
+    has_origin = true;
+    std::map<std::pair<int, int>, double> image;
+    for (const Eigen::Vector3f& single : scan.points) {
+      const Eigen::Vector3d point = single.cast<double>();
+      const auto at = pixel(point);
+      if (at.first < 0) continue;
+      const bool is_new = image.try_emplace(at, point.norm()).second;
+      if (!is_new)
+        image[at] = p_.public_overwrite ? point.norm() : std::min(image[at], point.norm());
+    }
+    for (const auto& [key, sum] : sums) {
+      const Eigen::Vector3d centroid = sum.first / sum.second;
+      if ((centroid - origin).norm() > p_.submap_radius) continue;
+      votes_[key] += look(image, scan.T_world_sensor.inverse() * centroid);
+    }
+  }
+}
+
+Mask Oracle::mask(std::size_t i) const {
+  Mask mask;
+  for (std::size_t k = 0; k < scans_[i].size(); ++k) {
+    const char own = part(i, k);
+    bool removed =
+        own == 'c' && votes_.contains(voxel(world(i, k))) && votes_.at(voxel(world(i, k))) > 0;
+    if (own == 'b') removed = p_.remove_below;
+    if (own == 'o') removed = p_.remove_other;
+    mask.push_back(removed ? 1 : 0);
+  }
+  return mask;
+}
+
+}  // namespace raymoval::mapcleaner_test
