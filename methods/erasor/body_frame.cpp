@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "methods/erasor/ground_fit.h"
+#include "methods/common/plane_fit.h"
 
 namespace raymoval::erasor_method {
 namespace {
@@ -86,7 +86,7 @@ std::optional<Plane> ground_around(const Eigen::Vector3d& sensor, const NaiveMap
     });
     const auto count = std::count(is_ground.begin(), is_ground.end(), 1);
     if (static_cast<std::size_t>(count) < kEnough) continue;
-    const Plane fitted = fit_plane(points, is_ground);
+    const Plane fitted = fit_plane(points, is_ground).plane;
     if (fitted.normal.z() > kLeastUpright) ground = fitted;
   }
   return ground;
