@@ -84,10 +84,10 @@ void DistanceField::find_occupied(int x) {
   for (const auto& blocks : around_) {
     for (std::size_t i = 0; i < 9; ++i) {
       const ScanBlock* block = blocks[stack + i];
-      if (block == nullptr) continue;
       const int first = (static_cast<int>(i / 3) - 1) * kSide;  // From the block's first column.
       const int begin = std::max(first, -margin_);
       const int end = std::min(first + kSide, kSide + margin_);
+      if (block == nullptr || begin >= end) continue;
       const Column* columns = &block->columns[column_at(x & (kSide - 1), begin - first)];
       std::uint64_t* words = &occupied_[i % 3][static_cast<std::size_t>(begin + margin_)];
       for (int y = begin; y < end; ++y) *words++ |= (columns++)->hit;
