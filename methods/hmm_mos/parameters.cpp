@@ -73,7 +73,8 @@ Table make_table() {
                          "voxel lies at its middle."})
       .flag(
           "offline", &P::offline,
-          {.sentence = "Answer after the last scan: points whose voxel was free when its state was "
+          {.source = "ours",
+           .sentence = "Answer after the last scan: points whose voxel was free when its state was "
                        "last known go as well."});
   return table;
 }

@@ -135,7 +135,7 @@ expect 0 "run   street / dufomap:offline" run "${short[@]}" --method all --metho
   --explain --out o
 expect 0 "run   street / octomap:ground-noise" run "${short[@]}" --method octomap:all \
   --method octomap --explain --out o
-expect 2 "'all' stands for 8 methods, and one is expected here" clean street -o map.pcd --method all
+expect 2 "'all' stands for 12 methods, and one is expected here" clean street -o map.pcd --method all
 expect 2 "--frames is given 2 times" run "${short[@]}" --frames 0:1 --method noop --out o
 expect 2 "Did you mean '--out'" run "${short[@]}" --method noop -o o
 expect 2 "Did you mean '--version'" version
