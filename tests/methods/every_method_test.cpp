@@ -27,8 +27,8 @@ std::vector<ConfiguredMethod> all_methods() {
   return methods;
 }
 
-/// Public programs whose own lattice begins at the map's least x and y, and looks that way, or whose
-/// sectors begin at the world's x axis.
+/// Public programs whose own lattice begins at the map's least x and y, and looks that way, or
+/// whose sectors begin at the world's x axis.
 bool knows_axes(const ConfiguredMethod& method) {
   const std::string name = method.full_name();
   return name == "beautymap:published" || name == "beautymap:semi-indoor" ||

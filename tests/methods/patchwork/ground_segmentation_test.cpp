@@ -167,7 +167,7 @@ TEST_CASE("patchwork: a tilted sensor and a turned world see the same ground") {
   const toy::World street = toy::street(3);
   GroundParameters parameters;
   parameters.public_axes = false;
-  GroundSegmentation level(parameters), tilted(parameters), turned(parameters),
+  GroundSegmentation level(parameters), leaning(parameters), turned(parameters),
       threaded(parameters);
   const Pose tilt(Eigen::AngleAxisd(0.5, Eigen::Vector3d(0.6, 0.8, 0.0)));
   std::size_t ground = 0, different = 0;
@@ -181,7 +181,7 @@ TEST_CASE("patchwork: a tilted sensor and a turned world see the same ground") {
     CHECK(turned.find_ground(other, 1) == expected);
     other.T_world_sensor = scan.T_world_sensor * tilt.inverse();
     for (Eigen::Vector3f& point : other.points) point = (tilt * point.cast<double>()).cast<float>();
-    const Mask found = tilted.find_ground(other, 1);
+    const Mask found = leaning.find_ground(other, 1);
     // Rounding to single precision, and sectors that begin elsewhere, may decide for single points.
     for (std::size_t k = 0; k < found.size(); ++k) different += found[k] != expected[k] ? 1 : 0;
   }

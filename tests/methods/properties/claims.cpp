@@ -116,6 +116,9 @@ constexpr Line kLines[] = {
     // Thresholds of the ground adapt from scan to scan, and the majority of the scans decides. Means
     // of heights and of voxels are sums, which round. The public program's images hold the last
     // point of a pixel, but no two of these points share one.
+    // Thresholds of the ground adapt from scan to scan, and the majority of the scans decides.
+    // Means of heights and of voxels are sums, which round. The public program's images hold the
+    // last point of a pixel, but no two of these points share one.
     {"mapcleaner:published", "= = ? ~ ? = ? ? ?"},
     {"mapcleaner:sound", "= = ? ~ ? = ? ? ?"},
 };
