@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/parallel.h"
+#include "methods/common/prepared_scans.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/freedom/depth_image.h"
@@ -18,71 +18,70 @@ namespace {
 
 /// What a scan says without the map; its memory is used again for later scans.
 struct ScanWork {
+  std::size_t scan = 0;
   ScanMap voxels;
   scan_grid::ScanGrid rays{"Set a smaller freedom.ray_range, or a larger freedom.sub_voxel_size."};
-  StageTimes times;
 };
 
 /// Steps 1, 3 and the first part of 4. They do not depend on any other scan.
 void look(const Scan& scan, const DepthView& view, const Parameters& parameters,
           const RunContext& context, ScanWork& work) {
+  work.scan = scan.index;
   work.rays.clear();
   {
-    const StageScope timed(&work.times, "voxels");
+    const StageScope timed(context.times, "voxels");
     work.voxels.fill(scan, parameters);
   }
   std::vector<Eigen::Vector3d> hole_ends;
   {
-    const StageScope timed(&work.times, "enhancement");
+    const StageScope timed(context.times, "enhancement");
     hole_ends = find_hole_ends(scan, view, parameters);
   }
-  const StageScope timed(&work.times, "raycasting");
+  const StageScope timed(context.times, "raycasting");
   cast_rays(scan, work.voxels, hole_ends, parameters, work.rays, context);
 }
 
+/// What is known of the scans so far.
+struct Maps {
+  explicit Maps(const Parameters& parameters) : free_space(parameters), points(parameters) {}
+
+  FreeMap free_space;
+  StaticMap points;
+};
+
 /// Steps 2, the second part of 4, 5 and 6.
-void take_in(std::size_t scan, const Parameters& parameters, ScanWork& work, FreeMap& free_map,
-             StaticMap& static_map, StageTimes* times) {
+void take_in(ScanWork& work, const Growth& growth, const RunContext& context, Maps& maps) {
   {
-    const StageScope timed(times, "scan removal");
-    free_map.take_hits(work.voxels);
-    work.voxels.grow(growth_of(parameters, false));
+    const StageScope timed(context.times, "scan removal");
+    maps.free_space.take_hits(work.voxels);
+    work.voxels.grow(growth);
   }
   std::vector<VoxelIndex> newly_free;
   {
-    const StageScope timed(times, "free space");
-    newly_free = free_map.take_passes(work.rays);
+    const StageScope timed(context.times, "free space");
+    newly_free = maps.free_space.take_passes(work.rays);
   }
   {
-    const StageScope timed(times, "map removal");
-    static_map.remove(newly_free);
+    const StageScope timed(context.times, "map removal");
+    maps.points.remove(newly_free);
   }
-  const StageScope timed(times, "integration");
-  static_map.integrate(work.voxels, scan);
+  const StageScope timed(context.times, "integration");
+  maps.points.integrate(work.voxels, work.scan);
 }
 
 /// Steps 1 to 6. @return the sub-voxels that are not in the map
 CellSet build_map(const Parameters& parameters, const ScanSource& scans,
                   const RunContext& context) {
   const DepthView view = view_for(scans.sensor(), parameters);
-  FreeMap free_map(parameters);
-  StaticMap static_map(parameters);
-  std::vector<ScanWork> work(scans_in_a_batch(scans, context));
-  for_scan_batches("freedom", scans, context, [&](std::span<Scan> batch) {
-    parallel_for(context.threads, batch.size(), 1,
-                 [&](std::size_t i) { look(batch[i], view, parameters, context, work[i]); });
-    for (std::size_t i = 0; i < batch.size(); ++i) {  // In order of time.
-      take_in(batch[i].index, parameters, work[i], free_map, static_map, context.times);
-    }
-  });
-  if (context.times != nullptr) {  // The scans of a batch are looked at side by side.
-    for (const ScanWork& one : work) {
-      for (const StageTimes::Stage& stage : one.times.stages()) {
-        context.times->add(stage.name, stage.seconds / static_cast<double>(work.size()));
-      }
-    }
-  }
-  return static_map.removed();
+  const Growth growth = growth_of(parameters, false);
+  Maps maps(parameters);
+  for_prepared_scans<ScanWork>(
+      "freedom", "rays and maps", scans, context,
+      [&](const Scan& scan, ScanWork& work, const RunContext& of_step) {
+        look(scan, view, parameters, of_step, work);
+      },
+      [&](ScanWork& work, const RunContext& of_step) { take_in(work, growth, of_step, maps); });
+  return maps.points.removed();
 }
 
 /// Step 7.
