@@ -34,6 +34,7 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"hmm_mos.map_range_factor", "the sensor must go far away and come back (see oracle_test)"},
     {"hmm_mos.public_lattice", "something must move in the origin's planes (see steps_test)"},
     {"dynablox.temporal_buffer", "a voxel must be occupied for long, with breaks"},
+    {"dynablox.separation", "clusters must be near each other (see dynablox/steps_test)"},
     {"dynablox.frames_to_reset", "something must stay where it was free"},
     {"dynablox.public_boxes", "clusters must be high above the sensor (see dynablox/steps_test)"},
     {"dynablox.public_merges", "three clusters must be in a row (see dynablox/steps_test)"},

@@ -87,22 +87,24 @@ constexpr Line kLines[] = {
     {"dufomap:online-dp2", "= = ? = = = = ? ="},
 
     // The map and a scan are sets of slices, but the ground's share counts points.
-    {"beautymap:published", "= = ? = ? ? ? = ="},
-    {"beautymap:semi-indoor", "= = ? = ? ? ? = ="},
-    {"beautymap:sound", "= = ? = ? ? ? = ="},
-    {"beautymap:wide", "= = ? = ? ? ? = ="},
+    {"beautymap:published", "= = ? = ? ? ? = ?"},
+    {"beautymap:semi-indoor", "= = ? = ? ? ? = ?"},
+    {"beautymap:sound", "= = ? = ? ? ? = ?"},
+    {"beautymap:wide", "= = ? = ? ? ? = ?"},
 
     // A scan is a set of sub-voxels with the mean points of its voxels, and is counted. The blocks
     // that are skipped lie on a lattice of their own.
     {"freedom:published", "= = ? = = = ? ? ?"},
     {"freedom:few-counts", "= = ? = = = ? ? ?"},
     {"freedom:sound", "= = ? = = = ? ? ?"},
+
     // A scan is a set of voxels, and scans are taken in turn. An empty one is the scan before of
     // the next. The public lattice is cut off towards the origin.
     {"hmm_mos:published", "= ? ? = = ? = ? ?"},
     {"hmm_mos:fine", "= ? ? = = ? = ? ?"},
     {"hmm_mos:sound", "= ? ? = = = = ? ?"},
     {"hmm_mos:offline", "= ? ? = = = ? ? ?"},
+
     // Scans are counted, empty ones too. A pixel has its nearest return and a voxel is hit or not,
     // but a cluster has a least number of points. The last scan is judged before it is taken in,
     // and free space is looked at again when an empty one comes. The boxes of public-code compare
@@ -113,9 +115,7 @@ constexpr Line kLines[] = {
     {"dynablox:wide", "= ? ? = ? ~ = ? ?"},
     {"dynablox:offline", "? ? ? = = ~ ? ? ?"},
     {"dynablox:offline-wide", "? ? ? = = ~ ? ? ?"},
-    // Thresholds of the ground adapt from scan to scan, and the majority of the scans decides. Means
-    // of heights and of voxels are sums, which round. The public program's images hold the last
-    // point of a pixel, but no two of these points share one.
+
     // Thresholds of the ground adapt from scan to scan, and the majority of the scans decides.
     // Means of heights and of voxels are sums, which round. The public program's images hold the
     // last point of a pixel, but no two of these points share one.

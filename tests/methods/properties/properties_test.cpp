@@ -285,6 +285,9 @@ TEST_CASE("what may change an answer of erasor", "[properties][every-method]") {
 TEST_CASE("what may change an answer of dufomap", "[properties][every-method]") {
   check_method("dufomap");
 }
+TEST_CASE("what may change an answer of beautymap", "[properties][every-method]") {
+  check_method("beautymap");
+}
 TEST_CASE("what may change an answer of freedom", "[properties][every-method]") {
   check_method("freedom");
 }
