@@ -24,6 +24,7 @@ datasets/inspection    evidence checks .
 methods                remover method_entry common
 methods                controls|external|raymoval|raymoval_plus
 methods                |octomap|peopleremover|removert|erasor|dufomap|beautymap|freedom|hmm_mos|dynablox|mapcleaner registry
+methods/common         . patchwork
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects online .
 eval                   . points lattice dynamicmap|erasor|mos protocol_registry columns|comparison|published

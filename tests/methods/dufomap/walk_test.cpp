@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "methods/common/free_walk.h"
 #include "methods/dufomap/beams.h"
 #include "methods/dufomap/cell_walk.h"
-#include "methods/common/free_walk.h"
 #include "tests/methods/held_scans.h"
 
 using namespace raymoval;
