@@ -108,6 +108,8 @@ for recipe in glim livox; do
   holds "there is data for $recipe" python3 -B "$source_folder/tests/cli/recipe_data.py" data/05 $recipe .
 done
 mv dump/traj_lidar.txt .
+holds "there are labelled scans of a recording" \
+  python3 -B "$source_folder/tests/cli/recipe_data.py" data/05 doals station/sequence_1
 # The suite of the page, on small data.
 sed -n '/^    {$/,/^    }$/p' "$source_folder/docs/compare-methods.md" |
   sed 's/scans=60/scans=3,sensor=vlp16/; s/0:200:2/0:6:2/; s/"repeats": 3/"repeats": 2/' >my_suite.json

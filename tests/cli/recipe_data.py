@@ -44,6 +44,8 @@ class Drive:
                       for line in (folder / "poses.txt").read_text().splitlines()]
         self.scans = [list(struct.iter_unpack("<4f", path.read_bytes()))
                       for path in sorted((folder / "velodyne").iterdir())]
+        self.labels = [[word & 0xFFFF for word, in struct.iter_unpack("<I", path.read_bytes())]
+                       for path in sorted((folder / "labels").iterdir())]
         self.stamps = [START_NS + i * PERIOD_NS for i in range(len(self.scans))]
 
 
@@ -256,6 +258,15 @@ def ros1_odometry(drive, folder):
         ros1_bag(in_order(odometry + clouds(drive, True, "sensor_msgs/PointCloud2"))))
 
 
+def doals(drive, folder):
+    """A recording of which every fourth scan is labelled, beside it."""
+    ros1_odometry(drive, folder)
+    (folder / "drive.bag").rename(folder / "bag.bag")
+    rows = [[stamp] + [i for i, label in enumerate(labels) if label >= 252]
+            for stamp, labels in zip(drive.stamps[::4], drive.labels[::4])]
+    (folder / "indices.csv").write_text("".join(",".join(map(str, row)) + "\n" for row in rows))
+
+
 def ros2_tf(drive, folder):
     level = [[1.0, 0.0, 0.0, 0.5], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 1.2]]
     tf = "tf2_msgs/msg/TFMessage"
@@ -280,7 +291,7 @@ def livox(drive, folder):
 
 
 RECIPES = {"world-frame": world_frame, "kiss-icp": kiss_icp, "fast-lio": fast_lio, "glim": glim,
-           "ros1-odometry": ros1_odometry, "ros2-tf": ros2_tf, "livox": livox}
+           "ros1-odometry": ros1_odometry, "ros2-tf": ros2_tf, "livox": livox, "doals": doals}
 
 if __name__ == "__main__":
     if len(sys.argv) != 4 or sys.argv[2] not in RECIPES:
