@@ -77,6 +77,11 @@ for page in "${pages[@]}" CONTRIBUTING.md methods/README.md examples/cpp_method/
   done < <({ code_lines "$page"; spans "$page"; } | grep -E '^scripts/[a-z_/]+\.sh')
 done
 
+# Pages of methods, which a formatter of code may have taken for code.
+for page in "$source_folder"/methods/*/README.md; do
+  holds "$page begins with its title" grep -qE -m 1 '^# [A-Za-z]' <(head -n 1 "$page")
+done
+
 # --- running them ---
 export RAYMOVAL_CACHE=$work/cache
 small=(--quiet --sensor vlp16)
