@@ -33,7 +33,7 @@ install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SECURITY.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      docs/*.md docs/recipes/*.md methods/README.md methods/*/*.md datasets/*/README.md
-     results/pictures/*.png results/schema/*.json)
+     results/pictures/*.png results/pictures/*.svg results/schema/*.json)
 foreach(page ${pages})
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
