@@ -8,6 +8,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 //
 #include "hwy/highway.h"
+#include "methods/common/vector_angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymoval::dynablox_method::kernels {
@@ -28,18 +29,8 @@ HWY_INLINE F number(float value) {
   return hn::Set(Floats(), value);
 }
 
-/// atan2(y, x) to 2e-6.
 HWY_INLINE F angle_of(F y, F x) {
-  const Floats d;
-  const F across = hn::Abs(x), up = hn::Abs(y);
-  const F a = hn::Div(hn::Min(across, up), hn::Max(hn::Max(across, up), number(kLeastDivisor)));
-  const F square = hn::Mul(a, a);
-  F sum = number(kArcTangent[6]);
-  for (std::size_t k = 6; k-- > 0;) sum = hn::Add(hn::Mul(sum, square), number(kArcTangent[k]));
-  F angle = hn::Mul(sum, a);
-  angle = hn::IfThenElse(hn::Gt(up, across), hn::Sub(number(kQuarterTurn), angle), angle);
-  angle = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(number(kHalfTurn), angle), angle);
-  return hn::CopySign(angle, y);
+  return raymoval::HWY_NAMESPACE::vector_angle(Floats(), y, x);
 }
 
 void project(const Projection& image, const float* points, std::size_t count, std::int32_t* pixel,

@@ -8,11 +8,6 @@
 /// Loops over the points of a scan and the voxels of a layer, compiled for each instruction set.
 namespace raymoval::dynablox_method::kernels {
 
-/// Coefficients of atan(a) = a P(a a) for 0 <= a <= 1, right to 1e-6: the polynomial that agrees at
-/// Chebyshev's nodes.
-inline constexpr std::array<float, 7> kArcTangent = {
-    0.9999992256F,  -0.3332567804F,  0.1987204027F,  -0.1344786406F,
-    0.08312645301F, -0.03636043086F, 0.007648353927F};
 inline constexpr float kHalfTurn = 3.14159265358979F;
 inline constexpr float kQuarterTurn = 1.57079632679490F;
 inline constexpr float kLeastDivisor = 1e-30F;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/common/arc_tangent.h"
+
 namespace raymoval::dynablox_test {
 namespace {
 
@@ -40,8 +42,8 @@ float arc_tangent(float y, float x) {
   const float most = std::max(across, up);
   const float a = std::min(across, up) / std::max(most, kernels::kLeastDivisor);
   const float square = a * a;
-  float sum = kernels::kArcTangent[6];
-  for (std::size_t k = 6; k-- > 0;) sum = sum * square + kernels::kArcTangent[k];
+  float sum = 0.0F;
+  for (const float term : kArcTangentTerms) sum = sum * square + term;
   float angle = sum * a;
   if (up > across) angle = kernels::kQuarterTurn - angle;
   if (x < 0.0F) angle = kernels::kHalfTurn - angle;
