@@ -21,6 +21,7 @@ MethodEntry dynablox_entry() {
   offline_wide.emplace_back("offline", true);
   MethodEntry entry;
   entry.name = "dynablox";
+  entry.version = "2";
   entry.sentence =
       "A distance field finds voxels that were once free for sure; what appears there moves.";
   entry.source = "Dynablox: Real-time Detection of Diverse Dynamic Objects (RA-L 2023)";
