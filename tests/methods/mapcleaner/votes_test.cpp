@@ -58,6 +58,17 @@ TEST_CASE("mapcleaner: images go all around, 15 degrees up and down") {
   CHECK(pixel_of(frame, {0, 0, 0}) == -1);
 }
 
+TEST_CASE("mapcleaner: what rounding puts behind the last column of a full turn is in it") {
+  ImageFrame frame{Parameters{}, SensorModel{}};
+  ImageFrame::Batch batch;
+  batch.row[0] = 3.5F;
+  batch.range[0] = 10.0F;
+  batch.column[0] = static_cast<float>(frame.columns);
+  CHECK(frame.pixel_of(batch, 0) == 3 * frame.columns + frame.columns - 1);
+  frame.is_circle = false;
+  CHECK(frame.pixel_of(batch, 0) == -1);
+}
+
 TEST_CASE("mapcleaner: images have the sensor's field of view if they are to") {
   Parameters parameters;
   parameters.public_field_of_view = false;
