@@ -26,8 +26,8 @@ std::vector<std::string> notes() {
       "no terrain. Where all ground within that distance is too steep, slopes count from its "
       "median "
       "slope, so that a hill has a terrain.",
-      "sound has larger pixels, and asks for fewer points in a bin, where the sensor's directions "
-      "are "
+      "sound has pixels that are as large as it takes for the window around a voxel to reach from "
+      "one beam to the next, and asks for fewer points in a bin where the sensor's directions are "
       "farther apart than those of the HDL-64E.",
       "Filling: however far a cell deviates, it counts at least exp(-60).",
       "sound has images a pixel larger on each side than the sensor's field of view.",

@@ -107,10 +107,11 @@ void add_switches(Table& table) {
              .sentence = "A pixel has the range of the last point in it. Else it has the nearest."})
       .flag("public_steps", &P::public_steps,
             {.source = kPublic,
-             .sentence = "Pixels and bins are set for the HDL-64E of KITTI. Else a sensor whose "
-                         "directions are farther apart has a column_width and a row_height that "
-                         "are larger by as much, and bin_points and lowest_points are as much "
-                         "fewer as it leaves in a bin, but at least three."});
+             .sentence =
+                 "Pixels and bins are set for the HDL-64E of KITTI. Else pixels are at least so "
+                 "large that the window reaches over the angular steps of the sensor, and "
+                 "bin_points and lowest_points are fewer by as much as its directions are "
+                 "farther apart, but at least three."});
 }
 
 Table make_table() {

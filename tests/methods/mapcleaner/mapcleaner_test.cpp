@@ -202,16 +202,20 @@ TEST_CASE("mapcleaner: pixels and bins follow the steps of a sensor that has few
   CHECK(settings("hdl64e").lowest_points == 20);
   // 2 degrees by 26.9 / 63 are 4.684, and 0.2 by 0.1728 are 1.157: of the points 0.1845 are left.
   const Parameters sparse = settings("vlp16");
-  CHECK(sparse.row_height == Approx(0.4 * 4.684).epsilon(1e-3));
-  CHECK(sparse.column_width == Approx(0.16 * 1.1574).epsilon(1e-3));
-  CHECK(sparse.bin_points == 3);  // 1.8, but three points span a plane.
+  CHECK(sparse.row_height == Approx(2.0 / 3.0));  // Three rows span a step.
+  CHECK(sparse.column_width == 0.16);             // Five columns span 0.8 degrees.
+  CHECK(sparse.bin_points == 3);                  // 1.8, but three points span a plane.
   CHECK(sparse.lowest_points == 4);
   parameters.bin_points = 2;  // Asked for.
   CHECK(settings("vlp16").bin_points == 2);
   parameters.bin_points = 10;
   // More beams, and columns twice as far apart.
-  CHECK(settings("os1-128").row_height == Approx(0.4));
+  CHECK(settings("os1-128").row_height == 0.4);
+  CHECK(settings("os1-128").column_width == 0.16);
   CHECK(settings("os1-128").bin_points == 5);
+  parameters.window_rows = parameters.window_columns = 0;
+  CHECK(settings("os1-128").column_width == Approx(0.3516));
+  CHECK(settings("vlp16").row_height == Approx(2.0));
   CHECK(for_sensor(parameters, SensorModel{}).bin_points == 10);  // Unknown.
 }
 
@@ -263,8 +267,8 @@ TEST_CASE("mapcleaner: the fast way gives what the description says") {
       parameters.refill_deviation = variant == 4 ? 0.05 : 0.5;
       parameters.tolerance = variant == 5 ? 0.2 : 0.5;
     }
-    sensor.elevation_step = variant > 2 ? 0.9 * kDegree : 0.0;
-    sensor.azimuth_step = variant > 3 ? 0.3 * kDegree : 0.0;
+    sensor.elevation_step = variant > 2 ? 1.8 * kDegree : 0.0;
+    sensor.azimuth_step = variant > 3 ? 1.1 * kDegree : 0.0;
     INFO("variant " << variant);
     const toy::HeldScans scans = random_scans(20 + static_cast<unsigned>(variant), sensor);
     const Oracle oracle(parameters, scans);

@@ -37,8 +37,11 @@ Oracle::Oracle(const Parameters& parameters, const ScanSource& scans)
     // The HDL-64E: 26.9 degrees by 63 steps, and 0.1728 degrees.
     const double up = std::max(1.0, sensor_.elevation_step * 180 / M_PI / (26.9 / 63));
     const double around = std::max(1.0, sensor_.azimuth_step * 180 / M_PI / 0.1728);
-    p_.row_height *= up;
-    p_.column_width *= around;
+    // A window of 2 n + 1 pixels is no smaller than a step.
+    p_.row_height = std::max(
+        p_.row_height, sensor_.elevation_step * 180 / M_PI / (1 + p_.window_rows + p_.window_rows));
+    p_.column_width = std::max(p_.column_width, sensor_.azimuth_step * 180 / M_PI /
+                                                    (1 + p_.window_columns + p_.window_columns));
     for (int* points : {&p_.bin_points, &p_.lowest_points}) {
       if (*points > 3) *points = std::max(3, static_cast<int>(std::round(*points / up / around)));
     }
