@@ -267,8 +267,11 @@ void Oracle::vote() {
   left_ = -M_PI;
   if (!p_.public_field_of_view) {
     is_circle_ = sensor_.azimuth_max - sensor_.azimuth_min > 6.2;
-    low_ = sensor_.elevation_min - row_height_;
-    high = sensor_.elevation_max + row_height_;
+    // Where a window is as high as a step, beams lie in the middle of rows.
+    const double window = row_height_ * (1 + 2 * p_.window_rows);
+    const bool is_sparse = !p_.public_steps && std::abs(sensor_.elevation_step - window) < 1e-9;
+    low_ = sensor_.elevation_min - row_height_ - (is_sparse ? row_height_ / 2 : 0);
+    high = sensor_.elevation_max + row_height_ + (is_sparse ? row_height_ / 2 : 0);
     if (!is_circle_) left_ = sensor_.azimuth_min - column_width_;
     if (!is_circle_) right = sensor_.azimuth_max + column_width_;
   }
