@@ -15,13 +15,19 @@ inline std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t mos
   return chosen;
 }
 
-/// The median; of an even count the upper of the two middle values.
+/// The median; of an even count the upper of the two middle values. It reorders the values.
 /// @param values at least one
 template <class Value>
-Value median(std::vector<Value> values) {
+Value median_in_place(std::vector<Value>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// The same, without reordering the caller's values.
+template <class Value>
+Value median(std::vector<Value> values) {
+  return median_in_place(values);
 }
 
 }  // namespace raymoval

@@ -54,7 +54,9 @@ void find_labels(const fs::path& folder, const SequenceSettings& settings,
   IndexedLabels found = read_indexed_labels(file, stamps);
   sequence.labels = std::move(found.labels);
   sequence.notes.push_back(std::move(found.note));
-  if (!settings.label_rule_given) sequence.label_rule = indexed_label_rule();
+  if (!sequence.labels) return;
+  sequence.label_rule = settings.label_rule_given ? with_unlabelled_ignored(sequence.label_rule)
+                                                  : indexed_label_rule();
 }
 
 /// The poses of the scans, and where they are from.

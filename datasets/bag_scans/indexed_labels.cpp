@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/bag_scans/indexed_labels.h"
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -109,20 +110,36 @@ IndexedLabels read_indexed_labels(const std::filesystem::path& file,
     of_scan.emplace(i, std::move(line->second));
     lines.erase(line);
   }
-  if (of_scan.empty()) {
-    throw DataError(file.string() + ": none of its " + grouped_text(all) +
-                    " lines has the time of one of the " + grouped_text(stamps.size()) +
-                    " scans; expected lines that begin with the time of a scan in nanoseconds. "
-                    "Choose other --frames, or move the file away to work without labels.");
-  }
+  const std::string name = file.filename().string();
   IndexedLabels found;
+  if (of_scan.empty()) {
+    found.note = "none of the " + counted_text(all, "line") + " of " + name +
+                 " has the time of one of the " + counted_text(stamps.size(), "scan") +
+                 ", so there are no labels: the lines are of other scans than these, or of another "
+                 "recording.";
+    return found;
+  }
   found.note = grouped_text(of_scan.size()) + " of " + counted_text(stamps.size(), "scan") +
-               " are labelled (" + file.filename().string() + "); the others are not scored.";
+               " are labelled (" + name + "); the others are not scored.";
   if (!lines.empty()) {
-    found.note += " " + grouped_text(lines.size()) + " lines of it are of scans that are not read.";
+    found.note += " " + counted_text(lines.size(), "line") +
+                  " of it belong to scans that are not read, or to another recording.";
   }
   found.labels = std::make_shared<IndexedLabelSource>(file, std::move(of_scan));
   return found;
+}
+
+LabelRule with_unlabelled_ignored(LabelRule rule) {
+  const auto unlabelled = static_cast<std::uint16_t>(kUnlabelled);
+  if (std::find(rule.moving.begin(), rule.moving.end(), unlabelled) != rule.moving.end()) {
+    throw ConfigurationError(
+        "label rule '" + rule.name + "': label id 0 moves, but in " + kIndexedLabelsFile +
+        " it stands for scans that nobody labelled; leave it out, or add it to \"ignored\".");
+  }
+  const auto place = std::lower_bound(rule.ignored.begin(), rule.ignored.end(), unlabelled);
+  if (place == rule.ignored.end() || *place != unlabelled) rule.ignored.insert(place, unlabelled);
+  rule.class_names = indexed_label_rule().class_names;
+  return rule;
 }
 
 LabelRule indexed_label_rule() {

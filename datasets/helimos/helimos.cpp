@@ -71,7 +71,7 @@ fs::path named_sensor(const std::string& path) {
 Sequence open_helimos(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
   SemanticKittiDefaults defaults;
   defaults.label_rule.name = "helimos";
-  defaults.label_rule.moving = {251};
+  defaults.label_rule.moving = {251, 252, 253, 254, 255, 256, 257, 258, 259};
   defaults.label_rule.ignored = {0};
   Sequence sequence = open_semantickitti(named_sensor(path), options, defaults);
   const Layout layout = helimos_layout();
@@ -87,7 +87,9 @@ Layout helimos_layout() {
   layout.name = "helimos";
   layout.expected = "a HeLiMOS root as ROOT:Ouster (Ouster/velodyne, train.txt, val.txt, test.txt)";
   layout.forms = {{"ROOT:Ouster", "a sensor of a HeLiMOS root folder, or that sensor's folder"}};
-  layout.class_names = {{0, "unlabelled"}, {9, "static"}, {251, "moving"}};
+  // Those of SemanticKITTI, whose label words these are, with two of its own.
+  layout.class_names[9] = "static";
+  layout.class_names[251] = "moving";
   layout.recognise = names_helimos;
   layout.open = open_helimos;
   layout.folder_of = folder_of_sensor;

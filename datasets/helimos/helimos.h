@@ -11,8 +11,9 @@ namespace raymoval {
 /// (`Ouster/velodyne`, `Ouster/labels`, `Ouster/calib.txt`), and train.txt, val.txt, test.txt
 /// beside them. `ROOT:Ouster` names a sensor, and so does its folder.
 ///
-/// Labels are those of moving-object segmentation: 251 moves, 9 does not, and 0, which nobody
-/// labelled, is ignored. A label rule that the user gives stands above that.
+/// Labels are those of moving-object segmentation: 251 moves, as do SemanticKITTI's moving classes
+/// 252 to 259, 9 does not, and 0, which nobody labelled, is ignored. A label rule that the user
+/// gives stands above that.
 Layout helimos_layout();
 
 }  // namespace raymoval

@@ -37,16 +37,21 @@ struct Occupation {
   std::int32_t last_occupied = 0;  ///< Position in the source.
 };
 
-/// What is known of 256 voxels at one height, x fastest: 12 bytes a voxel.
+/// What is known of 256 voxels at one height, x fastest: 14 bytes a voxel.
 struct alignas(64) Layer {
   std::array<float, kLayer> distance{};              ///< Mean signed distance to a surface, metres.
+  std::array<float, kLayer> weight{};                ///< Of that mean; 0 = never seen.
   std::array<std::int32_t, kLayer> last_occupied{};  ///< As in `Occupation`.
-  std::array<std::uint16_t, kLayer> weight{};        ///< Scans in the mean; 0 = never seen.
   std::array<std::uint16_t, kLayer> occupied_scans{};
 };
 
 struct Block {
-  explicit Block(const VoxelIndex& position) : at(position) {}
+  Block(const VoxelIndex& position, const Occupation& of_new) : at(position), unseen(of_new) {}
+
+  /// @param voxel one of this block
+  [[nodiscard]] bool is_ever_free(const VoxelIndex& voxel) const {
+    return (ever_free[row_of(voxel)] & bit_of(voxel)) != 0;
+  }
 
   VoxelIndex at;  ///< Block indices (see `block_of`).
   /// Null until a voxel of the layer was seen. Till then all voxels of it are as `unseen`.
@@ -69,14 +74,8 @@ class BlockMap {
   [[nodiscard]] const Block* find(const VoxelIndex& at) const {
     return const_cast<BlockMap*>(this)->find(at);
   }
-  /// The same; it is made if there is none yet, by a scan in which all its voxels are occupied.
-  Block& find_or_make(const VoxelIndex& at, std::int32_t scan);
-
-  [[nodiscard]] std::size_t size() const { return blocks_.size(); }
-  [[nodiscard]] bool is_ever_free(const VoxelIndex& voxel) const {
-    const Block* block = find(block_of(voxel));
-    return block != nullptr && (block->ever_free[row_of(voxel)] & bit_of(voxel)) != 0;
-  }
+  /// The same; if there is none yet, it is made, of voxels that are as `of_new` says.
+  Block& find_or_make(const VoxelIndex& at, const Occupation& of_new);
 
  private:
   VoxelMap<std::uint32_t> numbers_;

@@ -19,12 +19,33 @@ std::vector<VoxelKey> find_seeds(const ScanVoxels& scan, const BlockMap& map) {
   LastBlock<const BlockMap, const Block> blocks(map);
   for (const VoxelIndex& voxel : scan.voxels) {
     const Block* block = blocks.find(block_of(voxel));
-    if (block == nullptr || (block->ever_free[row_of(voxel)] & bit_of(voxel)) == 0) continue;
+    if (block == nullptr || !block->is_ever_free(voxel)) continue;
     seeds.push_back(voxel_key(voxel));
   }
   std::sort(seeds.begin(), seeds.end());
   seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
   return seeds;
+}
+
+/// Step 5.
+bool has_size(const Cluster& cluster, const Parameters& parameters) {
+  const auto points = static_cast<double>(cluster.points.size());
+  return points >= parameters.min_points && points <= parameters.max_points &&
+         cluster.extent >= parameters.min_extent && cluster.extent <= parameters.max_extent;
+}
+
+/// The boxes around the voxels of clusters, metres.
+/// @param place of each number that `grown` gives to clusters: its position among them
+std::vector<Eigen::AlignedBox3d> boxes_around_voxels(const GrownVoxels& grown,
+                                                     const std::vector<std::uint32_t>& place,
+                                                     double voxel_size, std::size_t clusters) {
+  std::vector<Eigen::AlignedBox3d> boxes(clusters);
+  for (std::size_t i = 0; i < grown.voxels.size(); ++i) {
+    if (grown.in_box[i] == 0) continue;
+    const Eigen::Vector3d low = grown.voxels[i].cast<double>() * voxel_size;
+    boxes[place[grown.cluster[i]]].extend(low).extend(low + Eigen::Vector3d::Constant(voxel_size));
+  }
+  return boxes;
 }
 
 }  // namespace
@@ -61,6 +82,7 @@ GrownVoxels grow_clusters(const ScanVoxels& scan, const BlockMap& map,
   for (const int number : sets.numbers()) {
     grown.cluster.push_back(static_cast<std::uint32_t>(number));
   }
+  grown.in_box.assign(grown.voxels.size(), 1);
   return grown;
 }
 
@@ -88,15 +110,14 @@ std::vector<Cluster> find_clusters(const Scan& scan, const ScanVoxels& voxels, c
     clusters[at].centroid += world;
     boxes[at].extend(world);
   }
+  if (parameters.extents == Extents::kVoxels) {
+    boxes = boxes_around_voxels(grown, place, parameters.voxel_size, clusters.size());
+  }
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     clusters[i].centroid /= static_cast<double>(clusters[i].points.size());
     clusters[i].extent = boxes[i].diagonal().norm();
   }
-  std::erase_if(clusters, [&](const Cluster& cluster) {
-    const auto points = static_cast<double>(cluster.points.size());
-    return points < parameters.min_points || points > parameters.max_points ||
-           cluster.extent < parameters.min_extent || cluster.extent > parameters.max_extent;
-  });
+  std::erase_if(clusters, [&](const Cluster& cluster) { return !has_size(cluster, parameters); });
   return clusters;
 }
 

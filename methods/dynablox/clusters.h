@@ -13,14 +13,15 @@ namespace raymoval::dynablox_method {
 struct Cluster {
   std::vector<std::uint32_t> points;                   ///< Of the scan, ascending.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< World, metres.
-  double extent = 0.0;  ///< Diagonal of the box around the points, metres.
-  int track = 0;        ///< Earlier scans through which it was followed.
+  double extent = 0.0;                                 ///< Diagonal of the box around it, metres.
+  int track = 0;  ///< Earlier scans through which it was followed.
 };
 
 /// Voxels with points that grew from ever-free ones.
 struct GrownVoxels {
   std::vector<VoxelIndex> voxels;      ///< In an order that the order of points does not change.
   std::vector<std::uint32_t> cluster;  ///< Number of each voxel's cluster.
+  std::vector<std::uint8_t> in_box;    ///< Whether the box of its cluster is around it too.
   VoxelMap<std::uint32_t> numbers;     ///< Position in `voxels`.
 };
 

@@ -2,8 +2,11 @@
 // "Dynablox"; the numbers are those of dynablox.h.
 #include "methods/dynablox/dynablox.h"
 
+#include <limits>
 #include <utility>
 
+#include "core/error.h"
+#include "core/text.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/dynablox/clusters.h"
@@ -23,8 +26,9 @@ class Detector {
   Mask detect(const Scan& scan, const RunContext& context) {
     {
       const StageScope timed(context.times, "voxels");
-      find_voxels(scan, parameters_.voxel_size, static_cast<float>(parameters_.min_range),
-                  integrator_.max_range(), voxels_);
+      const bool all = parameters_.judged == Judged::kAll;
+      find_voxels(scan, parameters_.voxel_size, all ? 0.0 : parameters_.min_range,
+                  all ? std::numeric_limits<double>::infinity() : integrator_.max_range(), voxels_);
     }
     Mask mask(scan.size(), 0);
     if (!parameters_.offline) {
@@ -70,7 +74,7 @@ Mask ever_free_points(const Scan& scan, double voxel_size, const BlockMap& map) 
     const VoxelIndex voxel =
         voxel_index(scan.T_world_sensor * scan.points[k].cast<double>(), 1.0 / voxel_size);
     const Block* block = blocks.find(block_of(voxel));
-    mask[k] = block != nullptr && (block->ever_free[row_of(voxel)] & bit_of(voxel)) != 0 ? 1 : 0;
+    mask[k] = block != nullptr && block->is_ever_free(voxel) ? 1 : 0;
   }
   return mask;
 }
@@ -92,6 +96,19 @@ void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sin
 }  // namespace
 
 std::unique_ptr<Remover> make_dynablox(const Parameters& parameters) {
+  if (!(parameters.min_range < parameters.max_range)) {
+    throw ConfigurationError(
+        "dynablox.min_range = " + number_text(parameters.min_range) +
+        " is not below dynablox.max_range = " + number_text(parameters.max_range) +
+        ", so nothing would be known to be free; raise max_range.");
+  }
+  if (!(parameters.truncation > parameters.occupied_below)) {
+    throw ConfigurationError(
+        "dynablox.truncation = " + number_text(parameters.truncation) +
+        " is not above dynablox.occupied_below = " + number_text(parameters.occupied_below) +
+        ", so no voxel would ever be free; raise truncation or lower "
+        "occupied_below.");
+  }
   return remover_from(parameters, run);
 }
 

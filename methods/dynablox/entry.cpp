@@ -4,10 +4,13 @@
 namespace raymoval {
 
 MethodEntry dynablox_entry() {
-  const Configuration mistakes = {
-      {"public_boxes", true}, {"public_merges", true}, {"public_unmapped", true}};
+  const Configuration mistakes = {{"public_boxes", true},
+                                  {"public_merges", true},
+                                  {"public_unmapped", true},
+                                  {"public_reset", true}};
   const Configuration header = {{"free_neighbours", std::string("edges")},
                                 {"frames_to_reset", std::int64_t{50}},
+                                {"grow_twice", true},
                                 {"min_points", std::int64_t{25}},
                                 {"max_points", std::int64_t{2500}},
                                 {"min_extent", 0.25},
@@ -18,6 +21,7 @@ MethodEntry dynablox_entry() {
   offline_wide.emplace_back("offline", true);
   MethodEntry entry;
   entry.name = "dynablox";
+  entry.version = "2";
   entry.sentence =
       "A distance field finds voxels that were once free for sure; what appears there moves.";
   entry.source = "Dynablox: Real-time Detection of Diverse Dynamic Objects (RA-L 2023)";
@@ -25,18 +29,12 @@ MethodEntry dynablox_entry() {
       "The default is as published and without the public program's mistakes, each of which has a "
       "switch (public_...).",
       "Rows, columns and the vertical field of view of the range image are the sensor's (image).",
-      "The range between pixels is the mean of the four around, weighed by nearness, without those "
-      "that have no return.",
-      "A pixel has its nearest return. A return from beyond max_range frees the way up to there "
-      "(clearing).",
-      "A voxel that no scan has updated counts as occupied in the scan that makes its block, and "
-      "in each that finds the block touched.",
-      "Voxels are reset while they are occupied only, and all at once, so that no order of blocks "
-      "counts.",
+      "A pixel has its nearest return, but for those nearer than min_range, which are left out.",
+      "Voxels are reset all at once, so that no order of voxels or blocks counts; in the public "
+      "program a voxel that another one has just reset resets no more (public_reset).",
       "A voxel with points that touches two clusters makes them one, so that no order of seeds "
       "counts; centres of voxels, not points, are compared when clusters are merged, as the "
       "shipped configuration does.",
-      "The extent of a cluster is the diagonal of the box around its points.",
       "The voxels' flag 'dynamic' is left out: nothing reads it.",
   };
   entry.variants = {

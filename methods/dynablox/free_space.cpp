@@ -103,7 +103,8 @@ kernels::Sweep FreeSpace::job(std::int32_t scan) const {
           .scan = scan,
           .temporal_buffer = parameters_.temporal_buffer,
           .burn_in = parameters_.burn_in,
-          .frames_to_reset = parameters_.frames_to_reset};
+          .frames_to_reset = parameters_.frames_to_reset,
+          .resets_free = parameters_.public_reset};
 }
 
 void FreeSpace::sweep(const VoxelHits& hits, std::int32_t scan, Block& block,

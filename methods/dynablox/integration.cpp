@@ -85,8 +85,8 @@ struct Rays {
     const Eigen::Vector3d ahead = point.cast<double>();
     const double range = ahead.norm();
     if (!(range >= parameters.min_range && range > 0.0)) return;
-    if (range > max_range && !parameters.clearing) return;
-    const double reach = std::min(range + parameters.truncation, max_range) / edge;
+    if (range > max_range && parameters.clearing != FarReturns::kBlocks) return;
+    const double reach = (std::min(range, max_range) + parameters.truncation) / edge;
     blocks.mark_ray(scan.T_world_sensor.linear() * (ahead / range), reach);
   }
 };
@@ -178,11 +178,31 @@ class LayerUpdate {
   kernels::Kernels kernels_;
 };
 
+/// How far the sensor sees and the parameters let it. A sensor whose range is unknown sees so far.
+double range_of(const Parameters& parameters, const SensorModel& sensor) {
+  if (!(sensor.range_max > 0.0)) return parameters.max_range;
+  return std::min(parameters.max_range, sensor.range_max);
+}
+
+/// What voxels were before scan `number` makes their block.
+Occupation before_first(const Parameters& parameters, std::int32_t number) {
+  if (parameters.new_voxels == NewVoxels::kOccupied) return {.scans = 1, .last_occupied = number};
+  // Scans are counted from 1 in the public program, and voxels were never occupied in scan 0.
+  return {.scans = 0, .last_occupied = -1};
+}
+
+/// The lowest and highest row, or part of one, between whose pixels voxels are seen.
+std::pair<float, float> rows_seen(const Parameters& parameters, const ImageGrid& grid) {
+  const auto last = static_cast<float>(grid.rows - 1);
+  if (parameters.interpolation == Interpolation::kAdaptive) return {0.0F, last};
+  return {-0.5F, std::nextafter(last + 0.5F, 0.0F)};
+}
+
 }  // namespace
 
 Integrator::Integrator(const Parameters& parameters, const SensorModel& sensor)
     : parameters_(parameters),
-      max_range_(static_cast<float>(std::min(parameters.max_range, sensor.range_max))),
+      max_range_(range_of(parameters, sensor)),
       image_(ImageGrid(parameters, sensor)),
       kernels_(kernels::best_kernels()) {}
 
@@ -190,7 +210,7 @@ void Integrator::integrate(const Scan& scan, const RunContext& context, BlockMap
                            std::vector<Block*>& touched) {
   {
     const StageScope timed(context.times, "rays");
-    image_.fill(scan, parameters_, max_range_);
+    image_.fill(scan, parameters_, static_cast<float>(max_range_));
     touch_blocks(scan, context, map, touched);
   }
   const StageScope timed(context.times, "integration");
@@ -200,7 +220,8 @@ void Integrator::integrate(const Scan& scan, const RunContext& context, BlockMap
 void Integrator::touch_blocks(const Scan& scan, const RunContext& context, BlockMap& map,
                               std::vector<Block*>& touched) const {
   const Rays rays{scan, parameters_, max_range_, kSide * parameters_.voxel_size};
-  const int reach = static_cast<int>(std::ceil(max_range_ / rays.edge)) + 1;
+  const double longest = max_range_ + parameters_.truncation;
+  const int reach = static_cast<int>(std::ceil(longest / rays.edge)) + 1;
   BlocksAround all(scan.T_world_sensor.translation() / rays.edge, reach);
   std::vector<BlocksAround> parts((scan.size() + kPointsAtOnce - 1) / kPointsAtOnce, all);
   parallel_chunks(context.threads, scan.size(), kPointsAtOnce,
@@ -210,25 +231,34 @@ void Integrator::touch_blocks(const Scan& scan, const RunContext& context, Block
                   });
   for (const BlocksAround& part : parts) all.add(part);
   touched.clear();
-  all.for_each([&](const VoxelIndex& at) {
-    touched.push_back(&map.find_or_make(at, static_cast<std::int32_t>(scan.index)));
-  });
+  const Occupation of_new = before_first(parameters_, static_cast<std::int32_t>(scan.index));
+  all.for_each([&](const VoxelIndex& at) { touched.push_back(&map.find_or_make(at, of_new)); });
+}
+
+kernels::Integration Integrator::job() const {
+  const ImageGrid& grid = image_.grid();
+  const auto [first_row, last_row] = rows_seen(parameters_, grid);
+  const double area = parameters_.voxel_size * parameters_.voxel_size;
+  return {.image = image_.ranges().data(),
+          .columns = grid.columns,
+          .first_row = first_row,
+          .last_row = last_row,
+          .columns_per_radian = grid.columns_per_radian,
+          .rows_per_radian = grid.rows_per_radian,
+          .elevation_min = grid.elevation_min,
+          .min_range = static_cast<float>(parameters_.min_range),
+          .max_range = static_cast<float>(max_range_),
+          .is_adaptive = parameters_.interpolation == Interpolation::kAdaptive,
+          .counts_rays = parameters_.weights == Weights::kRays,
+          .rays_at_a_metre = static_cast<float>(area * grid.pixels_per_square_radian),
+          .voxel_size = static_cast<float>(parameters_.voxel_size),
+          .truncation = static_cast<float>(parameters_.truncation),
+          .max_weight = static_cast<float>(parameters_.max_weight)};
 }
 
 void Integrator::update(const Scan& scan, const RunContext& context,
                         const std::vector<Block*>& touched) const {
-  const ImageGrid& grid = image_.grid();
-  const kernels::Integration job{.image = image_.ranges().data(),
-                                 .columns = grid.columns,
-                                 .rows = grid.rows,
-                                 .columns_per_radian = grid.columns_per_radian,
-                                 .rows_per_radian = grid.rows_per_radian,
-                                 .elevation_min = grid.elevation_min,
-                                 .min_range = static_cast<float>(parameters_.min_range),
-                                 .max_range = max_range_,
-                                 .truncation = static_cast<float>(parameters_.truncation),
-                                 .max_weight = static_cast<float>(parameters_.max_weight)};
-  const LayerUpdate layers(scan, parameters_.voxel_size, job, grid, kernels_);
+  const LayerUpdate layers(scan, parameters_.voxel_size, job(), image_.grid(), kernels_);
   parallel_chunks(context.threads, touched.size(), kBlocksAtOnce,
                   [&](std::size_t begin, std::size_t end) {
                     std::unique_ptr<Layer> spare;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "methods/common/disjoint_sets.h"
 #include "methods/dynablox/clusters.h"
@@ -102,7 +103,10 @@ void merge_publicly(const Parameters& parameters, const std::vector<VoxelIndex>&
     if (clusters[i].is_gone) continue;
     for (const std::uint32_t j : clusters[i].merged) number[j] = i;
   }
-  for (std::uint32_t& cluster : grown.cluster) cluster = number[cluster];
+  for (std::size_t i = 0; i < grown.cluster.size(); ++i) {
+    const std::uint32_t own = std::exchange(grown.cluster[i], number[grown.cluster[i]]);
+    grown.in_box[i] = !parameters.public_merges || own == grown.cluster[i] ? 1 : 0;
+  }
 }
 
 }  // namespace

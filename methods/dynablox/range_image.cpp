@@ -18,22 +18,31 @@ int steps_in(double whole, double step, int published, int most) {
   return static_cast<int>(std::clamp(std::round(whole / step), 1.0, static_cast<double>(most)));
 }
 
+/// Whether a sensor can see from one elevation to the other; not if one is unknown.
+bool is_view(double low, double high) {
+  return std::abs(low) <= kTurn / 4.0 && std::abs(high) <= kTurn / 4.0 && low < high;
+}
+
 }  // namespace
 
 ImageGrid::ImageGrid(const Parameters& parameters, const SensorModel& sensor) {
   const Parameters published;
-  double low = -0.5 * parameters.vertical_view * kDegree, high = -low;
+  const bool is_fixed = parameters.image == ImageSource::kFixed;
+  double low = -0.5 * (is_fixed ? parameters : published).vertical_view * kDegree, high = -low;
   columns = parameters.image_columns;
   rows = parameters.image_rows;
-  if (parameters.image == ImageSource::kSensor) {
-    low = sensor.elevation_min;
-    high = std::max(sensor.elevation_max, low + kDegree);
+  if (!is_fixed) {
+    if (is_view(sensor.elevation_min, sensor.elevation_max)) {
+      low = sensor.elevation_min;
+      high = std::max(sensor.elevation_max, low + kDegree);
+    }
     columns = steps_in(kTurn, sensor.azimuth_step, published.image_columns, kMostColumns);
     rows = 1 + steps_in(high - low, sensor.elevation_step, published.image_rows - 1, kMostRows);
   }
   columns_per_radian = static_cast<float>(columns / kTurn);
   rows_per_radian = static_cast<float>((rows - 1) / (high - low));
   elevation_min = static_cast<float>(low);
+  pixels_per_square_radian = static_cast<float>(columns / kTurn * rows / (high - low));
 }
 
 template <class Visit>
@@ -59,6 +68,7 @@ void RangeImage::for_pixels(const Scan& scan, const kernels::Projection& job, Vi
 void RangeImage::fill(const Scan& scan, const Parameters& parameters, float max_range) {
   const auto stored_columns = static_cast<std::size_t>(grid_.columns + 1);
   ranges_.assign(stored_columns * static_cast<std::size_t>(grid_.rows + 2), 0.0F);
+  const bool far = parameters.clearing != FarReturns::kNothing;
   constexpr float kAny = std::numeric_limits<float>::max();
   const kernels::Projection job{.columns = grid_.columns,
                                 .rows = grid_.rows,
@@ -66,9 +76,11 @@ void RangeImage::fill(const Scan& scan, const Parameters& parameters, float max_
                                 .rows_per_radian = grid_.rows_per_radian,
                                 .elevation_min = grid_.elevation_min,
                                 .min_range = static_cast<float>(parameters.min_range),
-                                .max_range = parameters.clearing ? kAny : max_range};
+                                .max_range = far ? kAny : max_range};
   // A voxel within `max_range` is at the full distance before what is beyond this.
-  const float furthest = max_range + static_cast<float>(parameters.truncation);
+  const float furthest = parameters.interpolation == Interpolation::kMean
+                             ? max_range + static_cast<float>(parameters.truncation)
+                             : kAny;
   for_pixels(scan, job, [&](std::int32_t pixel, float range) {
     float& stored = ranges_[static_cast<std::size_t>(pixel)];
     const float seen = std::min(range, furthest);

@@ -19,7 +19,9 @@ struct ImageGrid {
   int columns = 0, rows = 0;
   float columns_per_radian = 0.0F, rows_per_radian = 0.0F;
   float elevation_min = 0.0F;  ///< Of the centre of row 0, radians.
+  float pixels_per_square_radian = 0.0F;
 
+  /// What the sensor's model does not know, or cannot be, is as published.
   ImageGrid(const Parameters& parameters, const SensorModel& sensor);
 
   /// A pixel of the stored image; the stored rows have an empty one below and above, and the stored
@@ -35,8 +37,9 @@ class RangeImage {
  public:
   explicit RangeImage(const ImageGrid& grid) : grid_(grid), kernels_(kernels::best_kernels()) {}
 
-  /// Takes the place of the last scan's. Returns nearer than `min_range` are left out, those beyond
-  /// `max_range` are as far as a voxel within can be told from them, or left out if not clearing.
+  /// Takes the place of the last scan's. Returns nearer than `min_range` are left out, as are those
+  /// beyond `max_range` if they say nothing. Where the mean of pixels is asked for, those beyond
+  /// are as far as a voxel within can be told from them.
   void fill(const Scan& scan, const Parameters& parameters, float max_range);
 
   [[nodiscard]] const ImageGrid& grid() const { return grid_; }

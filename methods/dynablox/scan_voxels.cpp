@@ -16,16 +16,18 @@ void VoxelHits::add(const VoxelIndex& voxel) {
   row = static_cast<std::uint16_t>(row | bit_of(voxel));
 }
 
-void find_voxels(const Scan& scan, double voxel_size, float min_range, float max_range,
+void find_voxels(const Scan& scan, double voxel_size, double min_range, double max_range,
                  ScanVoxels& found) {
   found.points.clear();
   found.voxels.clear();
   found.hits.clear();
   const double inverse = 1.0 / voxel_size;
+  const double least = min_range * min_range, most = max_range * max_range;
   for (std::size_t k = 0; k < scan.size(); ++k) {
     const Eigen::Vector3f& point = scan.points[k];
-    const float range = point.norm();
-    if (!(range >= min_range && range <= max_range)) continue;
+    // In double precision a square of a single one is exact, so that the bounds are.
+    const double square = point.cast<double>().squaredNorm();
+    if (!(square >= least && square <= most)) continue;
     const VoxelIndex voxel = voxel_index(scan.T_world_sensor * point.cast<double>(), inverse);
     found.points.push_back(static_cast<std::uint32_t>(k));
     found.voxels.push_back(voxel);

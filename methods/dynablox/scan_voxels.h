@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "core/scan/scan.h"
@@ -41,8 +40,8 @@ struct ScanVoxels {
   VoxelHits hits;
 };
 
-/// Steps 1 and 2. @param min_range, max_range of points that take part, metres
-void find_voxels(const Scan& scan, double voxel_size, float min_range, float max_range,
+/// Steps 1 and 2. @param min_range, max_range of points that take part, metres, ends included
+void find_voxels(const Scan& scan, double voxel_size, double min_range, double max_range,
                  ScanVoxels& found);
 
 }  // namespace raymoval::dynablox_method

@@ -8,6 +8,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 //
 #include "hwy/highway.h"
+#include "methods/common/vector_angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymoval::dynablox_method::kernels {
@@ -28,18 +29,8 @@ HWY_INLINE F number(float value) {
   return hn::Set(Floats(), value);
 }
 
-/// atan2(y, x) to 2e-6.
 HWY_INLINE F angle_of(F y, F x) {
-  const Floats d;
-  const F across = hn::Abs(x), up = hn::Abs(y);
-  const F a = hn::Div(hn::Min(across, up), hn::Max(hn::Max(across, up), number(kLeastDivisor)));
-  const F square = hn::Mul(a, a);
-  F sum = number(kArcTangent[6]);
-  for (std::size_t k = 6; k-- > 0;) sum = hn::Add(hn::Mul(sum, square), number(kArcTangent[k]));
-  F angle = hn::Mul(sum, a);
-  angle = hn::IfThenElse(hn::Gt(up, across), hn::Sub(number(kQuarterTurn), angle), angle);
-  angle = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(number(kHalfTurn), angle), angle);
-  return hn::CopySign(angle, y);
+  return raymoval::HWY_NAMESPACE::vector_angle(Floats(), y, x);
 }
 
 void project(const Projection& image, const float* points, std::size_t count, std::int32_t* pixel,
@@ -69,17 +60,15 @@ void project(const Projection& image, const float* points, std::size_t count, st
   }
 }
 
-/// The range between four pixels: their mean, weighed by how near they are, without those that have
-/// no return.
-struct Between {
-  F range;
-  F weight;  ///< 0 where no pixel has a return.
+/// Four pixels around a place in the image, and how far from the left and lower ones it is.
+struct Pixels {
+  F lower_left, lower_right, upper_left, upper_right;  ///< Ranges, 0 where there is no return.
+  F right_share, upper_share;
 };
-HWY_INLINE Between between_pixels(const Integration& scan, F u, F v) {
+HWY_INLINE Pixels pixels_around(const Integration& scan, F u, F v) {
   const Floats d;
   const Ints ints;
   const F left = hn::Floor(u), below = hn::Floor(v);
-  const F right_share = hn::Sub(u, left), above_share = hn::Sub(v, below);
   const I column = hn::ConvertTo(ints, left);
   const I before_first = hn::Set(ints, scan.columns);
   const I wrapped =
@@ -88,55 +77,105 @@ HWY_INLINE Between between_pixels(const Integration& scan, F u, F v) {
   const I row = hn::Add(hn::ConvertTo(ints, below), hn::Set(ints, 1));
   const I stride = hn::Set(ints, scan.columns + 1);
   const I at = hn::Add(hn::Mul(row, stride), hn::Min(wrapped, last));
+  const float* upper = scan.image + scan.columns + 1;
+  return {hn::GatherIndex(d, scan.image, at),
+          hn::GatherIndex(d, scan.image + 1, at),
+          hn::GatherIndex(d, upper, at),
+          hn::GatherIndex(d, upper + 1, at),
+          hn::Sub(u, left),
+          hn::Sub(v, below)};
+}
+
+/// The mean of the pixels, weighed by how near they are, without those that have no return; 0 where
+/// none has one.
+HWY_INLINE F mean_range(const Pixels& pixels) {
+  const Floats d;
   const F one = number(1.0F);
   F sum = hn::Zero(d), weight = hn::Zero(d);
-  const auto add = [&](const float* pixels, F share_across, F share_up) {
-    const F range = hn::GatherIndex(d, pixels, at);
+  const auto add = [&](F range, F share_across, F share_up) {
     const F share = hn::IfThenElseZero(hn::Gt(range, hn::Zero(d)), hn::Mul(share_across, share_up));
     sum = hn::Add(sum, hn::Mul(share, range));
     weight = hn::Add(weight, share);
   };
-  const float* upper = scan.image + scan.columns + 1;
-  const F left_share = hn::Sub(one, right_share), below_share = hn::Sub(one, above_share);
-  add(scan.image, left_share, below_share);
-  add(scan.image + 1, right_share, below_share);
-  add(upper, left_share, above_share);
-  add(upper + 1, right_share, above_share);
-  return {hn::Div(sum, hn::Max(weight, number(kLeastDivisor))), weight};
+  const F left_share = hn::Sub(one, pixels.right_share);
+  const F lower_share = hn::Sub(one, pixels.upper_share);
+  add(pixels.lower_left, left_share, lower_share);
+  add(pixels.lower_right, pixels.right_share, lower_share);
+  add(pixels.upper_left, left_share, pixels.upper_share);
+  add(pixels.upper_right, pixels.right_share, pixels.upper_share);
+  return hn::Div(sum, hn::Max(weight, number(kLeastDivisor)));
+}
+
+/// What two places tell together: the one that has a return, or their mean and the nearer one.
+struct MeanAndLeast {
+  F mean, least;
+};
+HWY_INLINE MeanAndLeast together(const MeanAndLeast& a, const MeanAndLeast& b, F share_of_b) {
+  const F zero = hn::Zero(Floats());
+  const auto only_b = hn::Eq(a.mean, zero), only_a = hn::Eq(b.mean, zero);
+  const auto either = [&](F of_a, F of_b, F of_both) {
+    return hn::IfThenElse(only_b, of_b, hn::IfThenElse(only_a, of_a, of_both));
+  };
+  const F share_of_a = hn::Sub(number(1.0F), share_of_b);
+  const F mean = hn::Add(hn::Mul(share_of_a, a.mean), hn::Mul(share_of_b, b.mean));
+  return {either(a.mean, b.mean, mean), either(a.least, b.least, hn::Min(a.least, b.least))};
+}
+
+/// The same of each two pixels in a column, and of both columns; but the nearest of the pixels
+/// where it is nearer by more than half the truncation.
+HWY_INLINE F adaptive_range(const Pixels& pixels, float truncation) {
+  const auto column = [&](F lower, F upper) {
+    return together({lower, lower}, {upper, upper}, pixels.upper_share);
+  };
+  const MeanAndLeast both =
+      together(column(pixels.lower_left, pixels.upper_left),
+               column(pixels.lower_right, pixels.upper_right), pixels.right_share);
+  const auto is_far = hn::Lt(hn::Add(both.least, number(0.5F * truncation)), both.mean);
+  return hn::IfThenElse(is_far, both.least, both.mean);
+}
+
+/// What a scan weighs in voxels. @param square of their ranges
+/// @param ahead how far they lie before the surface, metres
+HWY_INLINE F weight_of_scan(const Integration& scan, F square, F ahead) {
+  const F one = number(1.0F);
+  if (!scan.counts_rays) return one;
+  const F rays = hn::Div(number(scan.rays_at_a_metre), hn::Max(square, one));
+  const F left_of_rays = hn::Div(hn::Mul(rays, hn::Add(number(scan.truncation), ahead)),
+                                 number(scan.truncation - scan.voxel_size));
+  return hn::IfThenElse(hn::Lt(ahead, number(-scan.voxel_size)), left_of_rays, rays);
 }
 
 /// Some voxels of a row with their centres.
 HWY_INLINE bool integrate_some(const Integration& scan, F x, F y, F z, float* distance,
-                               std::uint16_t* weight) {
+                               float* weight) {
   const Floats d;
-  const Ints ints;
-  const Shorts shorts;
   const F level_square = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-  const F range = hn::Sqrt(hn::Add(level_square, hn::Mul(z, z)));
+  const F square = hn::Add(level_square, hn::Mul(z, z));
+  const F range = hn::Sqrt(square);
   auto wanted =
       hn::And(hn::Ge(range, number(scan.min_range)), hn::Le(range, number(scan.max_range)));
   const F elevation = angle_of(z, hn::Sqrt(level_square));
   const F v = hn::Mul(hn::Sub(elevation, number(scan.elevation_min)), number(scan.rows_per_radian));
-  const F last_row = number(static_cast<float>(scan.rows) - 0.5F);
-  wanted = hn::And(wanted, hn::And(hn::Ge(v, number(-0.5F)), hn::Lt(v, last_row)));
+  wanted =
+      hn::And(wanted, hn::And(hn::Ge(v, number(scan.first_row)), hn::Le(v, number(scan.last_row))));
   if (hn::AllFalse(d, wanted)) return false;
   const F azimuth = hn::Add(angle_of(y, x), number(kHalfTurn));
   const F u = hn::Sub(hn::Mul(azimuth, number(scan.columns_per_radian)), number(0.5F));
   // What is not wanted must not reach beyond the image.
-  const Between seen = between_pixels(scan, u, hn::IfThenElseZero(wanted, v));
-  const F ahead = hn::Sub(seen.range, range);
+  const Pixels pixels = pixels_around(scan, u, hn::IfThenElseZero(wanted, v));
+  const F seen = scan.is_adaptive ? adaptive_range(pixels, scan.truncation) : mean_range(pixels);
+  const F ahead = hn::Sub(seen, range);
   const F truncation = number(scan.truncation);
-  wanted = hn::And(wanted,
-                   hn::And(hn::Gt(seen.weight, hn::Zero(d)), hn::Gt(ahead, hn::Neg(truncation))));
+  wanted = hn::And(wanted, hn::And(hn::Gt(seen, hn::Zero(d)), hn::Gt(ahead, hn::Neg(truncation))));
   if (hn::AllFalse(d, wanted)) return false;
-  const F cut = hn::Min(ahead, truncation);
-  const F old_distance = hn::LoadU(d, distance);
-  const F old_weight = hn::ConvertTo(d, hn::PromoteTo(ints, hn::LoadU(shorts, weight)));
-  const F more = hn::Add(old_weight, number(1.0F));
-  const F mean = hn::Div(hn::Add(hn::Mul(old_distance, old_weight), cut), more);
-  const F kept_weight = hn::IfThenElse(wanted, hn::Min(more, number(scan.max_weight)), old_weight);
-  hn::StoreU(hn::IfThenElse(wanted, mean, old_distance), d, distance);
-  hn::StoreU(hn::DemoteTo(shorts, hn::ConvertTo(ints, kept_weight)), shorts, weight);
+  const F added = weight_of_scan(scan, square, ahead);
+  const F old_distance = hn::LoadU(d, distance), old_weight = hn::LoadU(d, weight);
+  const F more = hn::Add(old_weight, added);
+  const F sum =
+      hn::Add(hn::Mul(old_distance, old_weight), hn::Mul(hn::Min(ahead, truncation), added));
+  const F new_weight = hn::Min(more, number(scan.max_weight));
+  hn::StoreU(hn::IfThenElse(wanted, hn::Div(sum, more), old_distance), d, distance);
+  hn::StoreU(hn::IfThenElse(wanted, new_weight, old_weight), d, weight);
   return true;
 }
 
@@ -175,9 +214,10 @@ HWY_INLINE hn::Mask<Ints> mask_of(std::uint32_t bits) {
 HWY_INLINE std::uint32_t settled_bits(const Sweep& scan, const SweptLayer& layer, std::size_t at,
                                       I last_occupied) {
   const Ints ints;
-  const I weight = hn::PromoteTo(ints, hn::LoadU(Shorts(), layer.weight + at));
+  const F weight = hn::LoadU(Floats(), layer.weight + at);
+  const auto is_seen = hn::RebindMask(ints, hn::Gt(weight, number(kSeenWeight)));
   const auto is_free = hn::Lt(last_occupied, hn::Set(ints, scan.scan - scan.burn_in + 1));
-  return bits_of(hn::And(is_free, hn::Gt(weight, hn::Zero(ints))));
+  return bits_of(hn::And(is_free, is_seen));
 }
 
 void sweep(const Sweep& scan, const SweptLayer& layer) {
@@ -201,8 +241,8 @@ void sweep(const Sweep& scan, const SweptLayer& layer) {
       const I new_last = hn::IfThenElse(is_occupied, now, last);
       hn::StoreU(new_last, ints, layer.last_occupied + at);
       hn::StoreU(hn::DemoteTo(shorts, new_scans), shorts, layer.occupied_scans + at);
-      const auto is_lasting =
-          hn::And(is_occupied, hn::Gt(new_scans, hn::Set(ints, scan.frames_to_reset - 1)));
+      const auto is_long = hn::Gt(new_scans, hn::Set(ints, scan.frames_to_reset - 1));
+      const auto is_lasting = scan.resets_free ? is_long : hn::And(is_occupied, is_long);
       lasting |= bits_of(is_lasting) << x;
       settled |= settled_bits(scan, layer, at, new_last) << x;
     }

@@ -8,14 +8,10 @@
 /// Loops over the points of a scan and the voxels of a layer, compiled for each instruction set.
 namespace raymoval::dynablox_method::kernels {
 
-/// Coefficients of atan(a) = a P(a a) for 0 <= a <= 1, right to 1e-6: the polynomial that agrees at
-/// Chebyshev's nodes.
-inline constexpr std::array<float, 7> kArcTangent = {
-    0.9999992256F,  -0.3332567804F,  0.1987204027F,  -0.1344786406F,
-    0.08312645301F, -0.03636043086F, 0.007648353927F};
 inline constexpr float kHalfTurn = 3.14159265358979F;
 inline constexpr float kQuarterTurn = 1.57079632679490F;
 inline constexpr float kLeastDivisor = 1e-30F;
+inline constexpr float kSeenWeight = 1e-6F;  ///< A voxel that weighs no more was not seen.
 
 /// How points are sorted into an image.
 struct Projection {
@@ -28,9 +24,15 @@ struct Projection {
 /// What all voxels have in common while one scan is integrated.
 struct Integration {
   const float* image = nullptr;  ///< As `RangeImage` stores it.
-  int columns = 0, rows = 0;
+  int columns = 0;
+  float first_row = 0.0F, last_row = 0.0F;  ///< Voxels below and above are not seen.
   float columns_per_radian = 0.0F, rows_per_radian = 0.0F, elevation_min = 0.0F;
-  float min_range = 0.0F, max_range = 0.0F, truncation = 0.0F, max_weight = 0.0F;
+  float min_range = 0.0F, max_range = 0.0F;
+  bool is_adaptive = false;      ///< As in `Interpolation`.
+  bool counts_rays = false;      ///< Whether voxels are weighed by the rays through them,
+  float rays_at_a_metre = 0.0F;  ///< which are so many at one metre.
+  float voxel_size = 0.0F;
+  float truncation = 0.0F, max_weight = 0.0F;
   /// From a voxel's centre to the next one's along x and y, sensor frame, metres.
   std::array<float, 3> along_x{}, along_y{};
 };
@@ -39,7 +41,7 @@ struct Integration {
 struct LayerFields {
   std::array<float, 3> first{};  ///< The centre of its first voxel in the sensor frame, metres.
   float* distance = nullptr;
-  std::uint16_t* weight = nullptr;
+  float* weight = nullptr;
 };
 
 /// What all voxels have in common when it is seen which were occupied.
@@ -47,17 +49,18 @@ struct Sweep {
   float occupied_below = 0.0F;
   std::int32_t scan = 0;
   std::int32_t temporal_buffer = 0, burn_in = 0, frames_to_reset = 0;
+  bool resets_free = false;  ///< Whether voxels are reset that are free by now.
 };
 
 /// A layer to sweep: what it holds, and bits of its rows.
 struct SweptLayer {
   const float* distance = nullptr;
-  const std::uint16_t* weight = nullptr;
+  const float* weight = nullptr;
   std::int32_t* last_occupied = nullptr;
   std::uint16_t* occupied_scans = nullptr;
   const std::uint16_t* hit = nullptr;  ///< Null where the scan has no point in the block.
   std::uint16_t* settled = nullptr;    ///< Gets which are settled.
-  std::uint16_t* lasting = nullptr;    ///< Gets which are occupied for long enough to be reset.
+  std::uint16_t* lasting = nullptr;    ///< Gets which were occupied for long enough to be reset.
 };
 
 struct Kernels {

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/sampling.h"
 #include "methods/common/plane_fit.h"
 
 namespace raymoval::erasor_method {
@@ -16,14 +18,22 @@ namespace {
 /// Discs around the sensor in which the height of the ground is looked for, metres. The first is
 /// what a sensor passes over, the others are for one that stands.
 constexpr double kDiscs[] = {1.5, 3.0, 6.0, 12.0};
-/// Voxels that tell the height of the ground: fewer may be noise.
-constexpr std::size_t kEnough = 20;
-/// Share of the voxels below the ground: echoes that stand nowhere.
-constexpr double kBelowGround = 0.1;
+/// Sides of the columns whose feet tell the height of the ground, and its slope, metres.
+constexpr double kHeightColumn = 0.5, kSlopeColumn = 1.0;
+/// Feet that tell the height of the ground: fewer may be noise.
+constexpr std::size_t kEnoughFeet = 10;
+/// What is farther above something else is held up by something else, metres: more than the step
+/// between two beams on a car that is near, and less than any storey is high.
+constexpr double kStoreyGap = 0.6;
+/// The ground has at least this share of the feet that the storey with the most has. What is above
+/// it and has fewer are roofs of cars and the like.
+constexpr double kGroundShare = 0.5;
 /// Discs in which the slope of the ground is fitted, one after the other, metres.
 constexpr double kSlopeDiscs[] = {3.0, 6.0, 12.0};
-/// Ground is what lies lowest in a square of so many metres, and so near the plane before.
-constexpr double kSquare = 1.0, kNearPlane = 0.3;
+/// Feet that a slope is fitted to.
+constexpr std::size_t kEnoughForSlope = 20;
+/// Ground has its feet so near the plane before, metres.
+constexpr double kNearPlane = 0.3;
 /// The least upright normal of a ground: 45 degrees.
 const double kLeastUpright = std::sqrt(0.5);
 
@@ -42,34 +52,60 @@ void for_voxels_below(const Eigen::Vector3d& sensor, double radius, const NaiveM
   }
 }
 
-/// Height of the ground, metres above the sensor, so that it is negative.
-std::optional<double> ground_height(const Eigen::Vector3d& sensor, const NaiveMap& map) {
-  for (const double radius : kDiscs) {
-    std::vector<double> heights;
-    for_voxels_below(sensor, radius, map,
-                     [&](const Eigen::Vector3d& point) { heights.push_back(point.z()); });
-    if (heights.size() < kEnough) continue;
-    const auto place =
-        static_cast<std::ptrdiff_t>(kBelowGround * static_cast<double>(heights.size() - 1));
-    std::nth_element(heights.begin(), heights.begin() + place, heights.end());
-    return heights[static_cast<std::size_t>(place)];
+/// The feet on the storey of the sensor: of the groups that are `kStoreyGap` apart, the highest one
+/// with enough of them. Nothing if no group has `kEnoughFeet`.
+/// @param heights relative to the sensor, all negative
+std::optional<std::vector<double>> storey_of_sensor(std::vector<double> heights) {
+  std::sort(heights.begin(), heights.end());
+  std::vector<std::vector<double>> storeys;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (i == 0 || heights[i] - heights[i - 1] > kStoreyGap) storeys.emplace_back();
+    storeys.back().push_back(heights[i]);
+  }
+  std::size_t most = 0;
+  for (const auto& storey : storeys) most = std::max(most, storey.size());
+  const double enough =
+      std::max(static_cast<double>(kEnoughFeet), kGroundShare * static_cast<double>(most));
+  for (auto storey = storeys.rbegin(); storey != storeys.rend(); ++storey) {
+    if (static_cast<double>(storey->size()) >= enough) return std::move(*storey);
   }
   return std::nullopt;
 }
 
-/// What lies lowest in each square of a disc around the sensor.
-std::vector<Eigen::Vector3d> lowest_points(const Eigen::Vector3d& sensor, double radius,
-                                           const NaiveMap& map) {
-  std::map<std::pair<int, int>, Eigen::Vector3d> lowest;
+/// The feet of what stands in the columns of a disc around the sensor, relative to it: in each
+/// column, what nothing lies below for `kStoreyGap`. A column through a bridge has a foot on the
+/// road and one on the deck.
+std::vector<Eigen::Vector3d> column_feet(const Eigen::Vector3d& sensor, double radius, double side,
+                                         const NaiveMap& map) {
+  std::map<std::pair<int, int>, std::vector<Eigen::Vector3d>> columns;
   for_voxels_below(sensor, radius, map, [&](const Eigen::Vector3d& point) {
-    const std::pair square{static_cast<int>(std::floor(point.x() / kSquare)),
-                           static_cast<int>(std::floor(point.y() / kSquare))};
-    const auto [found, is_new] = lowest.emplace(square, point);
-    if (!is_new && point.z() < found->second.z()) found->second = point;
+    columns[{static_cast<int>(std::floor(point.x() / side)),
+             static_cast<int>(std::floor(point.y() / side))}]
+        .push_back(point);
   });
-  std::vector<Eigen::Vector3d> points;
-  for (const auto& [square, point] : lowest) points.push_back(point);
-  return points;
+  std::vector<Eigen::Vector3d> feet;
+  for (auto& [square, points] : columns) {
+    std::sort(points.begin(), points.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return std::tuple(a.z(), a.x(), a.y()) < std::tuple(b.z(), b.x(), b.y());
+    });
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i == 0 || points[i].z() - points[i - 1].z() > kStoreyGap) feet.push_back(points[i]);
+    }
+  }
+  return feet;
+}
+
+/// Height of the ground on the storey of the sensor, metres above the sensor, so that it is
+/// negative.
+std::optional<double> ground_height(const Eigen::Vector3d& sensor, const NaiveMap& map) {
+  for (const double radius : kDiscs) {
+    std::vector<double> heights;
+    for (const Eigen::Vector3d& foot : column_feet(sensor, radius, kHeightColumn, map)) {
+      heights.push_back(foot.z());
+    }
+    if (const auto storey = storey_of_sensor(std::move(heights))) return median(*storey);
+  }
+  return std::nullopt;
 }
 
 /// The ground in a frame that is that of the world with the sensor at its origin.
@@ -79,13 +115,13 @@ std::optional<Plane> ground_around(const Eigen::Vector3d& sensor, const NaiveMap
   Plane ground;
   ground.offset = -*height;
   for (const double radius : kSlopeDiscs) {
-    const std::vector<Eigen::Vector3d> points = lowest_points(sensor, radius, map);
+    const std::vector<Eigen::Vector3d> points = column_feet(sensor, radius, kSlopeColumn, map);
     Mask is_ground(points.size());
     std::transform(points.begin(), points.end(), is_ground.begin(), [&](const auto& point) {
       return std::abs(ground.height_of(point)) < kNearPlane ? 1 : 0;
     });
     const auto count = std::count(is_ground.begin(), is_ground.end(), 1);
-    if (static_cast<std::size_t>(count) < kEnough) continue;
+    if (static_cast<std::size_t>(count) < kEnoughForSlope) continue;
     const Plane fitted = fit_plane(points, is_ground).plane;
     if (fitted.normal.z() > kLeastUpright) ground = fitted;
   }
@@ -111,6 +147,13 @@ Pose body_frame(const Pose& T_world_sensor, const NaiveMap& map, const Parameter
   T_body_sensor.linear() = R_world_body.transpose() * T_world_sensor.linear();
   T_body_sensor.translation().z() = ground.offset;
   return T_body_sensor;
+}
+
+bool is_own_car(const Eigen::Vector3f& point, const Pose& T_world_sensor,
+                const Parameters& parameters) {
+  Eigen::Vector3d from_sensor = point.cast<double>();
+  if (parameters.body == Body::kGround) from_sensor = T_world_sensor.linear() * from_sensor;
+  return from_sensor.head<2>().squaredNorm() < parameters.minimum_range * parameters.minimum_range;
 }
 
 int minimum_points_of(const SensorModel& sensor, const Parameters& parameters) {

@@ -82,6 +82,7 @@ std::vector<std::string> notes() {
 MethodEntry erasor_entry() {
   MethodEntry entry;
   entry.name = "erasor";
+  entry.version = "2";
   entry.sentence =
       "Vertical extents of polar bins: where the map reaches much higher than the scan, what "
       "stands above the fitted ground goes.";

@@ -51,7 +51,6 @@ class ErasorRun {
         scans_(scans),
         context_(context),
         bins_(parameters),
-        test_parameters_(parameters),
         actions_(bins_.size()) {}
 
   /// The map of all scans.
@@ -66,7 +65,7 @@ class ErasorRun {
       // Scans are added one after the other, each beside the search for the next one's voxels.
       side_by_side(context_, "naive map", add_known, [&](const RunContext& context) {
         const StageScope timed(context.times, "naive map");
-        locate(scan, parameters_.minimum_range, next);
+        locate(scan, next);
       });
       std::swap(known, next);
     });
@@ -77,9 +76,6 @@ class ErasorRun {
 
   /// Compares every n-th scan with the map that the earlier ones left.
   void process_queries(NaiveMap& map) {
-    if (parameters_.points_by_beams) {
-      test_parameters_.minimum_points = minimum_points_of(scans_.sensor(), parameters_);
-    }
     const auto interval = static_cast<std::size_t>(parameters_.removal_interval);
     const std::size_t first =
         parameters_.phase < 0 ? interval - 1 : static_cast<std::size_t>(parameters_.phase);
@@ -114,30 +110,25 @@ class ErasorRun {
           around = describe(map, scan.T_world_sensor, context);
         });
     for (std::size_t b = 0; b < bins_.size(); ++b) {  // Scan ratio test
-      const BinFinding finding =
-          compare_extents(around.extents[b], query.extents[b], test_parameters_);
+      const BinFinding finding = compare_extents(around.extents[b], query.extents[b], parameters_);
       actions_[b] = action_for(finding, around.extents[b], parameters_);
     }
     remove_above_ground(around, scan.T_world_sensor, map);  // R-GPF
     reinsert(scan, query, map);
   }
 
-  /// World point and map voxel of each point of `scan`; none for those nearer than `minimum_range`.
-  void locate(const Scan& scan, double minimum_range, LocatedPoints& points) const {
+  /// World point and map voxel of each point of `scan`; none for those of the own car.
+  void locate(const Scan& scan, LocatedPoints& points) const {
     points.keys.resize(scan.size());
     points.world.resize(scan.size());
     const double inverse = 1.0 / parameters_.map_voxel_size;
     parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
       const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
       points.world[k] = world;
-      points.keys[k] = is_own_car(scan.points[k], minimum_range)
+      points.keys[k] = is_own_car(scan.points[k], scan.T_world_sensor, parameters_)
                            ? NaiveMapBuilder::kNoVoxel
                            : voxel_key(voxel_index(world, inverse));
     });
-  }
-
-  static bool is_own_car(const Eigen::Vector3f& point, double minimum_range) {
-    return point.head<2>().cast<double>().squaredNorm() < minimum_range * minimum_range;
   }
 
   [[nodiscard]] Eigen::Vector3d body_of(const Eigen::Vector3d& sensor_point) const {
@@ -153,7 +144,7 @@ class ErasorRun {
     ThinnedPoints thinned(parameters_.query_voxel_size);
     std::vector<int> slot_of_point(scan.size(), -1);  // -1: a point of the own car.
     for (std::size_t k = 0; k < scan.size(); ++k) {
-      if (is_own_car(scan.points[k], parameters_.minimum_range)) continue;
+      if (is_own_car(scan.points[k], scan.T_world_sensor, parameters_)) continue;
       slot_of_point[k] = static_cast<int>(thinned.add(scan.points[k].cast<double>()));
     }
     std::vector<int> bin_of_slot(thinned.size());
@@ -257,14 +248,15 @@ class ErasorRun {
   const ScanSource& scans_;
   const RunContext& context_;
   PolarBins bins_;
-  Parameters test_parameters_;             ///< Those of the scan ratio test, for this sensor.
   Pose T_body_sensor_ = Pose::Identity();  ///< Of the query that is processed.
   std::vector<BinAction> actions_;
 };
 
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
-  ErasorRun erasor(parameters, scans, context);
+  Parameters of_sensor = parameters;
+  of_sensor.minimum_points = minimum_points_of(scans.sensor(), parameters);
+  ErasorRun erasor(of_sensor, scans, context);
   NaiveMap map = erasor.collect_naive_map();
   erasor.process_queries(map);
   erasor.answer(map, sink);

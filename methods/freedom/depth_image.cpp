@@ -47,6 +47,16 @@ void fill_holes(HoleImage& image, bool is_full_turn, const Parameters& parameter
   }
 }
 
+/// Columns with a direction of the sensor in the middle of each.
+void take_columns_of(const SensorModel& sensor, DepthView& view) {
+  const double width = sensor.azimuth_max - sensor.azimuth_min;
+  const double steps = std::max(1.0, std::round(width / sensor.azimuth_step));
+  // The last direction of a full turn is the first one again.
+  view.columns = static_cast<int>(steps) + (view.is_full_turn ? 0 : 1);
+  view.column_width = view.is_full_turn ? kTurn / steps : sensor.azimuth_step;
+  view.azimuth_min = sensor.azimuth_min - 0.5 * view.column_width;
+}
+
 }  // namespace
 
 DepthView view_for(const SensorModel& sensor, const Parameters& parameters) {
@@ -60,8 +70,11 @@ DepthView view_for(const SensorModel& sensor, const Parameters& parameters) {
   view.resolution = std::max(kFinestPixel, (view.top - bottom) / (view.rows - 1));
   view.azimuth_min = is_own ? sensor.azimuth_min : -0.5 * width;
   view.is_full_turn = is_own ? sensor.full_circle() : parameters.view_width == 360.0;
+  view.column_width = view.resolution;
   // A whole number of columns must not become one more by rounding.
   view.columns = std::max(1, static_cast<int>(std::ceil(width / view.resolution - 1e-9)));
+  constexpr double kAsFar = 0.999;  // Steps that are found in scans are not exact.
+  if (is_own && sensor.azimuth_step >= kAsFar * view.resolution) take_columns_of(sensor, view);
   view.minimum = parameters.image_minimum;
   const double farthest =
       is_own ? std::min(parameters.image_maximum, sensor.range_max) : parameters.image_maximum;
@@ -78,14 +91,15 @@ int DepthView::pixel_of(const Eigen::Vector3f& point) const {
   if (!(row < rows)) return -1;
   double from_start = std::atan2(point.y(), point.x()) - azimuth_min;
   if (from_start < 0.0) from_start += kTurn;
-  const double column = from_start / resolution;
+  if (from_start >= kTurn) from_start -= kTurn;
+  const double column = from_start / column_width;
   if (!(column >= 0.0 && column < columns)) return -1;
   return static_cast<int>(row) * columns + static_cast<int>(column);
 }
 
 Eigen::Vector3d DepthView::direction(int row, int column) const {
   const double elevation = top - row * resolution;
-  const double azimuth = azimuth_min + (column + 0.5) * resolution;
+  const double azimuth = azimuth_min + (column + 0.5) * column_width;
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
           std::sin(elevation)};
 }

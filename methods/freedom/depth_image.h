@@ -13,10 +13,11 @@ namespace raymoval::freedom_method {
 /// The image of a scan: rows from the top of the view down, columns counter-clockwise.
 struct DepthView {
   int rows = 0, columns = 0;
-  double top = 0.0;                  ///< Elevation of the middle of the first row, radians.
-  double azimuth_min = 0.0;          ///< Where the first column begins, radians.
-  double resolution = 0.0;           ///< Edge of a pixel, radians.
-  bool is_full_turn = false;         ///< The last column is beside the first.
+  double top = 0.0;           ///< Elevation of the middle of the first row, radians.
+  double azimuth_min = 0.0;   ///< Where the first column begins, radians.
+  double resolution = 0.0;    ///< Height of a pixel, radians.
+  double column_width = 0.0;  ///< Radians; `resolution`, unless directions are farther apart.
+  bool is_full_turn = false;  ///< The last column is beside the first.
   double minimum = 0.0, unit = 0.0;  ///< Nearest depth, and that of one grey level, metres.
 
   /// The number of the pixel in which a point is; -1 if it is in none. @param point sensor frame
@@ -25,7 +26,9 @@ struct DepthView {
   [[nodiscard]] Eigen::Vector3d direction(int row, int column) const;
 };
 
-/// The view that the parameters ask for.
+/// The view that the parameters ask for. Pixels are square, but where the directions of a beam are
+/// as far apart as the beams or farther: then there is a column for each direction, which goes
+/// through its middle, else columns between directions would be holes.
 DepthView view_for(const SensorModel& sensor, const Parameters& parameters);
 
 /// The nearest depth in each pixel in units, rounded down, and holes where there is none.

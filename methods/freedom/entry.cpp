@@ -11,6 +11,7 @@ MethodEntry freedom_entry() {
                                {"public_inpainting", false}};
   MethodEntry entry;
   entry.name = "freedom";
+  entry.version = "2";
   entry.sentence =
       "Free voxels: what stands where scan after scan looked through, with all its surroundings, "
       "goes, and its neighbours go unless another scan saw them.";
@@ -24,6 +25,11 @@ MethodEntry freedom_entry() {
       "there never was a point in it.",
       "Heights of points and rays are measured along the world's z; ranges are distances in space.",
       "The image is that of the sensor's model (public settings: a file for each sensor).",
+      "Columns of the image are as wide as its rows are high. If the sensor's directions are as "
+      "far "
+      "apart as its beams or farther, each has a column of its own.",
+      "The top of the image is that of the sensor. Of one mounted upside down it shows the ground, "
+      "so that rays would go where the ground gives no return: set enhancement=false there.",
       "Depths are rounded down to grey levels. A pixel's ray goes through its middle.",
       "Holes are joined behind a full turn.",
       "The inpainting is written from its publication; OpenCV's rule for gradients is kept, its "

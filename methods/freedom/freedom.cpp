@@ -116,6 +116,11 @@ std::unique_ptr<Remover> make_freedom(const Parameters& parameters) {
   if (!parameters.view_of_sensor && parameters.view_bottom >= parameters.view_top) {
     throw ConfigurationError("freedom.view_bottom must be below freedom.view_top, in degrees.");
   }
+  if (parameters.enhancement && parameters.image_minimum >= parameters.image_maximum) {
+    throw ConfigurationError(
+        "freedom.image_minimum must be below freedom.image_maximum, else no point is in the image; "
+        "set freedom.enhancement=false to do without it.");
+  }
   return remover_from(parameters, run);
 }
 

@@ -84,7 +84,8 @@ void add_view(Table& table) {
       .integer("image_rows", &P::image_rows,
                {"rows", 2, 720, kKitti,
                 "Rows of the image, unless they are the sensor's and its model knows its steps. "
-                "Columns are as wide as rows are high.",
+                "Columns are as wide as rows are high, unless the sensor's directions are farther "
+                "apart.",
                 kEnhanced});
 }
 
@@ -95,7 +96,9 @@ void add_image(Table& table) {
       .number(
           "image_maximum", &P::image_maximum,
           {"m", 1, 1000, "KITTI settings; 30 for Livox",
-           "Farther points are not in the image, whose depths are 255th parts of this.", kEnhanced})
+           "Farther points are not in the image, whose depths are 255th parts of this. It must be "
+           "above image_minimum.",
+           kEnhanced})
       .number("depth_margin", &P::depth_margin,
               {"m", 0, 100, kKitti,
                "Rays without a return end so much before the inpainted depth, in whole 255th parts "

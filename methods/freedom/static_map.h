@@ -23,7 +23,7 @@ struct SubVoxel {
     return scan == of_scan && !is(Level::kEmpty);
   }
   void set(std::size_t of_scan, Level of_level) {
-    scan = static_cast<std::uint32_t>(of_scan) & 0x1FFFFFFF;
+    scan = static_cast<std::uint32_t>(of_scan) & (kMostScans - 1);
     level = static_cast<std::uint32_t>(of_level) & 7;
   }
   [[nodiscard]] bool is(Level of_level) const {

@@ -16,8 +16,11 @@ BeliefMap::BeliefMap(const Parameters& parameters)
       offline_(parameters.offline),
       distances_([far = model_.far()] { return std::make_unique<DistanceField>(far); }) {}
 
-void BeliefMap::observe(const ScanGrid& now, const ScanGrid& before, const RunContext& context) {
+void BeliefMap::observe(const ScanVoxels& now_voxels, const ScanVoxels& before,
+                        const RunContext& context) {
+  const ScanGrid& now = now_voxels.grid;
   ++now_;
+  find_beyond(now_voxels, before, beyond_);
   std::vector<Block*> blocks;
   for (std::size_t i = 0; i < now.size(); ++i) {
     std::unique_ptr<Block>& block = blocks_[voxel_key(now[i].at)];
@@ -30,7 +33,7 @@ void BeliefMap::observe(const ScanGrid& now, const ScanGrid& before, const RunCo
   parallel_for(context.threads, blocks.size(), 1, [&](std::size_t i) {
     context.check_cancelled();
     distances_.with_one([&](DistanceField& distances) {
-      distances.find(now, before, now[i]);
+      distances.find(now, before.grid, beyond_, now[i]);
       observe_block(now[i], distances, *blocks[i]);
     });
   });
@@ -87,9 +90,11 @@ void BeliefMap::observe_voxel(std::size_t column, int height, int distance, Bloc
 }
 
 void BeliefMap::forget(const Eigen::Vector3d& sensor) {
-  for (auto block = blocks_.begin(); block != blocks_.end();) {
-    block = forget_in(sensor, *block.value()) ? blocks_.erase(block) : std::next(block);
+  std::vector<VoxelKey> empty;
+  for (auto entry = blocks_.begin(); entry != blocks_.end(); ++entry) {
+    if (forget_in(sensor, *entry.value())) empty.push_back(entry.key());
   }
+  for (const VoxelKey key : empty) blocks_.erase(key);
 }
 
 bool BeliefMap::forget_in(const Eigen::Vector3d& sensor, Block& block) {

@@ -22,7 +22,7 @@ class BeliefMap {
 
   /// Steps 3 and 4 for the observed voxels of a scan.
   /// @param before the scan before; empty if there is none
-  void observe(const ScanGrid& now, const ScanGrid& before, const RunContext& context);
+  void observe(const ScanVoxels& now, const ScanVoxels& before, const RunContext& context);
   /// The voxels that are occupied in the scan observed last and were free before.
   [[nodiscard]] const std::vector<VoxelIndex>& appeared() const { return appeared_; }
   /// Step 5: forgets voxels that are far from the sensor or were not seen for long, after each
@@ -90,6 +90,7 @@ class BeliefMap {
   VoxelMap<std::unique_ptr<Block>> blocks_;
   std::vector<VoxelIndex> appeared_;
   Workspaces<DistanceField> distances_;
+  ScanGrid beyond_ = empty_grid();  ///< Of the scan observed last and the one before.
 };
 
 }  // namespace raymoval::hmm_mos_method

@@ -38,15 +38,17 @@ Scores change_scores(const ScanGrid& now, const BeliefMap& map, int reach) {
           }
         });
   }
-  for (auto entry = scores.begin(); entry != scores.end();) {
-    int& score = entry.value();
-    for_columns_of_cube(voxel_index(entry.key()), reach,
+  // Into another table: one that something is erased from moves others, and may show them twice.
+  Scores positive;
+  for (const auto& [key, appeared] : scores) {
+    int score = appeared;
+    for_columns_of_cube(voxel_index(key), reach,
                         [&](const VoxelIndex& block, std::size_t column, std::uint64_t bits) {
                           score -= std::popcount(bits & ~map.known(block, column));
                         });
-    entry = score > 0 ? std::next(entry) : scores.erase(entry);
+    if (score > 0) positive[key] = score;
   }
-  return scores;
+  return positive;
 }
 
 Scores median_scores(const ScanGrid& now, const Scores& scores) {

@@ -36,9 +36,10 @@ DistanceField::DistanceField(int far)
   }
 }
 
-void DistanceField::find(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block) {
+void DistanceField::find(const ScanGrid& now, const ScanGrid& before, const ScanGrid& beyond,
+                         const ScanBlock& block) {
   find_heights(block);
-  find_neighbours(now, before, block);
+  find_neighbours({&now, &before, &beyond}, block);
   along_z();
   along_y();
   along_x(block);
@@ -52,12 +53,13 @@ void DistanceField::find_heights(const ScanBlock& block) {
   highest_ = static_cast<std::size_t>(std::bit_width(observed)) - 1;
 }
 
-void DistanceField::find_neighbours(const ScanGrid& now, const ScanGrid& before,
+void DistanceField::find_neighbours(const std::array<const ScanGrid*, 3>& grids,
                                     const ScanBlock& block) {
   for (int i = 0; i < 27; ++i) {
     const VoxelIndex at = block.at + VoxelIndex(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
-    around_[0][static_cast<std::size_t>(i)] = now.find(at);
-    around_[1][static_cast<std::size_t>(i)] = before.find(at);
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+      around_[g][static_cast<std::size_t>(i)] = grids[g]->find(at);
+    }
   }
 }
 

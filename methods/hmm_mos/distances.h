@@ -11,8 +11,8 @@
 namespace raymoval::hmm_mos_method {
 
 /// Step 3: squared distances from the observed voxels of a block to the nearest occupied voxel of
-/// this scan and the one before, in voxels. They are exact below a bound, from which on all are
-/// alike (Euclidean distance transform, one axis after the other).
+/// this scan and the one before, in voxels, also to those beyond the range. They are exact below a
+/// bound, from which on all are alike (Euclidean distance transform, one axis after the other).
 ///
 /// Inside, bytes hold how much nearer than the bound something is: 0 is as far as the bound, and
 /// the nearest has the largest.
@@ -21,8 +21,10 @@ class DistanceField {
   /// @param far the bound, 1 to 254
   explicit DistanceField(int far);
 
+  /// @param beyond what both scans occupy beyond their ranges, see `find_beyond`
   /// @param block of `now`
-  void find(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
+  void find(const ScanGrid& now, const ScanGrid& before, const ScanGrid& beyond,
+            const ScanBlock& block);
 
   /// The squared distance of an observed voxel of the block, at most `far`.
   [[nodiscard]] int at(std::size_t column, int height) const {
@@ -33,7 +35,7 @@ class DistanceField {
   using Row = std::array<std::uint8_t, kHeight>;  ///< Nearness of the voxels of a column.
 
   void find_heights(const ScanBlock& block);
-  void find_neighbours(const ScanGrid& now, const ScanGrid& before, const ScanBlock& block);
+  void find_neighbours(const std::array<const ScanGrid*, 3>& grids, const ScanBlock& block);
   void along_z();
   void find_occupied(int x);
   void fill_column(const std::array<std::uint64_t, 3>& occupied, Row& row) const;
@@ -48,9 +50,9 @@ class DistanceField {
   std::vector<std::uint8_t> away_;  ///< Squares of -margin to +margin.
 
   std::size_t lowest_ = 0, highest_ = 0;  ///< Heights of the block that are observed.
-  /// Of both scans, the blocks around by their offsets, x slowest; or null.
-  std::array<std::array<const ScanBlock*, 27>, 2> around_{};
-  /// What both scans occupy at some x, by y with margins: below the block, in it, and above.
+  /// Of each grid, the blocks around by their offsets, x slowest; or null.
+  std::array<std::array<const ScanBlock*, 27>, 3> around_{};
+  /// What the grids occupy at some x, by y with margins: below the block, in it, and above.
   std::array<std::array<std::uint64_t, 64>, 3> occupied_{};
   std::vector<Row> of_columns_;         ///< To what is in the same column; by x, y, with margins.
   std::vector<Row> of_rows_;            ///< To what has the same x; by x, with margins, and y.

@@ -9,6 +9,7 @@ MethodEntry hmm_mos_entry() {
   offline.emplace_back("offline", true);
   MethodEntry entry;
   entry.name = "hmm_mos";
+  entry.version = "2";
   entry.sentence =
       "A hidden Markov model of each voxel, free or occupied: what is occupied where it was free "
       "just before moves.";
@@ -20,6 +21,8 @@ MethodEntry hmm_mos_entry() {
       "Nothing depends on the sensor but its range. Of the public configurations' least ranges the "
       "smallest is the default, which leaves out the fewest points.",
       "Ranges are measured from the sensor's position to where a voxel lies.",
+      "What is hit beyond max_range is near to what is within, as in the public program: distances "
+      "are those to all hits of this scan and the one before.",
       "The first scan has no scan before it; what is nearest is looked for in it alone.",
       "From a distance on (9.8 voxels by default) all distances are alike: in double precision the "
       "next step of a voxel's belief comes out the same.",

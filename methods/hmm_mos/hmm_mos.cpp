@@ -6,8 +6,10 @@
 #include <functional>
 #include <utility>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "core/scan/mask_store.h"
+#include "core/text.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/hmm_mos/belief_map.h"
@@ -34,38 +36,37 @@ struct Knowledge {
   explicit Knowledge(const Parameters& parameters) : map(parameters), moving(parameters) {}
   BeliefMap map;
   MovingVoxels moving;
-  ScanGrid before = empty_grid();  ///< Of the scan before.
+  ScanVoxels before;  ///< Of the scan before.
 };
 
 /// Steps 3 to 11.
-void take_in(const Scan& scan, ScanGrid& grid, const RunContext& context, Knowledge& known) {
+void take_in(const Scan& scan, ScanVoxels& voxels, const RunContext& context, Knowledge& known) {
   {
     const StageScope timed(context.times, "belief");
-    known.map.observe(grid, known.before, context);
+    known.map.observe(voxels, known.before, context);
   }
   {
     const StageScope timed(context.times, "forgetting");
     known.map.forget(scan.T_world_sensor.translation());
   }
   const StageScope timed(context.times, "change");
-  known.moving.add(grid, known.map);
-  std::swap(known.before, grid);
+  known.moving.add(voxels.grid, known.map);
+  std::swap(known.before, voxels);
 }
 
 /// Goes through the scans in order of time and calls `answer(scan, knowledge)` after each.
 template <class Answer>
 void for_scans_in_time(const Parameters& parameters, const ScanSource& scans,
                        const RunContext& context, Knowledge& known, Answer&& answer) {
-  std::vector<ScanGrid> grids;
-  for (std::size_t i = 0; i < scans_in_a_batch(scans, context); ++i) grids.push_back(empty_grid());
+  std::vector<ScanVoxels> voxels(scans_in_a_batch(scans, context));
   for_scan_batches("hmm_mos", scans, context, [&](std::span<Scan> batch) {
     {
       const StageScope timed(context.times, "raycasting");
       parallel_for(context.threads, batch.size(), 1,
-                   [&](std::size_t i) { find_voxels(batch[i], parameters, context, grids[i]); });
+                   [&](std::size_t i) { find_voxels(batch[i], parameters, context, voxels[i]); });
     }
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      take_in(batch[i], grids[i], context, known);
+      take_in(batch[i], voxels[i], context, known);
       const StageScope timed(context.times, "answer");
       answer(batch[i]);
     }
@@ -101,6 +102,12 @@ void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sin
 }  // namespace
 
 std::unique_ptr<Remover> make_hmm_mos(const Parameters& parameters) {
+  if (!(parameters.min_range < parameters.max_range)) {
+    throw ConfigurationError(
+        "hmm_mos.min_range = " + number_text(parameters.min_range) +
+        " is not below hmm_mos.max_range = " + number_text(parameters.max_range) +
+        ", so no point would be judged; raise max_range.");
+  }
   return remover_from(parameters, run);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace raymoval::hmm_mos_method {
 namespace {
@@ -145,21 +146,21 @@ class Observation {
   ScanGrid& grid_;
 };
 
-/// Step 1, and the end of step 2: marks what is occupied within range.
-/// @return where rays end, each voxel once, those out of range too
-std::vector<VoxelIndex> ray_ends(const Scan& scan, const Parameters& parameters,
-                                 const Lattice& lattice, const Observation& observation,
-                                 ScanGrid& grid) {
+/// Step 1, and the end of step 2: parts what is occupied within range from what is beyond.
+/// @return where rays end within range, each voxel once; those beyond are in `voxels.beyond`
+std::vector<VoxelIndex> find_occupied(const Scan& scan, const Parameters& parameters,
+                                      const Lattice& lattice, const Observation& observation,
+                                      ScanVoxels& voxels) {
   std::vector<VoxelIndex> ends;
   VoxelSet beyond;  // Blocks of the grid would take memory for each point far away.
   for (const Eigen::Vector3f& point : scan.points) {
     if (!counts(point, parameters)) continue;
     const VoxelIndex voxel = lattice.voxel_of(scan.T_world_sensor * point.cast<double>());
     if (!observation.is_within_range(voxel)) {
-      if (beyond.insert(voxel_key(voxel)).second) ends.push_back(voxel);
+      if (beyond.insert(voxel_key(voxel)).second) voxels.beyond.push_back(voxel);
       continue;
     }
-    std::uint64_t& occupied = grid.column(voxel).hit;
+    std::uint64_t& occupied = voxels.grid.column(voxel).hit;
     if ((occupied & bit_of(voxel)) != 0) continue;
     occupied |= bit_of(voxel);
     ends.push_back(voxel);
@@ -167,18 +168,45 @@ std::vector<VoxelIndex> ray_ends(const Scan& scan, const Parameters& parameters,
   return ends;
 }
 
+/// Whether a grid has a block or one beside it, corners included.
+bool is_near_block(const ScanGrid& grid, const VoxelIndex& block) {
+  for (int i = 0; i < 27; ++i) {
+    if (grid.find(block + VoxelIndex(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1)) != nullptr) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void find_voxels(const Scan& scan, const Parameters& parameters, const RunContext& context,
-                 ScanGrid& grid) {
+                 ScanVoxels& voxels) {
   constexpr std::size_t kRaysInTurn = 512;  // Between two questions whether to stop.
-  grid.clear();
+  voxels.grid.clear();
+  voxels.beyond.clear();
   const Lattice lattice(parameters);
-  Observation observation(lattice, scan.T_world_sensor.translation(), parameters.max_range, grid);
-  const std::vector<VoxelIndex> ends = ray_ends(scan, parameters, lattice, observation, grid);
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (i % kRaysInTurn == 0) context.check_cancelled();
-    observation.cast_ray(ends[i]);
+  Observation observation(lattice, scan.T_world_sensor.translation(), parameters.max_range,
+                          voxels.grid);
+  const std::vector<VoxelIndex> within =
+      find_occupied(scan, parameters, lattice, observation, voxels);
+  std::size_t rays = 0;
+  for (const auto* ends : {&within, &std::as_const(voxels.beyond)}) {
+    for (const VoxelIndex& end : *ends) {
+      if (rays++ % kRaysInTurn == 0) context.check_cancelled();
+      observation.cast_ray(end);
+    }
+  }
+}
+
+void find_beyond(const ScanVoxels& now, const ScanVoxels& before, ScanGrid& near) {
+  near.clear();
+  VoxelMap<bool> is_near;  // By block: many voxels share one.
+  for (const ScanVoxels* voxels : {&now, &before}) {
+    for (const VoxelIndex& voxel : voxels->beyond) {
+      const VoxelIndex block = block_of(voxel);
+      const auto [found, is_new] = is_near.try_emplace(voxel_key(block), false);
+      if (is_new) found.value() = is_near_block(now.grid, block);
+      if (found->second) near.column(voxel).hit |= bit_of(voxel);
+    }
   }
 }
 

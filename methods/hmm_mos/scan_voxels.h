@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/scan/scan.h"
 #include "methods/common/scan_grid.h"
@@ -11,6 +12,7 @@
 namespace raymoval::hmm_mos_method {
 
 /// In a scan's grid, `hit` is what is occupied, and `free` all that is observed, ends of rays too.
+/// Both are within range.
 using namespace scan_grid;
 
 /// The number of a column in its block, from its indices in it.
@@ -60,10 +62,21 @@ inline bool counts(const Eigen::Vector3f& point, const Parameters& parameters) {
   return point.cast<double>().norm() > parameters.min_range;
 }
 
+/// The voxels of one scan. `clear` keeps the memory for the next one.
+struct ScanVoxels {
+  ScanGrid grid = empty_grid();    ///< What is within range.
+  std::vector<VoxelIndex> beyond;  ///< What is occupied beyond it, in the order of the points.
+};
+
 /// Steps 1 and 2: what of a scan is occupied, and what it observes on its rays.
-/// @param grid is overwritten
+/// @param voxels are overwritten
 /// @throws DataError for points beyond the common lattice; Cancelled
 void find_voxels(const Scan& scan, const Parameters& parameters, const RunContext& context,
-                 ScanGrid& grid);
+                 ScanVoxels& voxels);
+
+/// What two scans occupy beyond their ranges, as far as it lies in the blocks of the first scan's
+/// grid or in those around them: by step 3 it may be what is nearest to a voxel within range.
+/// @param near is overwritten
+void find_beyond(const ScanVoxels& now, const ScanVoxels& before, ScanGrid& near);
 
 }  // namespace raymoval::hmm_mos_method

@@ -23,7 +23,13 @@ std::vector<std::string> notes() {
       "anew below it.",
       "sound begins the terrain at the cells nearest to a sensor that has none below it, up to "
       "12.4 m away, where the innermost zone of Patchwork++ ends: else a sensor that stands has "
-      "no terrain.",
+      "no terrain. Where all ground within that distance is too steep, slopes count from its "
+      "median "
+      "slope, so that a hill has a terrain.",
+      "sound has pixels that are as large as it takes for the window around a voxel to reach from "
+      "one beam to the next, and asks for fewer points in a bin where the sensor's directions are "
+      "farther apart than those of the HDL-64E.",
+      "Filling: however far a cell deviates, it counts at least exp(-60).",
       "sound has images a pixel larger on each side than the sensor's field of view.",
       "sound tells the sensor's height by the median of the upright planes that its first scan "
       "with ground has in the innermost zone.",
@@ -37,9 +43,11 @@ std::vector<std::string> notes() {
 MethodEntry mapcleaner_entry() {
   const Configuration sound = {{"public_height", false},        {"public_axes", false},
                                {"public_field_of_view", false}, {"public_overwrite", false},
-                               {"remove_below", false},         {"start_radius", 12.4}};
+                               {"public_steps", false},         {"remove_below", false},
+                               {"start_radius", 12.4}};
   MethodEntry entry;
   entry.name = "mapcleaner";
+  entry.version = "2";
   entry.sentence =
       "Terrain from the ground of all scans: what stands above it goes if more scans see through "
       "it than see it.";

@@ -80,6 +80,11 @@ void find_smooth_heights(const HeightWindow& window, const std::vector<Tap>& tap
   }
 }
 
+/// However far a cell is from its smooth height, it counts at least exp(-kMostAway), about 1e-26:
+/// less, times the kernel, would be 0 in single precision, and where all around are that far a cell
+/// would stay without a height.
+constexpr double kMostAway = 60.0;
+
 /// What the cells of a window count by how near they are to their smooth heights: these weights go
 /// into `is_filled`, and the weighted heights into `height`.
 void weigh_by_deviation(const HeightWindow& smooth, double deviation, HeightWindow& window) {
@@ -88,7 +93,8 @@ void weigh_by_deviation(const HeightWindow& smooth, double deviation, HeightWind
     if (window.is_filled[i] == 0.0F) continue;
     const double away = (window.base + static_cast<double>(window.height[i])) -
                         (smooth.base + static_cast<double>(smooth.height[i]));
-    const double weight = smooth.is_filled[i] == 0.0F ? 0.0 : std::exp(-away * away * scale);
+    const double weight =
+        smooth.is_filled[i] == 0.0F ? 0.0 : std::exp(-std::min(away * away * scale, kMostAway));
     window.is_filled[i] = static_cast<float>(weight);
     window.height[i] *= static_cast<float>(weight);
   }

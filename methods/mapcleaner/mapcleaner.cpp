@@ -9,6 +9,7 @@
 #include "methods/common/patchwork/ground_segmentation.h"
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
+#include "methods/mapcleaner/sensor_settings.h"
 #include "methods/mapcleaner/split.h"
 #include "methods/mapcleaner/votes.h"
 
@@ -99,7 +100,9 @@ void answer(const Parameters& parameters, const ScanSource& scans, const Split& 
   const auto is_removed = [&](const Scan& scan, std::size_t i, Part part) {
     if (part == Part::kBelow) return parameters.remove_below;
     if (part == Part::kOther) return parameters.remove_other;
-    return part == Part::kCandidate && votes.is_dynamic(voxels.find(world_point(scan, i)));
+    if (part != Part::kCandidate) return false;
+    const std::size_t voxel = voxels.find(world_point(scan, i));
+    return voxel != ThinnedPoints::kNone && votes.is_dynamic(voxel);
   };
   const auto answer_scan = [&](const Scan& scan, int threads) {
     // Several scans at once are timed as one pass.
@@ -119,8 +122,9 @@ void answer(const Parameters& parameters, const ScanSource& scans, const Split& 
                 [&](const Scan& scan) { answer_scan(scan, context.threads); });
 }
 
-void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
+void run(const Parameters& given, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
+  const Parameters parameters = for_sensor(given, scans.sensor());
   const Terrain terrain = find_terrain(parameters, scans, context);
   const Split split(parameters, terrain);
   const ThinnedPoints voxels = find_candidates(parameters, scans, split, context);

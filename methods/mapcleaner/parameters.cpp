@@ -15,11 +15,13 @@ void add_terrain(Table& table) {
                {"points", 1, 100000, "1 for KITTI, 3 in its other settings",
                 "A cell with fewer ground points has no height of its own."})
       .number("terrain_variance", &P::terrain_variance,
-              {"m^2", 0, 100, kPublic,
+              {"m^2", 1e-6, 100, kPublic,
                "Nor has one whose ground points' heights have no smaller variance."})
-      .number("fill_radius", &P::fill_radius,
-              {"m", 0, 5, kPublic,
-               "Cells without a height get one from those with one that are nearer than this."})
+      .number(
+          "fill_radius", &P::fill_radius,
+          {"m", 0, 5, kPublic,
+           "Cells without a height get one from those with one that are nearer than this; 0 fills "
+           "none."})
       .number("fill_deviation", &P::fill_deviation,
               {"m", 0.001, 100, kPublic,
                "Cells count less the more they deviate from the smooth ground around them: this "
@@ -31,13 +33,16 @@ void add_terrain(Table& table) {
                 "filling again.",
                 "fill_radius > 0 or refill_radius > 0"})
       .number("terrain_slope", &P::terrain_slope,
-              {"deg", 0, 90, kPublic,
+              {"deg", 0.1, 90, kPublic,
                "Terrain is what can be reached from below the sensors through cells that are less "
-               "steep."})
-      .number("start_radius", &P::start_radius,
-              {"m", 0, 50, "not in the public program",
-               "Where no terrain is below a sensor, the way begins at the cells with a height that "
-               "are nearest to it, if they are not farther than this."})
+               "steep; 90 lets all pass."})
+      .number(
+          "start_radius", &P::start_radius,
+          {"m", 0, 50, "not in the public program",
+           "Where no terrain is below a sensor, or it is too steep, the way begins at the nearest "
+           "cells with terrain, if they are not farther than this. If most of the ground within "
+           "this distance is too steep, slopes count from its median slope. 0: no way begins "
+           "there."})
       .number("refill_radius", &P::refill_radius,
               {"m", 0, 5, kPublic, "The same as fill_radius, once the rest is dropped."})
       .number("refill_deviation", &P::refill_deviation,
@@ -97,10 +102,16 @@ void add_switches(Table& table) {
             {.source = kPublic,
              .sentence = "Images go all around and have vertical_view. Else they have the sensor's "
                          "field of view."})
-      .flag(
-          "public_overwrite", &P::public_overwrite,
-          {.source = kPublic,
-           .sentence = "A pixel has the range of the last point in it. Else it has the nearest."});
+      .flag("public_overwrite", &P::public_overwrite,
+            {.source = kPublic,
+             .sentence = "A pixel has the range of the last point in it. Else it has the nearest."})
+      .flag("public_steps", &P::public_steps,
+            {.source = kPublic,
+             .sentence =
+                 "Pixels and bins are set for the HDL-64E of KITTI. Else pixels are at least so "
+                 "large that the window reaches over the angular steps of the sensor, and "
+                 "bin_points and lowest_points are fewer by as much as its directions are "
+                 "farther apart, but at least three."});
 }
 
 Table make_table() {

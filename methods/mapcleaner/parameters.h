@@ -37,6 +37,7 @@ struct Parameters : patchwork::GroundParameters {
   // As the public program does it.
   bool public_field_of_view = true;
   bool public_overwrite = true;
+  bool public_steps = true;
 };
 
 /// The one place where names, units, ranges and sources of the parameters stand.

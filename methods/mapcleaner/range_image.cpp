@@ -40,6 +40,14 @@ void take_extremes(int count, int reach, At&& at, float* lowest, float* highest)
   }
 }
 
+/// Whether a step between beams is a whole window of rows, or more. Then beams have to lie in the
+/// middle of rows: on the border of two, some of their points would fall in the next window.
+bool is_one_beam_a_window(const Parameters& parameters, const SensorModel& sensor) {
+  constexpr double kRounding = 1e-9;
+  const double window = (2 * parameters.window_rows + 1) * parameters.row_height * kDegree;
+  return !parameters.public_steps && sensor.elevation_step > window - kRounding;
+}
+
 }  // namespace
 
 ImageFrame::ImageFrame(const Parameters& parameters, const SensorModel& sensor)
@@ -50,8 +58,9 @@ ImageFrame::ImageFrame(const Parameters& parameters, const SensorModel& sensor)
   if (!parameters.public_field_of_view) {
     is_circle = sensor.full_circle();
     // A pixel more on each side: the outermost beams spread.
-    elevation_from = sensor.elevation_min - row_height;
-    height = sensor.elevation_max + row_height - elevation_from;
+    const double margin = row_height * (is_one_beam_a_window(parameters, sensor) ? 1.5 : 1.0);
+    elevation_from = sensor.elevation_min - margin;
+    height = sensor.elevation_max + margin - elevation_from;
     if (!is_circle) {
       azimuth_from = sensor.azimuth_min - column_width;
       width = sensor.azimuth_max + column_width - azimuth_from;

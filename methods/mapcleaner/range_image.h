@@ -29,9 +29,9 @@ struct ImageFrame {
     const auto at = static_cast<std::size_t>(i);
     const float row = batch.row[at], column = batch.column[at];
     if (!(row >= 0.0F && row < static_cast<float>(rows)) || !(batch.range[at] > 0.0F)) return -1;
-    if (!(column < static_cast<float>(columns)))
-      return is_circle ? static_cast<int>(row) * columns : -1;
-    return static_cast<int>(row) * columns + static_cast<int>(column);
+    const int before = static_cast<int>(row) * columns;
+    if (column < static_cast<float>(columns)) return before + static_cast<int>(column);
+    return is_circle ? before + columns - 1 : -1;  // By rounding it is beyond the last column.
   }
 
   int rows = 0, columns = 0;

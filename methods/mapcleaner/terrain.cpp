@@ -20,11 +20,17 @@ class Way {
 
   /// Whether a cell has a height and a slope that can be gone over.
   [[nodiscard]] bool is_passable(const VoxelIndex& cell) {
-    if (std::isnan(height(cell))) return false;
-    const double along_x = rise(cell, VoxelIndex::UnitX());
-    const double along_y = rise(cell, VoxelIndex::UnitY());
-    return std::sqrt(along_x * along_x + along_y * along_y) < steepest_;
+    return !std::isnan(height(cell)) && !is_too_steep(gradient(cell) - lean_);
   }
+  [[nodiscard]] bool is_too_steep(const Eigen::Vector2d& gradient) const {
+    return !(gradient.norm() < steepest_);
+  }
+  /// Metres up for each metre along x and y, of a cell with a height.
+  [[nodiscard]] Eigen::Vector2d gradient(const VoxelIndex& cell) {
+    return {rise(cell, VoxelIndex::UnitX()), rise(cell, VoxelIndex::UnitY())};
+  }
+  /// Slopes count as what they differ by from this one from now on.
+  void set_lean(const Eigen::Vector2d& gradient) { lean_ = gradient; }
   [[nodiscard]] double height(const VoxelIndex& cell) { return grid_.get(cell, cursor_); }
 
   /// Goes on from a cell, unless it was reached before.
@@ -54,6 +60,7 @@ class Way {
 
   const HeightGrid& grid_;
   double inverse_cell_, steepest_;
+  Eigen::Vector2d lean_ = Eigen::Vector2d::Zero();
   HeightGrid::Cursor cursor_;
   std::vector<VoxelIndex> next_;
 };
@@ -73,6 +80,42 @@ std::vector<VoxelIndex> cells_by_distance(double radius) {
   return cells;
 }
 
+/// Goes from the cells around a start (by their distance) that can be gone over: those that are
+/// nearest.
+void go_from_nearest(const VoxelIndex& start, const std::vector<VoxelIndex>& around, Way& way,
+                     HeightGrid& reached) {
+  int nearest = -1;
+  for (const VoxelIndex& offset : around) {
+    if (nearest >= 0 && offset.squaredNorm() > nearest) return;
+    if (!way.is_passable(start + offset)) continue;
+    nearest = offset.squaredNorm();
+    way.go_from(start + offset, reached);
+  }
+}
+
+/// The middle value, or the mean of both.
+double middle_of(std::vector<double>& values) {
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  if (values.size() % 2 == 1) return *half;
+  return 0.5 * (*half + *std::max_element(values.begin(), half));
+}
+
+/// How the ground around a start leans: the medians of the gradients of cells with a height. Level
+/// if there are none.
+Eigen::Vector2d lean_around(const VoxelIndex& start, const std::vector<VoxelIndex>& around,
+                            Way& way) {
+  std::vector<double> along_x, along_y;
+  for (const VoxelIndex& offset : around) {
+    if (std::isnan(way.height(start + offset))) continue;
+    const Eigen::Vector2d gradient = way.gradient(start + offset);
+    along_x.push_back(gradient.x());
+    along_y.push_back(gradient.y());
+  }
+  if (along_x.empty()) return Eigen::Vector2d::Zero();
+  return {middle_of(along_x), middle_of(along_y)};
+}
+
 }  // namespace
 
 HeightGrid reachable(const HeightGrid& grid, const std::vector<VoxelIndex>& starts, double cell,
@@ -81,17 +124,16 @@ HeightGrid reachable(const HeightGrid& grid, const std::vector<VoxelIndex>& star
   Way way(grid, cell, slope);
   const std::vector<VoxelIndex> around = cells_by_distance(start_radius);
   for (const VoxelIndex& start : starts) {
-    if (!std::isnan(way.height(start))) {
+    if (way.is_passable(start)) {
       way.go_from(start, reached);
       continue;
     }
-    int nearest = -1;
-    for (const VoxelIndex& offset : around) {
-      if (nearest >= 0 && offset.squaredNorm() > nearest) break;
-      if (!way.is_passable(start + offset)) continue;
-      nearest = offset.squaredNorm();
-      way.go_from(start + offset, reached);
-    }
+    if (!(start_radius > 0.0)) continue;
+    // It is not enough that no cell can be gone over: at an edge of the ground some seem level.
+    const Eigen::Vector2d lean = lean_around(start, around, way);
+    if (way.is_too_steep(lean)) way.set_lean(lean);
+    go_from_nearest(start, around, way, reached);
+    way.set_lean(Eigen::Vector2d::Zero());
   }
   return reached;
 }
@@ -112,7 +154,7 @@ HeightGrid smoothed(const HeightGrid& grid, int threads) {
         const double other = grid.get(cell + VoxelIndex(k % 3 - 1, k / 3 - 1, 0), cursor);
         if (!std::isnan(other)) around.push_back(other);
       }
-      height = median(around);
+      height = median_in_place(around);
     }
   });
   return result;
@@ -155,13 +197,16 @@ HeightGrid Terrain::measured() const {
 void Terrain::finish(const RunContext& context) {
   const StageScope timed(context.times, "terrain");
   const Parameters& p = parameters_;
+  context.check_cancelled();
   heights_ = measured();
   statistics_ = StatisticsGrid{Statistics{}};
   const Fill first{p.fill_radius * inverse_cell_, p.fill_deviation, p.fill_cells};
   heights_ = filled(heights_, first, context.threads);
+  context.check_cancelled();
   heights_ = reachable(heights_, below_sensors_, p.terrain_cell, p.terrain_slope * kDegree,
                        p.start_radius * inverse_cell_);
   const Fill second{p.refill_radius * inverse_cell_, p.refill_deviation, p.fill_cells};
+  context.check_cancelled();
   heights_ = smoothed(filled(heights_, second, context.threads), context.threads);
 }
 

@@ -10,8 +10,10 @@
 namespace raymoval::mapcleaner_method {
 
 /// The cells with a height of `grid` that can be reached from `starts` (cells), over eight
-/// neighbours, through cells whose slope is below `slope` radians. Where a start has no such cell,
-/// the way begins at the nearest ones, if they are at most `start_radius` cells away.
+/// neighbours, through cells whose slope is below `slope` radians. Where a start is no such cell,
+/// the way begins at the nearest ones, if they are at most `start_radius` cells away. If the median
+/// slope of the cells within that radius is too steep the start is on a hill, and slopes of its way
+/// count as what they differ by from that.
 HeightGrid reachable(const HeightGrid& grid, const std::vector<VoxelIndex>& starts, double cell,
                      double slope, double start_radius);
 
@@ -27,7 +29,7 @@ class Terrain {
 
   /// Takes in the ground points of a scan. @param ground one value per point, 1 = ground
   void add(const Scan& scan, const Mask& ground);
-  /// Finds the terrain, once all scans were added.
+  /// Finds the terrain, once all scans were added. @throws Cancelled
   void finish(const RunContext& context);
   /// The height of the terrain below or above a world point, metres; NaN where there is none.
   [[nodiscard]] double height_at(const Eigen::Vector3d& world, Cursor& cursor) const {

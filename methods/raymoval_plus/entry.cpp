@@ -9,7 +9,7 @@ MethodEntry raymoval_plus_entry() {
   entry.sentence =
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
   entry.source = "this project";
-  entry.version = "5";
+  entry.version = "6";
   entry.variants = {
       {"offline", "Every point answered from all scans.", false, {}},
       {"online", "Each scan answered when it comes.", true, {{"at_once", true}}},

@@ -163,8 +163,20 @@ class Run {
     earlier_scans_.keep(std::move(image_), posed.T_world_sensor);
   }
 
+  /// Steps 1 to 4 and 6 for a scan that has waited: the ground below a person who fills a column is
+  /// seen only when he has gone on.
+  void find_heights_again(SegmentedScan& scan) {
+    const std::size_t first_new = map_.size();
+    find_heights(terrain_, parameters_, context_, scan);  // 1
+    correct_voxels(parameters_, context_, scan, map_);    // 2
+    earlier_scans_.add_evidence(first_new, scan.scan.T_world_sensor.translation(),
+                                WhenToDecide::kNow, context_, map_);  // 3, 4
+    find_clusters(parameters_, context_, scan);                       // 6
+  }
+
   /// Steps 5 to 8 for a scan, by the map and the objects as they are now.
   void answer_by_now(SegmentedScan& scan, RecentObjects& recent) {
+    if (parameters_.delay > 0.0) find_heights_again(scan);
     std::vector<std::uint32_t> blocks = blocks_of(scan, map_);
     recent.add_blocks(map_, blocks);
     vote(blocks, parameters_, context_, map_);  // 5

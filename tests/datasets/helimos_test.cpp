@@ -31,10 +31,16 @@ void check_moves_by_its_labels(const Sequence& sequence) {
   CHECK(sequence.scans->size() == 3);
   REQUIRE(sequence.labels);
   CHECK(sequence.labels->labels(sequence.scans->load(1)) == std::vector<std::uint32_t>{0, 9, 251});
-  CHECK(sequence.label_rule.classify(251) == LabelClass::kMoving);
-  CHECK(sequence.label_rule.classify(9) == LabelClass::kStatic);
+  for (std::uint32_t label = 251; label <= 259; ++label) {
+    CHECK(sequence.label_rule.classify(label) == LabelClass::kMoving);
+  }
+  for (const std::uint32_t label : {1U, 9U, 10U, 250U, 260U}) {
+    CHECK(sequence.label_rule.classify(label) == LabelClass::kStatic);
+  }
   CHECK(sequence.label_rule.classify(0) == LabelClass::kIgnored);
+  CHECK(sequence.label_rule.class_name(9) == "static");
   CHECK(sequence.label_rule.class_name(251) == "moving");
+  CHECK(sequence.label_rule.class_name(254) == "moving-person");
 }
 
 }  // namespace

@@ -36,6 +36,12 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"dynablox.temporal_buffer", "a voxel must be occupied for long, with breaks"},
     {"dynablox.separation", "clusters must be near each other (see dynablox/steps_test)"},
     {"dynablox.frames_to_reset", "something must stay where it was free"},
+    {"dynablox.public_reset", "something must stay where it was free, and go again"},
+    {"dynablox.weights", "free space must have been occupied for a while (see field_test)"},
+    {"dynablox.max_weight", "as for weights"},
+    {"dynablox.judged", "the sensor must go farther (see dynablox_test)"},
+    {"dynablox.new_voxels", "a block must be made late (see dynablox_test)"},
+    {"dynablox.extents", "an extent must be asked for (see dynablox/steps_test)"},
     {"dynablox.public_boxes", "clusters must be high above the sensor (see dynablox/steps_test)"},
     {"dynablox.public_merges", "three clusters must be in a row (see dynablox/steps_test)"},
     {"dynablox.public_unmapped", "a cluster must reach where nobody has looked"},
@@ -46,6 +52,10 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"freedom.inpainting_radius", "depths around a hole must differ (see inpainting_test)"},
     {"freedom.hole_area", "a hole of few pixels must be open to the top (see depth_image_test)"},
     {"freedom.top_margin", "a hole must end below the top (see depth_image_test)"},
+    {"freedom:published.conservative_neighbours",
+     "voxels beside free space must not be free soon (see oracle_test)"},
+    {"freedom:published.aggressive_neighbours", "as for conservative_neighbours"},
+    {"freedom:published.public_inpainting", "as for inpainting_radius"},
     {"freedom.public_revert", "as for counts_to_revert"},
     {"freedom.public_full_blocks", "a block of 3.2 m must be all free (see free_map_test)"},
     {"mapcleaner.noise_reflectance", "points must have reflectance (see ground_segmentation_test)"},
@@ -133,6 +143,9 @@ ConfiguredMethod configured(const std::string& name) {
   }
   if (method.entry->name == "octomap") {  // Neighbours of outliers take most of the time.
     set_parameter(method.configuration, "noise_neighbours", std::int64_t{5});
+  }
+  if (method.entry->name == "dynablox") {  // The scanner leaves few points on anything.
+    set_parameter(method.configuration, "min_points", std::int64_t{3});
   }
   if (method.entry->name == "hmm_mos") {  // Most of the time goes with the number of voxels.
     set_parameter(method.configuration, "voxel_size", 0.4);

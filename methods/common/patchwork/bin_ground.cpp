@@ -48,7 +48,8 @@ class BinFit {
         const bool is_near = fit.plane.height_of(points_[i]) < parameters_.ground_distance;
         ground_[i] = left_[i] != 0 && is_near ? 1 : 0;
       }
-      fit = fit_plane(points_, ground_);  // Its points are near it, so that some are chosen.
+      // Some of the points that the plane was fitted to are not above it, so that some are chosen.
+      fit = fit_plane(points_, ground_);
     }
     return fit;
   }

@@ -66,12 +66,12 @@ void add_ground_parameters(ParameterTable<Method>& table) {
               {"m", 0.001, 10, given("th_dist_v"),
                "Points at most so far from a wall's plane are no ground."})
       .number("upright", &P::upright,
-              {"", 0, 1, given("uprightness_thr"),
+              {"", 0, 0.999, given("uprightness_thr"),
                "A plane whose unit normal has no greater z is no ground."})
       .number("noise_reflectance", &P::noise_reflectance,
               {"", 0, 1000, given("RNR_intensity_thr"),
                "Of points far below the ground those with less reflectance are mirrored. Without "
-               "reflectance none is."})
+               "reflectance, and with 0, none is."})
       .flag("public_height", &P::public_height,
             {.source = "not in Patchwork++",
              .sentence = "The sensor is sensor_height above the ground at first. Else the first "

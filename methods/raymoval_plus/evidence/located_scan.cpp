@@ -34,15 +34,21 @@ void find_terrain_cells(const Terrain& terrain, const Parameters& parameters,
   terrain.find_cells_of(scan.scan, context.threads, scan.in_terrain);
 }
 
-void find_heights_and_cells(const Terrain& terrain, const EvidenceMap& map,
-                            const Parameters& parameters, const RunContext& context,
-                            LocatedScan& scan) {
+void find_heights(const Terrain& terrain, const Parameters& parameters, const RunContext& context,
+                  LocatedScan& scan) {
   const StageScope timed(context.times, "heights and cells");
   if (parameters.terrain) {
     terrain.find_heights(scan.in_terrain, context, scan.height);
   } else {
     scan.height.assign(scan.scan.size(), std::numeric_limits<float>::infinity());
   }
+}
+
+void find_heights_and_cells(const Terrain& terrain, const EvidenceMap& map,
+                            const Parameters& parameters, const RunContext& context,
+                            LocatedScan& scan) {
+  find_heights(terrain, parameters, context, scan);
+  const StageScope timed(context.times, "heights and cells");
   map.find_cells_of(scan.scan, context.threads, scan.in_map);
 }
 
@@ -68,6 +74,20 @@ void add_to_map(const Parameters& parameters, const RunContext& context, Located
     for (std::size_t i = 0; i < some.count; ++i) {
       const std::size_t k = some.point[i];
       map.add_point(scan.voxel[k], scan.in_map.parts[k]);
+    }
+  }
+}
+
+void correct_voxels(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
+                    EvidenceMap& map) {
+  const StageScope timed(context.times, "voxels");
+  EvidenceMap::Blocks::Cursor cursor;
+  for (std::size_t k = 0; k < scan.voxel.size(); ++k) {
+    const bool was_ground = scan.voxel[k] == EvidenceMap::kNone;
+    if (is_ground(scan.height[k], parameters)) {
+      scan.voxel[k] = EvidenceMap::kNone;
+    } else if (was_ground) {
+      scan.voxel[k] = map.add(scan.in_map[k], scan.in_map.parts[k], cursor);
     }
   }
 }

@@ -29,14 +29,20 @@ struct LocatedScan {
 /// Finds the points' cells in the terrain, if there is to be one.
 void find_terrain_cells(const Terrain& terrain, const Parameters& parameters,
                         const RunContext& context, LocatedScan& scan);
-/// Finds the points' heights above the ground and their cells in the map, given their cells in the
-/// terrain.
+/// Finds the points' heights above the ground, given their cells in the terrain.
+void find_heights(const Terrain& terrain, const Parameters& parameters, const RunContext& context,
+                  LocatedScan& scan);
+/// The same, and finds their cells in the map.
 void find_heights_and_cells(const Terrain& terrain, const EvidenceMap& map,
                             const Parameters& parameters, const RunContext& context,
                             LocatedScan& scan);
 /// Step 2: adds the points that are not ground to the map. Fills `voxel`.
 void add_to_map(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
                 EvidenceMap& map);
+/// Step 2 for a scan that was added before its heights were found anew: adds the points that were
+/// ground and are not, and forgets the voxels of those that are ground now.
+void correct_voxels(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
+                    EvidenceMap& map);
 /// Looks the points up in a map that has all of them. Fills `voxel` and `verdict`. A point has no
 /// voxel if it was ground when its scan was added, and is not after the terrain was found anew.
 void look_up(const EvidenceMap& map, const Parameters& parameters, const RunContext& context,

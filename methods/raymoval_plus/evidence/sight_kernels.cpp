@@ -11,6 +11,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 //
 #include "hwy/highway.h"
+#include "methods/common/vector_angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymoval::raymoval_plus_method::kernels {
@@ -30,23 +31,8 @@ HWY_INLINE R real(float value) {
   return hn::Set(Reals(), value);
 }
 
-/// The angle of (x, y) from the x axis, radians in [-pi, pi], with an error below 4e-7; 0 for (0,
-/// 0). The terms are those of the odd polynomial with the smallest largest error from 0 to 45
-/// degrees, which is turned and mirrored for other angles. Highway's own atan would round
-/// differently where multiplication and addition are one instruction.
 HWY_INLINE R angle_of(R y, R x) {
-  constexpr float kTerms[] = {-0.00405456219F, 0.0218629390F, -0.0559123009F, 0.0964219570F,
-                              -0.139086291F,   0.199465662F,  -0.333298594F,  0.999999344F};
-  const R across = hn::Abs(x), up = hn::Abs(y);
-  const R longer = hn::Max(hn::Max(across, up), real(1e-30F));  // Not 0: it divides.
-  const R ratio = hn::Div(hn::Min(across, up), longer);
-  const R square = hn::Mul(ratio, ratio);
-  R sum = real(kTerms[0]);
-  for (std::size_t k = 1; k < 8; ++k) sum = hn::Add(hn::Mul(sum, square), real(kTerms[k]));
-  R angle = hn::Mul(sum, ratio);
-  angle = hn::IfThenElse(hn::Gt(up, across), hn::Sub(real(0.5F * kStraight), angle), angle);
-  angle = hn::IfThenElse(hn::Lt(x, real(0.0F)), hn::Sub(real(kStraight), angle), angle);
-  return hn::CopySign(angle, y);
+  return raymoval::HWY_NAMESPACE::vector_angle(Reals(), y, x);
 }
 
 struct Sight {

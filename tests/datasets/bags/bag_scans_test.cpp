@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
@@ -87,6 +88,16 @@ void add_clouds(MadeBag& bag, const std::string& frame = "lidar") {
   for (int i = 0; i < 4; ++i) bag.cloud(100.1 + 0.2 * i, frame);
 }
 
+/// drive.bag: four clouds from 100.1 s on, and the odometry of 10 m along x from 100 to 101 s.
+/// @return its path
+std::string straight_drive(const TemporaryFolder& folder) {
+  MadeBag bag(folder / "drive.bag");
+  bag.odometry(100, shift(0));
+  add_clouds(bag);
+  bag.odometry(101, shift(10));
+  return bag.finish();
+}
+
 Eigen::Vector3d position(const Sequence& sequence, std::size_t scan) {
   return sequence.scans->pose(scan).translation();
 }
@@ -101,11 +112,7 @@ std::string notes_of(const Sequence& sequence) {
 
 TEST_CASE("A bag is a sequence: its clouds at the poses of its odometry", "[bags]") {
   const TemporaryFolder folder;
-  MadeBag bag(folder / "drive.bag");
-  bag.odometry(100, shift(0));
-  add_clouds(bag);
-  bag.odometry(101, shift(10));
-  const Sequence sequence = open_sequence(bag.finish(), {});
+  const Sequence sequence = open_sequence(straight_drive(folder), {});
   CHECK(sequence.name == "drive");
   CHECK(sequence.layout == "bags");
   CHECK(sequence.frames == "0:3:1");
@@ -132,11 +139,7 @@ TEST_CASE("A bag is a sequence: its clouds at the poses of its odometry", "[bags
 
 TEST_CASE("A file of indices beside a bag labels some of its scans", "[bags]") {
   const TemporaryFolder folder;
-  MadeBag bag(folder / "drive.bag");
-  bag.odometry(100, shift(0));
-  add_clouds(bag);
-  bag.odometry(101, shift(10));
-  const std::string path = bag.finish();
+  const std::string path = straight_drive(folder);
   // Scans 1 and 2; a scan that is not there; blanks, a comma at the end, and an empty line.
   folder.write("indices.csv", "100300000000,0\n\n100500000000, \r\n999000000000,0,1,\n");
   const Sequence sequence = open_sequence(path, {});
@@ -149,16 +152,12 @@ TEST_CASE("A file of indices beside a bag labels some of its scans", "[bags]") {
   CHECK(labels(2) == std::vector<std::uint32_t>{9});
   CHECK(sequence.label_rule.classify(251) == LabelClass::kMoving);
   CHECK(sequence.label_rule.classify(0) == LabelClass::kIgnored);
-  check_says(notes_of(sequence), {"2 of 4 scans are labelled", "1 lines of it are of scans that"});
+  check_says(notes_of(sequence), {"2 of 4 scans are labelled", "1 line of it"});
 }
 
-TEST_CASE("A file of indices that does not belong to the bag is an error", "[bags]") {
+TEST_CASE("A file of indices that is damaged is an error", "[bags]") {
   const TemporaryFolder folder;
-  MadeBag bag(folder / "drive.bag");
-  bag.odometry(100, shift(0));
-  add_clouds(bag);
-  bag.odometry(101, shift(10));
-  const std::string path = bag.finish();
+  const std::string path = straight_drive(folder);
   const auto error = [&](const std::string& lines) {
     folder.write("indices.csv", lines);
     return message_of<DataError>([&] {
@@ -166,8 +165,6 @@ TEST_CASE("A file of indices that does not belong to the bag is an error", "[bag
       (void)sequence.labels->labels(sequence.scans->load(1));
     });
   };
-  check_says(error("5,0\n"), {"indices.csv", "none of its 1 lines", "4 scans"});
-  check_says(error(""), {"none of its 0 lines"});
   check_says(error("time,0\n"), {"line 1", "'time' is no time", "nanoseconds"});
   check_says(error("100300000000,0,-1\n"), {"line 1, field 3", "'-1'"});
   check_says(error("100300000000,0 1\n"), {"line 1, field 2", "'0 1'"});
@@ -176,13 +173,55 @@ TEST_CASE("A file of indices that does not belong to the bag is an error", "[bag
   check_says(error("100300000000,1,2\n"), {"line 1", "point 2 of a scan of 2"});
 }
 
+TEST_CASE("Indices of scans that are not read are a note", "[bags]") {
+  const TemporaryFolder folder;
+  const std::string path = straight_drive(folder);
+  folder.write("indices.csv", "100300000000,0\n100500000000\n");
+  SequenceOptions options;
+  options.frames = parse_frame_range("2:3");
+  const Sequence window = open_sequence(path, options);
+  REQUIRE(window.labels);
+  CHECK(window.labels->labels(window.scans->load(0)) == std::vector<std::uint32_t>{9});
+  CHECK(window.labels->labels(window.scans->load(1)) == std::vector<std::uint32_t>{0});
+  check_says(notes_of(window), {"1 of 2 scans are labelled", "1 line of it"});
+  options.frames = parse_frame_range("3:3");
+  const Sequence beyond = open_sequence(path, options);
+  CHECK(beyond.labels == nullptr);
+  CHECK(beyond.scans->size() == 1);
+  check_says(notes_of(beyond), {"none of the 2 lines of indices.csv", "1 scan,", "no labels"});
+  for (const char* lines : {"5,0\n", ""}) {  // Of another recording, or of nothing.
+    folder.write("indices.csv", lines);
+    const Sequence other = open_sequence(path, {});
+    CHECK(other.labels == nullptr);
+    check_says(notes_of(other), {"none of the", "of indices.csv", "4 scans"});
+  }
+}
+
+TEST_CASE("By no label rule is a scan without indices scored", "[bags]") {
+  const TemporaryFolder folder;
+  const std::string path = straight_drive(folder);
+  folder.write("indices.csv", "100300000000,0\n");
+  SequenceOptions options;
+  options.label_rule = folder / "rule.json";
+  for (const char* rule : {R"({"moving": [251]})", R"({"moving": [251], "ignored": []})",
+                           R"({"moving": [251], "ignored": [0, 9]})"}) {
+    folder.write("rule.json", rule);
+    const Sequence sequence = open_sequence(path, options);
+    CHECK(sequence.label_rule.name == "rule");
+    CHECK(sequence.label_rule.classify(0) == LabelClass::kIgnored);
+    CHECK(sequence.label_rule.classify(251) == LabelClass::kMoving);
+    CHECK(sequence.label_rule.ignored.front() == 0);
+    CHECK(std::count(sequence.label_rule.ignored.begin(), sequence.label_rule.ignored.end(), 0) ==
+          1);
+  }
+  folder.write("rule.json", R"({"moving": [0, 251]})");
+  check_says(message_of<ConfigurationError>([&] { (void)open_sequence(path, options); }),
+             {"'rule'", "label id 0", "nobody labelled"});
+}
+
 TEST_CASE("Frames of a bag are numbers of messages", "[bags]") {
   const TemporaryFolder folder;
-  MadeBag bag(folder / "drive.bag");
-  bag.odometry(100, shift(0));
-  add_clouds(bag);
-  bag.odometry(101, shift(10));
-  const std::string path = bag.finish();
+  const std::string path = straight_drive(folder);
   SequenceOptions options;
   options.frames = parse_frame_range("1:3:2");
   const Sequence sequence = open_sequence(path, options);

@@ -25,12 +25,16 @@ class Corridor {
   void pass(int scans) {
     for (int i = 0; i < scans; ++i) scan(boxes_);
   }
-  /// One scan with a person at (x, y): the owner of its points is 4.
-  void see_person(double x, double y) {
+  /// One scan with something more there: the owner of its points is 4.
+  void see(const toy::Box& box) {
     std::vector<toy::Box> boxes = boxes_;
-    boxes.push_back({{x, y, -1.6}, {x + 0.5, y + 0.5, 0.1}});
+    boxes.push_back(box);
     scan(boxes);
   }
+  /// One scan with a person at (x, y).
+  void see_person(double x, double y) { see({{x, y, -1.6}, {x + 0.5, y + 0.5, 0.1}}); }
+  /// Later scans are from this far into the corridor.
+  void go_to(double x) { sensor_at_ = x; }
   /// The share of the person's points that is removed from scan `i`.
   [[nodiscard]] double share(const MaskStore& masks, std::size_t i) const {
     return toy::removed_share(world, masks, 4, i, i);
@@ -48,10 +52,11 @@ class Corridor {
     return scanner;
   }
   void scan(const std::vector<toy::Box>& boxes) {
-    world.scan(boxes, Pose(Eigen::Translation3d(0.07, 0.03, 0.05)));
+    world.scan(boxes, Pose(Eigen::Translation3d(sensor_at_ + 0.07, 0.03, 0.05)));
   }
 
   std::vector<toy::Box> boxes_;
+  double sensor_at_ = 0.0;
 
  public:
   toy::World world;
@@ -69,28 +74,46 @@ TEST_CASE("dynablox: nothing moves in a corridor that stands") {
 }
 
 TEST_CASE("dynablox: a person moves from the first scan in space that was free for a while") {
-  // Seen in scan 0, free in 1 to 5: ever free when scan 6 is judged, and not before.
+  // Free in scans 0 to 4, five of them: ever free when scan 5 is judged, and not before.
   Corridor corridor;
-  corridor.pass(5);
+  corridor.pass(4);
   for (int i = 0; i < 4; ++i) corridor.see_person(5.0 + 0.3 * i, -0.3);
   const MaskStore masks = corridor.masks(Parameters{});
-  CHECK(corridor.share(masks, 5) == 0.0);
-  CHECK(corridor.share(masks, 6) > 0.3);  // Where nobody was in scan 5.
-  CHECK(corridor.share(masks, 8) > 0.9);
-  CHECK(toy::removed_share(corridor.world, masks, 0, 0, 8) < 0.05);
-  CHECK(toy::removed_share(corridor.world, masks, 3, 0, 8) == 0.0);
+  CHECK(corridor.share(masks, 4) == 0.0);
+  CHECK(corridor.share(masks, 5) > 0.3);  // Where nobody was in scan 4.
+  CHECK(corridor.share(masks, 7) > 0.9);
+  CHECK(toy::removed_share(corridor.world, masks, 0, 0, 7) < 0.05);
+  CHECK(toy::removed_share(corridor.world, masks, 3, 0, 7) == 0.0);
+}
+
+TEST_CASE("dynablox: what is first seen later was never occupied, or is at first") {
+  // A curtain at 3 m in scans 0 to 7. Scan 8 shows free space behind it, which is looked at when
+  // scan 9 has been judged: ever free at once, or when it was free for five scans, 9 to 13.
+  Parameters parameters;
+  const auto share_in = [&parameters](int scan) {
+    Corridor corridor;
+    for (int i = 0; i < 8; ++i) corridor.see({{3.0, -2.0, -1.6}, {3.3, 2.0, 2.0}});
+    corridor.pass(scan - 8);
+    corridor.see_person(8.0, -0.3);
+    return corridor.share(corridor.masks(parameters), static_cast<std::size_t>(scan));
+  };
+  CHECK(share_in(9) == 0.0);
+  CHECK(share_in(10) > 0.5);
+  parameters.new_voxels = NewVoxels::kOccupied;
+  CHECK(share_in(13) == 0.0);
+  CHECK(share_in(14) > 0.5);
 }
 
 TEST_CASE("dynablox: the burn-in says for how long") {
   Parameters parameters;
   parameters.burn_in = 8;
-  for (const int before : {8, 9}) {
+  for (const int before : {7, 8}) {
     Corridor corridor;
     corridor.pass(before);
     corridor.see_person(5.0, -0.3);
     const double share =
         corridor.share(corridor.masks(parameters), static_cast<std::size_t>(before));
-    CHECK((before == 9 ? share > 0.9 : share == 0.0));
+    CHECK((before == 8 ? share > 0.9 : share == 0.0));
   }
 }
 
@@ -112,6 +135,7 @@ TEST_CASE("dynablox: what stays long enough is no longer taken for moving") {
 
 TEST_CASE("dynablox: after a longer break the count of scans begins anew") {
   Parameters parameters;
+  parameters.weights = Weights::kConstant;
   parameters.max_weight = 1;  // The distance is half that of the last scan.
   parameters.frames_to_reset = 8;
   Corridor corridor;
@@ -168,8 +192,22 @@ TEST_CASE("dynablox: a far return clears the way, unless it says nothing") {
   corridor.see_person(15.0, -0.3);
   Parameters parameters;
   CHECK(corridor.share(corridor.masks(parameters), 6) > 0.5);
-  parameters.clearing = false;
+  parameters.clearing = FarReturns::kBlocks;
+  CHECK(corridor.share(corridor.masks(parameters), 6) > 0.5);
+  parameters.clearing = FarReturns::kNothing;
   CHECK(corridor.share(corridor.masks(parameters), 6) < 0.3);
+}
+
+TEST_CASE("dynablox: points beyond the range are judged by what was seen from nearby") {
+  Corridor corridor(30.0);
+  corridor.go_to(10.0);
+  corridor.pass(6);
+  corridor.go_to(0.0);
+  corridor.see_person(22.0, -0.3);
+  Parameters parameters;
+  CHECK(corridor.share(corridor.masks(parameters), 6) > 0.5);
+  parameters.judged = Judged::kWithin;
+  CHECK(corridor.share(corridor.masks(parameters), 6) == 0.0);
 }
 
 TEST_CASE("dynablox: a cluster must be followed for as long as is asked") {
@@ -192,6 +230,21 @@ TEST_CASE("dynablox: one scan only") {
   CHECK(corridor.masks(parameters).removed_count() == 0);
   parameters.offline = true;
   CHECK(corridor.masks(parameters).removed_count() == 0);
+}
+
+TEST_CASE("dynablox: parameters that leave nothing free are refused") {
+  Parameters ranges;
+  ranges.min_range = ranges.max_range;
+  CHECK_THROWS_WITH(make_dynablox(ranges),
+                    Catch::Contains("min_range = 20") && Catch::Contains("raise max_range"));
+  ranges.min_range = 19.9;
+  CHECK_NOTHROW(make_dynablox(ranges));
+  Parameters distances;
+  distances.truncation = distances.occupied_below;
+  CHECK_THROWS_WITH(make_dynablox(distances),
+                    Catch::Contains("truncation = 0.3") && Catch::Contains("lower occupied_below"));
+  distances.truncation = 0.31;
+  CHECK_NOTHROW(make_dynablox(distances));
 }
 
 TEST_CASE("dynablox: parameters out of range are refused") {

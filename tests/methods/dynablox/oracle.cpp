@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/common/arc_tangent.h"
+
 namespace raymoval::dynablox_test {
 namespace {
 
@@ -40,8 +42,8 @@ float arc_tangent(float y, float x) {
   const float most = std::max(across, up);
   const float a = std::min(across, up) / std::max(most, kernels::kLeastDivisor);
   const float square = a * a;
-  float sum = kernels::kArcTangent[6];
-  for (std::size_t k = 6; k-- > 0;) sum = sum * square + kernels::kArcTangent[k];
+  float sum = 0.0F;
+  for (const float term : kArcTangentTerms) sum = sum * square + term;
   float angle = sum * a;
   if (up > across) angle = kernels::kQuarterTurn - angle;
   if (x < 0.0F) angle = kernels::kHalfTurn - angle;
@@ -51,7 +53,7 @@ float arc_tangent(float y, float x) {
 Oracle::Oracle(const Parameters& parameters, const SensorModel& sensor)
     : parameters_(parameters),
       grid_(parameters, sensor),
-      max_range_(static_cast<float>(std::min(parameters.max_range, sensor.range_max))) {}
+      max_range_(std::min(parameters.max_range, sensor.range_max)) {}
 
 Cell Oracle::cell_of(const Scan& scan, std::size_t point) const {
   const Eigen::Vector3d world = scan.T_world_sensor * scan.points[point].cast<double>();
@@ -61,7 +63,9 @@ Cell Oracle::cell_of(const Scan& scan, std::size_t point) const {
 }
 
 bool Oracle::takes_part(const Eigen::Vector3f& point) const {
-  return point.norm() >= static_cast<float>(parameters_.min_range) && point.norm() <= max_range_;
+  if (parameters_.judged == Judged::kAll) return true;
+  const double range = point.cast<double>().norm();
+  return range >= parameters_.min_range && range <= max_range_;
 }
 
 const Voxel* Oracle::find(const Cell& cell) const {
@@ -114,21 +118,36 @@ Mask Oracle::judge(const Scan& scan) const {
   Mask mask(scan.size(), 0);
   for (const Cluster& cluster : clusters) {
     std::vector<std::size_t> its;
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
     for (const Cell& cell : cluster.voxels) {
-      for (const std::size_t k : points[cell]) {
-        const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
-        low = low.cwiseMin(world);
-        high = high.cwiseMax(world);
-        its.push_back(k);
-      }
+      its.insert(its.end(), points[cell].begin(), points[cell].end());
     }
-    const double extent = (high - low).norm(), count = static_cast<double>(its.size());
+    const double extent = extent_of(scan, cluster, its), count = static_cast<double>(its.size());
     if (count < parameters_.min_points || count > parameters_.max_points) continue;
     if (extent < parameters_.min_extent || extent > parameters_.max_extent) continue;
     for (const std::size_t k : its) mask[k] = 1;
   }
   return mask;
+}
+
+double Oracle::extent_of(const Scan& scan, const Cluster& cluster,
+                         const std::vector<std::size_t>& points) const {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+  const auto take_in = [&](const Eigen::Vector3d& corner) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  };
+  if (parameters_.extents == Extents::kPoints) {
+    for (const std::size_t k : points) {
+      take_in(scan.T_world_sensor * scan.points[k].cast<double>());
+    }
+    return (high - low).norm();
+  }
+  for (const Cell& cell : cluster.own) {
+    for (const int side : {0, 1}) {
+      take_in(Eigen::Vector3d(cell[2] + side, cell[1] + side, cell[0] + side));
+    }
+  }
+  return (high - low).norm() * parameters_.voxel_size;
 }
 
 std::vector<Oracle::Cluster> Oracle::grow(const std::set<Cell>& hit) const {
@@ -218,10 +237,13 @@ void Oracle::update_free_space(const Scan& scan) {
   for (const Cell& at : touched_) {
     for (auto& [cell, voxel] : blocks_.at(at)) {
       const bool is_near = voxel.distance < static_cast<float>(parameters_.occupied_below);
-      if (!is_near && hit.count(cell) == 0) continue;
-      const bool goes_on = voxel.last_occupied >= now - parameters_.temporal_buffer;
-      voxel.occupied_scans = goes_on ? voxel.occupied_scans + 1 : 1;
-      voxel.last_occupied = now;
+      const bool is_occupied = is_near || hit.count(cell) > 0;
+      if (is_occupied) {
+        const bool goes_on = voxel.last_occupied >= now - parameters_.temporal_buffer;
+        voxel.occupied_scans = goes_on ? voxel.occupied_scans + 1 : 1;
+        voxel.last_occupied = now;
+      }
+      if (!is_occupied && !parameters_.public_reset) continue;
       if (voxel.ever_free && voxel.occupied_scans >= parameters_.frames_to_reset) {
         reset.push_back(cell);
       }
@@ -240,7 +262,7 @@ void Oracle::update_free_space(const Scan& scan) {
 
 void Oracle::become_ever_free(const Cell& cell, Voxel& voxel, int now) {
   const auto is_settled = [&](const Voxel& any) {
-    return any.weight > 0 && any.last_occupied <= now - parameters_.burn_in;
+    return any.weight > 1e-6F && any.last_occupied <= now - parameters_.burn_in;
   };
   if (voxel.ever_free || !is_settled(voxel)) return;
   for (const Cell& other : around(cell, parameters_.free_neighbours)) {
@@ -256,14 +278,17 @@ std::vector<float> Oracle::image_of(const Scan& scan) const {
     const float level = std::sqrt(p.x() * p.x() + p.y() * p.y());
     const float range = std::sqrt(p.x() * p.x() + p.y() * p.y() + p.z() * p.z());
     if (range < static_cast<float>(parameters_.min_range)) continue;
-    if (range > max_range_ && !parameters_.clearing) continue;
+    const auto most = static_cast<float>(max_range_);
+    if (range > most && parameters_.clearing == FarReturns::kNothing) continue;
     const float turned = arc_tangent(p.y(), p.x()) + kernels::kHalfTurn;
     const float raised = arc_tangent(p.z(), level) - grid_.elevation_min;
     const int row = floor_of(raised * grid_.rows_per_radian + 0.5F);
     const int column = std::min(floor_of(turned * grid_.columns_per_radian), grid_.columns - 1);
     if (row < 0 || row >= grid_.rows) continue;
     float& pixel = image[static_cast<std::size_t>(row * grid_.columns + column)];
-    const float seen = std::min(range, max_range_ + static_cast<float>(parameters_.truncation));
+    const bool is_cut = parameters_.interpolation == Interpolation::kMean;
+    const float seen =
+        is_cut ? std::min(range, most + static_cast<float>(parameters_.truncation)) : range;
     if (pixel == 0.0F || seen < pixel) pixel = seen;
   }
   return image;
@@ -274,10 +299,8 @@ float Oracle::range_at(const std::vector<float>& image, float u, float v) const 
   float sum = 0.0F, weight = 0.0F;
   for (const int up : {0, 1}) {
     for (const int across : {0, 1}) {
-      const int row = static_cast<int>(below) + up;
-      const int column = (static_cast<int>(left) + across + grid_.columns) % grid_.columns;
-      if (row < 0 || row >= grid_.rows) continue;
-      const float range = image[static_cast<std::size_t>(row * grid_.columns + column)];
+      const float range =
+          pixel(image, static_cast<int>(left) + across, static_cast<int>(below) + up);
       if (range == 0.0F) continue;
       const float share_across = across == 1 ? u - left : 1.0F - (u - left);
       const float share_up = up == 1 ? v - below : 1.0F - (v - below);
@@ -286,6 +309,45 @@ float Oracle::range_at(const std::vector<float>& image, float u, float v) const 
     }
   }
   return weight > 0.0F ? sum / weight : 0.0F;
+}
+
+float Oracle::pixel(const std::vector<float>& image, int column, int row) const {
+  if (row < 0 || row >= grid_.rows) return 0.0F;
+  const int within = (column + grid_.columns) % grid_.columns;
+  return image[static_cast<std::size_t>(row * grid_.columns + within)];
+}
+
+float Oracle::adaptive_range(const std::vector<float>& image, float u, float v) const {
+  const int left = floor_of(u), below = floor_of(v);
+  const float share_across = u - std::floor(u), share_up = v - std::floor(v);
+  float least = 0.0F;
+  std::vector<float> of_column;
+  for (const int across : {0, 1}) {
+    const float lower = pixel(image, left + across, below);
+    const float upper = pixel(image, left + across, below + 1);
+    for (const float range : {lower, upper}) {
+      if (range > 0.0F && (least == 0.0F || range < least)) least = range;
+    }
+    of_column.push_back(lower == 0.0F   ? upper
+                        : upper == 0.0F ? lower
+                                        : (1.0F - share_up) * lower + share_up * upper);
+  }
+  const float mean = of_column[0] == 0.0F ? of_column[1]
+                     : of_column[1] == 0.0F
+                         ? of_column[0]
+                         : (1.0F - share_across) * of_column[0] + share_across * of_column[1];
+  return least + 0.5F * static_cast<float>(parameters_.truncation) < mean ? least : mean;
+}
+
+float Oracle::weight_of_scan(float square, float ahead) const {
+  if (parameters_.weights == Weights::kConstant) return 1.0F;
+  // A voxel covers as many square radians as its area over the square of its range says.
+  const double area = parameters_.voxel_size * parameters_.voxel_size;
+  const auto at_a_metre = static_cast<float>(area * grid_.pixels_per_square_radian);
+  const float rays = at_a_metre / std::max(square, 1.0F);
+  const auto truncation = static_cast<float>(parameters_.truncation);
+  const auto size = static_cast<float>(parameters_.voxel_size);
+  return ahead < -size ? rays * (truncation + ahead) / (truncation - size) : rays;
 }
 
 void Oracle::update(const Scan& scan, const std::vector<float>& image, const Cell& cell,
@@ -303,19 +365,25 @@ void Oracle::update(const Scan& scan, const std::vector<float>& image, const Cel
   const Eigen::Vector3f p =
       row_first + static_cast<float>(cell[2] - block[2] * kBlockSide) * along_x;
   const float level_square = p.x() * p.x() + p.y() * p.y();
-  const float range = std::sqrt(level_square + p.z() * p.z());
-  if (range < static_cast<float>(parameters_.min_range) || range > max_range_) return;
+  const float square = level_square + p.z() * p.z();
+  const float range = std::sqrt(square);
+  const bool is_adaptive = parameters_.interpolation == Interpolation::kAdaptive;
+  if (range < static_cast<float>(parameters_.min_range)) return;
+  if (range > static_cast<float>(max_range_)) return;
   const float v =
       (arc_tangent(p.z(), std::sqrt(level_square)) - grid_.elevation_min) * grid_.rows_per_radian;
+  if (is_adaptive && (v < 0.0F || v > static_cast<float>(grid_.rows - 1))) return;
   if (v < -0.5F || v >= static_cast<float>(grid_.rows) - 0.5F) return;
   const float u =
       (arc_tangent(p.y(), p.x()) + kernels::kHalfTurn) * grid_.columns_per_radian - 0.5F;
-  const float seen = range_at(image, u, v);
+  const float seen = is_adaptive ? adaptive_range(image, u, v) : range_at(image, u, v);
   const auto truncation = static_cast<float>(parameters_.truncation);
   if (seen == 0.0F || seen - range <= -truncation) return;
-  const auto weight = static_cast<float>(voxel.weight);
-  voxel.distance = (voxel.distance * weight + std::min(seen - range, truncation)) / (weight + 1.0F);
-  voxel.weight = std::min(voxel.weight + 1, parameters_.max_weight);
+  const float added = weight_of_scan(square, seen - range);
+  const float weight = voxel.weight + added;
+  voxel.distance =
+      (voxel.distance * voxel.weight + std::min(seen - range, truncation) * added) / weight;
+  voxel.weight = std::min(weight, static_cast<float>(parameters_.max_weight));
 }
 
 /// Makes the blocks that the rays go through, which are found by cutting rays with boxes.
@@ -326,8 +394,9 @@ void Oracle::touch(const Scan& scan) {
   for (const Eigen::Vector3f& point : scan.points) {
     const Eigen::Vector3d ahead = scan.T_world_sensor.linear() * point.cast<double>();
     const double range = point.cast<double>().norm();
-    if (range < parameters_.min_range || (range > max_range_ && !parameters_.clearing)) continue;
-    const double reach = std::min(range + parameters_.truncation, double{max_range_});
+    if (range < parameters_.min_range) continue;
+    if (range > max_range_ && parameters_.clearing != FarReturns::kBlocks) continue;
+    const double reach = std::min(range, max_range_) + parameters_.truncation;
     const Eigen::Vector3d end = sensor + ahead / range * reach;
     Cell low, high;
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -361,7 +430,11 @@ void Oracle::integrate(const Scan& scan) {
     for (int i = 0; is_new && i < kBlockSide * kBlockSide * kBlockSide; ++i) {
       const Cell cell = {at[0] * kBlockSide + i / 256, at[1] * kBlockSide + i / 16 % 16,
                          at[2] * kBlockSide + i % 16};
-      found->second[cell].last_occupied = static_cast<int>(scan.index);
+      Voxel& voxel = found->second[cell];
+      if (parameters_.new_voxels == NewVoxels::kOccupied) {
+        voxel.last_occupied = static_cast<int>(scan.index);
+        voxel.occupied_scans = 1;
+      }
     }
     for (auto& [cell, voxel] : found->second) update(scan, image, cell, voxel);
   }

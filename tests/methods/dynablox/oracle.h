@@ -19,9 +19,9 @@ using Cell = std::array<int, 3>;  ///< z, y, x, so that sorted cells run along x
 
 struct Voxel {
   float distance = 0.0F;
-  int weight = 0;
-  int occupied_scans = 1;
-  int last_occupied = 0;
+  float weight = 0.0F;
+  int occupied_scans = 0;
+  int last_occupied = -1;
   bool ever_free = false;
 };
 
@@ -38,7 +38,7 @@ class Oracle {
  private:
   using Block = std::map<Cell, Voxel>;
   struct Cluster {
-    std::set<Cell> voxels, own;  ///< `own`: those that it is compared by.
+    std::set<Cell> voxels, own;  ///< `own`: those that it is compared and measured by.
   };
 
   [[nodiscard]] Cell cell_of(const Scan& scan, std::size_t point) const;
@@ -57,10 +57,16 @@ class Oracle {
   void update(const Scan& scan, const std::vector<float>& image, const Cell& cell, Voxel& voxel);
   [[nodiscard]] std::vector<float> image_of(const Scan& scan) const;
   [[nodiscard]] float range_at(const std::vector<float>& image, float u, float v) const;
+  /// The range of a pixel, 0 outside the image and where there is no return.
+  [[nodiscard]] float pixel(const std::vector<float>& image, int column, int row) const;
+  [[nodiscard]] float adaptive_range(const std::vector<float>& image, float u, float v) const;
+  [[nodiscard]] float weight_of_scan(float square, float ahead) const;
+  [[nodiscard]] double extent_of(const Scan& scan, const Cluster& cluster,
+                                 const std::vector<std::size_t>& points) const;
 
   Parameters parameters_;
   ImageGrid grid_;
-  float max_range_;
+  double max_range_;
   std::map<Cell, Block> blocks_;
   std::set<Cell> touched_;
 };

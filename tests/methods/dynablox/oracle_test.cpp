@@ -66,34 +66,50 @@ std::size_t removed_alike(const toy::World& scans, const std::vector<Mask>& expe
 
 }  // namespace
 
+namespace {
+
+/// Sets of parameters that together try every choice.
+std::vector<Parameters> many_parameters() {
+  std::vector<Parameters> many(10, coarse());
+  many[1].offline = true;
+  many[2].public_boxes = many[2].public_merges = many[2].public_unmapped = true;
+  many[2].separation = 0.9;
+  many[2].max_extent = 2.5;
+  many[3].free_neighbours = Neighbours::kEdges;
+  many[3].cluster_neighbours = Neighbours::kCorners;
+  many[3].clearing = FarReturns::kNothing;
+  many[3].grow_twice = true;
+  many[3].frames_to_reset = 2;
+  many[4].free_neighbours = Neighbours::kFaces;
+  many[4].image = ImageSource::kFixed;
+  many[4].max_weight = 2;
+  many[4].extents = Extents::kPoints;
+  many[4].min_extent = 0.5;
+  many[4].max_extent = 2.0;
+  many[5].separation = 0.1;
+  many[5].min_extent = 0.6;
+  many[6].interpolation = Interpolation::kMean;
+  many[6].clearing = FarReturns::kBlocks;
+  many[7].weights = Weights::kConstant;
+  many[7].max_weight = 3;
+  many[8].new_voxels = NewVoxels::kOccupied;
+  many[8].judged = Judged::kWithin;
+  many[9].public_reset = true;
+  many[9].frames_to_reset = 2;
+  return many;
+}
+
+}  // namespace
+
 TEST_CASE("dynablox: the fast way gives what the description says") {
-  for (int variant = 0; variant < 6; ++variant) {
-    Parameters parameters = coarse();
-    if (variant == 1) parameters.offline = true;
-    if (variant == 2) {
-      parameters.public_boxes = parameters.public_merges = parameters.public_unmapped = true;
-      parameters.separation = 0.9;
-    }
-    if (variant == 3) {
-      parameters.free_neighbours = Neighbours::kEdges;
-      parameters.cluster_neighbours = Neighbours::kCorners;
-      parameters.clearing = parameters.grow_twice = false;
-      parameters.frames_to_reset = 2;
-    }
-    if (variant == 4) {
-      parameters.free_neighbours = Neighbours::kFaces;
-      parameters.image = ImageSource::kFixed;
-      parameters.max_weight = 2;
-      parameters.min_extent = 0.5;
-      parameters.max_extent = 2.0;
-    }
-    if (variant == 5) parameters.separation = 0.1;
+  const std::vector<Parameters> many = many_parameters();
+  for (std::size_t variant = 0; variant < many.size(); ++variant) {
     INFO("variant " << variant);
     const toy::World scans = room(8, 3 + static_cast<unsigned>(variant));
-    Oracle oracle(parameters, scans.sensor());
+    Oracle oracle(many[variant], scans.sensor());
     const std::vector<Mask> expected = oracle.masks(scans);
     CHECK(oracle.ever_free_count() > 100);
-    const MaskStore masks = toy::masks_of(*make_dynablox(parameters), scans, 2);
+    const MaskStore masks = toy::masks_of(*make_dynablox(many[variant]), scans, 2);
     CHECK(removed_alike(scans, expected, masks) > 20);
   }
 }

@@ -2,10 +2,11 @@
 // The steps one by one, on voxels and points that are put where they are wanted.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/angle.h"
 #include "methods/dynablox/clusters.h"
-#include "methods/dynablox/free_space.h"
 #include "methods/dynablox/integration.h"
 #include "tests/methods/dynablox/oracle.h"
 #include "tests/methods/held_scans.h"
@@ -15,7 +16,7 @@ using namespace raymoval::dynablox_method;
 
 namespace {
 
-constexpr float kFar = 1000.0F;
+constexpr double kFar = 1000.0;
 
 /// A scan with a point in the middle of each voxel.
 Scan points_in(const std::vector<VoxelIndex>& voxels) {
@@ -30,7 +31,7 @@ Scan points_in(const std::vector<VoxelIndex>& voxels) {
 BlockMap map_of(const std::vector<VoxelIndex>& ever_free) {
   BlockMap map;
   for (const VoxelIndex& voxel : ever_free) {
-    map.find_or_make(block_of(voxel), 0).ever_free[row_of(voxel)] |= bit_of(voxel);
+    map.find_or_make(block_of(voxel), {}).ever_free[row_of(voxel)] |= bit_of(voxel);
   }
   return map;
 }
@@ -41,7 +42,7 @@ std::vector<std::size_t> sizes(const std::vector<VoxelIndex>& ever_free,
   parameters.min_points = 1;
   const Scan scan = points_in(hit);
   ScanVoxels voxels;
-  find_voxels(scan, parameters.voxel_size, 0.0F, kFar, voxels);
+  find_voxels(scan, parameters.voxel_size, 0.0, kFar, voxels);
   std::vector<std::size_t> sizes;
   for (const Cluster& cluster : find_clusters(scan, voxels, map_of(ever_free), parameters)) {
     sizes.push_back(cluster.points.size());
@@ -64,11 +65,11 @@ std::vector<VoxelIndex> joined(std::vector<VoxelIndex> a, const std::vector<Voxe
 
 }  // namespace
 
-TEST_CASE("dynablox: an arc tangent is right to 2e-6") {
+TEST_CASE("dynablox: an arc tangent is right to 1e-6") {
   for (int i = 0; i < 720; ++i) {
     const auto x = static_cast<float>(std::cos(i * 0.5 * kDegree) * (1 + i));
     const auto y = static_cast<float>(std::sin(i * 0.5 * kDegree) * (1 + i));
-    CHECK(std::abs(dynablox_test::arc_tangent(y, x) - std::atan2(y, x)) < 2e-6F);
+    CHECK(std::abs(dynablox_test::arc_tangent(y, x) - std::atan2(y, x)) < 1e-6F);
   }
   CHECK(dynablox_test::arc_tangent(0.0F, 0.0F) == 0.0F);
 }
@@ -76,19 +77,30 @@ TEST_CASE("dynablox: an arc tangent is right to 2e-6") {
 TEST_CASE("dynablox: points within range take part") {
   const Scan scan = points_in({{1, 0, 0}, {5, 0, 0}, {40, 0, 0}, {200, 0, 0}});
   ScanVoxels voxels;
-  find_voxels(scan, 0.2, 0.5F, 20.0F, voxels);
+  find_voxels(scan, 0.2, 0.5, 20.0, voxels);
   CHECK(voxels.points == std::vector<std::uint32_t>{1, 2});
   CHECK(voxels.hits.contains({40, 0, 0}));
   CHECK_FALSE(voxels.hits.contains({1, 0, 0}));
   CHECK_FALSE(voxels.hits.contains({41, 0, 0}));
 }
 
+TEST_CASE("dynablox: the bounds of the range are exact, and belong to it") {
+  Scan scan;
+  scan.points.emplace_back(3.0F, 4.0F, 0.0F);   // 5 m.
+  scan.points.emplace_back(5.0F, 1e-4F, 0.0F);  // 1e-9 m more, which single precision loses.
+  ScanVoxels voxels;
+  find_voxels(scan, 0.2, 0.5, 5.0, voxels);
+  CHECK(voxels.points == std::vector<std::uint32_t>{0});
+  find_voxels(scan, 0.2, 5.0, 20.0, voxels);
+  CHECK(voxels.points == std::vector<std::uint32_t>{0, 1});
+}
+
 TEST_CASE("dynablox: a cluster grows through ever-free voxels and to those beside them") {
   // Ever free: 0 to 3. What lies beyond is taken in once, and once more.
   Parameters parameters;
-  CHECK(sizes(line(0, 3), line(0, 9), parameters) == Sizes{6});
-  parameters.grow_twice = false;
   CHECK(sizes(line(0, 3), line(0, 9), parameters) == Sizes{5});
+  parameters.grow_twice = true;
+  CHECK(sizes(line(0, 3), line(0, 9), parameters) == Sizes{6});
   SECTION("not without points between") {
     CHECK(sizes(line(0, 9), joined(line(0, 3), line(5, 9)), parameters) == Sizes{4, 5});
   }
@@ -112,7 +124,6 @@ TEST_CASE("dynablox: a cluster grows through ever-free voxels and to those besid
 
 TEST_CASE("dynablox: clusters near each other are one") {
   Parameters parameters;
-  parameters.grow_twice = false;
   // Ever free 0 and 3: each takes in one of 1 and 2, which are beside each other.
   CHECK(sizes(joined(line(0, 0), line(3, 3)), line(0, 3), parameters) == Sizes{4});
   parameters.separation = 0.1;
@@ -133,7 +144,13 @@ TEST_CASE("dynablox: what the public program forgets when it merges") {
   CHECK(sizes(row, row, parameters) == Sizes{3});
   parameters.public_merges = true;
   CHECK(sizes(row, row, parameters) == Sizes{2, 1});
+  // The box of the first one stays that of its own voxel, 0.35 m from corner to corner; that of
+  // both were 0.66 m.
+  parameters.max_extent = 0.5;
+  CHECK(sizes(row, row, parameters) == Sizes{2, 1});
   parameters.public_merges = false;
+  CHECK(sizes(row, row, parameters).empty());
+  parameters.max_extent = 10.0;
   parameters.public_boxes = true;
   CHECK(sizes(row, row, parameters) == Sizes{3});
   // Its lower end, 1.0 m, above the other's furthest x, 0: not even looked at.
@@ -145,6 +162,7 @@ TEST_CASE("dynablox: what the public program forgets when it merges") {
 
 TEST_CASE("dynablox: points outside the map's blocks are in a cluster, but for the public one") {
   Parameters parameters;
+  parameters.grow_twice = true;
   CHECK(sizes(line(15, 15), line(15, 17), parameters) == Sizes{3});
   parameters.public_unmapped = true;
   CHECK(sizes(line(15, 15), line(15, 17), parameters) == Sizes{1});
@@ -154,7 +172,7 @@ TEST_CASE("dynablox: clusters of few or many points, small or large, are none") 
   Parameters parameters;
   const Scan scan = points_in(line(0, 9));
   ScanVoxels voxels;
-  find_voxels(scan, 0.2, 0.0F, kFar, voxels);
+  find_voxels(scan, 0.2, 0.0, kFar, voxels);
   const auto is_cluster = [&] {
     return !find_clusters(scan, voxels, map_of(line(0, 9)), parameters).empty();
   };
@@ -167,13 +185,20 @@ TEST_CASE("dynablox: clusters of few or many points, small or large, are none") 
   parameters.max_points = 9;
   CHECK_FALSE(is_cluster());
   parameters.max_points = 10;
-  parameters.max_extent = 1.81;  // Nine steps of 0.2 m.
-  CHECK(is_cluster());
-  parameters.max_extent = 1.79;
-  CHECK_FALSE(is_cluster());
-  parameters.max_extent = 10.0;
-  parameters.min_extent = 1.81;
-  CHECK_FALSE(is_cluster());
+  // Nine steps of 0.2 m between the points; the box of the voxels is 2.0 x 0.2 x 0.2 m.
+  for (const auto& [extents, extent] :
+       {std::pair(Extents::kPoints, 1.8), std::pair(Extents::kVoxels, std::sqrt(4.08))}) {
+    parameters.extents = extents;
+    parameters.min_extent = extent - 0.01;
+    parameters.max_extent = extent + 0.01;
+    CHECK(is_cluster());
+    parameters.min_extent = 0.0;
+    parameters.max_extent = extent - 0.01;
+    CHECK_FALSE(is_cluster());
+    parameters.max_extent = 10.0;
+    parameters.min_extent = extent + 0.01;
+    CHECK_FALSE(is_cluster());
+  }
 }
 
 TEST_CASE("dynablox: a cluster is followed from the nearest one, the closest pair first") {
@@ -209,45 +234,36 @@ TEST_CASE("dynablox: the image is as large as the sensor says") {
   CHECK(fixed.rows == 64);
   CHECK(fixed.elevation_min == Approx(-16.61 * kDegree));
   CHECK(fixed.rows_per_radian == Approx(63 / (33.22 * kDegree)));
+  CHECK(fixed.pixels_per_square_radian == Approx(2048 / kTurn * 64 / (33.22 * kDegree)));
 }
 
-TEST_CASE("dynablox: a voxel holds the mean of its distances to the surface") {
-  // A wall 3 m ahead in all directions that the image shows.
-  Parameters parameters;
-  parameters.voxel_size = 0.25;
-  Scan scan;
-  for (int azimuth = -60; azimuth <= 60; ++azimuth) {
-    for (int elevation = -16; elevation <= 16; ++elevation) {
-      const double a = azimuth * 0.2 * kDegree, e = elevation * kDegree;
-      scan.points.emplace_back(static_cast<float>(3.0 * std::cos(a) * std::cos(e)),
-                               static_cast<float>(3.0 * std::sin(a) * std::cos(e)),
-                               static_cast<float>(3.0 * std::sin(e)));
-    }
+TEST_CASE("dynablox: the view is as published where the sensor's is unknown") {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [low, high] :
+       {std::pair(0.0, 0.0), std::pair(unknown, unknown), std::pair(unknown, 0.1),
+        std::pair(-0.1, unknown), std::pair(0.1, -0.1), std::pair(-9.0, 9.0)}) {
+    SensorModel sensor;
+    sensor.elevation_min = low;
+    sensor.elevation_max = high;
+    sensor.azimuth_step = unknown;
+    sensor.elevation_step = unknown;
+    const ImageGrid grid(Parameters{}, sensor);
+    CHECK(grid.columns == 2048);
+    CHECK(grid.rows == 64);
+    CHECK(grid.elevation_min == Approx(-16.61 * kDegree));
+    CHECK(grid.rows_per_radian == Approx(63 / (33.22 * kDegree)));
+    sensor.elevation_step = 33.22 * kDegree / 15;
+    CHECK(ImageGrid(Parameters{}, sensor).rows == 16);
   }
-  Integrator integrator(parameters, sensor_model_named("vlp16"));
-  BlockMap map;
-  std::vector<Block*> touched;
-  integrator.integrate(scan, RunContext{}, map, touched);
-  REQUIRE(!touched.empty());
-  const auto distance_at = [&](int x) {
-    const Block* block = map.find(block_of({x, 0, 0}));
-    REQUIRE(block != nullptr);
-    REQUIRE(block->layers[0] != nullptr);
-    const auto at = static_cast<std::size_t>(x & 15);
-    return std::pair(block->layers[0]->distance[at], int{block->layers[0]->weight[at]});
-  };
-  const auto range_of = [](int x) { return std::hypot((x + 0.5) * 0.25, 0.125, 0.125); };
-  CHECK(distance_at(4).first == 0.4F);  // Far in front: cut off.
-  CHECK(distance_at(4).second == 1);
-  CHECK(distance_at(11).first == Approx(3.0 - range_of(11)).margin(1e-4));
-  CHECK(distance_at(12).first == Approx(3.0 - range_of(12)).margin(1e-4));
-  CHECK(distance_at(14).second == 0);  // 0.63 m behind the wall.
-  for (Eigen::Vector3f& point : scan.points) point *= 3.2F / 3.0F;
-  integrator.integrate(scan, RunContext{}, map, touched);
-  CHECK(distance_at(12).first == Approx(3.1 - range_of(12)).margin(1e-4));
-  CHECK(distance_at(12).second == 2);
+  SensorModel sensor;
+  for (const double range : {0.0, unknown}) {
+    sensor.range_max = range;
+    CHECK(Integrator(Parameters{}, sensor).max_range() == 20.0);
+  }
+  sensor.range_max = 12.0;
+  CHECK(Integrator(Parameters{}, sensor).max_range() == 12.0);
 }
 
-TEST_CASE("dynablox: a layer takes 12 bytes a voxel") {
-  CHECK(sizeof(Layer) == 12 * kLayer);
+TEST_CASE("dynablox: a layer takes 14 bytes a voxel") {
+  CHECK(sizeof(Layer) == 14 * kLayer);
 }

@@ -11,21 +11,33 @@ using namespace raymoval::erasor_method;
 
 namespace {
 
-/// A map of one scan with the points `at(x, y)` of a square of 24 m around `sensor`, 0.5 m apart.
+/// The points `at(x, y)` of a square of 24 m around `sensor`, 0.5 m apart.
 template <class At>
-NaiveMap ground_map(const Eigen::Vector3d& sensor, At&& at) {
-  std::vector<VoxelKey> keys;
+std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& sensor, At&& at) {
   std::vector<Eigen::Vector3d> points;
   for (int i = -24; i <= 24; ++i) {
     for (int j = -24; j <= 24; ++j) {
       const double x = sensor.x() + 0.5 * i, y = sensor.y() + 0.5 * j;
       points.emplace_back(x, y, at(x, y));
-      keys.push_back(voxel_key(voxel_index(points.back(), 1.0 / 0.2)));
     }
+  }
+  return points;
+}
+
+NaiveMap map_of(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<VoxelKey> keys;
+  for (const Eigen::Vector3d& point : points) {
+    keys.push_back(voxel_key(voxel_index(point, 1.0 / 0.2)));
   }
   NaiveMapBuilder builder;
   builder.add(keys, points);
   return builder.finish();
+}
+
+/// A map of one scan with the points `at(x, y)` of a square of 24 m around `sensor`, 0.5 m apart.
+template <class At>
+NaiveMap ground_map(const Eigen::Vector3d& sensor, At&& at) {
+  return map_of(points_around(sensor, at));
 }
 
 Parameters on_the_ground() {
@@ -92,6 +104,60 @@ TEST_CASE("what stands on the ground and what floats below it leave the body whe
   const Pose T_body_sensor = body_frame(pose, map, on_the_ground());
   CHECK(T_body_sensor.translation().z() == Approx(1.5).margin(0.02));
   CHECK(T_body_sensor.linear().isApprox(Eigen::Matrix3d::Identity(), 0.01));
+}
+
+TEST_CASE("a storey below the sensor's and a bridge above it are not its ground", "[erasor]") {
+  // Roads at 0, 5.2 and 10.4 m, the upper two with a slope of 5 percent, and a sensor on each.
+  const auto road = [](int storey) {
+    return [=](double x, double) { return 5.2 * storey + (storey > 0 ? 0.05 * x : 0.0); };
+  };
+  std::vector<Eigen::Vector3d> points;
+  for (int storey = 0; storey < 3; ++storey) {
+    const auto of_storey = points_around({0, 0, 0}, road(storey));
+    points.insert(points.end(), of_storey.begin(), of_storey.end());
+  }
+  const NaiveMap map = map_of(points);
+  for (int storey = 0; storey < 3; ++storey) {
+    const Pose pose = sensor_at({0, 0, 5.2 * storey + 1.7}, {0.0, Eigen::Vector3d::UnitZ()});
+    const Pose T_body_world = body_frame(pose, map, on_the_ground()) * pose.inverse();
+    CAPTURE(storey);
+    for (const double x : {-8.0, 0.0, 8.0}) {
+      CHECK(std::abs((T_body_world * Eigen::Vector3d(x, 2, road(storey)(x, 2))).z()) < 0.02);
+    }
+  }
+}
+
+TEST_CASE("roofs beside the sensor are not its ground, though nothing is seen below some",
+          "[erasor]") {
+  // A sensor at 1.9 m. Of six columns around it two have the roof of a car at 1.4 m, and of these
+  // two one has the road below.
+  int column = 0;
+  std::vector<Eigen::Vector3d> points =
+      points_around({0, 0, 1.9}, [&](double, double) { return ++column % 6 == 0 ? 1.4 : 0.0; });
+  column = 0;
+  const auto more = points_around({0, 0, 1.9}, [&](double, double) {
+    const int place = ++column % 6;
+    return place == 0 || place == 1 ? 1.4 : 0.0;
+  });
+  points.insert(points.end(), more.begin(), more.end());
+  const Pose pose = sensor_at({0, 0, 1.9}, {0.0, Eigen::Vector3d::UnitZ()});
+  CHECK(body_frame(pose, map_of(points), on_the_ground()).translation().z() ==
+        Approx(1.9).margin(0.02));
+}
+
+TEST_CASE("the own car is told by a level distance where the body is on the ground", "[erasor]") {
+  Parameters parameters;
+  const Pose tilted = sensor_at({7, 8, 9}, {35 * kDegree, Eigen::Vector3d::UnitY()});
+  // Points by where they are from the sensor along the world's axes.
+  const auto seen = [&](const Eigen::Vector3d& ahead) {
+    return Eigen::Vector3d(tilted.linear().transpose() * ahead).cast<float>().eval();
+  };
+  const Eigen::Vector3f far = seen({3.2, 0, 0}), near = seen({2.6, 0, -1.5});
+  CHECK(is_own_car(far, tilted, parameters));         // 3.2 * cos 35 = 2.62.
+  CHECK_FALSE(is_own_car(near, tilted, parameters));  // 2.6 * cos 35 + 1.5 * sin 35 = 2.99.
+  parameters.body = Body::kGround;
+  CHECK_FALSE(is_own_car(far, tilted, parameters));
+  CHECK(is_own_car(near, tilted, parameters));
 }
 
 TEST_CASE("without ground below it the sensor is as high as it is said to be", "[erasor]") {

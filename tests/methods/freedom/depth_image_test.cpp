@@ -134,6 +134,53 @@ TEST_CASE("freedom: each pixel's middle lies in it") {
   }
 }
 
+TEST_CASE("freedom: a sensor of sparse directions has a column for each of them") {
+  for (const bool is_full : {true, false}) {
+    // Directions 3 degrees apart, and beams one: -180 to 177 degrees, or -45 to 45.
+    const int directions = is_full ? 120 : 31;
+    const double first = is_full ? -180.0 : -45.0;
+    SensorModel sensor = four_rows();
+    sensor.azimuth_step = 3.0 * kDegree;
+    if (!is_full) {
+      sensor.azimuth_min = -45.0 * kDegree;
+      sensor.azimuth_max = 45.0 * kDegree;
+    }
+    const DepthView view = view_for(sensor, Parameters{});
+    CAPTURE(is_full);
+    CHECK(view.is_full_turn == is_full);
+    CHECK(view.columns == directions);
+    CHECK(view.rows == 4);
+    // A wall of 20 m in the lower three rows, and above it in all but the first and last five
+    // directions. Each return is a little beside its direction, to either side in turn.
+    Scan scan;
+    for (int k = 0; k < directions; ++k) {
+      const bool is_low = k < 5 || k >= directions - 5;
+      for (int row = is_low ? 1 : 0; row < 4; ++row) {
+        const double beside = (k + row) % 2 == 0 ? 0.02 : -0.02;
+        scan.points.push_back(point_at(first + 3.0 * k + beside, 3.0 - row, 20.0));
+      }
+    }
+    const HoleImage image = depth_image(scan, view);
+    CHECK(std::count(image.is_hole.begin(), image.is_hole.end(), 1) == 10);
+    const std::vector<Eigen::Vector3d> ends = find_hole_ends(scan, view, Parameters{});
+    REQUIRE(ends.size() == 10);
+    for (int i = 0; i < 10; ++i) {
+      const double azimuth = first + 3.0 * (i < 5 ? i : directions - 10 + i);
+      const Eigen::Vector3d expected = point_at(azimuth, 3.0, 1.0).cast<double>();
+      CHECK(ends[static_cast<std::size_t>(i)].normalized().isApprox(expected, 1e-6));
+    }
+  }
+}
+
+TEST_CASE("freedom: directions nearer to each other than the beams share square pixels") {
+  SensorModel sensor = four_rows();
+  sensor.azimuth_step = 0.9 * kDegree;
+  const DepthView view = view_for(sensor, Parameters{});
+  CHECK(view.columns == 360);
+  CHECK(view.column_width == view.resolution);
+  CHECK(view.azimuth_min == sensor.azimuth_min);
+}
+
 TEST_CASE("freedom: the nearest return of a pixel counts, from the least range on") {
   const DepthView view = view_for(four_rows(), Parameters{});
   Scan scan;

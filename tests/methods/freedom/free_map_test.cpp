@@ -64,11 +64,14 @@ TEST_CASE("freedom: a voxel is free once it and its neighbours were passed often
 }
 
 TEST_CASE("freedom: one neighbour that was hit keeps a voxel from being free") {
-  for (const VoxelIndex& offset : neighbour_offsets(26)) {
+  for (int i = 0; i < 27; ++i) {
+    const VoxelIndex offset(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
+    if (offset == VoxelIndex::Zero()) continue;
     FreeMap map(counts(3));
-    passed(map, kMiddle - kOne, kMiddle + kOne);
-    passed(map, kMiddle - kOne, kMiddle + kOne);
-    hit(map, kMiddle + offset);
+    CAPTURE(i);
+    CHECK(passed(map, kMiddle - kOne, kMiddle + kOne).empty());
+    CHECK(passed(map, kMiddle - kOne, kMiddle + kOne).empty());
+    CHECK(hit(map, kMiddle + offset) == Level::kStatic);
     CHECK(passed(map, kMiddle - kOne, kMiddle + kOne).empty());
     CHECK(passed(map, kMiddle - kOne, kMiddle + kOne).empty());
     CHECK(passed(map, kMiddle - kOne, kMiddle + kOne).size() == 1);  // The third after the hit.

@@ -92,6 +92,11 @@ TEST_CASE("freedom: parameters that leave nothing to do are refused") {
   parameters.view_of_sensor = false;
   parameters.view_bottom = 2.0;
   CHECK_THROWS_AS(make_freedom(parameters), ConfigurationError);
+  parameters = {};
+  parameters.image_minimum = parameters.image_maximum = 30.0;
+  CHECK_THROWS_AS(make_freedom(parameters), ConfigurationError);
+  parameters.enhancement = false;  // There is no image.
+  CHECK_NOTHROW(make_freedom(parameters));
   const auto& specs = MethodRegistry::built_in().find("freedom").parameters;
   for (const auto& [name, text] : {std::pair{"counts_to_free", "0"},
                                    {"counts_to_revert", "256"},

@@ -122,6 +122,18 @@ TEST_CASE("hmm_mos answers the same on any number of threads", "[hmm_mos]") {
   }
 }
 
+TEST_CASE("a least range of hmm_mos that leaves nothing is refused", "[hmm_mos]") {
+  Parameters parameters;
+  parameters.min_range = 8.0;
+  for (const double most : {8.0, 5.0}) {
+    parameters.max_range = most;
+    CHECK_THROWS_WITH(make_hmm_mos(parameters),
+                      Catch::Contains("hmm_mos.min_range = 8") && Catch::Contains("max_range"));
+  }
+  parameters.max_range = 8.5;
+  CHECK_NOTHROW(make_hmm_mos(parameters));
+}
+
 TEST_CASE("parameters of hmm_mos that are out of range are refused by name", "[hmm_mos]") {
   const auto& specs = parameter_table().specs();
   for (const auto& [name, value] :

@@ -83,7 +83,7 @@ void Oracle::add(const Scan& scan) {
   }
   find_threshold();
   find_dynamic();
-  before_ = occupied;
+  before_ = ends_;
 }
 
 void Oracle::find_cells(const Scan& scan) {
@@ -102,12 +102,13 @@ void Oracle::find_cells(const Scan& scan) {
       if (is_near(cell)) observed.insert(cell);
     }
   }
+  ends_ = occupied;
   std::erase_if(occupied, [&](const Cell& cell) { return !is_near(cell); });
 }
 
 double Oracle::squared_distance(const Cell& cell) const {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Cells* cells : {&occupied, &before_}) {
+  for (const Cells* cells : {&ends_, &before_}) {
     for (const Cell& other : *cells) {
       double squared = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {

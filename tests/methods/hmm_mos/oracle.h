@@ -67,7 +67,8 @@ class Oracle {
 
   Parameters p_;
   int now_ = -1;
-  Cells before_;  ///< Occupied in the scan before.
+  Cells ends_;    ///< What is occupied, and what is so beyond the range.
+  Cells before_;  ///< The same of the scan before.
   std::deque<std::map<Cell, int>> history_;
 };
 

@@ -76,20 +76,20 @@ TEST_CASE("each step finds what the plain sets find", "[hmm_mos]") {
     Oracle oracle(parameters);
     BeliefMap map(parameters);
     MovingVoxels moving(parameters);
-    ScanGrid grid, before;
+    ScanVoxels voxels, before;
     const toy::HeldScans scans = wall_and_mover(7, 4, ++seed, 0.07);
     for (std::size_t i = 0; i < scans.size(); ++i) {
       INFO("setting " << seed - 4 << ", scan " << i);
       const Scan scan = scans.load(i);
       oracle.add(scan);
-      find_voxels(scan, parameters, {}, grid);
-      CHECK(cells_of(grid, &Column::hit) == oracle.occupied);
-      CHECK(cells_of(grid, &Column::free) == oracle.observed);
-      map.observe(grid, before, {});
+      find_voxels(scan, parameters, {}, voxels);
+      CHECK(cells_of(voxels.grid, &Column::hit) == oracle.occupied);
+      CHECK(cells_of(voxels.grid, &Column::free) == oracle.observed);
+      map.observe(voxels, before, {});
       map.forget(scan.T_world_sensor.translation());
       check_map(oracle, map);
-      moving.add(grid, map);
-      std::swap(grid, before);
+      moving.add(voxels.grid, map);
+      std::swap(voxels, before);
       const bool moves = oracle.has_threshold && oracle.threshold > parameters.least_threshold;
       Cells expected, found;
       if (moves) expected = oracle.dynamic;

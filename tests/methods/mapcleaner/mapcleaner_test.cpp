@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <catch2/catch.hpp>
 
+#include "methods/mapcleaner/sensor_settings.h"
 #include "tests/methods/mapcleaner/oracle.h"
 #include "tests/methods/mapcleaner/scenes.h"
 #include "tests/methods/moved_world.h"
@@ -24,7 +25,7 @@ Parameters here() {
 Parameters sound() {
   Parameters parameters;
   parameters.public_height = parameters.public_axes = false;
-  parameters.public_field_of_view = parameters.public_overwrite = false;
+  parameters.public_field_of_view = parameters.public_overwrite = parameters.public_steps = false;
   parameters.remove_below = false;
   parameters.start_radius = 12.4;
   return parameters;
@@ -168,6 +169,75 @@ TEST_CASE("mapcleaner: a sensor that is carried low and tilted needs no settings
   CHECK(removed_of_last(scans, box.size(), sound()) == static_cast<int>(box.size()));
 }
 
+TEST_CASE("mapcleaner: a sensor on a slope of 30 percent has a terrain") {
+  const WorldPoints hill = ground([](double, double y) { return 0.3 * y; });
+  WorldPoints wall, box;
+  add_face(11.0, 0.8, 4.5, wall);
+  add_face(6.0, 1.8, 2.9, box);
+  toy::HeldScans scans;
+  for (int i = 0; i < 3; ++i) {
+    WorldPoints points = hill;
+    points.insert(points.end(), wall.begin(), wall.end());
+    if (i == 0) points.insert(points.end(), box.begin(), box.end());
+    scans.add_world(kSensor, points);
+  }
+  const MaskStore masks = toy::masks_of(*make_mapcleaner(sound()), scans);
+  CHECK(removed_of_last(scans, box.size(), sound()) == static_cast<int>(box.size()));
+  CHECK(masks.removed_count() == box.size());
+  // As published all of it is too steep.
+  CHECK(removed_of_last(scans, box.size(), here()) == 0);
+}
+
+TEST_CASE("mapcleaner: pixels and bins follow the steps of a sensor that has fewer directions") {
+  Parameters parameters;
+  const auto settings = [&](const char* name) {
+    return for_sensor(parameters, sensor_model_named(name));
+  };
+  CHECK(settings("vlp16").row_height == 0.4);
+  CHECK(settings("vlp16").bin_points == 10);
+  parameters.public_steps = false;
+  CHECK(settings("hdl64e").row_height == 0.4);
+  CHECK(settings("hdl64e").column_width == 0.16);
+  CHECK(settings("hdl64e").bin_points == 10);
+  CHECK(settings("hdl64e").lowest_points == 20);
+  // 2 degrees by 26.9 / 63 are 4.684, and 0.2 by 0.1728 are 1.157: of the points 0.1845 are left.
+  const Parameters sparse = settings("vlp16");
+  CHECK(sparse.row_height == Approx(2.0 / 3.0));  // Three rows span a step.
+  CHECK(sparse.column_width == 0.16);             // Five columns span 0.8 degrees.
+  CHECK(sparse.bin_points == 3);                  // 1.8, but three points span a plane.
+  CHECK(sparse.lowest_points == 4);
+  parameters.bin_points = 2;  // Asked for.
+  CHECK(settings("vlp16").bin_points == 2);
+  parameters.bin_points = 10;
+  // More beams, and columns twice as far apart.
+  CHECK(settings("os1-128").row_height == 0.4);
+  CHECK(settings("os1-128").column_width == 0.16);
+  CHECK(settings("os1-128").bin_points == 5);
+  parameters.window_rows = parameters.window_columns = 0;
+  CHECK(settings("os1-128").column_width == Approx(0.3516));
+  CHECK(settings("vlp16").row_height == Approx(2.0));
+  CHECK(for_sensor(parameters, SensorModel{}).bin_points == 10);  // Unknown.
+}
+
+TEST_CASE("mapcleaner: values that would silently leave no terrain are refused") {
+  const MethodEntry entry = mapcleaner_entry();
+  for (const auto& [name, value] :
+       {std::pair{"terrain_variance", "0"}, {"terrain_slope", "0"}, {"upright", "1"}}) {
+    const ParameterSpec& spec = find_parameter("mapcleaner", entry.parameters, name);
+    CHECK_THROWS_WITH(checked_value_from_text("mapcleaner", spec, value), Catch::Contains(name));
+  }
+  // The least and the most that are legal work, and 90 degrees let all pass.
+  WorldPoints box;
+  add_face(6.0, 1.8, 2.9, box);
+  Parameters parameters = here();
+  parameters.terrain_variance = 1e-6;
+  parameters.terrain_slope = 0.1;
+  parameters.upright = 0.999;
+  CHECK(removed_of_last(passing(box), box.size(), parameters) == static_cast<int>(box.size()));
+  parameters.terrain_slope = 90.0;
+  CHECK(removed_of_last(passing(box), box.size(), parameters) == static_cast<int>(box.size()));
+}
+
 TEST_CASE("mapcleaner: a parameter out of its range is refused") {
   const MethodEntry entry = mapcleaner_entry();
   const ParameterSpec& spec = find_parameter("mapcleaner", entry.parameters, "voxel_size");
@@ -187,7 +257,8 @@ TEST_CASE("mapcleaner: the fast way gives what the description says") {
     if (variant > 1) {
       for (bool Parameters::*flag :
            {&Parameters::public_overwrite, &Parameters::public_field_of_view,
-            &Parameters::on_terrain_only, &Parameters::remove_below, &Parameters::remove_other}) {
+            &Parameters::on_terrain_only, &Parameters::remove_below, &Parameters::remove_other,
+            &Parameters::public_steps}) {
         parameters.*flag = random() % 2 == 0;
       }
       parameters.submap_radius = variant == 3 ? 6.0 : 70.0;
@@ -196,6 +267,8 @@ TEST_CASE("mapcleaner: the fast way gives what the description says") {
       parameters.refill_deviation = variant == 4 ? 0.05 : 0.5;
       parameters.tolerance = variant == 5 ? 0.2 : 0.5;
     }
+    sensor.elevation_step = variant > 2 ? 1.8 * kDegree : 0.0;
+    sensor.azimuth_step = variant > 3 ? 1.1 * kDegree : 0.0;
     INFO("variant " << variant);
     const toy::HeldScans scans = random_scans(20 + static_cast<unsigned>(variant), sensor);
     const Oracle oracle(parameters, scans);

@@ -33,6 +33,19 @@ Oracle::Voxel Oracle::voxel(const Eigen::Vector3d& world) const {
 
 Oracle::Oracle(const Parameters& parameters, const ScanSource& scans)
     : p_(parameters), sensor_(scans.sensor()) {
+  if (!p_.public_steps) {
+    // The HDL-64E: 26.9 degrees by 63 steps, and 0.1728 degrees.
+    const double up = std::max(1.0, sensor_.elevation_step * 180 / M_PI / (26.9 / 63));
+    const double around = std::max(1.0, sensor_.azimuth_step * 180 / M_PI / 0.1728);
+    // A window of 2 n + 1 pixels is no smaller than a step.
+    p_.row_height = std::max(
+        p_.row_height, sensor_.elevation_step * 180 / M_PI / (1 + p_.window_rows + p_.window_rows));
+    p_.column_width = std::max(p_.column_width, sensor_.azimuth_step * 180 / M_PI /
+                                                    (1 + p_.window_columns + p_.window_columns));
+    for (int* points : {&p_.bin_points, &p_.lowest_points}) {
+      if (*points > 3) *points = std::max(3, static_cast<int>(std::round(*points / up / around)));
+    }
+  }
   GroundOracle ground(p_);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     scans_.push_back(scans.load(i));
@@ -99,7 +112,7 @@ Oracle::Cells Oracle::filled(const Cells& cells, double radius, double deviation
         const double z = at(cells, x + step.first, y + step.second);
         const double z1 = at(smooth, x + step.first, y + step.second);
         if (std::isnan(z) || std::isnan(z1)) continue;
-        const double c = std::exp(-(z - z1) * (z - z1) / (2 * deviation * deviation));
+        const double c = std::exp(-std::min(60.0, std::pow((z - z1) / deviation, 2) / 2));
         sum += c * k * z;
         weights += c * k;
       }
@@ -109,47 +122,80 @@ Oracle::Cells Oracle::filled(const Cells& cells, double radius, double deviation
   return result;
 }
 
-bool Oracle::is_passable(const Cells& cells, int x, int y) const {
+std::pair<double, double> Oracle::gradient(const Cells& cells, int x, int y) const {
   const double here = at(cells, x, y);
   const auto slope = [&](double before, double after) {
     if (!std::isnan(before) && !std::isnan(after)) return (after - before) / 2 / p_.terrain_cell;
     if (!std::isnan(after)) return (after - here) / p_.terrain_cell;
     return std::isnan(before) ? 0 : (here - before) / p_.terrain_cell;
   };
-  const double u = slope(at(cells, x - 1, y), at(cells, x + 1, y));
-  const double v = slope(at(cells, x, y - 1), at(cells, x, y + 1));
-  const double angle = std::acos(1 / std::sqrt(1 + u * u + v * v));
-  return !std::isnan(here) && angle < p_.terrain_slope * M_PI / 180;
+  return {slope(at(cells, x - 1, y), at(cells, x + 1, y)),
+          slope(at(cells, x, y - 1), at(cells, x, y + 1))};
+}
+
+bool Oracle::is_passable(const Cells& cells, int x, int y,
+                         const std::pair<double, double>& lean) const {
+  if (std::isnan(at(cells, x, y))) return false;
+  const auto [along_x, along_y] = gradient(cells, x, y);
+  const double u = along_x - lean.first, v = along_y - lean.second;
+  return std::acos(1 / std::sqrt(1 + u * u + v * v)) < p_.terrain_slope * M_PI / 180;
+}
+
+std::pair<double, double> Oracle::lean(const Cells& cells, int x, int y, double radius) const {
+  std::vector<double> us, vs;
+  for (int i = 0; i < 2 * kHalf; ++i) {
+    for (int k = 0; k < 2 * kHalf; ++k) {
+      const int cx = i - kHalf, cy = k - kHalf;
+      if (std::hypot(cx - x, cy - y) > radius || std::isnan(at(cells, cx, cy))) continue;
+      us.push_back(gradient(cells, cx, cy).first);
+      vs.push_back(gradient(cells, cx, cy).second);
+    }
+  }
+  const auto middle = [](std::vector<double>& all) {
+    std::sort(all.begin(), all.end());
+    return all.empty() ? 0.0 : (all[(all.size() - 1) / 2] + all[all.size() / 2]) / 2;
+  };
+  return {middle(us), middle(vs)};
+}
+
+void Oracle::reach(const Cells& cells, int x, int y, const std::pair<double, double>& lean,
+                   Cells& kept) const {
+  std::vector<std::pair<int, int>> next = {{x, y}};
+  while (!next.empty()) {
+    const auto [cx, cy] = next.back();
+    next.pop_back();
+    if (!is_passable(cells, cx, cy, lean) || !std::isnan(at(kept, cx, cy))) continue;
+    put(kept, cx, cy) = at(cells, cx, cy);
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) next.emplace_back(cx + dx, cy + dy);
+    }
+  }
 }
 
 Oracle::Cells Oracle::reached(const Cells& cells) const {
   Cells kept(cells.size(), kNone);
-  std::vector<std::pair<int, int>> next;
   for (const Scan& scan : scans_) {
     if (scan.points.empty()) continue;
     const int x = cell(scan.T_world_sensor.translation().x());
     const int y = cell(scan.T_world_sensor.translation().y());
-    const double radius = std::isnan(at(cells, x, y)) ? p_.start_radius / p_.terrain_cell : 0;
-    std::map<int, std::vector<std::pair<int, int>>> by_distance;
-    for (int dy = -kHalf; dy <= kHalf; ++dy) {
-      for (int dx = -kHalf; dx <= kHalf; ++dx) {
-        const int square = dx * dx + dy * dy;
-        if (square > radius * radius || !is_passable(cells, x + dx, y + dy)) continue;
-        by_distance[square].emplace_back(x + dx, y + dy);
+    const double radius = p_.start_radius / p_.terrain_cell;
+    const auto nearest = [&](const std::pair<double, double>& lean) {
+      std::map<int, std::vector<std::pair<int, int>>> by_distance;
+      for (int dy = -kHalf; dy <= kHalf; ++dy) {
+        for (int dx = -kHalf; dx <= kHalf; ++dx) {
+          const int square = dx * dx + dy * dy;
+          if (square > radius * radius || !is_passable(cells, x + dx, y + dy, lean)) continue;
+          by_distance[square].emplace_back(x + dx, y + dy);
+        }
       }
+      return by_distance.empty() ? std::vector<std::pair<int, int>>() : by_distance.begin()->second;
+    };
+    std::pair<double, double> from(0.0, 0.0);
+    if (!is_passable(cells, x, y, from) && radius > 0) {
+      const auto [u, v] = lean(cells, x, y, radius);
+      if (std::atan(std::hypot(u, v)) >= p_.terrain_slope * M_PI / 180) from = {u, v};
     }
-    if (by_distance.empty()) continue;
-    const auto& nearest = by_distance.begin()->second;
-    next.insert(next.end(), nearest.begin(), nearest.end());
-  }
-  while (!next.empty()) {
-    const auto [x, y] = next.back();
-    next.pop_back();
-    if (!is_passable(cells, x, y) || !std::isnan(at(kept, x, y))) continue;
-    put(kept, x, y) = at(cells, x, y);
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) next.emplace_back(x + dx, y + dy);
-    }
+    for (const auto& [sx, sy] : nearest(from)) reach(cells, sx, sy, from, kept);
   }
   return kept;
 }
@@ -187,7 +233,7 @@ std::pair<int, int> Oracle::pixel(const Eigen::Vector3d& point) const {
   while (turned >= 2 * M_PI) turned -= 2 * M_PI;
   const int row = static_cast<int>(std::floor((elevation - low_) / row_height_));
   int column = static_cast<int>(std::floor(turned / column_width_));
-  if (is_circle_) column %= columns_;
+  if (is_circle_) column = std::min(column, columns_ - 1);
   const bool is_inside = row >= 0 && row < rows_ && column < columns_ && point.norm() > 0;
   return is_inside ? std::pair(row, column) : std::pair(-1, -1);
 }
@@ -221,8 +267,11 @@ void Oracle::vote() {
   left_ = -M_PI;
   if (!p_.public_field_of_view) {
     is_circle_ = sensor_.azimuth_max - sensor_.azimuth_min > 6.2;
-    low_ = sensor_.elevation_min - row_height_;
-    high = sensor_.elevation_max + row_height_;
+    // Where a window is as high as a step, beams lie in the middle of rows.
+    const double window = row_height_ * (1 + 2 * p_.window_rows);
+    const bool is_sparse = !p_.public_steps && std::abs(sensor_.elevation_step - window) < 1e-9;
+    low_ = sensor_.elevation_min - row_height_ - (is_sparse ? row_height_ / 2 : 0);
+    high = sensor_.elevation_max + row_height_ + (is_sparse ? row_height_ / 2 : 0);
     if (!is_circle_) left_ = sensor_.azimuth_min - column_width_;
     if (!is_circle_) right = sensor_.azimuth_max + column_width_;
   }

@@ -64,7 +64,15 @@ class Oracle {
   [[nodiscard]] Voxel voxel(const Eigen::Vector3d& world) const;
   void measure();
   [[nodiscard]] Cells filled(const Cells& cells, double radius, double deviation) const;
-  [[nodiscard]] bool is_passable(const Cells& cells, int x, int y) const;
+  [[nodiscard]] std::pair<double, double> gradient(const Cells& cells, int x, int y) const;
+  /// @param lean the gradient from which slopes count
+  [[nodiscard]] bool is_passable(const Cells& cells, int x, int y,
+                                 const std::pair<double, double>& lean) const;
+  /// The median gradient around a cell.
+  [[nodiscard]] std::pair<double, double> lean(const Cells& cells, int x, int y,
+                                               double radius) const;
+  void reach(const Cells& cells, int x, int y, const std::pair<double, double>& lean,
+             Cells& kept) const;
   [[nodiscard]] Cells reached(const Cells& cells) const;
   static Cells smoothed(const Cells& cells);
   /// 'g'round, 'b'elow, 'c'andidate, 'o'ther.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "methods/mapcleaner/terrain.h"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <map>
 
 #include "core/angle.h"
+#include "core/error.h"
 #include "methods/mapcleaner/height_fill.h"
 #include "tests/methods/mapcleaner/scenes.h"
 
@@ -82,6 +84,20 @@ TEST_CASE("mapcleaner: a cell that deviates from the smooth ground counts less w
   CHECK(robust >= 0.0);
 }
 
+TEST_CASE("mapcleaner: where all cells are far from smooth, they count alike") {
+  // Heights of 0 and 1 m in turn: each is half a metre from its smooth height, 500 deviations.
+  Cells cells;
+  for (int x = -4; x <= 4; ++x) {
+    for (int y = -4; y <= 4; ++y) cells[{x, y}] = (x + y) % 2 == 0 ? 0.0 : 1.0;
+  }
+  cells.erase({0, 0});
+  const HeightGrid grid = grid_of(cells);
+  const double plain = height_of(filled(grid, {3.0, 1e6, 3}, 1), 0, 0);
+  const double rough = height_of(filled(grid, {3.0, 0.001, 3}, 1), 0, 0);
+  CHECK(plain > 0.1);
+  CHECK(rough == Approx(plain).epsilon(1e-3));
+}
+
 TEST_CASE("mapcleaner: filling goes over the borders of tiles and not by threads") {
   Cells cells;
   for (int x = -70; x < 140; x += 2) {
@@ -121,6 +137,40 @@ TEST_CASE("mapcleaner: terrain goes on over slopes below the limit from below th
   CHECK(has_height(step, 3, 2));
   CHECK_FALSE(has_height(step, 4, 2));
   CHECK_FALSE(has_height(step, 8, 2));
+}
+
+TEST_CASE("mapcleaner: from a place that is too steep the way begins beside it") {
+  // Up to x = 3 it rises by 20 degrees, from there on it is level.
+  const double limit = 15.0 * kDegree;
+  const HeightGrid grid =
+      strip([](int x) { return 0.2 * (x < 4 ? x : 4) * std::tan(20 * kDegree); });
+  CHECK(reachable(grid, {{1, 2, 0}}, 0.2, limit, 0.0).block_count() == 0);
+  const HeightGrid found = reachable(grid, {{1, 2, 0}}, 0.2, limit, 8.5);
+  CHECK(has_height(found, 4, 0));
+  CHECK(has_height(found, 9, 4));
+  CHECK_FALSE(has_height(found, 3, 2));
+  CHECK_FALSE(has_height(found, 1, 2));
+}
+
+TEST_CASE("mapcleaner: on a hill slopes count from its own") {
+  // 30 percent are 16.7 degrees. From x = 7 on the hill is 65 percent steep, which
+  // is 19 degrees from the plane of the rest by its gradient.
+  const double limit = 15.0 * kDegree;
+  const auto hill = [](int x) { return 0.2 * (0.3 * x + (x > 7 ? 0.35 * (x - 7) : 0.0)); };
+  const HeightGrid grid = strip(hill);
+  CHECK(reachable(grid, {{2, 2, 0}}, 0.2, limit, 0.0).block_count() == 0);
+  const HeightGrid found = reachable(grid, {{2, 2, 0}}, 0.2, limit, 4.0);
+  for (int x = 0; x <= 7; ++x) CHECK(height_of(found, x, 2) == hill(x));
+  CHECK_FALSE(has_height(found, 8, 2));
+  CHECK_FALSE(has_height(found, 9, 2));
+}
+
+TEST_CASE("mapcleaner: a run that is cancelled finds no terrain") {
+  Terrain terrain{Parameters{}};
+  const std::atomic<bool> cancel = true;
+  RunContext context;
+  context.cancel = &cancel;
+  CHECK_THROWS_AS(terrain.finish(context), Cancelled);
 }
 
 TEST_CASE("mapcleaner: terrain is found over corners, but not over gaps") {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/angle.h"
+#include "methods/mapcleaner/sensor_settings.h"
 #include "tests/methods/mapcleaner/scenes.h"
 
 using namespace raymoval;
@@ -58,6 +59,17 @@ TEST_CASE("mapcleaner: images go all around, 15 degrees up and down") {
   CHECK(pixel_of(frame, {0, 0, 0}) == -1);
 }
 
+TEST_CASE("mapcleaner: what rounding puts behind the last column of a full turn is in it") {
+  ImageFrame frame{Parameters{}, SensorModel{}};
+  ImageFrame::Batch batch;
+  batch.row[0] = 3.5F;
+  batch.range[0] = 10.0F;
+  batch.column[0] = static_cast<float>(frame.columns);
+  CHECK(frame.pixel_of(batch, 0) == 3 * frame.columns + frame.columns - 1);
+  frame.is_circle = false;
+  CHECK(frame.pixel_of(batch, 0) == -1);
+}
+
 TEST_CASE("mapcleaner: images have the sensor's field of view if they are to") {
   Parameters parameters;
   parameters.public_field_of_view = false;
@@ -77,6 +89,21 @@ TEST_CASE("mapcleaner: images have the sensor's field of view if they are to") {
   CHECK(pixel_of(frame, at(149.0, -24.7, 5)) == -1);
   CHECK(pixel_of(frame, at(-149.0, -24.7, 5)) == -1);
   CHECK(pixel_of(frame, at(0, 0, 5)) == -1);
+}
+
+TEST_CASE("mapcleaner: where a window is a step high, beams are in the middle of rows") {
+  Parameters parameters;
+  parameters.public_field_of_view = parameters.public_steps = false;
+  const SensorModel sensor = sensor_model_named("vlp16");
+  const Parameters own = for_sensor(parameters, sensor);
+  const ImageFrame frame(own, sensor);
+  CHECK(frame.rows == 48);  // 45 from beam to beam, a half and a whole one on either side.
+  for (int beam = 0; beam < 16; ++beam) {
+    for (const double beside : {-0.3, 0.3}) {
+      const int pixel = pixel_of(frame, at(10.0, -15.0 + 2.0 * beam + beside, 10.0));
+      CHECK(pixel / frame.columns == 1 + 3 * beam);
+    }
+  }
 }
 
 TEST_CASE("mapcleaner: single angles are those of the library") {

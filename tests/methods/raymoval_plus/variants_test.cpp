@@ -66,6 +66,24 @@ TEST_CASE("raymoval_plus online-lag knows the scans up to its delay, and none af
   for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, all, fixed, 0, 13) < 0.005);
 }
 
+TEST_CASE("raymoval_plus online-lag measures heights above the ground that was seen meanwhile") {
+  // While the box stands, rays meet the ground 1.5 m before it and no nearer, so that its lowest
+  // row is the lowest thing there. Then the sensor comes nearer.
+  const toy::Box ground{{-20, -40, -2.5}, {120, 40, -1.5}}, box{{30.3, -1.5, -1.0}, {32, 1.5, 0.6}},
+      wall{{45, -40, -1.5}, {46, 40, 8}};
+  toy::World world(toy::Scanner{});
+  for (int i = 0; i < 12; ++i) {
+    std::vector<toy::Box> boxes{ground, wall};
+    if (i < 3) boxes.push_back(box);
+    world.scan(boxes, Pose(Eigen::Translation3d(0.15 * i, 0, 0)));
+  }
+  ConfiguredMethod method = variant("online-lag");
+  set_parameter(method.configuration, "delay", 0.6);  // Six scans.
+  const MaskStore masks = toy::masks_of(*method.make(), world);
+  CHECK(toy::removed_share(world, masks, 2, 0, 2) == 1.0);
+  for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, masks, fixed, 0, 11) == 0.0);
+}
+
 TEST_CASE("one pass removes nearly what four do") {
   const toy::World world = toy::street(16);
   const MaskStore masks = toy::masks_of(*variant("online-map").make(), world);
