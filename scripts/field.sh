@@ -15,6 +15,11 @@ case ${1:-} in
   -*) echo "field.sh: '$1' is unknown; expected nothing, or the folder of a drive." >&2; exit 2 ;;
 esac
 drive=${1:-}
+# Said now, and not when the scenes have run for an hour.
+if [[ -n $drive && ! -d $drive ]]; then
+  echo "field.sh: there is no folder '$drive'; expected that of a labelled drive, such as data/05." >&2
+  exit 2
+fi
 jobs=${JOBS:-$(nproc)}
 out=out/field
 
