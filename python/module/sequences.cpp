@@ -16,50 +16,57 @@
 namespace raymoval::python {
 namespace {
 
-/// The options of `raymoval.open` by name, as texts and numbers.
+std::string text_of(const py::handle& value) {
+  return py::str(value);
+}
+
+using SetOption = void (*)(SequenceOptions&, const py::handle&);
+
+/// A text option as it is.
+template <auto Member>
+void set_text(SequenceOptions& options, const py::handle& value) {
+  options.*Member = text_of(value);
+}
+
+/// The options of `raymoval.open` by name.
+const std::map<std::string, SetOption>& option_setters() {
+  using Options = SequenceOptions;
+  static const std::map<std::string, SetOption> setters = {
+      {"poses", set_text<&Options::poses>},
+      {"label_rule", set_text<&Options::label_rule>},
+      {"sensor", set_text<&Options::sensor>},
+      {"up", set_text<&Options::up>},
+      {"name", set_text<&Options::name>},
+      {"topic", set_text<&Options::topic>},
+      {"pose_topic", set_text<&Options::pose_topic>},
+      {"point_layout", set_text<&Options::point_layout>},
+      {"T_sensor", set_text<&Options::T_sensor>},
+      {"pose_format", set_text<&Options::pose_format>},
+      {"point_time_unit", set_text<&Options::point_time_unit>},
+      {"frames", [](Options& o, const py::handle& v) { o.frames = parse_frame_range(text_of(v)); }},
+      {"range",
+       [](Options& o, const py::handle& v) { o.range_m = parse_range("range", text_of(v)); }},
+      {"drop_ego",
+       [](Options& o, const py::handle& v) { o.drop_ego = parse_ego_region(text_of(v)); }},
+      {"points",
+       [](Options& o, const py::handle& v) { o.points = parse_point_frame("points", text_of(v)); }},
+      {"time_offset", [](Options& o, const py::handle& v) { o.time_offset_s = v.cast<double>(); }},
+      {"max_gap", [](Options& o, const py::handle& v) { o.max_gap_s = v.cast<double>(); }},
+      {"deskew", [](Options& o, const py::handle& v) { o.deskew = v.cast<bool>(); }}};
+  return setters;
+}
+
 SequenceOptions options_from(const py::dict& given) {
   SequenceOptions options;
   for (const auto& [key, value] : given) {
-    const std::string name = py::str(key);
-    const auto text = [&] { return std::string(py::str(value)); };
-    if (name == "frames")
-      options.frames = parse_frame_range(text());
-    else if (name == "poses")
-      options.poses = text();
-    else if (name == "label_rule")
-      options.label_rule = text();
-    else if (name == "range")
-      options.range_m = parse_range("range", text());
-    else if (name == "sensor")
-      options.sensor = text();
-    else if (name == "up")
-      options.up = text();
-    else if (name == "drop_ego")
-      options.drop_ego = parse_ego_region(text());
-    else if (name == "name")
-      options.name = text();
-    else if (name == "topic")
-      options.topic = text();
-    else if (name == "pose_topic")
-      options.pose_topic = text();
-    else if (name == "point_layout")
-      options.point_layout = text();
-    else if (name == "points")
-      options.points = parse_point_frame("points", text());
-    else if (name == "T_sensor")
-      options.T_sensor = text();
-    else if (name == "time_offset")
-      options.time_offset_s = value.cast<double>();
-    else if (name == "max_gap")
-      options.max_gap_s = value.cast<double>();
-    else if (name == "pose_format")
-      options.pose_format = text();
-    else if (name == "deskew")
-      options.deskew = value.cast<bool>();
-    else if (name == "point_time_unit")
-      options.point_time_unit = text();
-    else
-      throw UsageError("raymoval.open has no option '" + name + "'.");
+    const std::string name = text_of(key);
+    const auto found = option_setters().find(name);
+    if (found == option_setters().end()) {
+      std::vector<std::string> names;
+      for (const auto& [known, setter] : option_setters()) names.push_back(known);
+      throw UsageError("raymoval.open has no option '" + name + "'." + suggestion(name, names));
+    }
+    found->second(options, value);
   }
   return options;
 }

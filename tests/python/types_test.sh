@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The package's types: mypy finds nothing in it, nor in a caller that uses it rightly, and something
+# in one that does not; stubtest holds the stub against the compiled module.
+# Usage: types_test.sh PYTHON PACKAGE_FOLDER        77: there is no mypy
+set -uo pipefail
+python=$1
+export PYTHONPATH=$2 MYPYPATH=$2
+source "$(dirname "${BASH_SOURCE[0]}")/../cli/checks.sh"
+if ! "$python" -c 'import mypy' 2>/dev/null; then
+  echo "types_test.sh: mypy (Debian's package mypy) is missing; the stub is not checked."
+  exit 77
+fi
+mypy=("$python" -m mypy --strict --cache-dir "$work/cache")
+holds "mypy finds nothing in the package" "${mypy[@]}" -p raymoval
+cat >right.py <<'END'
+import numpy as np
+import raymoval
+
+class Near(raymoval.Remover):
+    distance = 3.0
+    def run(self, scans: raymoval.Scans, sink: raymoval.Sink) -> None:
+        for scan in scans:
+            sink.accept(scan.index, np.linalg.norm(scan.points, axis=1) < self.distance)
+
+masks = raymoval.clean([np.zeros((3, 3), np.float32)], np.zeros((1, 4, 4)), Near(), threads=2)
+count: int = masks.removed_count
+street = raymoval.open("street", frames="0:5")
+score = raymoval.score(street, masks)["erasor"]["F1"]
+assert score is None or score > 0.5
+image = raymoval.FirstHitCaster(raymoval.OccupancyMap(0.2)).cast(np.eye(4), raymoval.Bins())
+END
+holds "mypy finds nothing in a right caller" "${mypy[@]}" right.py
+cat >wrong.py <<'END'
+import raymoval
+raymoval.OccupancyMap("0.2")
+raymoval.open(5)
+raymoval.open("street")[0].point
+raymoval.describe("raymoval").parameters.defaults
+END
+"${mypy[@]}" wrong.py >wrong.txt 2>&1
+holds "mypy finds four mistakes in a wrong caller: $(cat wrong.txt)" \
+  test "$(grep -c 'wrong.py:.*error' wrong.txt)" -ge 4
+holds "the stub is that of the module" "$python" -m mypy.stubtest raymoval._raymoval
+finish types
