@@ -83,9 +83,10 @@ PointArray::PointArray(const py::handle& value, const std::string& where) {
   const py::array array = as_array(value, where, "an array of N x 3 points (float32 or float64)");
   if (array.ndim() != 2 || array.shape(1) < 3) {
     const bool is_transposed = array.ndim() == 2 && (array.shape(0) == 3 || array.shape(0) == 4);
-    throw UsageError(where + ": the points have the shape " + shape_text(array) +
-                     ", expected (N, 3) or (N, 4): x, y, z in metres, and reflectance." +
-                     (is_transposed ? " Transpose them: points.T." : ""));
+    throw UsageError(
+        where + ": the points have the shape " + shape_text(array) +
+        ", expected (N, 3): x, y and z in metres; with (N, 4) the last is the reflectance." +
+        (is_transposed ? " Transpose them: points.T." : ""));
   }
   const bool is_float = holds<float>(array);
   if (!is_float && !holds<double>(array)) {

@@ -206,11 +206,13 @@ def describe(name: str) -> Union[Method, Protocol]:
     """
     if name.startswith("protocol:"):
         told = _raymoval.describe_protocol(name.removeprefix("protocol:"))
-        return Protocol(**{**told, "options": [Parameter(**one) for one in told["options"]],
-                           "rates": [Rate(**one) for one in told["rates"]]})
+        told["options"] = [Parameter(**one) for one in told["options"]]
+        told["rates"] = [Rate(**one) for one in told["rates"]]
+        return Protocol(**told)
     told = _raymoval.describe_method(name)
-    return Method(**{**told, "variants": [Variant(**one) for one in told["variants"]],
-                     "parameters": [Parameter(**one) for one in told["parameters"]]})
+    told["variants"] = [Variant(**one) for one in told["variants"]]
+    told["parameters"] = [Parameter(**one) for one in told["parameters"]]
+    return Method(**told)
 
 
 def methods() -> list[str]:

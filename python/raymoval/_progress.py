@@ -55,7 +55,7 @@ def told(progress: Progress) -> Iterator[Optional[_OnProgress]]:
         yield None
     elif progress is True:
         try:
-            from tqdm.auto import tqdm
+            from tqdm.auto import tqdm  # type: ignore
         except ImportError:
             yield None
             return

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
+import weakref
 from collections.abc import Iterable, Mapping, Sequence as AnySequence
 from dataclasses import dataclass, field
 from typing import Any, Optional, Union
@@ -80,9 +82,17 @@ def score(sequence: Union[_raymoval.Sequence, Path],
                   scored["columns"])
 
 
+class _TemporaryFolder:
+    """A folder that goes with this object."""
+
+    def __init__(self) -> None:
+        self.name = tempfile.mkdtemp(prefix="raymoval-run-")
+        weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
+
+
 def _frame(rows: list[dict[str, Any]]) -> Any:
     try:
-        import pandas
+        import pandas  # type: ignore
     except ImportError:
         return rows
     return pandas.DataFrame(rows)
@@ -99,7 +109,7 @@ class Run:
     control_problems: list[str]  #: What is wrong with the controls; empty if all is well.
     warnings: list[str]
     #: A folder for temporary files, which goes with this object; None if the caller named one.
-    temporary: Any = field(repr=False, default=None)
+    temporary: Optional[_TemporaryFolder] = field(repr=False, default=None)
 
     @property
     def good(self) -> bool:
@@ -142,10 +152,11 @@ def run(sequences: Union[_raymoval.Sequence, Path, AnySequence[Union[_raymoval.S
     opened = [one if isinstance(one, _raymoval.Sequence) else open_sequence(one, progress=progress)
               for one in listed]
     chosen = methods if isinstance(methods, (list, tuple)) else [methods]
-    given = [one if isinstance(one, str) else entry(one) for one in chosen]
+    given: list[Union[str, dict[str, Any]]] = [
+        one if isinstance(one, str) else entry(one) for one in chosen]
     names = [protocols] if isinstance(protocols, str) else list(protocols)
-    temporary = tempfile.TemporaryDirectory(prefix="raymoval-run-") if out is None else None
-    folder = temporary.name if temporary is not None else os.fspath(out)  # type: ignore[arg-type]
+    temporary = _TemporaryFolder() if out is None else None
+    folder = os.fspath(out) if out is not None else temporary.name  # type: ignore[union-attr]
     with told(progress) as on_progress:
         summary = _raymoval.run(opened, given, names, _option_texts(settings), folder, controls,
                                 keep_removals, overwrite, threads, repeats, on_progress)
