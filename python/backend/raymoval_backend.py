@@ -52,6 +52,14 @@ def get_requires_for_build_wheel(config_settings=None):
     return []
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    project, version = _project()
+    folder = Path(metadata_directory) / f"raymoval-{version}.dist-info"
+    folder.mkdir()
+    (folder / "METADATA").write_text(_metadata(project, version))
+    return folder.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     project, version = _project()
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"

@@ -146,14 +146,28 @@ class Runs(unittest.TestCase):
         self.assertFalse(os.path.exists(folder))
 
     def test_compare_says_what_is_worse(self):
-        self.run_into("a", [KeepAll])
-        better = self.run_into("b", ["raymoval:online"])
-        told = raymoval.compare(better, f"{self.folder}/a")
-        self.assertEqual(told.exit_code, 1)
-        self.assertTrue(any("keep_all" in line for line in told.worse), told.worse)
-        raised(self, raymoval.UsageError, "no such run folder", raymoval.compare, better, "nowhere")
-        raised(self, raymoval.UsageError, "'parameters' or 'version'", raymoval.compare, better,
-               better, across=["data"])
+        class Answer(KeepAll):
+            version = "1"
+
+        before = self.run_into("before", [Answer])
+        self.assertEqual(raymoval.compare(before, before).verdict, "no regression")
+
+        class Answer(raymoval.Remover):
+            version = "2"
+
+            def run(self, scans, sink):
+                for scan in scans:
+                    sink.accept(scan.index, np.ones(len(scan), bool))
+
+        after = self.run_into("after", [Answer])
+        told = raymoval.compare(after, before)
+        self.assertEqual((told.verdict, told.exit_code, told.same_cells), ("worse", 1, 3))
+        self.assertTrue(any("answer" in line for line in told.worse), told.worse)
+        missing = raymoval.compare(self.run_into("other", ["raymoval:online"]), before)
+        self.assertEqual(missing.exit_code, 2)
+        raised(self, raymoval.UsageError, "no such run folder", raymoval.compare, after, "nowhere")
+        raised(self, raymoval.UsageError, "'parameters' or 'version'", raymoval.compare, after,
+               after, across=["data"])
 
     def test_load_run(self):
         self.run_into("run", ["noop"])
