@@ -142,7 +142,7 @@ def run(sequences: Union[_raymoval.Sequence, Path, AnySequence[Union[_raymoval.S
     methods: names, `Remover` objects of yours, or their classes.
     out: folder for the results. Cells that are there already are kept. Without it they are gone
         with the object that is returned.
-    settings: parameters by method, {"erasor.scan_ratio": 0.3}, and options of protocols,
+    settings: parameters by method, {"erasor.scan_ratio_threshold": 0.3}, and options of protocols,
         {"protocol:dynamicmap.distance": 0.1}.
     controls: whether noop, remove-all and oracle are added and checked.
     keep_removals: whether what was removed is kept, so that `show` has a 3-D view.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Methods in Python: what they are given, what is asked of them, and what their mistakes are told."""
+import inspect
 import threading
 import traceback
 import unittest
@@ -207,6 +208,11 @@ class Descriptions(unittest.TestCase):
             self.assertEqual(raymoval.describe(name).name, name)
         for name in raymoval.protocols():
             self.assertEqual(raymoval.describe("protocol:" + name).name, name)
+
+    def test_every_parameter_can_be_given_to_clean(self):
+        own = set(inspect.signature(raymoval.clean).parameters) - {"parameters"}
+        for name in raymoval.methods():
+            self.assertEqual(own & {one.name for one in raymoval.describe(name).parameters}, set())
 
     def test_a_protocol(self):
         erasor = raymoval.describe("protocol:erasor")
