@@ -228,7 +228,7 @@ void bind_first_hits(py::module_& module) {
           py::arg("row"), py::arg("column"), "Unit vector of a bin's centre in the sensor frame.");
   py::class_<HeldCaster>(module, "FirstHitCaster",
                          "Casts rays into a map: the image of what a sensor would see first.")
-      .def(py::init<std::shared_ptr<HeldMap>, double, double, int>(), py::arg("map"),
+      .def(py::init<std::shared_ptr<HeldMap>, double, double, int>(), py::arg("map").none(false),
            py::arg("minimum_range") = 0.0, py::arg("maximum_range") = 60.0, py::arg("threads") = 0)
       .def("cast", &HeldCaster::cast, py::arg("pose"), py::arg("bins"),
            "The range at which the ray of each bin first enters an occupied voxel, metres: a row "

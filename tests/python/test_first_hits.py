@@ -52,6 +52,7 @@ class Maps(unittest.TestCase):
         raised(self, raymoval.DataError, "", own.insert, np.array([[1e9, 0.0, 0.0]]))
         raised(self, raymoval.UsageError, "voxel_size", raymoval.OccupancyMap, 0.0)
         raised(self, raymoval.UsageError, "bins", raymoval.Bins, 2, 10)
+        self.assertRaises(TypeError, raymoval.FirstHitCaster, None)
         raised(self, raymoval.UsageError, "ranges", raymoval.FirstHitCaster, own, 5.0, 3.0)
         raised(self, raymoval.UsageError, "(3, 4)", raymoval.FirstHitCaster(own).cast,
                np.zeros((3, 4)), BINS)
