@@ -52,6 +52,7 @@ void Progress::begin(const std::string& task, std::size_t total) {
   task_ = task;
   total_ = total;
   done_ = 0;
+  ++tasks_;
   started_ = printed_ = Clock::now();
   if (style_ == ProgressStyle::kTerminal) print_terminal(started_);
 }
@@ -70,6 +71,11 @@ void Progress::end() {
   const std::lock_guard lock(mutex_);
   if (style_ == ProgressStyle::kTerminal) std::fputs("\r\x1b[K", stream_);
   total_ = 0;
+}
+
+ProgressState Progress::state() {
+  const std::lock_guard lock(mutex_);
+  return {context_, task_, done_, total_, tasks_};
 }
 
 void Progress::say(const std::string& line) {

@@ -19,6 +19,17 @@ enum class ProgressStyle {
 /// `kTerminal` if standard error is a terminal, else `kLog`.
 ProgressStyle progress_style_of_stderr();
 
+/// How far a task is.
+struct ProgressState {
+  std::string context;    ///< What it is part of; may be empty.
+  std::string task;       ///< Empty before the first task.
+  std::size_t done = 0;   ///< Steps.
+  std::size_t total = 0;  ///< Steps; 0 when the task has ended.
+  std::size_t tasks = 0;  ///< Tasks begun so far: it tells a task from the next one of its name.
+
+  bool operator==(const ProgressState&) const = default;
+};
+
 /// Tells how far a long task is. Thread-safe.
 class Progress {
  public:
@@ -35,6 +46,8 @@ class Progress {
   void advance(std::size_t steps = 1);
   /// Ends the task; on a terminal its line is cleared.
   void end();
+  /// How far the task is, for those who show it themselves.
+  [[nodiscard]] ProgressState state();
   /// Prints a line of its own, not mixed with a progress line.
   void say(const std::string& line);
 
@@ -52,6 +65,7 @@ class Progress {
   std::string task_;
   std::size_t total_ = 0;
   std::size_t done_ = 0;
+  std::size_t tasks_ = 0;
   Clock::time_point started_, printed_;
 };
 

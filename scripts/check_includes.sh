@@ -10,7 +10,7 @@
 # folder below NAME/ belongs to NAME if NAME has a line of its own, which then orders it. Names that
 # `|` joins lie side by side: none includes from another. What is not in the table is an error. A
 # room may have several lines; one that begins with `|` goes on with the last names side by side.
-rooms="core datasets|methods|eval benchmark"
+rooms="core datasets|methods|eval benchmark python"
 folders="
 core                   . files process scan simd
 datasets               records clouds|fields|geometry trajectories bags ego|world_axes|deskew
@@ -36,6 +36,7 @@ benchmark/clean        rows outputs .
 benchmark/result       . removals|checks|speed
 benchmark/run          folder .
 benchmark/tables       text comparison .
+python                 module
 "
 
 set -euo pipefail
@@ -46,8 +47,8 @@ case ${1:-} in
   *) echo "check_includes.sh: '$1' is unknown; expected nothing." >&2; exit 2 ;;
 esac
 
-grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](core|datasets|methods|eval|benchmark)/' \
-  core datasets methods eval benchmark --include='*.h' --include='*.cpp' |
+grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](core|datasets|methods|eval|benchmark|python)/' \
+  core datasets methods eval benchmark python --include='*.h' --include='*.cpp' |
   awk -v rooms="$rooms" -v folders="$folders" '
     # Numbers the places of a line from below to above; those side by side have the same number.
     function add_places(room, first, count, words,    i, k, names, n) {

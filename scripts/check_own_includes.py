@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ("core", "datasets", "methods", "eval", "benchmark", "tests")
+ROOMS = ("core", "datasets", "methods", "eval", "benchmark", "python", "tests")
 APART = ("tests", "benchmark/kernels")
 
 # What the precompiled headers do not bring anyway, see cmake/rooms.cmake and tests/CMakeLists.txt.
@@ -97,7 +97,7 @@ SYSTEM_HEADER_OF = {name: header for header, names in SYSTEM.items() for name in
 # How the headers of the libraries begin, by their namespaces.
 LIBRARIES = {"fmt": "fmt/", "nlohmann": "nlohmann/", "tsl": "tsl/", "tbb": ("tbb/", "oneapi/"),
              "CLI": "CLI/", "hwy": "hwy/", "nanoflann": "nanoflann", "octomap": "octomap/",
-             "pcl": "pcl/", "rc": "rapidcheck"}
+             "pcl": "pcl/", "rc": "rapidcheck", "py": "pybind11/"}
 
 BLANK = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|'
                    r"(?<![0-9a-fA-F])'(?:\\.|[^'\\\n])+'", re.S)

@@ -4,7 +4,8 @@
 # second run changes nothing.
 #
 #   scripts/install_dependencies.sh            what building and running needs
-#   scripts/install_dependencies.sh --tests    also what the tests and the Snakemake workflow need
+#   scripts/install_dependencies.sh --python   also what the Python package is built with
+#   scripts/install_dependencies.sh --tests    also that, and what the tests and the Snakemake workflow need
 #                                              (200 MB to fetch, 1.3 GB installed: Debian's snakemake
 #                                              depends on the clients of all clouds, tables are compiled
 #                                              with LaTeX, and reports are opened in Chromium)
@@ -16,12 +17,15 @@ packages=(
   libembree-dev libfmt-dev librapidcheck-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
   liblz4-dev libzstd-dev libsqlite3-dev libcairo2-dev librsvg2-dev fonts-dejavu-core esbuild
 )
+python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 case ${1:-} in
   "") ;;
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
-  --tests) packages+=(snakemake python3-jsonschema python3-numpy texlive-latex-base
+  --python) packages+=("${python[@]}") ;;
+  --tests) packages+=("${python[@]}" mypy snakemake python3-jsonschema texlive-latex-base
     texlive-latex-recommended chromium doxygen) ;;
-  *) echo "install_dependencies.sh: '$1' is unknown; expected nothing or --tests." >&2; exit 2 ;;
+  *) echo "install_dependencies.sh: '$1' is unknown; expected nothing, --python or --tests." >&2
+     exit 2 ;;
 esac
 # npm fetches three.js. One that did not come from Debian will do, and would be in Debian's way.
 command -v npm >/dev/null || packages+=(npm)

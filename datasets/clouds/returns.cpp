@@ -27,8 +27,7 @@ PointKind kind_of(const Eigen::Vector3f& stored, float nearest) {
   return stored.squaredNorm() < nearest * nearest ? PointKind::kNoReturn : PointKind::kReturn;
 }
 
-void check_kinds(const ReturnCounts& counts, const std::string& where) {
-  const std::string remedy = " Copy it again, or leave it out with --frames.";
+void check_kinds(const ReturnCounts& counts, const std::string& where, const std::string& remedy) {
   if (counts.stored == 0) {
     throw DataError(where + ": holds no point; a scan has at least one." + remedy);
   }
@@ -86,7 +85,8 @@ void bring_to_sensor(const Pose& T_sensor_world, const Eigen::Vector3d& origin,
 }  // namespace
 
 ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where,
-                          const std::function<Cloud(const Eigen::Vector3d&)>& read) {
+                          const std::function<Cloud(const Eigen::Vector3d&)>& read,
+                          const std::string& remedy) {
   const bool in_world = frame == PointFrame::kWorld;
   // Points of a far world are read from the sensor's position on, before they become float32.
   Pose T_world_sensor = scan.T_world_sensor;
@@ -98,7 +98,7 @@ ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where
   Cloud cloud = read(origin);
   if (in_world) bring_to_sensor(T_world_sensor.inverse(), origin, cloud.points);
   const ReturnCounts counts = keep_returns(std::move(cloud), kAtSensor, scan);
-  check_kinds(counts, where);
+  check_kinds(counts, where, remedy);
   return counts;
 }
 

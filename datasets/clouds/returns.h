@@ -17,6 +17,9 @@ struct ReturnCounts {
   [[nodiscard]] std::size_t returns() const { return stored - no_returns - infinite; }
 };
 
+/// What to do about a damaged file.
+inline constexpr const char* kRereadRemedy = " Copy it again, or leave it out with --frames.";
+
 /// Fills the points, reflectances and stored indices of `scan` with the returns among the points
 /// that `read` gives, in the sensor frame. Points that stand for a missing return (a NaN
 /// coordinate, or within 5 cm of the sensor; in the world frame also at its origin) and infinite
@@ -24,10 +27,12 @@ struct ReturnCounts {
 /// @param scan with `T_world_sensor`
 /// @param frame of the stored points
 /// @param where begins the message, such as the file's path
+/// @param remedy ends the message
 /// @param read gives the stored points less an origin in metres, see `read_cloud`
 /// @throws DataError for no point, no return, and more than 1 % infinite points (evaluation
 ///   protocol, edge cases); what `read` throws
 ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where,
-                          const std::function<Cloud(const Eigen::Vector3d&)>& read);
+                          const std::function<Cloud(const Eigen::Vector3d&)>& read,
+                          const std::string& remedy = kRereadRemedy);
 
 }  // namespace raymoval

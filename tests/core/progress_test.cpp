@@ -77,6 +77,19 @@ TEST_CASE("A line says what its task is part of") {
   CHECK(shown == "\r\x1b[K[2/3] x on town: map: 0 of 10\r\x1b[Kwriting: 0 of 5");
 }
 
+TEST_CASE("Progress says how far it is to those who ask, and which task it is") {
+  Progress progress;
+  CHECK(progress.state() == ProgressState{});
+  progress.set_context("[2/3] x on town");
+  progress.begin("map", 10);
+  progress.advance(4);
+  CHECK(progress.state() == ProgressState{"[2/3] x on town", "map", 4, 10, 1});
+  progress.begin("map", 10);  // The same name is another task.
+  CHECK(progress.state() == ProgressState{"[2/3] x on town", "map", 0, 10, 2});
+  progress.end();
+  CHECK(progress.state().total == 0);
+}
+
 TEST_CASE("A file is no terminal") {
   ProgressStyle style = ProgressStyle::kTerminal;
   told_by([&] { style = progress_style_of_stderr(); });

@@ -22,7 +22,7 @@ if ! command -v dpkg-deb >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; t
   exit 1
 fi
 holds "cpack makes a package" cpack --config "$build/CPackConfig.cmake" -B "$work/packages"
-package=$(find packages -maxdepth 1 -name '*.deb' 2>/dev/null)
+package=$(find packages -maxdepth 1 -name 'raymoval_*.deb' 2>/dev/null)
 [[ -f $package ]] || { echo "package_test.sh: expected one package, found: $package"; exit 1; }
 
 field() { dpkg-deb --field "$package" "$1"; }
@@ -104,6 +104,34 @@ holds "it runs" "${clean[@]}" "$raymoval" run --sequence street --frames 0:5 --q
 holds "it scores" grep -q '^street,raymoval,online,erasor,ok,' run/results.csv
 holds "it has the published tables" "${clean[@]}" "$raymoval" table run --with-published
 holds "it cleans a map" "${clean[@]}" "$raymoval" clean street --frames 0:5 --quiet -o map.pcd
+
+# The Python package, if the build has it.
+python_package=$(find packages -maxdepth 1 -name 'python3-raymoval_*.deb')
+has_python=$(grep -c '^RAYMOVAL_PYTHON:BOOL=ON' "$build/CMakeCache.txt")
+holds "there is a Python package exactly if the build has one: $python_package" \
+  test "$has_python" -eq "$(grep -c . <<<"$python_package")"
+if [[ -f $python_package ]]; then
+  program_package=$package
+  package=$python_package
+  holds "the Python package's name" test "$(field Package)" = python3-raymoval
+  holds "the Python package's version" test "$(field Version)" = "$version"
+  for needed in python3 python3-numpy libc6 libtbb12 libembree3-3; do
+    holds "the Python package depends on $needed" grep -qxF "$needed" <(names_in Depends)
+  done
+  mkdir python_root
+  holds "the Python package unpacks" dpkg-deb --extract "$package" python_root
+  found=$(cd python_root && find . -type f | grep -v '^./usr/lib/python3/dist-packages/raymoval/')
+  holds "it holds nothing else: $found" test -z "$found"
+  found=$(cd root && find . -path '*python3*')
+  holds "the other package holds nothing of it: $found" test -z "$found"
+  found=$(grep -rlF -e "$source/" -e "$build" python_root)
+  holds "no file of it tells where it was built: $found" test -z "$found"
+  holds "it is imported" "${clean[@]}" \
+    PYTHONPATH="$work/python_root/usr/lib/python3/dist-packages" /usr/bin/python3 -B -c \
+    'import raymoval; assert len(raymoval.open("street", frames="0:3", progress=False)) == 4'
+  echo "Python package: $(du -h "$package" | cut -f1), depends on $(field Depends)"
+  package=$program_package
+fi
 
 echo "package: $(du -h "$package" | cut -f1), depends on $(field Depends)"
 [[ $failures -eq 0 ]]

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include "benchmark/report/map_page.h"
+#include "benchmark/report/map_scene.h"
+#include "benchmark/report/page.h"
+#include "benchmark/report/page_parts.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "python/module/bindings.h"
+#include "python/module/interruptible.h"
+#include "python/module/masks.h"
+
+namespace raymoval::python {
+namespace {
+
+/// The page of `raymoval report`. @return its HTML and what is missing from it
+std::pair<std::string, std::vector<std::string>> run_page(const std::string& folder,
+                                                          std::size_t points,
+                                                          const py::object& on_progress) {
+  Page page;
+  run_interruptibly(on_progress, [&](const WorkContext& work) {
+    const KeptRun run(folder, "");
+    PageRequest request;
+    request.run = &run;
+    request.content = {&run.record(), &run.results(), {}};
+    request.methods = &MethodRegistry::built_in();
+    request.with_points = has_page_view();
+    request.points = points;
+    request.threads = hardware_threads();
+    request.progress = work.progress;
+    request.cancel = work.cancel;
+    page = make_page(request);
+    work.progress->end();
+  });
+  return {page.html, page.warnings};
+}
+
+/// What was kept and removed of a sequence, without labels.
+Scene scene_of(const HeldSequence& held, const MaskStore& masks, std::size_t points,
+               const WorkContext& work) {
+  const Sequence& sequence = *held.sequence;
+  MapSceneBuilder builder(sequence.name, "removed", sequence.upright_frame(), points);
+  work.progress->begin("points for the page", sequence.scans->size());
+  for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
+    if (work.cancel->load()) throw Cancelled();
+    const Scan scan = sequence.scans->load(i);
+    const Mask mask = masks.get(i);
+    builder.add_scan(scan.name, scan.T_world_sensor.translation());
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      builder.add_point(scan.T_world_sensor * scan.points[k].cast<double>(), mask[k] != 0);
+    }
+    work.progress->advance();
+  }
+  work.progress->end();
+  return builder.finish();
+}
+
+/// The page of `raymoval clean --html`.
+std::string masks_page(const HeldSequence& held, const py::object& given, std::size_t points,
+                       const py::object& on_progress) {
+  if (!has_page_view()) {
+    throw UsageError("this raymoval was built without the 3-D view (it needs npm).");
+  }
+  const MaskStore masks = masks_from(given, held);
+  std::string html;
+  run_interruptibly(on_progress, [&](const WorkContext& work) {
+    const Scene scene = scene_of(held, masks, points, work);
+    html = map_page(scene, held.sequence->name + ", cleaned",
+                    {counted_text(masks.removed_count(), "point") + " of " +
+                     counted_text(scene.scans.size(), "scan") + " removed."});
+  });
+  return html;
+}
+
+}  // namespace
+
+void bind_pages(py::module_& module) {
+  module.def("run_page", &run_page, py::arg("folder"), py::arg("points"), py::arg("on_progress"));
+  module.def("masks_page", &masks_page, py::arg("sequence"), py::arg("masks"), py::arg("points"),
+             py::arg("on_progress"));
+  module.def("has_page_view", &has_page_view);
+}
+
+}  // namespace raymoval::python

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "python/module/sequences.h"
+
+#include <pybind11/stl.h>
+
+#include "benchmark/suite/amounts.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "datasets/open_sequence.h"
+#include "datasets/settings.h"
+#include "datasets/world_axes/gravity.h"
+#include "python/module/bindings.h"
+#include "python/module/interruptible.h"
+
+namespace raymoval::python {
+namespace {
+
+std::string text_of(const py::handle& value) {
+  return py::str(value);
+}
+
+using SetOption = void (*)(SequenceOptions&, const py::handle&);
+
+/// A text option as it is.
+template <auto Member>
+void set_text(SequenceOptions& options, const py::handle& value) {
+  options.*Member = text_of(value);
+}
+
+/// The options of `raymoval.open` by name.
+const std::map<std::string, SetOption>& option_setters() {
+  using Options = SequenceOptions;
+  static const std::map<std::string, SetOption> setters = {
+      {"poses", set_text<&Options::poses>},
+      {"label_rule", set_text<&Options::label_rule>},
+      {"sensor", set_text<&Options::sensor>},
+      {"up", set_text<&Options::up>},
+      {"name", set_text<&Options::name>},
+      {"topic", set_text<&Options::topic>},
+      {"pose_topic", set_text<&Options::pose_topic>},
+      {"point_layout", set_text<&Options::point_layout>},
+      {"T_sensor", set_text<&Options::T_sensor>},
+      {"pose_format", set_text<&Options::pose_format>},
+      {"point_time_unit", set_text<&Options::point_time_unit>},
+      {"frames", [](Options& o, const py::handle& v) { o.frames = parse_frame_range(text_of(v)); }},
+      {"range",
+       [](Options& o, const py::handle& v) { o.range_m = parse_range("range", text_of(v)); }},
+      {"drop_ego",
+       [](Options& o, const py::handle& v) { o.drop_ego = parse_ego_region(text_of(v)); }},
+      {"points",
+       [](Options& o, const py::handle& v) { o.points = parse_point_frame("points", text_of(v)); }},
+      {"time_offset", [](Options& o, const py::handle& v) { o.time_offset_s = v.cast<double>(); }},
+      {"max_gap", [](Options& o, const py::handle& v) { o.max_gap_s = v.cast<double>(); }},
+      {"deskew", [](Options& o, const py::handle& v) { o.deskew = v.cast<bool>(); }}};
+  return setters;
+}
+
+SequenceOptions options_from(const py::dict& given) {
+  SequenceOptions options;
+  for (const auto& [key, value] : given) {
+    const std::string name = text_of(key);
+    const auto found = option_setters().find(name);
+    if (found == option_setters().end()) {
+      std::vector<std::string> names;
+      for (const auto& [known, setter] : option_setters()) names.push_back(known);
+      throw UsageError("raymoval.open has no option '" + name + "'." + suggestion(name, names));
+    }
+    found->second(options, value);
+  }
+  return options;
+}
+
+HeldSequence held(std::shared_ptr<const Sequence> sequence) {
+  auto truth = std::make_shared<Truth>(Truth{sequence->labels, sequence->label_rule});
+  return {std::move(sequence), std::move(truth)};
+}
+
+HeldSequence open(const std::string& path, const py::dict& given, int threads,
+                  const py::object& on_progress) {
+  const SequenceRequest place{path, options_from(given)};
+  std::shared_ptr<const Sequence> opened;
+  run_interruptibly(on_progress, [&](const WorkContext& work) {
+    check_not_both(path);
+    opened = std::make_shared<const Sequence>(
+        open_sequence(path, place.options,
+                      {threads > 0 ? threads : hardware_threads(), work.progress, work.cancel}));
+  });
+  HeldSequence sequence = held(std::move(opened));
+  sequence.place = absolute_place(place);
+  return sequence;
+}
+
+/// Label words of arrays: a vector for each scan, a word for each row.
+class ArrayLabels : public LabelSource {
+ public:
+  explicit ArrayLabels(std::vector<std::vector<std::uint32_t>> words) : words_(std::move(words)) {}
+  [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override {
+    const std::vector<std::uint32_t>& words = words_[scan.index];
+    if (words.size() != scan.stored_point_count) {
+      throw DataError("labels of scan " + std::to_string(scan.index) + ": there are " +
+                      grouped_text(words.size()) + ", expected one for each of its " +
+                      grouped_text(scan.stored_point_count) + " points.");
+    }
+    return of_kept_points(scan, words);
+  }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> words_;
+};
+
+std::shared_ptr<const LabelSource> labels_from(const py::object& labels, std::size_t scans) {
+  if (labels.is_none()) return nullptr;
+  std::vector<std::vector<std::uint32_t>> words;
+  for (const py::handle one : labels) {
+    const auto array = py::array::ensure(one);
+    const char kind = array ? array.dtype().kind() : 'O';
+    if ((kind != 'u' && kind != 'i' && kind != 'b') || array.ndim() != 1) {
+      throw UsageError("labels of scan " + std::to_string(words.size()) +
+                       ": expected a vector of whole numbers, a label word for each point.");
+    }
+    const py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast> plain(array);
+    words.emplace_back(plain.data(), plain.data() + plain.size());
+  }
+  if (words.size() != scans) {
+    throw UsageError("labels: are those of " + counted_text(words.size(), "scan") + ", expected " +
+                     std::to_string(scans) + ".");
+  }
+  return std::make_shared<ArrayLabels>(std::move(words));
+}
+
+std::vector<double> times_from(const py::object& given, std::size_t scans) {
+  std::vector<double> times;
+  if (!given.is_none()) {
+    times = given.cast<std::vector<double>>();
+    if (times.size() == scans) return times;
+    throw UsageError("times: there are " + std::to_string(times.size()) +
+                     ", expected one for each of the " + counted_text(scans, "pose") +
+                     ", in seconds.");
+  }
+  for (std::size_t i = 0; i < scans; ++i) {
+    times.push_back(static_cast<double>(i) * kUsualScanPeriod);
+  }
+  return times;
+}
+
+std::optional<Eigen::Vector3d> up_from(const py::object& given) {
+  if (given.is_none()) return std::nullopt;
+  const std::string text = py::str(given);
+  const auto up = parse_up(text);
+  if (!up) throw UsageError("up: '" + text + "' is no direction; " + kUpForm + ".");
+  return up;
+}
+
+HeldSequence from_arrays(const py::object& scans, const py::object& poses, const py::object& times,
+                         const py::object& sensor, const py::object& up, const py::object& labels,
+                         const std::string& name) {
+  if (poses.is_none()) {
+    throw UsageError("poses are missing, expected n x 4 x 4 numbers: T_world_sensor of each scan.");
+  }
+  ArraySource::Facts facts;
+  facts.poses = poses_from(poses);
+  facts.times = times_from(times, facts.poses.size());
+  if (py::isinstance<SensorModel>(sensor)) {
+    facts.sensor = sensor.cast<SensorModel>();
+  } else if (!sensor.is_none()) {
+    facts.sensor_name = sensor.cast<std::string>();
+  }
+  const std::size_t count = facts.poses.size();
+  const auto direction = up_from(up);
+  auto points = point_store(scans, count);
+  const auto source = std::make_shared<const ArraySource>(std::move(points), std::move(facts));
+  auto sequence = std::make_shared<Sequence>();
+  sequence->name = name;
+  sequence->layout = "arrays";
+  sequence->scans = sequence->opened = source;
+  sequence->labels = labels_from(labels, count);
+  sequence->up_choice = std::make_shared<const UpChoice>(direction);
+  HeldSequence made = held(std::move(sequence));
+  made.arrays = source;
+  return made;
+}
+
+/// Reads all scans for their times, which not every source tells otherwise.
+py::array_t<double> times_of(const HeldSequence& held, const py::object& on_progress) {
+  const ScanSource& scans = *held.sequence->scans;
+  std::vector<double> times(scans.size());
+  run_interruptibly(on_progress, [&](const WorkContext& work) {
+    work.progress->begin("times", scans.size());
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (work.cancel->load()) throw Cancelled();
+      times[i] = scans.load(i).time_s;
+      work.progress->advance();
+    }
+  });
+  return py::array_t<double>(static_cast<py::ssize_t>(times.size()), times.data());
+}
+
+HeldScan load(const HeldSequence& held, py::ssize_t index) {
+  const std::size_t at = position(index, held.sequence->scans->size());
+  const py::gil_scoped_release without_gil;
+  return {held.sequence->scans->load(at), held.truth};
+}
+
+std::string repr_of(const HeldSequence& held) {
+  const Sequence& sequence = *held.sequence;
+  return "<raymoval.Sequence " + sequence.name + " (" + sequence.layout +
+         "): " + counted_text(sequence.scans->size(), "scan") +
+         (sequence.labels ? ", labelled>" : ">");
+}
+
+void bind_facts(py::class_<HeldSequence>& sequence) {
+  sequence
+      .def_property_readonly(
+          "name", [](const HeldSequence& held) { return held.sequence->name; }, "Name in results.")
+      .def_property_readonly(
+          "layout", [](const HeldSequence& held) { return held.sequence->layout; },
+          "How it is stored: 'semantickitti', 'files', 'arrays', ...")
+      .def_property_readonly(
+          "poses",
+          [](const HeldSequence& held) { return array_of(poses_of(*held.sequence->scans)); },
+          "T_world_sensor of all scans, n x 4 x 4 float64, metres. No scan is read for it.")
+      .def_property_readonly(
+          "sensor",
+          [](const HeldSequence& held) {
+            const py::gil_scoped_release without_gil;
+            return held.sequence->scans->sensor();
+          },
+          "The sensor's model; estimated from a few scans if nothing says it.")
+      .def_property_readonly(
+          "up",
+          [](const HeldSequence& held) {
+            const py::gil_scoped_release without_gil;
+            return up_text(held.sequence->up().direction);
+          },
+          "The direction of the world that is up, such as 'z' or '-y'; estimated if nothing says "
+          "it.")
+      .def_property_readonly(
+          "has_labels", [](const HeldSequence& held) { return held.sequence->labels != nullptr; },
+          "Whether methods can be scored on it.")
+      .def_property_readonly(
+          "notes", [](const HeldSequence& held) { return held.sequence->notes; },
+          "What a user should know of how it was opened, in sentences.")
+      .def_property_readonly(
+          "path",
+          [](const HeldSequence& held) {
+            return held.place ? std::optional(held.place->path) : std::nullopt;
+          },
+          "Where it was opened; None for arrays.");
+}
+
+}  // namespace
+
+void bind_sequences(py::module_& module) {
+  py::class_<HeldSequence> sequence(
+      module, "Sequence",
+      "Posed scans, read one by one when they are asked for: sequence[i] is a Scan. Threads may "
+      "share it.");
+  sequence.def("__len__", [](const HeldSequence& held) { return held.sequence->scans->size(); })
+      .def("__getitem__", &load, py::arg("index"))
+      .def("__iter__", &iterator_over)
+      .def("__repr__", &repr_of);
+  bind_facts(sequence);
+  module.def("open", &open, py::arg("path"), py::arg("options"), py::arg("threads"),
+             py::arg("on_progress"));
+  module.def("from_arrays", &from_arrays, py::arg("scans"), py::arg("poses"), py::arg("times"),
+             py::arg("sensor"), py::arg("up"), py::arg("labels"), py::arg("name"));
+  module.def("times", &times_of, py::arg("sequence"), py::arg("on_progress"));
+  module.def("scenes", &scene_names, "Names of the scenes that raymoval brings along.");
+}
+
+}  // namespace raymoval::python

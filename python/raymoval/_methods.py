@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: MIT
+"""Methods: those of raymoval as objects, and those written in Python."""
+from __future__ import annotations
+
+import copy
+import hashlib
+import inspect
+import pickle
+import re
+from dataclasses import dataclass
+from typing import Any, Optional, Union
+
+from raymoval import _raymoval
+
+Value = Union[bool, int, float, str]
+
+
+class Remover:
+    """A method in Python: derive from it and write `run`.
+
+        class Far(raymoval.Remover):
+            '''Removes what is far away.'''
+            distance = 30.0                       # metres; a parameter
+
+            def run(self, scans, sink):
+                for scan in scans:
+                    sink.accept(scan.index, numpy.linalg.norm(scan.points, axis=1) > self.distance)
+
+    `raymoval.clean(scans, poses, Far())` cleans with it, `raymoval.run("street", [Far, "erasor"])`
+    scores it beside others. Attributes that are bool, numbers or texts, and whose names do not begin
+    with _, are its parameters.
+
+    `run` has to call `sink.accept(index, mask)` exactly once for each scan, in any order. A method
+    sees no labels. It works in a frame of the harness: the first scan is at the origin, z is up.
+    """
+
+    #: Name in tables; that of the class, in small letters, without.
+    name: Optional[str] = None
+    #: Raise it whenever answers may change. Without, it is made of the source of the class, so that
+    #: a changed method is run again.
+    version: Optional[str] = None
+    #: Whether the answer for a scan comes from it and earlier ones only.
+    online: bool = False
+
+    def run(self, scans: _raymoval.Scans, sink: _raymoval.Sink) -> None:
+        """Gives `sink` a mask for each of `scans`."""
+        raise NotImplementedError(f"{type(self).__name__} has no run(self, scans, sink).")
+
+
+#: The name of a method, an object, or the class of one.
+MethodLike = Union[str, Remover, type[Remover]]
+_OF_REMOVER = ("name", "version", "online")
+
+
+def remover_name(method: Any) -> str:
+    """What results call a method in Python: NearPoints is near_points."""
+    given = getattr(method, "name", None)
+    if isinstance(given, str) and given:
+        return given
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", type(method).__name__).lower()
+
+
+def _parameters(method: Remover) -> dict[str, Value]:
+    names = [name for kind in reversed(type(method).__mro__) for name in vars(kind)]
+    found: dict[str, Value] = {}
+    for name in [*names, *vars(method)]:
+        value = getattr(method, name, None)
+        if not name.startswith("_") and name not in _OF_REMOVER and isinstance(
+                value, (bool, int, float, str)):
+            found[name] = value
+    return found
+
+
+def _version(method: Remover) -> str:
+    """The method's own, or a hash of its source and of what it holds beside its parameters."""
+    if method.version is not None:
+        return str(method.version)
+    try:
+        text = inspect.getsource(type(method))
+    except (OSError, TypeError):  # Typed in where nobody keeps it.
+        text = repr(sorted((name, getattr(value, "__code__", None) and value.__code__.co_code)
+                           for name, value in vars(type(method)).items()))
+    held = {name: value for name, value in vars(method).items() if name not in _parameters(method)}
+    try:
+        state = pickle.dumps(sorted(held.items()))
+    except Exception:  # What cannot be stored cannot be compared.
+        state = b""
+    return "python-" + hashlib.sha256(text.encode() + state).hexdigest()[:16]
+
+
+def entry(method: Union[Remover, type[Remover]]) -> dict[str, Any]:
+    """What the harness asks of a method."""
+    made = method() if isinstance(method, type) else method
+    if not callable(getattr(made, "run", None)):
+        raise _raymoval.UsageError(f"{type(made).__name__} is no method: it has no run(scans, sink). "
+                                   "Derive it from raymoval.Remover.")
+
+    def with_values(values: dict[str, Value]) -> Remover:
+        own = copy.copy(made)
+        for name, value in values.items():
+            if getattr(own, name) != value:
+                setattr(own, name, value)
+        return own
+
+    sentence = (inspect.getdoc(type(made)) or "").split("\n\n")[0].replace("\n", " ")
+    return {"name": remover_name(made), "sentence": sentence, "version": _version(made),
+            "online": bool(made.online), "parameters": _parameters(made), "make": with_values}
+
+
+def setting_text(name: str, value: Value) -> str:
+    """A value as the command line has it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float, str)):
+        return str(value)
+    if hasattr(value, "item"):  # Of NumPy.
+        return setting_text(name, value.item())
+    raise _raymoval.UsageError(f"parameter '{name}': expected a bool, a number or a text, got a "
+                               f"{type(value).__name__}.")
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a method, or an option of a protocol."""
+
+    name: str
+    default: Value  #: Of the variant that was described.
+    unit: str  #: "m", "rad", "points"; empty for a ratio or a flag.
+    minimum: Optional[float]  #: None: no limit.
+    maximum: Optional[float]
+    choices: list[str]  #: Legal values of a text.
+    source: str  #: Paper, section, equation or table; empty: our own choice.
+    sentence: str
+    acts_when: str  #: When it has an effect; empty: always; "never": it changes time or memory only.
+    acts: bool  #: Whether it has an effect in this variant while the others have their defaults.
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A named set of values of a method's parameters."""
+
+    name: str
+    sentence: str
+    online: bool
+    values: dict[str, Value]  #: Those that differ from the method's defaults.
+
+
+@dataclass(frozen=True)
+class Method:
+    """What is known of a method with a variant."""
+
+    name: str  #: With its variant, "raymoval:online".
+    sentence: str
+    source: str
+    version: str
+    online: bool
+    notes: list[str]  #: Decisions, and deviations from the paper.
+    variants: list[Variant]
+    parameters: list[Parameter]
+
+    def __getitem__(self, name: str) -> Parameter:
+        """The parameter with this name."""
+        return next(one for one in self.parameters if one.name == name)
+
+    def __str__(self) -> str:
+        return _table(f"{self.name} (version {self.version}): {self.sentence}", self.parameters)
+
+
+@dataclass(frozen=True)
+class Rate:
+    """What a rate of a protocol is."""
+
+    name: str
+    unit: str  #: "percent" or "fraction".
+    decimals: int
+    higher_is_better: bool
+    role: str  #: "kept", "removed", "headline", "mean" or "secondary".
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """What is known of a protocol."""
+
+    name: str
+    sentence: str
+    version: str
+    options: list[Parameter]
+    rates: list[Rate]
+
+    def __str__(self) -> str:
+        return _table(f"{self.name} (version {self.version}): {self.sentence}", self.options)
+
+
+def _table(title: str, parameters: list[Parameter]) -> str:
+    lines = [title]
+    for one in parameters:
+        lines.append(f"  {one.name} = {one.default}{' ' + one.unit if one.unit else ''}   "
+                     f"{one.sentence}")
+    return "\n".join(lines)
+
+
+def describe(name: str) -> Union[Method, Protocol]:
+    """A method ("raymoval:online") or a protocol ("protocol:erasor") with its parameters.
+
+    Raises UsageError that suggests the nearest name.
+    """
+    if name.startswith("protocol:"):
+        told = _raymoval.describe_protocol(name.removeprefix("protocol:"))
+        told["options"] = [Parameter(**one) for one in told["options"]]
+        told["rates"] = [Rate(**one) for one in told["rates"]]
+        return Protocol(**told)
+    told = _raymoval.describe_method(name)
+    told["variants"] = [Variant(**one) for one in told["variants"]]
+    told["parameters"] = [Parameter(**one) for one in told["parameters"]]
+    return Method(**told)
+
+
+def methods() -> list[str]:
+    """The names of all methods with their variants."""
+    return _raymoval.method_names()
+
+
+def protocols() -> list[str]:
+    """The names of all protocols."""
+    return _raymoval.protocol_names()
