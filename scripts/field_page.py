@@ -33,7 +33,7 @@ def with_suffix(scenes, suffix):
 TABLES = {
     "scenes": [(scene, [scene]) for scene in SCENES] + [("mean", list(SCENES))],
     "sensors": [(label, with_suffix(("town", "crossing"), suffix)) for label, suffix in SENSORS]
-    + [("32, in the hand", ["walk"])],
+    + [("in the hand", ["walk"])],
     "rates": [(label, with_suffix(("town", "highway", "crossing"), suffix)) for label, suffix in RATES],
     "drive": [("10 Hz", ["drive"]), ("5 Hz", ["drive-5hz"]), ("2 Hz", ["drive-2hz"])],
 }
