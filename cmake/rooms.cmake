@@ -2,7 +2,7 @@
 # what is in the files. For builds that nobody edits in: names in anonymous namespaces have to
 # differ within a group. A forgotten #include may go unnoticed by the compiler;
 # scripts/check_own_includes.py looks for those.
-set(RAYMOVAL_UNITY core datasets methods eval benchmark tests CACHE STRING
+set(RAYMOVAL_UNITY core datasets methods eval benchmark python tests CACHE STRING
     "Rooms, and tests, that are compiled several files at a time, such as core;benchmark;tests")
 
 # raymoval_unity(NAME TARGET SOURCE...): groups of up to eight files of one folder, if NAME is in

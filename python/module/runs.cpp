@@ -9,6 +9,7 @@
 #include "eval/protocol_registry.h"
 #include "python/module/bindings.h"
 #include "python/module/interruptible.h"
+#include "python/module/optional_number.h"
 #include "python/module/remover.h"
 #include "python/module/sequences.h"
 
@@ -99,10 +100,6 @@ py::dict run(const std::vector<py::object>& sequences, const py::list& methods,
   return dict_of(summary, settings_without_effect(suite));
 }
 
-py::object number(const std::optional<double>& value) {
-  return value ? py::object(py::float_(*value)) : py::object(py::none());
-}
-
 /// A row of results.csv.
 py::dict dict_of(const ResultRow& row, const std::vector<std::string>& rates) {
   py::dict record;
@@ -113,13 +110,13 @@ py::dict dict_of(const ResultRow& row, const std::vector<std::string>& rates) {
   record["protocol"] = row.protocol;
   record["status"] = row.status;
   record["control"] = row.control;
-  for (const std::string& rate : rates) record[py::str(rate)] = number(row.rate(rate));
+  for (const std::string& rate : rates) record[py::str(rate)] = optional_number(row.rate(rate));
   for (const auto& [rate, ends] : row.intervals) {
     record[py::str(rate + "_low")] = ends.first;
     record[py::str(rate + "_high")] = ends.second;
   }
-  record["seconds_per_scan"] = number(row.seconds_per_scan);
-  record["peak_memory_mib"] = number(row.peak_memory_mib);
+  record["seconds_per_scan"] = optional_number(row.seconds_per_scan);
+  record["peak_memory_mib"] = optional_number(row.peak_memory_mib);
   return record;
 }
 

@@ -7,20 +7,17 @@
 #include "python/module/bindings.h"
 #include "python/module/interruptible.h"
 #include "python/module/masks.h"
+#include "python/module/optional_number.h"
 
 namespace raymoval::python {
 namespace {
-
-py::object number(const std::optional<double>& value) {
-  return value ? py::object(py::float_(*value)) : py::object(py::none());
-}
 
 /// Keyword arguments of raymoval.ProtocolScore.
 py::dict dict_of(const ProtocolResult& result) {
   py::dict counts, rates, undefined, intervals, scored;
   for (const auto& [name, count] : result.counts) counts[py::str(name)] = count;
   for (const Rate& rate : result.rates) {
-    rates[py::str(rate.name)] = number(rate.value);
+    rates[py::str(rate.name)] = optional_number(rate.value);
     if (!rate.value) undefined[py::str(rate.name)] = rate.undefined_reason;
   }
   if (result.intervals) {
@@ -41,8 +38,8 @@ py::dict dict_of(const ProtocolResult& result) {
 py::dict dict_of(const std::vector<ColumnValue>& columns) {
   py::dict values;
   for (const ColumnValue& column : columns) {
-    values[py::str(column.name)] =
-        py::make_tuple(number(column.share.percent()), column.share.part, column.share.whole);
+    values[py::str(column.name)] = py::make_tuple(optional_number(column.share.percent()),
+                                                  column.share.part, column.share.whole);
   }
   return values;
 }
