@@ -25,7 +25,7 @@ std::string type_name(const ParameterSpec& spec) {
 }
 
 std::string range_text(const ParameterNotes& notes) {
-  return number_text(notes.minimum) + " to " + number_text(notes.maximum) +
+  return plain_number_text(notes.minimum) + " to " + plain_number_text(notes.maximum) +
          (notes.unit.empty() ? "" : " " + notes.unit);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace raymoval {
@@ -11,6 +12,11 @@ std::string number_text(double value) {
   std::array<char, 64> buffer;
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
+}
+
+std::string plain_number_text(double value) {
+  const bool is_whole = std::abs(value) <= 1e9 && value == std::trunc(value);
+  return is_whole ? std::to_string(static_cast<long>(value)) : number_text(value);
 }
 
 std::string fixed_text(double value, int decimals) {

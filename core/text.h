@@ -13,6 +13,9 @@ namespace raymoval {
 /// Shortest text that reads back as exactly `value`; never depends on the locale.
 std::string number_text(double value);
 
+/// As number_text, but whole numbers up to a billion without exponent: 100000, not 1e+05.
+std::string plain_number_text(double value);
+
 /// `value` with `decimals` digits after the point, rounded to nearest; locale independent.
 std::string fixed_text(double value, int decimals);
 

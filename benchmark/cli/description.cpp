@@ -18,10 +18,10 @@ std::string range_text(const ParameterSpec& spec) {
   const bool low = std::isfinite(spec.notes.minimum);
   const bool high = std::isfinite(spec.notes.maximum);
   if (low && high) {
-    return number_text(spec.notes.minimum) + " to " + number_text(spec.notes.maximum);
+    return plain_number_text(spec.notes.minimum) + " to " + plain_number_text(spec.notes.maximum);
   }
-  if (low) return "from " + number_text(spec.notes.minimum);
-  return high ? "to " + number_text(spec.notes.maximum) : "";
+  if (low) return "from " + plain_number_text(spec.notes.minimum);
+  return high ? "to " + plain_number_text(spec.notes.maximum) : "";
 }
 
 /// What a parameter does, and when.

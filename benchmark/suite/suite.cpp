@@ -173,6 +173,16 @@ void check_given_once(const std::vector<Setting>& settings) {
                    suggestion(given, names));
 }
 
+/// Values that are each in range may still not fit together, which only a method knows.
+/// @throws ConfigurationError in the method's words
+void check_values_fit(const Suite& suite) {
+  for (const MethodRequest& request : suite.methods) {
+    const MethodEntry& entry = *request.method.entry;
+    // A control that is given labels, and a program of somebody's, are made where they run.
+    if (!entry.needs_truth && entry.manifest.empty()) (void)request.method.make();
+  }
+}
+
 }  // namespace
 
 void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
@@ -199,6 +209,7 @@ void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (!used[i]) throw_no_target(suite, settings[i].target);
   }
+  check_values_fit(suite);
 }
 
 std::vector<std::string> settings_without_effect(const Suite& suite) {

@@ -90,7 +90,8 @@ ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const s
 
 /// Applies settings: first those for protocols, then those for all variants of a method, then those
 /// that name a cell.
-/// @throws UsageError if one names nothing of the suite, or the same value is set twice
+/// @throws UsageError if one names nothing of the suite, or the same value is set twice;
+/// ConfigurationError if a method's values do not fit together, be they set here or by the suite
 void apply_settings(Suite& suite, const std::vector<Setting>& settings);
 
 /// A sentence for each parameter that was set for a method but has no effect there (see

@@ -40,6 +40,15 @@ class CommaLocale {
 
 }  // namespace
 
+TEST_CASE("plain numbers have no exponent as long as they are whole") {
+  CHECK(number_text(100000.0) == "1e+05");
+  CHECK(plain_number_text(100000.0) == "100000");
+  CHECK(plain_number_text(-1e9) == "-1000000000");
+  CHECK(plain_number_text(2e9) == "2e+09");
+  CHECK(plain_number_text(0.25) == "0.25");
+  CHECK(plain_number_text(std::numeric_limits<double>::infinity()) == "inf");
+}
+
 TEST_CASE("A number's text is the shortest that reads back as the same bits") {
   CHECK(number_text(0.1) == "0.1");
   CHECK(number_text(0.2 + 0.1) == "0.30000000000000004");

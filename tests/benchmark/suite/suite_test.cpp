@@ -92,6 +92,14 @@ TEST_CASE("A setting reaches a protocol under its name in the suite") {
                     Contains("write protocol:erasor.key=value"));
 }
 
+TEST_CASE("Values of a method that do not fit together are refused before anything runs") {
+  Suite suite;
+  add_method(suite, "dynablox", "", MethodRegistry::built_in());
+  CHECK_THROWS_AS(apply_settings(suite, {{"dynablox", "max_range", "0.1"}}), ConfigurationError);
+  apply_settings(suite, {{"dynablox", "max_range", "30"}});
+  CHECK(value(suite, 0, "max_range") == 30.0);
+}
+
 TEST_CASE("Settings that reach nothing, clash, or are illegal are errors") {
   Suite suite;
   add_method(suite, "toy:a", "", toys());
