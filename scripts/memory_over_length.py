@@ -20,10 +20,13 @@ import os
 import re
 import subprocess
 import sys
+import time
 
 METHODS = ["raymoval:online", "raymoval:offline", "raymoval_plus:offline",
-           "raymoval_plus:online", "raymoval_plus:online-map", "dufomap:offline", "dufomap:online",
-           "erasor:general", "removert:rm3", "octomap:r20", "peopleremover:normals"]
+           "raymoval_plus:online-map", "raymoval_plus:online", "raymoval_plus:online-lag",
+           "erasor:general", "beautymap:published", "dynablox:published", "freedom:few-counts",
+           "mapcleaner:sound", "hmm_mos:published", "dufomap:offline", "peopleremover:normals",
+           "octomap:r20", "removert:rm3"]
 
 
 def arguments():
@@ -38,6 +41,21 @@ def arguments():
     return parser.parse_args()
 
 
+def own_peak(process):
+    """Waits for a process. Returns its exit status and its own peak memory in MiB, without that of
+    its children, which is what wait4 would add."""
+    peak = 0
+    while process.poll() is None:
+        try:
+            with open(f"/proc/{process.pid}/status", encoding="ascii") as status:
+                peak = max([peak] + [int(line.split()[1]) for line in status
+                                     if line.startswith("VmHWM:")])
+        except (FileNotFoundError, ProcessLookupError):
+            pass  # It has just ended.
+        time.sleep(0.02)
+    return process.returncode, peak / 1024
+
+
 def run(options, method, scans, protocols):
     """One cell. Returns what its cell.json says, and the peak memory of the scoring process."""
     name = f"{re.sub('[^a-z0-9_]+', '-', method)}-{scans}"
@@ -50,13 +68,12 @@ def run(options, method, scans, protocols):
     folder = os.path.join(options.out, name)
     command = [options.program, "run", file, "--quiet", "--overwrite", "--threads",
                str(options.threads), "--out", folder]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
+    status, peak = own_peak(subprocess.Popen(command, stdout=subprocess.DEVNULL))
     if status != 0:
         sys.exit(f"{' '.join(command)}: ended with status {status}")
     cell, = glob.glob(os.path.join(folder, "cells", name, "*", "cell.json"))
     with open(cell, encoding="utf-8") as content:
-        return json.load(content), usage.ru_maxrss / 1024
+        return json.load(content), peak
 
 
 def row(options, method):
