@@ -32,9 +32,14 @@ count() {
   fi
 }
 
+# title NAME: tells the seconds since the script began, too, so that a log shows what takes long.
+title() {
+  echo "== $1 (after $SECONDS s)"
+}
+
 # step NAME COMMAND...: one check that counts as one.
 step() {
-  echo "== $1"
+  title "$1"
   "${@:2}" 2>&1 | tee "$logs/step"
   count "$1" "${PIPESTATUS[0]}" "$logs/step"
 }
@@ -49,7 +54,7 @@ begin() {
   set +m
 }
 finish() {
-  echo "== $1"
+  title "$1"
   wait "$beside"
   local status=$?
   beside=
@@ -63,7 +68,7 @@ trap 'exit 143' TERM
 # run_tests PRESET: counts every test of ctest, and each test case where one process runs several.
 run_tests() {
   local build=build/$1 status total=0 bad=0
-  echo "== tests, $1"
+  title "tests, $1"
   rm -f "$build"/Testing/Temporary/LastTestsFailed.log "$build/junit.xml"
   ctest --preset "$1" --output-junit "$PWD/$build/junit.xml" 2>&1 | tee "$build/ctest.log"
   status=${PIPESTATUS[0]}
@@ -106,6 +111,7 @@ scripts/coverage.sh --reset
 run_tests asan-ubsan
 step "coverage" scripts/coverage.sh
 
+title "end"
 cat "$logs/failures"
 [[ ${#failures[@]} -eq 0 ]] || printf '%s\n' "${failures[@]}" | sed 's/^/failed: /'
 echo "$passed passed, $failed failed"
