@@ -36,8 +36,10 @@ SECTIONS = (
         ("A report to look at", EXAMPLE),
         ("Checks in CI", "docs/ci.md"),
         ("Long runs", "docs/long-runs.md"),
-        ("History", "docs/history.md"),
+        ("Confidence", "docs/confidence.md"),
+        ("Leaderboard", "docs/leaderboard.md"),
         ("Submissions", "docs/submissions.md"),
+        ("History", "docs/history.md"),
     )),
     ("Methods", (
         ("", "methods/raymoval/README.md"),
@@ -72,7 +74,8 @@ SECTIONS = (
         ("What changed", "CHANGELOG.md"),
     )),
 )
-IF_THERE = ("docs/platforms.md", "docs/container.md", "docs/history.md", "docs/submissions.md", "docs/release.md")
+IF_THERE = ("docs/platforms.md", "docs/container.md", "docs/confidence.md", "docs/leaderboard.md", "docs/submissions.md",
+            "docs/history.md", "docs/release.md")
 # What cmake/install.cmake installs, and the page of the example.
 PAGES = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "docs/*.md", "docs/recipes/*.md",
          "methods/README.md", "methods/*/*.md", "datasets/*/README.md", "examples/cpp_method/README.md")

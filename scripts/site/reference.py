@@ -100,7 +100,7 @@ def pages(program):
             f"\n[How {name} works](../../methods/{name}/README.md), and what it scores.\n")
     for name in names_listed(program, "protocols"):
         made[f"{navigation.PARAMETERS}protocol-{name}.md"] = parameter_page(
-            program, "protocol:" + name, f"protocol:{name}") + (
+            program, "protocol:" + name, f"Protocol {name}") + (
             "\n[The protocols](../../docs/protocols.md), with pictures and examples.\n")
     return made
 

@@ -26,8 +26,11 @@ for page in "${pages[@]}" "${recipes[@]}" CONTRIBUTING.md methods/README.md exam
     holds "$page: $link is a heading" grep -qxF -- "${link#*#}" <(anchors "$target")
   done < <(page_text "$page" | grep -oE '\]\([^)]+\)' | sed 's/^](//; s/)$//' | grep -v '^https\?:')
 done
+# Whoever begins with the README finds each page: it is linked there, or on a page that is.
+mapfile -t near < <(page_text README.md | grep -oE '\]\([A-Za-z_/.-]+\.md' | sed 's/^](//' | sort -u)
 for page in "${pages[@]}"; do
-  [[ $page == README.md ]] || holds "README.md links to $page" grep -qF "($page)" "$source_folder/README.md"
+  [[ $page == README.md ]] || holds "the README, or a page that it links to, links to $page" \
+    grep -qE "\]\(($page|(docs/)?${page##*/})[)#]" "$source_folder/README.md" "${near[@]/#/$source_folder/}"
 done
 # A screen and a half, and its table is a part of the page that has all.
 holds "README.md is short" test "$(page_text README.md | wc -l)" -le 80
