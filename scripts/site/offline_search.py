@@ -19,12 +19,13 @@ def main():
     index = json.loads((site / "search/search_index.json").read_text(encoding="utf-8"))
     workers = list(site.glob("assets/javascripts/workers/search.*.js"))
     if len(workers) != 1:
-        sys.exit(f"offline_search.py: {site}/assets/javascripts/workers has {len(workers)} files search.*.js; expected one. "
-                 "Is the theme another version than Debian 12's?")
+        sys.exit(f"offline_search.py: {site}/assets/javascripts/workers has {len(workers)} files search.*.js; "
+                 "expected one. Is the theme another version than Debian 12's?")
     worker = workers[0].read_text(encoding="utf-8")
     (site / "search/offline.js").write_text(
         f"window.__search = {{\n  index: Promise.resolve({in_script(index)}),\n"
-        f"  worker: URL.createObjectURL(new Blob([{in_script(worker)}], {{type: \"text/javascript\"}}))\n}};\n", encoding="utf-8")
+        f"  worker: URL.createObjectURL(new Blob([{in_script(worker)}], {{type: \"text/javascript\"}}))\n}};\n",
+        encoding="utf-8")
 
 
 if __name__ == "__main__":

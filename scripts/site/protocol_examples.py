@@ -25,8 +25,8 @@ POINTS = (("a", 5.12, 0.11, ROAD, False), ("b", 5.31, 0.08, ROAD, False), ("c", 
           ("d", 5.52, 0.11, ROAD, True), ("e", 5.71, 0.31, CAR, True), ("f", 5.75, 0.35, CAR, True),
           ("g", 5.91, 0.31, CAR, False), ("h", 5.97, 0.51, WALL, False), ("i", 6.01, 0.51, CAR, True))
 Z = -1.63
-RATES = {"erasor": ("PR", "RR", "F1"), "dynamicmap": ("SA", "DA", "AA", "HA"), "dynamicmap-strict": ("SA", "DA", "AA", "HA"),
-         "mos": ("precision", "recall", "IoU")}
+RATES = {"erasor": ("PR", "RR", "F1"), "dynamicmap": ("SA", "DA", "AA", "HA"),
+         "dynamicmap-strict": ("SA", "DA", "AA", "HA"), "mos": ("precision", "recall", "IoU")}
 ANSWERS = (("the answer", lambda p: p[4]), ("nothing removed", lambda p: False), ("all removed", lambda p: True),
            ("what moves removed", lambda p: p[3] == CAR))
 BLUE, VERMILLION, GREY, INK = "#0072b2", "#d55e00", "#9a9a9a", "#222222"
@@ -50,8 +50,8 @@ def scores(program, work):
         labels = work / f"answer{i}"
         labels.mkdir()
         (labels / "000000.label").write_bytes(b"".join(struct.pack("<I", 251 if removes(p) else 9) for p in POINTS))
-        command = [program, "score", "--sequence", work / "example", "--predictions", labels, "--up", "z", "--sensor", "hdl64e",
-                   "--json", work / "score.json", "--quiet"]
+        command = [program, "score", "--sequence", work / "example", "--predictions", labels, "--up", "z",
+                   "--sensor", "hdl64e", "--json", work / "score.json", "--quiet"]
         for protocol in RATES:
             command += ["--protocol", protocol]
         said = subprocess.run(command, capture_output=True, text=True)
@@ -78,8 +78,8 @@ def voxels(points):
     cells = {}
     for p in points:
         cells.setdefault((math.floor(p[1] * 5), math.floor(p[2] * 5)), []).append(p)
-    return [("".join(p[0] for p in cell), sum(p[1] for p in cell) / len(cell), sum(p[2] for p in cell) / len(cell), cell[0][3])
-            for cell in cells.values()]
+    return [("".join(p[0] for p in cell), sum(p[1] for p in cell) / len(cell), sum(p[2] for p in cell) / len(cell),
+             cell[0][3]) for cell in cells.values()]
 
 
 def erasor_verdicts():
@@ -108,14 +108,15 @@ def check_verdicts(protocols):
     for protocol, name, shown in (
             ("erasor", "static_voxels", words.count("preserved") + words.count("lost")),
             ("erasor", "dynamic_voxels", words.count("remains") + words.count("rejected")),
-            ("erasor", "preserved_static", words.count("preserved")), ("erasor", "remaining_dynamic", words.count("remains")),
+            ("erasor", "preserved_static", words.count("preserved")),
+            ("erasor", "remaining_dynamic", words.count("remains")),
             ("dynamicmap", "present_static_points", points.count((False, "there"))),
             ("dynamicmap", "removed_dynamic_points", points.count((True, "gone"))),
             ("mos", "flagged_dynamic_points", sum(p[4] and moves(p) for p in POINTS)),
             ("mos", "kept_static_points", sum(not p[4] and not moves(p) for p in POINTS))):
         counted = protocols[protocol]["counts"][name]
         if counted != shown:
-            sys.exit(f"protocol_examples.py: the pictures show {name} {shown}, but raymoval counts {counted} ({protocol}).")
+            sys.exit(f"protocol_examples.py: the pictures show {name} {shown}, but {protocol} counts {counted}.")
 
 
 # --- pictures ---
@@ -128,6 +129,10 @@ def at(x, y):
 
 def text(x, y, words, colour=INK, size=14, anchor="middle"):
     return f'<text x="{x:.1f}" y="{y:.1f}" fill="{colour}" font-size="{size}" text-anchor="{anchor}">{words}</text>'
+
+
+def circle(x, y, radius, look):
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius:.1f}" {look}/>'
 
 
 def grid(step):
@@ -148,7 +153,7 @@ def colour_of(point):
 def dot(point, radius=7):
     x, y = at(point[1], point[2])
     fill = "#ffffff" if point[4] else colour_of(point)
-    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius}" fill="{fill}" stroke="{colour_of(point)}" stroke-width="2.5"/>'
+    return circle(x, y, radius, f'fill="{fill}" stroke="{colour_of(point)}" stroke-width="2.5"')
 
 
 def picture(title, drawn, legend):
@@ -159,7 +164,8 @@ def picture(title, drawn, legend):
              f'<rect width="{width:.0f}" height="{height:.0f}" fill="#ffffff"/>', *drawn]
     x, y = LEFT + 8, height - 18
     for colour, filled, words in legend:
-        lines.append(f'<circle cx="{x}" cy="{y - 5}" r="6" fill="{colour if filled else "#ffffff"}" stroke="{colour}" stroke-width="2.5"/>')
+        fill = colour if filled else "#ffffff"
+        lines.append(circle(x, y - 5, 6, f'fill="{fill}" stroke="{colour}" stroke-width="2.5"'))
         lines.append(text(x + 12, y, words, size=13, anchor="start"))
         x += 34 + 7.6 * len(words)
     return "\n".join([*lines, "</svg>", ""])
@@ -181,20 +187,22 @@ def erasor_picture():
     for (names, vx, vy, label), partner, word in erasor_verdicts():
         left, top = at(math.floor(vx * 5) / 5, math.floor(vy * 5) / 5 + 0.2)
         colour = VERMILLION if label == CAR else BLUE
-        drawn.append(f'<rect x="{left:.1f}" y="{top:.1f}" width="{0.2 * SCALE:.1f}" height="{0.2 * SCALE:.1f}" fill="{colour}" '
+        edge = 0.2 * SCALE
+        drawn.append(f'<rect x="{left:.1f}" y="{top:.1f}" width="{edge:.1f}" height="{edge:.1f}" fill="{colour}" '
                      f'fill-opacity="0.13" stroke="{colour}" stroke-opacity="0.5"/>')
-        drawn += [text(left + 0.1 * SCALE, top + 16, word, size=13), text(left + 7, top + 0.2 * SCALE - 7, names, GREY, 13, "start")]
+        drawn += [text(left + edge / 2, top + 16, word, size=13), text(left + 7, top + edge - 7, names, GREY, 13, "start")]
         x, y = at(vx, vy)
         if partner and partner[1:3] != (vx, vy):
             px, py = at(partner[1], partner[2])
-            drawn.append(f'<line x1="{x:.1f}" y1="{y:.1f}" x2="{px:.1f}" y2="{py:.1f}" stroke="{INK}" stroke-width="1.5"/>')
-        drawn.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="7" fill="#ffffff" stroke="{colour}" stroke-width="2.5"/>')
+            drawn.append(f'<line x1="{x:.1f}" y1="{y:.1f}" x2="{px:.1f}" y2="{py:.1f}" stroke="{INK}"/>')
+        drawn.append(circle(x, y, 7, f'fill="#ffffff" stroke="{colour}" stroke-width="2.5"'))
     for _, vx, vy, label in voxels([p for p in POINTS if not p[4]]):
         x, y = at(vx, vy)
-        drawn.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{VERMILLION if label == CAR else BLUE}"/>')
+        drawn.append(circle(x, y, 4, f'fill="{VERMILLION if label == CAR else BLUE}"'))
     x, y = at(5.52, 0.11)
-    drawn.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{0.1 * math.sqrt(3) * SCALE:.1f}" fill="none" stroke="{BLUE}" stroke-dasharray="5 4"/>')
-    drawn.append(text(LEFT, TOP - 10, "a tinted square is a voxel of the truth; the dashed circle around d has a radius of 0.173 m", GREY, 13, "start"))
+    drawn.append(circle(x, y, 0.1 * math.sqrt(3) * SCALE, f'fill="none" stroke="{BLUE}" stroke-dasharray="5 4"'))
+    drawn.append(text(LEFT, TOP - 10, "a tinted square is a voxel of the truth; the dashed circle around d has a radius of "
+                      "0.173 m", GREY, 13, "start"))
     return picture("The voxels of the truth, their partners, and what becomes of them", drawn,
                    ((GREY, False, "voxel of the truth (mean of its points)"), (GREY, True, "voxel of the estimate")))
 
@@ -204,7 +212,8 @@ def dynamicmap_picture():
     for p in POINTS:
         if not p[4]:
             x, y = at(p[1], p[2])
-            drawn.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{0.05 * SCALE:.1f}" fill="#000000" fill-opacity="0.08" stroke="{GREY}" stroke-dasharray="4 3"/>')
+            drawn.append(circle(x, y, 0.05 * SCALE, f'fill="#000000" fill-opacity="0.08" stroke="{GREY}" '
+                                                    'stroke-dasharray="4 3"'))
     for p, word in dynamicmap_verdicts():
         x, y = at(p[1], p[2])
         side = -1 if p[0] in "bh" else 1
@@ -252,7 +261,8 @@ def main():
         found = scores(arguments[0], pathlib.Path(work))
     check_verdicts(found["the answer"])
     written = {PAGE: page(found), PICTURES / "protocol_points.svg": points_picture(),
-               PICTURES / "protocol_erasor.svg": erasor_picture(), PICTURES / "protocol_dynamicmap.svg": dynamicmap_picture()}
+               PICTURES / "protocol_erasor.svg": erasor_picture(),
+               PICTURES / "protocol_dynamicmap.svg": dynamicmap_picture()}
     stale = [path for path, words in written.items() if not path.exists() or path.read_text(encoding="utf-8") != words]
     if "--check" not in sys.argv:
         for path in stale:

@@ -30,7 +30,7 @@ def option_table(heading, lines):
             rows[-1][1] += " " + line.strip()
         else:
             rows.append([name, text.strip()])
-    return [f"| {heading} | |", "|---|---|", *(f"| `{name}` | {escaped(text)} |".replace("`|", "`\\|") for name, text in rows), ""]
+    return [f"| {heading} | |", "|---|---|", *(f"| `{name}` | {escaped(text)} |" for name, text in rows), ""]
 
 
 def command_section(name, text):
@@ -105,6 +105,15 @@ def pages(program):
     return made
 
 
+FIRST_CLASSES = (
+    ("Remover", "a method"), ("ScanSource", "the scans that a method is given"),
+    ("RemovalSink", "takes its answer, a mask for each scan"), ("RunContext", "threads, progress, stages, reasons"),
+    ("MethodRegistry", "all methods, and how yours is added"),
+    ("ParameterTable", "names, units, ranges and sources of parameters"), ("Scan", "points, pose and time"),
+    ("SensorModel", "what is known of a sensor"), ("LocalFrameSource", "scans as the harness gives them to methods"),
+    ("Protocol", "scores an answer"), ("ProtocolEntry", "what a protocol is"), ("RateSpec", "what a rate is"))
+
+
 def cpp_page(made, target):
     """The page that leads to those of Doxygen, which are copied to `target`."""
     text = ["# C++, every header", "",
@@ -112,19 +121,14 @@ def cpp_page(made, target):
     if made is None:
         return "\n".join([*text, "", "The pages of the headers are not here: `scripts/docs.sh` makes them where Doxygen is.", ""])
     shutil.copytree(made, target)
-    text += ["", "[All classes](../cpp/annotated.html) · [all headers](../cpp/files.html) · "
-             "[all names](../cpp/globals.html)" if (made / "globals.html").exists() else
-             "\n[All classes](../cpp/annotated.html) · [all headers](../cpp/files.html)", "",
+    text += ["", "[All classes](../cpp/annotated.html) · [all headers](../cpp/files.html)", "",
              "Those to start with:", "", "| class | |", "|---|---|"]
-    for name, sentence in (
-            ("Remover", "a method"), ("ScanSource", "the scans that a method is given"),
-            ("RemovalSink", "takes its answer, a mask for each scan"), ("RunContext", "threads, progress, stages, reasons"),
-            ("MethodRegistry", "all methods, and how yours is added"), ("ParameterTable", "names, units, ranges and sources of parameters"),
-            ("Scan", "points, pose and time"), ("SensorModel", "what is known of a sensor"), ("LocalFrameSource", "scans as the harness gives them to methods"),
-            ("Protocol", "scores an answer"), ("ProtocolEntry", "what a protocol is"), ("RateSpec", "what a rate is")):
-        page = f"{'struct' if (made / f'structraymoval_1_1{name}.html').exists() else 'class'}raymoval_1_1{name}.html"
-        if (made / page).exists():
-            text.append(f"| [{name}](../cpp/{page}) | {sentence} |")
+    for name, sentence in FIRST_CLASSES:
+        page = next((f"{kind}raymoval_1_1{name}.html" for kind in ("class", "struct")
+                     if (made / f"{kind}raymoval_1_1{name}.html").exists()), None)
+        if page is None:
+            raise SystemExit(f"reference.py: Doxygen has no class {name}; name another one in FIRST_CLASSES.")
+        text.append(f"| [{name}](../cpp/{page}) | {sentence} |")
     return "\n".join(text) + "\n"
 
 
