@@ -158,7 +158,7 @@ def dot(point, radius=7):
 
 def picture(title, drawn, legend):
     """A picture as SVG: what is drawn, and below it a legend of (colour, filled, words)."""
-    width, height = 2 * LEFT + (LAST_X - FIRST_X) * SCALE, TOP + LAST_Y * SCALE + 50
+    width, height = 2 * LEFT + (LAST_X - FIRST_X) * SCALE, TOP + LAST_Y * SCALE + 76
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" '
              f'height="{height:.0f}" font-family="DejaVu Sans, sans-serif">', f"<title>{title}</title>",
              f'<rect width="{width:.0f}" height="{height:.0f}" fill="#ffffff"/>', *drawn]
@@ -216,7 +216,7 @@ def dynamicmap_picture():
                                                     'stroke-dasharray="4 3"'))
     for p, word in dynamicmap_verdicts():
         x, y = at(p[1], p[2])
-        side = -1 if p[0] in "bh" else 1
+        side = -1 if p[0] in "beh" else 1
         drawn += [dot(p), text(x + side * 14, y - 12 if p[0] != "b" else y + 26, f"{p[0]}: {word}", size=13,
                                anchor="end" if side < 0 else "start")]
     drawn.append(text(LEFT, TOP - 10, "the circles have a radius of 0.05 m around each kept point", GREY, 13, "start"))
@@ -241,9 +241,20 @@ def table(found, protocol):
     return "\n".join(lines)
 
 
+def check_distances(words):
+    """Fails unless the page says how far these points are from the nearest one that is kept."""
+    kept = [p for p in POINTS if not p[4]]
+    for name, decimals in (("c", 3), ("d", 2), ("i", 2)):
+        point = next(p for p in POINTS if p[0] == name)
+        distance = f"{nearest(point[1], point[2], kept)[1]:.{decimals}f} m"
+        if not re.search(rf"^- \*\*{name}\*\* .*{distance}", words, re.MULTILINE):
+            sys.exit(f"protocol_examples.py: {PAGE.name} does not say that {name} is {distance} from the nearest kept point.")
+
+
 def page(found):
     """The page with its tables anew."""
     old = PAGE.read_text(encoding="utf-8")
+    check_distances(old)
     for protocol in RATES:
         form = re.compile(rf"(<!-- table {protocol} -->\n).*?(<!-- end -->)", re.DOTALL)
         if not form.search(old):
