@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The documentation site: every page is in a section, mkdocs has no warning, each link and anchor leads
-# somewhere, nothing is fetched from elsewhere, and the pages that are made of what the program says
-# have all of it. Without mkdocs only the first is looked at, and the exit code is 77.
+# somewhere, nothing is fetched from elsewhere, the pages that are made of what the program says have
+# all of it, and a browser shows them well on a phone and in the dark. Without mkdocs only the first is
+# looked at, and the exit code is 77.
 # Usage: site_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")
@@ -56,6 +57,12 @@ tree = ast.parse(open('$source_folder/python/raymoval/__init__.py').read())
 print(*[n for n in ast.literal_eval(tree.body[-1].value) if not n.startswith('_')])"); do
   holds "the page of Python has $name" grep -qiF "id=\"$name\"" "$site/reference/python.html"
 done
+
+# 77: there is no Chromium.
+python3 "$source_folder/tests/site/pages.py" "$site" >looked.txt 2>&1
+code=$?
+[[ $code -ne 77 ]] || cat looked.txt
+holds "the pages look right in Chromium: $(head -n 5 looked.txt)" test "$code" -eq 0 -o "$code" -eq 77
 
 # The check finds what it looks for.
 check() { python3 "$source_folder/scripts/site/check_site.py" "$site"; }
