@@ -116,7 +116,8 @@ def main():
     shutil.rmtree(pages, ignore_errors=True)
     own = navigation.pages_of(HOUSE)
     stage_pages(own, pages)
-    shutil.copyfile(HERE / "site.css", pages / "site.css")
+    for name in ("site.css", "favicon.svg"):
+        shutil.copyfile(HERE / name, pages / name)
     made = reference.pages(given.program.resolve())
     made[navigation.PYTHON_API] = python_api.page(HOUSE / "python/raymoval")
     made[navigation.CPP_API] = reference.cpp_page(given.cpp, pages / "cpp")
