@@ -82,7 +82,6 @@ def parameter_page(program, name, title):
     """A page of `raymoval describe --markdown`: its sentence, source and variants, and the table of parameters."""
     text = said(program, "describe", name, "--markdown")
     text = re.sub(r"^### .*\n", "", text.lstrip(), count=1)
-    text = re.sub(r"^\|[-:| ]+\|$", lambda match: match[0].replace("-:", "--"), text, flags=re.MULTILINE)
     # A choice between values is written with bars.
     text = re.sub(r"(?<=[^\n ])\|(?=[^\n ])", r"\\|", text)
     text = re.sub(r"^\| (\w+) +\|", lambda match: match[0] if match[1] == "name" else f"| `{match[1]}` |", text,
