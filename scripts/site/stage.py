@@ -92,6 +92,9 @@ def stage_pages(pages, folder):
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, target)
         text = for_mkdocs(text)
+        parameters = f"{navigation.PARAMETERS}{pathlib.PurePath(page).parent.name}.md"
+        if pathlib.PurePath(page).match("methods/*/README.md"):
+            text += f"\n[All parameters and variants](../../{parameters}), as the program describes them.\n"
         put(folder / page, home(text) if page == "README.md" else text)
 
 
