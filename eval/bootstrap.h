@@ -15,9 +15,9 @@ namespace raymoval {
 /// How intervals are drawn. The seed is fixed, so the same counts give the same intervals, and all
 /// methods on a sequence see the same draws.
 struct BootstrapOptions {
-  int replicates = 1000;
-  double level = 0.95;
-  std::uint64_t seed = 20260101;
+  int replicates = 1000;          ///< How many draws.
+  double level = 0.95;            ///< The share of draws that an interval holds.
+  std::uint64_t seed = 20260101;  ///< Of the draws.
 };
 
 /// The values between which a rate would lie if other scans of the same drive had been taken.

@@ -13,9 +13,9 @@ namespace raymoval {
 
 /// A scan with its label words and, if masks are scored, its mask. All have the same length.
 struct CheckedScan {
-  Scan scan;
-  std::vector<std::uint32_t> labels;
-  Mask mask;  ///< Empty without masks.
+  Scan scan;                          ///< Points and pose.
+  std::vector<std::uint32_t> labels;  ///< One word for each point.
+  Mask mask;                          ///< Empty without masks.
 
   [[nodiscard]] bool removed(std::size_t point) const { return !mask.empty() && mask[point] != 0; }
 };

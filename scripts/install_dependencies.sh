@@ -8,7 +8,8 @@
 #   scripts/install_dependencies.sh --tests    also that, and what the tests and the Snakemake workflow need
 #                                              (200 MB to fetch, 1.3 GB installed: Debian's snakemake
 #                                              depends on the clients of all clouds, tables are compiled
-#                                              with LaTeX, and reports are opened in Chromium)
+#                                              with LaTeX, reports are opened in Chromium,
+#                                              and mkdocs makes the documentation site)
 set -euo pipefail
 
 packages=(
@@ -23,7 +24,7 @@ case ${1:-} in
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
   --python) packages+=("${python[@]}") ;;
   --tests) packages+=("${python[@]}" mypy snakemake python3-jsonschema texlive-latex-base
-    texlive-latex-recommended chromium doxygen) ;;
+    texlive-latex-recommended chromium doxygen mkdocs mkdocs-material) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing, --python or --tests." >&2
      exit 2 ;;
 esac

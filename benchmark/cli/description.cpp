@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 
 #include "benchmark/tables/text/text_table.h"
 #include "core/parameter_condition.h"
@@ -128,8 +129,12 @@ std::string description_markdown(const Description& description) {
             overrides_text(variant) + "\n";
   }
   if (!description.parameters.empty()) {
-    const std::string table = to_markdown(parameter_table(description));
-    text += "\n" + table.substr(table.find('|'));
+    std::string table = to_markdown(parameter_table(description));
+    table.erase(0, table.find('|'));
+    // Most columns are words, which begin on the left, and not numbers.
+    const auto line = table.begin() + static_cast<std::ptrdiff_t>(table.find('\n')) + 1;
+    std::replace(line, std::find(line, table.end(), '\n'), ':', '-');
+    text += "\n" + table;
   }
   if (!description.notes.empty()) text += "\n";
   for (const std::string& note : description.notes) text += "- " + note + "\n";

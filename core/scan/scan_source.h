@@ -14,12 +14,12 @@ namespace raymoval {
 class ScanSource {
  public:
   virtual ~ScanSource() = default;
-  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;  ///< How many scans there are.
   /// Scan `index` (< size()). @throws DataError naming the file and what is wrong with it.
   [[nodiscard]] virtual Scan load(std::size_t index) const = 0;
   /// `T_world_sensor` of scan `index`, without reading its points.
   [[nodiscard]] virtual Pose pose(std::size_t index) const = 0;
-  [[nodiscard]] virtual const SensorModel& sensor() const = 0;
+  [[nodiscard]] virtual const SensorModel& sensor() const = 0;  ///< One for all scans.
 };
 
 /// Label words of a scan: lower 16 bits semantic id, upper 16 bits instance id (SemanticKITTI).

@@ -31,11 +31,11 @@ class SensorMotion {
 
 /// A body's trajectory and a sensor on that body.
 struct BodyMotion {
-  Trajectory trajectory;  ///< At least one pose.
-  Pose T_body_sensor = Pose::Identity();
-  Nanoseconds time_offset = 0;  ///< Added to the times of scans.
-  Nanoseconds max_gap = kUsualMaxGap;
-  bool follows_scans = false;  ///< See `SensorMotion`.
+  Trajectory trajectory;                  ///< At least one pose.
+  Pose T_body_sensor = Pose::Identity();  ///< Takes points of the sensor to the body.
+  Nanoseconds time_offset = 0;            ///< Added to the times of scans.
+  Nanoseconds max_gap = kUsualMaxGap;     ///< Poses further apart are not interpolated.
+  bool follows_scans = false;             ///< See `SensorMotion`.
 };
 
 /// The motion of a sensor that is fixed on a body.

@@ -19,6 +19,7 @@ for name in raymoval raymoval:online noop erasor dynamicmap protocol:erasor; do
   for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
 done
 expect 0 "tau0" describe raymoval:offline --markdown
+holds "words in a table of parameters begin on the left" test -z "$(grep -e '-: |' out.txt)"
 expect 0 "raymoval describe protocol:erasor" describe erasor
 expect 0 "PR, RR, F1" describe protocol:erasor
 expect 2 "there is no method or protocol" describe protocol:erasr

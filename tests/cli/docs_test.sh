@@ -26,10 +26,28 @@ for page in "${pages[@]}" "${recipes[@]}" CONTRIBUTING.md methods/README.md exam
     holds "$page: $link is a heading" grep -qxF -- "${link#*#}" <(anchors "$target")
   done < <(page_text "$page" | grep -oE '\]\([^)]+\)' | sed 's/^](//; s/)$//' | grep -v '^https\?:')
 done
+# Whoever begins with the README finds each page: it is linked there, or on a page that is.
+mapfile -t near < <(page_text README.md | grep -oE '\]\([A-Za-z_/.-]+\.md' | sed 's/^](//' | sort -u)
 for page in "${pages[@]}"; do
-  [[ $page == README.md ]] || holds "README.md links to $page" grep -qF "($page)" "$source_folder/README.md"
+  [[ $page == README.md ]] || holds "the README, or a page that it links to, links to $page" \
+    grep -qE "\]\(($page|(docs/)?${page##*/})[)#]" "$source_folder/README.md" "${near[@]/#/$source_folder/}"
 done
-holds "README.md is short" test "$(page_text README.md | grep -v '^|' | wc -w)" -le 1100
+# A screen and a half, and its table is a part of the page that has all.
+holds "README.md is short" test "$(page_text README.md | wc -l)" -le 80
+while read -r row; do
+  holds "docs/scores.md has the README's row $row" grep -qxF -- "${row//](methods/](../methods}" "$source_folder/docs/scores.md"
+done < <(page_text README.md | grep -E '^\|.*[0-9]+\.[0-9]+ \|')
+holds "the README has a row for each method" test "$(page_text README.md | grep -cE '^\| \[[a-z_]+\]\(methods/')" -eq \
+  "$(find "$source_folder/methods" -mindepth 2 -maxdepth 2 -name README.md | wc -l)"
+# Code that a page shows stands in a file: each of its lines, but for blanks in front.
+while read -r page file; do
+  while read -r line; do
+    holds "$page: $file has '$line'" grep -qF -- "$line" "$source_folder/$file"
+  done < <(page_text "$page" | sed -n 's/^    //p')
+done <<'END'
+docs/add-data-set.md datasets/dynamicmap/dynamicmap.cpp
+docs/add-protocol.md tests/eval/toy_protocol.h
+END
 
 # --- options: each is one of the program's or of a script's, or known to be another program's ---
 commands=$("$raymoval" --help | sed -n '/^Subcommands:/,/^$/p' | awk 'NR > 1 && NF { print $1 }')
