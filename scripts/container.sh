@@ -3,10 +3,10 @@
 # Builds the image of the Dockerfile and tries it: `simulate`, `clean` and `run` on a mounted folder, as
 # a user who is not root.
 #
-#   scripts/container.sh [--engine podman|docker|buildah] [--name NAME] [ARGUMENT...]
+#   scripts/container.sh [--engine podman|docker|buildah] [--name NAME] [--build-arg KEY=VALUE ...]
 #
-# The engine is the first of these that is there; the name is raymoval. Other arguments are for the
-# build, such as --build-arg DEBIAN=13-slim. buildah is used without namespaces (--isolation chroot),
+# The engine is the first of these that is there; the name is raymoval. The Dockerfile says what may be
+# given for the build, such as DEBIAN=13-slim. buildah is used without namespaces (--isolation chroot),
 # so that it works inside of another container, too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -26,7 +26,11 @@ while [[ $# -gt 0 ]]; do
       [[ $# -ge 2 && -n $2 ]] || fail "$1 needs a value"
       [[ $1 == --engine ]] && engine=$2 || name=$2
       shift 2 ;;
-    *) arguments+=("$1"); shift ;;
+    --build-arg)
+      [[ $# -ge 2 && -n $2 ]] || fail "$1 needs a value"
+      arguments+=("$1" "$2")
+      shift 2 ;;
+    *) fail "'$1' is unknown; expected --engine, --name or --build-arg" ;;
   esac
 done
 for candidate in podman docker buildah; do

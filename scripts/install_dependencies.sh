@@ -23,7 +23,7 @@ case ${1:-} in
   "") ;;
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
   --python) packages+=("${python[@]}") ;;
-  --tests) packages+=("${python[@]}" mypy snakemake python3-jsonschema python3-yaml texlive-latex-base
+  --tests) packages+=("${python[@]}" mypy snakemake python3-jsonschema python3-yaml dpkg-dev file texlive-latex-base
     texlive-latex-recommended chromium doxygen) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing, --python or --tests." >&2
      exit 2 ;;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The header of Catch2 2 for a system that has Catch2 3, whose headers and names are others. Tests are
-// written for version 2; tests/CMakeLists.txt puts this folder in their way if it found version 3.
+// The header of Catch2 2 for a system that has Catch2 3, whose headers and names are others. Tests
+// are written for version 2; tests/CMakeLists.txt puts this folder in their way if it found
+// version 3.
 #pragma once
 
 #include <catch2/catch_approx.hpp>
@@ -36,5 +37,7 @@ using namespace Matchers;
 using Catch::Approx;
 
 #ifdef CATCH_CONFIG_MAIN
-int main(int count, char** arguments) { return Catch::Session().run(count, arguments); }
+int main(int count, char** arguments) {
+  return Catch::Session().run(count, arguments);
+}
 #endif
