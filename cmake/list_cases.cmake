@@ -1,15 +1,24 @@
 # cmake -DPROGRAM=FILE -DROOM=NAME -DSPEC=WHICH -DSLOW=TAG -DTOGETHER=TAG -DAT_ONCE=COUNT
-#       -DENVIRONMENT=TEXT -DOUTPUT=FILE -P list_cases.cmake
+#       -DENVIRONMENT=TEXT -DCATCH=VERSION -DOUTPUT=FILE -P list_cases.cmake
 # Writes OUTPUT, which ctest reads: a test "ROOM: NAME" for each test case of PROGRAM, a program made
-# with Catch2. SPEC chooses cases as on its command line. Cases with the tag SLOW are started first,
+# with Catch2 of VERSION. SPEC chooses cases as on its command line. Cases with the tag SLOW are started first,
 # so that none of them is left for the end. Cases with the tag TOGETHER are run by one process. If
 # AT_ONCE is above 1, one process runs so many cases, or half as many of those that are SLOW.
 # Catch2's own catch_discover_tests splits names at semicolons.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
+
+# How names are listed, and what makes it a failure that no case has the name that was given.
+if(CATCH VERSION_LESS 3)
+  set(list_names --list-test-names-only)
+  set(insist " --warn NoTests")
+else()
+  set(list_names --list-tests --verbosity quiet)
+  set(insist "")
+endif()
 
 # list_cases(SPEC RESULT): names, with what CMake's lists cannot hold written as <words>.
 function(list_cases spec result)
-  execute_process(COMMAND ${PROGRAM} ${spec} --list-test-names-only OUTPUT_VARIABLE names)
+  execute_process(COMMAND ${PROGRAM} ${spec} ${list_names} OUTPUT_VARIABLE names)
   string(REPLACE ";" "<semicolon>" names "${names}")
   string(REPLACE "[" "<open>" names "${names}")
   string(REPLACE "]" "<close>" names "${names}")
@@ -61,7 +70,7 @@ function(add_case name command cost)
 endfunction()
 
 if(together)
-  add_case("all of ${TOGETHER}" "[==[${PROGRAM}]==] [==[${SPEC}${TOGETHER}]==] --warn NoTests" 100)
+  add_case("all of ${TOGETHER}" "[==[${PROGRAM}]==] [==[${SPEC}${TOGETHER}]==]${insist}" 100)
 endif()
 
 # add_groups(COST COUNT CASE...): processes of COUNT cases. Each has a file with a choice of one case
@@ -86,7 +95,7 @@ function(add_groups cost count)
     file(WRITE ${file} "${lines}")
     set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../tests/run_cases.sh)
     add_case("${size} cases from '${first}' on"
-             "bash [==[${script}]==] [==[${PROGRAM}]==] [==[${file}]==]" ${cost})
+             "bash [==[${script}]==] [==[${PROGRAM}]==] [==[${file}]==]${insist}" ${cost})
   endwhile()
   set(groups ${groups} PARENT_SCOPE)
   set(text "${text}" PARENT_SCOPE)
@@ -115,6 +124,6 @@ foreach(case ${cases})
   endif()
   as_written("${case}" name)
   as_spec("${name}" spec)
-  add_case("${name}" "[==[${PROGRAM}]==] [==[${spec}]==] --warn NoTests" ${cost})
+  add_case("${name}" "[==[${PROGRAM}]==] [==[${spec}]==]${insist}" ${cost})
 endforeach()
 file(WRITE ${OUTPUT} "${text}")

@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # The letters of pictures.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core")
 # What building against the library takes; a machine that only runs the program can do without.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++ (>= 4:12), pkg-config, libeigen3-dev,
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++ (>= 4:11), pkg-config, libeigen3-dev,
  nlohmann-json3-dev, libtbb-dev, robin-map-dev, libxxhash-dev, libembree-dev, libpcl-dev,
  liblzf-dev, libbz2-dev, liblz4-dev, libzstd-dev, libsqlite3-dev, liboctomap-dev, libfmt-dev,
  libhwy-dev, zlib1g-dev, librsvg2-dev, libcairo2-dev")

@@ -11,7 +11,7 @@ case ${1:-} in
 esac
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
-known='.ci .clang-format .clang-tidy .gitattributes .gitignore .pre-commit-config.yaml CHANGELOG.md CITATION.cff CMakeLists.txt
+known='.ci .clang-format .devcontainer .dockerignore .github Dockerfile action.yml .clang-tidy .gitattributes .gitignore .pre-commit-config.yaml CHANGELOG.md CITATION.cff CMakeLists.txt
 CMakePresets.json CONTRIBUTING.md LICENSE README.md SECURITY.md benchmark cmake core datasets docs eval examples methods pyproject.toml python results
 scripts tests'
 most_bytes=1048576

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian 12 packages that raymoval is built with. Only what is missing is installed; a
-# second run changes nothing.
+# Installs the packages of Debian or Ubuntu that raymoval is built with (docs/platforms.md: which were
+# tried). Only what is missing is installed; a second run changes nothing. On another system it says
+# what is missing there.
 #
 #   scripts/install_dependencies.sh            what building and running needs
 #   scripts/install_dependencies.sh --python   also what the Python package is built with
@@ -23,17 +24,32 @@ case ${1:-} in
   "") ;;
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;;
   --python) packages+=("${python[@]}") ;;
-  --tests) packages+=("${python[@]}" mypy snakemake python3-jsonschema texlive-latex-base
-    texlive-latex-recommended chromium doxygen mkdocs mkdocs-material) ;;
+  --tests) packages+=("${python[@]}" mypy snakemake python3-jsonschema python3-yaml dpkg-dev file
+    texlive-latex-base texlive-latex-recommended chromium doxygen mkdocs mkdocs-material) ;;
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing, --python or --tests." >&2
      exit 2 ;;
 esac
 # npm fetches three.js. One that did not come from Debian will do, and would be in Debian's way.
 command -v npm >/dev/null || packages+=(npm)
 
+# Reports are without their 3-D view, or a test is left out, where a system has no package of these.
+optional=" esbuild npm chromium snakemake mypy doxygen texlive-latex-base texlive-latex-recommended "
+
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-  echo "install_dependencies.sh: this needs Debian 12 or a relative of it (apt-get, dpkg-query)." >&2
-  echo "Elsewhere install the equivalents of: ${packages[*]}" >&2
+  echo "install_dependencies.sh: this is no Debian or Ubuntu (no apt-get or no dpkg-query), so nothing is installed." >&2
+  if ! command -v cmake >/dev/null; then
+    echo "There is no cmake to ask what is missing. Install it, and what this system calls: ${packages[*]}" >&2
+    exit 2
+  fi
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  if cmake -S "$(dirname "${BASH_SOURCE[0]}")/.." -B "$work" -DRAYMOVAL_REPORT_3D=OFF >"$work/log" 2>&1; then
+    echo "CMake finds all that it needs here."
+    exit 0
+  fi
+  sed -n '/raymoval cannot be built here/,/^ *On Debian and Ubuntu/p' "$work/log" | grep -v 'On Debian and Ubuntu' >"$work/lacks" || true
+  [[ -s $work/lacks ]] || tail -n 15 "$work/log" >"$work/lacks"
+  cat "$work/lacks" >&2
   exit 2
 fi
 
@@ -58,11 +74,37 @@ if [[ $(id -u) -ne 0 ]]; then
   as_root=(sudo)
 fi
 
-echo "install_dependencies.sh: installing ${missing[*]}"
-install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes
-         --no-install-recommends "${missing[@]}")
 # The package lists are fetched only if apt does not know the packages from earlier.
-if ! apt-cache show "${missing[@]}" >/dev/null 2>&1 || ! "${install[@]}"; then
+if ! apt-cache show "${missing[@]}" >/dev/null 2>&1; then
+  echo "install_dependencies.sh: fetching the package lists"
+  "${as_root[@]}" apt-get update
+fi
+unknown=()
+left_out=()
+known=()
+for package in "${missing[@]}"; do
+  if apt-cache show "$package" >/dev/null 2>&1; then
+    known+=("$package")
+  elif [[ $optional == *" $package "* ]]; then
+    left_out+=("$package")
+  else
+    unknown+=("$package")
+  fi
+done
+if [[ ${#unknown[@]} -gt 0 ]]; then
+  echo "install_dependencies.sh: this system has no package ${unknown[*]}, which raymoval needs. docs/platforms.md says which systems have all." >&2
+  exit 2
+fi
+[[ ${#left_out[@]} -eq 0 ]] ||
+  echo "install_dependencies.sh: this system has no package ${left_out[*]}; reports may be without their 3-D view, and some tests are left out."
+if [[ ${#known[@]} -eq 0 ]]; then
+  exit 0
+fi
+echo "install_dependencies.sh: installing ${known[*]}"
+install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes
+         --no-install-recommends "${known[@]}")
+# Lists from earlier may name files that are gone.
+if ! "${install[@]}"; then
   echo "install_dependencies.sh: fetching the package lists"
   "${as_root[@]}" apt-get update
   "${install[@]}"

@@ -38,6 +38,7 @@ struct FirstInReach {
     return !found;
   }
   [[nodiscard]] double worstDist() const { return 1.000001 * squared_reach + 1e-18; }
+  void sort() const {}  // nanoflann 1.5 and later calls it.
 };
 
 }  // namespace
@@ -70,7 +71,7 @@ template <class Point>
 bool NearbyPoints<Point>::has_near(const Eigen::Vector3d& query) const {
   if (tree_ == nullptr) return false;
   FirstInReach result{squared_reach_};
-  tree_->index.findNeighbors(result, query.data(), nanoflann::SearchParams());
+  tree_->index.findNeighbors(result, query.data(), {});
   return result.found;
 }
 

@@ -34,6 +34,7 @@ struct VoteCollector {
     return true;
   }
   [[nodiscard]] double worstDist() const { return 1.000001 * vote.reach() * vote.reach(); }
+  void sort() const {}  // nanoflann 1.5 and later calls it.
 };
 
 using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, CloudView>,
@@ -60,7 +61,7 @@ std::vector<std::uint32_t> NearestLabels::labels_of(const std::vector<Eigen::Vec
     VoteCollector collector{vote};
     for (std::size_t i = begin; i < end; ++i) {
       vote.clear();
-      tree_->index.findNeighbors(collector, queries[i].data(), nanoflann::SearchParams());
+      tree_->index.findNeighbors(collector, queries[i].data(), {});
       labels[i] = tree_->cloud.labels[vote.decide([](std::uint32_t) { return false; }).point];
     }
   });

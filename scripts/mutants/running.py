@@ -53,14 +53,23 @@ def run(program, names, environment, seconds):
     return "passed" if code == 0 else "failed" if code > 0 else f"signal {-code}"
 
 
+def names_of_cases(program, choice):
+    """The names of a test program's cases, one in each line. Catch2 2 and 3 have different options."""
+    listed = None
+    for option in (["--list-test-names-only"], ["--list-tests", "--verbosity", "quiet"]):
+        listed = subprocess.run([str(program), *filter(None, [choice]), *option],
+                                capture_output=True, text=True, check=False)
+        # Version 2 ends with the number of cases, version 3 with an error for what it does not know.
+        if listed.stdout and "Unrecognised token" not in listed.stderr + listed.stdout:
+            break
+    return listed.stdout
+
+
 def measure(program, count, choice=""):
     """Runs each test case by itself without a mutant, and notes which mutants it reaches."""
-    listed = subprocess.run([str(program), choice, "--list-test-names-only"] if choice else
-                            [str(program), "--list-test-names-only"],
-                            capture_output=True, text=True, check=False).stdout
     cases = []
     with tempfile.NamedTemporaryFile() as reached:
-        for name in filter(None, listed.splitlines()):
+        for name in filter(None, names_of_cases(program, choice).splitlines()):
             reached.truncate(0)
             reached.truncate(max(count, 1))
             before = resource.getrusage(resource.RUSAGE_CHILDREN)

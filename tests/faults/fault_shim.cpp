@@ -29,6 +29,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <initializer_list>
 
 #define EXPORTED extern "C" __attribute__((visibility("default")))
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/simulation/sensor/ray_tracer.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "datasets/simulation/sensor/embree.h"
 
 namespace raymoval::simulated {
 namespace {
@@ -244,9 +244,7 @@ RayTracer::Moment::Moment(const RayTracer& tracer, const Vector3d& centre,
 RayTracer::Moment::~Moment() = default;
 
 void RayTracer::Moment::trace(std::span<const Ray> rays, std::span<Hit> hits) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  TraceOptions options = coherent_rays();
   // Neighbouring shots walk the search tree together.
   for (std::size_t begin = 0; begin < rays.size(); begin += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - begin);
@@ -256,7 +254,7 @@ void RayTracer::Moment::trace(std::span<const Ray> rays, std::span<Hit> hits) co
       valid[k] = -1;
       enter(packet, k, rays[begin + k], state_->reach);
     }
-    rtcIntersect8(valid.data(), state_->scene, &context, &packet);
+    trace_eight(valid.data(), state_->scene, options, packet);
     for (std::size_t k = 0; k < count; ++k) {
       const Found found{packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID, packet.hit.instID[0][k],
                         packet.hit.primID[k], packet.ray.tfar[k]};
