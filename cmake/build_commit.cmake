@@ -1,6 +1,7 @@
 # cmake -DSOURCE=FOLDER -DOUTPUT=FILE -P build_commit.cmake
 # Writes FILE, a C++ source that says which commit of FOLDER is built and whether what is compiled
-# differs from it. Without git, or where FOLDER is no repository of its own: unknown.
+# differs from it. Where FOLDER is no repository of its own, as the source archive of a release, its
+# file COMMIT says the commit, and the tree is unknown. Else both are unknown.
 set(commit "unknown")
 set(tree "unknown")
 find_program(git git)
@@ -27,6 +28,12 @@ if(git)
         endif()
       endif()
     endif()
+  endif()
+endif()
+if(commit STREQUAL "unknown" AND EXISTS ${SOURCE}/COMMIT)
+  file(STRINGS ${SOURCE}/COMMIT told LIMIT_COUNT 1 LIMIT_INPUT 64)
+  if(told MATCHES "^[0-9a-f]+$")
+    set(commit ${told})
   endif()
 endif()
 set(text "// Written by cmake/build_commit.cmake.

@@ -7,3 +7,10 @@ foreach(program realism bag_reading)
 endforeach()
 target_sources(bag_reading PRIVATE ${PROJECT_SOURCE_DIR}/scripts/recorded_drive.cpp)
 target_link_libraries(bag_reading PRIVATE PkgConfig::sqlite3)
+
+# The fixed kernel by itself, for scripts/record.sh.
+add_executable(raymoval_yardstick EXCLUDE_FROM_ALL
+               ${PROJECT_SOURCE_DIR}/benchmark/kernels/yardstick_main.cpp
+               ${PROJECT_SOURCE_DIR}/benchmark/kernels/yardstick.cpp)
+target_include_directories(raymoval_yardstick PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(raymoval_yardstick PRIVATE raymoval_options)

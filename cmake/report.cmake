@@ -1,5 +1,6 @@
 # The page of `raymoval report`. Its 3-D view is drawn with three.js, which comes from the npm
-# registry by npm, pinned by version and SHA-512, and is bundled by esbuild into one script.
+# registry by npm, pinned by version and SHA-512, and is bundled by esbuild into one script. The source
+# archive of a release has it in third_party/, so that it is built without a network.
 set(RAYMOVAL_REPORT_3D AUTO CACHE STRING
     "Reports with a 3-D view, which needs npm, its registry, and esbuild: ON, OFF, or AUTO (if they are there)")
 set_property(CACHE RAYMOVAL_REPORT_3D PROPERTY STRINGS AUTO ON OFF)
@@ -14,6 +15,10 @@ file(MAKE_DIRECTORY ${report_build})
 function(raymoval_fetch_three problem)
   set(${problem} "" PARENT_SCOPE)
   set(archive ${report_build}/three-${three_version}.tgz)
+  set(brought ${PROJECT_SOURCE_DIR}/third_party/three-${three_version}.tgz)
+  if(NOT EXISTS ${archive} AND EXISTS ${brought})
+    file(COPY ${brought} DESTINATION ${report_build})
+  endif()
   if(EXISTS ${archive})
     file(SHA512 ${archive} found)
   endif()

@@ -34,6 +34,8 @@ Command add_clean_command(CommandParser& program);
 Command add_simulate_command(CommandParser& program);
 Command add_inspect_command(CommandParser& program);
 Command add_report_command(CommandParser& program);
+Command add_history_command(CommandParser& program);
+Command add_verify_command(CommandParser& program);
 /// `program` has to live as long as the next two commands.
 Command add_help_command(CommandParser& program);
 Command add_completion_command(CommandParser& program);

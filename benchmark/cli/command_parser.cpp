@@ -146,7 +146,9 @@ void CommandOptions::add(const std::string& names, const std::string& type, std:
 
 void CommandOptions::add(const std::string& names, const std::string& type,
                          std::vector<std::string>& values, const std::string& sentence) {
-  app_of(command_).add_option(names, values, sentence)->type_name(type)->allow_extra_args(false);
+  // An option takes one value each time; words that stand alone are all values.
+  const bool alone = !names.starts_with('-');
+  app_of(command_).add_option(names, values, sentence)->type_name(type)->allow_extra_args(alone);
 }
 
 void CommandOptions::add_flag(const std::string& names, bool& value, const std::string& sentence) {

@@ -36,7 +36,8 @@ class CommandOptions {
   void add(const std::string& names, const std::string& type, std::string& value,
            const std::string& sentence);
 
-  /// Adds an option that takes one value each time it is given.
+  /// Adds an option that takes one value each time it is given, or any number of words that stand
+  /// alone.
   void add(const std::string& names, const std::string& type, std::vector<std::string>& values,
            const std::string& sentence);
 

@@ -110,6 +110,7 @@ expect 0 "" simulate town -o data/05 --scans 12 "${small[@]}"
 ln -s ../../data/05 kitti/sequences/05
 ln -s data/05/labels labels
 ln -s "$source_folder/examples" examples
+ln -s "$source_folder/results" results
 mkdir my_scans
 cp data/05/velodyne/*.bin my_scans/
 # Poses of the LiDAR from those of the camera: Tr^-1 P Tr, each a 3 x 4 matrix row by row.

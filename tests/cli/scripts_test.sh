@@ -22,6 +22,16 @@ for script in scripts/*.sh scripts/workflow/test_slurm.sh; do
   tells 2 "--nonsense" "$script" --nonsense
 done
 
+# The version stands in CMakeLists.txt; what cannot read it there says the same.
+house=$(readlink -f "$scripts/..")
+version=$(sed -nE 's/^project\(raymoval VERSION ([0-9.]+).*/\1/p' "$house/CMakeLists.txt")
+holds "CITATION.cff has version $version" grep -qx "version: $version" "$house/CITATION.cff"
+holds "the newest entry of CHANGELOG.md is $version" test "$version" = \
+  "$(sed -nE 's/^## ([0-9.]+).*/\1/p' "$house/CHANGELOG.md" | head -n 1)"
+holds "a page names the packages of $version" grep -q "raymoval_${version}_amd64.deb" "$house/docs/getting-started.md"
+holds "CITATION.cff has no DOI that is none" test -z \
+  "$(grep -E '^doi:' "$house/CITATION.cff" | grep -vE '^doi: 10\.[0-9]{4,9}/[^ ]+$')"
+
 # A forgotten #include, of this repository, of the standard library and of the system.
 mkdir -p house/{core,datasets,methods,eval,benchmark,tests}
 cat >house/core/wall.h <<'END'
@@ -54,6 +64,8 @@ asks() {
 }
 mkdir -p plain repository/core
 holds "without a repository the commit is unknown" test "$(asks plain)" = "unknown unknown"
+echo 0123456789abcdef >plain/COMMIT
+holds "an archive says its commit" test "$(asks plain)" = "0123456789abcdef unknown"
 if command -v git >/dev/null; then
   git=(git -C repository -c user.name=n -c user.email=e@example.org)
   "${git[@]}" init -q

@@ -90,8 +90,10 @@ std::vector<ValueSet> common_values(const MethodRegistry& methods) {
 /// the values.
 std::string set_of_type(const std::string& command, const std::string& option,
                         const std::string& type) {
-  static const std::array<std::array<const char*, 2>, 12> by_type = {{{"FILE", "files"},
+  static const std::array<std::array<const char*, 2>, 14> by_type = {{{"FILE", "files"},
+                                                                      {"SUBMISSION", "files"},
                                                                       {"DIR", "folders"},
+                                                                      {"FOLDER", "folders"},
                                                                       {"RUN", "folders"},
                                                                       {"ROOT", "folders"},
                                                                       {"REFERENCE", "folders"},

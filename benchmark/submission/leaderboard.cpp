@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "benchmark/submission/leaderboard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/text.h"
+#include "eval/protocol_registry.h"
+
+namespace raymoval {
+namespace {
+
+/// A method of one table.
+struct Entry {
+  const Verification* verification = nullptr;
+  const ProtocolResult* result = nullptr;
+  std::optional<double> headline = {};
+};
+
+/// The rates that stand in tables, the headline rate among them.
+std::vector<RateSpec> shown_rates(const std::string& protocol) {
+  std::vector<RateSpec> shown;
+  for (const RateSpec& rate : protocol_entry(protocol).rates) {
+    if (rate.role != RateRole::kSecondary) shown.push_back(rate);
+  }
+  return shown;
+}
+
+const RateSpec* headline_of(const std::vector<RateSpec>& rates) {
+  for (const RateSpec& rate : rates) {
+    if (rate.role == RateRole::kHeadline) return &rate;
+  }
+  return nullptr;
+}
+
+/// By how much `a` is better than `b`, in the direction of the rate.
+Interval advantage(const Entry& a, const Entry& b, const RateSpec& rate) {
+  if (!a.result->intervals || !b.result->intervals) return {rate.name, {}, {}, "no intervals"};
+  const Entry& more = rate.higher_is_better ? a : b;
+  const Entry& less = rate.higher_is_better ? b : a;
+  return paired_difference(*more.result->intervals, *less.result->intervals, rate.name);
+}
+
+bool is_beyond(const Interval& interval) {
+  return interval.low && *interval.low > 0.0;
+}
+
+/// The entries of protocol number `i` on the data of `first`, the best first.
+std::vector<Entry> entries_like(const std::vector<Verification>& verified,
+                                const Verification& first, std::size_t i, const RateSpec& rate) {
+  std::vector<Entry> entries;
+  for (const Verification& one : verified) {
+    const Cell& cell = one.submitted.cell;
+    if (one.verdict() != SubmissionVerdict::kHolds || cell.method.control) continue;
+    if (!comparable(cell, first.submitted.cell)) continue;
+    const ProtocolResult& result = one.scores.protocols[i];
+    entries.push_back({&one, &result, result.rate(rate.name)});
+  }
+  std::stable_sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+    if (!a.headline || !b.headline) return a.headline.has_value() && !b.headline;
+    return rate.is_better(*a.headline, *b.headline);
+  });
+  return entries;
+}
+
+std::string interval_text(const Interval& interval, const RateSpec& rate) {
+  if (!interval.low || !interval.high) return "n/a";
+  return fixed_text(*interval.low, rate.decimals) + " to " +
+         fixed_text(*interval.high, rate.decimals);
+}
+
+std::string own_interval(const Entry& entry, const RateSpec& rate) {
+  if (!entry.result->intervals) return "n/a";
+  for (const Interval& interval : entry.result->intervals->rates) {
+    if (interval.name == rate.name) return interval_text(interval, rate);
+  }
+  return "n/a";
+}
+
+/// What is known of the distance to the first method.
+std::string distance_text(const Entry& first, const Entry& entry, const RateSpec& rate) {
+  if (&first == &entry) return "-";
+  const Interval interval = advantage(first, entry, rate);
+  if (!interval.low) return "n/a";
+  return interval_text(interval, rate) + (is_beyond(interval) ? "" : ": not told apart");
+}
+
+TableRow row_of(const std::vector<Entry>& entries, std::size_t place,
+                const std::vector<RateSpec>& rates, const RateSpec& headline) {
+  const Entry& entry = entries[place];
+  const SubmittedCell& submitted = entry.verification->submitted;
+  std::size_t rank = 1;
+  for (std::size_t i = 0; i < place; ++i) {
+    if (is_beyond(advantage(entries[i], entry, headline))) ++rank;
+  }
+  TableRow row{submitted.cell.name,
+               {{submitted.cell.method.version}, {submitted.from}, {std::to_string(rank)}}};
+  for (const RateSpec& rate : rates) {
+    const auto value = entry.result->rate(rate.name);
+    row.cells.push_back({value ? fixed_text(*value, rate.decimals) : "n/a"});
+  }
+  row.cells.push_back({own_interval(entry, headline)});
+  row.cells.push_back({distance_text(entries.front(), entry, headline)});
+  return row;
+}
+
+TextTable table_of(const std::vector<Entry>& entries, const Score& score,
+                   const std::vector<RateSpec>& rates, const RateSpec& headline) {
+  const Cell& cell = entries.front().verification->submitted.cell;
+  TextTable table{fmt::format("{} by protocol {}", cell.sequence, score.protocol.name),
+                  "method",
+                  {{"", {"version", "submission", "rank"}}},
+                  {},
+                  {}};
+  std::vector<std::string>& columns = table.groups[0].columns;
+  for (const RateSpec& rate : rates) columns.push_back(rate.name);
+  columns.push_back(headline.name + ", 95 %");
+  columns.push_back("below the first, 95 %");
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    table.rows.push_back(row_of(entries, i, rates, headline));
+  }
+  table.notes.push_back(fmt::format(
+      "{} scans, data {}, protocol {} version {}. Masks were scored again for every row.",
+      cell.data->scans, cell.data->fingerprint, score.protocol.protocol, score.protocol.version));
+  table.notes.push_back(fmt::format(
+      "A rank is one more than the number of methods whose {} is better beyond the interval of the "
+      "difference, by block bootstrap over the same scans. Methods that are not told apart may "
+      "share a rank.",
+      headline.name));
+  return table;
+}
+
+}  // namespace
+
+std::vector<TextTable> leaderboard(const std::vector<Verification>& verified) {
+  std::vector<TextTable> tables;
+  std::vector<const Verification*> leaders;
+  for (const Verification& one : verified) {
+    const Cell& cell = one.submitted.cell;
+    if (one.verdict() != SubmissionVerdict::kHolds || cell.method.control) continue;
+    const bool known = std::any_of(leaders.begin(), leaders.end(), [&](const Verification* leader) {
+      return comparable(leader->submitted.cell, cell);
+    });
+    if (known) continue;
+    leaders.push_back(&one);
+    for (std::size_t i = 0; i < cell.scores.size(); ++i) {
+      const std::vector<RateSpec> all = shown_rates(cell.scores[i].protocol.protocol);
+      const RateSpec* headline = headline_of(all);
+      if (headline == nullptr) continue;
+      std::vector<RateSpec> rates;  // Those that this protocol's results have.
+      for (const RateSpec& rate : all) {
+        if (cell.scores[i].rate(rate.name)) rates.push_back(rate);
+      }
+      tables.push_back(
+          table_of(entries_like(verified, one, i, *headline), cell.scores[i], rates, *headline));
+    }
+  }
+  return tables;
+}
+
+}  // namespace raymoval
