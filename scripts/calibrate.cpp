@@ -83,6 +83,9 @@ Groups count_points(const raymoval::ConfiguredMethod& method, const std::string&
   const int threads = raymoval::hardware_threads();
   const raymoval::Sequence sequence =
       raymoval::open_sequence(path, {}, {threads, nullptr, nullptr, false});
+  if (sequence.labels == nullptr) {
+    throw raymoval::DataError(path + ": has no labels; expected a sequence that says what moves.");
+  }
   const raymoval::LocalFrameSource local(*sequence.scans, sequence.method_frame());
   Count count(sequence, *sequence.scans);
   raymoval::RunContext context;
@@ -91,6 +94,10 @@ Groups count_points(const raymoval::ConfiguredMethod& method, const std::string&
   method.make()->run(local, count, context);
   double points = 0.0;
   for (const Group& group : count.groups) points += group.points;
+  if (points == 0.0) {
+    throw raymoval::UsageError(method.full_name() + " gave no evidence of " + path +
+                               "; expected a method that asks for RunContext::evidence.");
+  }
   for (Group& group : count.groups) {
     group.points /= points;
     group.moving /= points;
