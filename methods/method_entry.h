@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parameters.h"
+#include "methods/calibration.h"
 #include "methods/remover.h"
 
 namespace raymoval {
@@ -29,7 +30,8 @@ struct MethodEntry {
   std::vector<ParameterSpec> parameters;
   std::vector<MethodVariant> variants;  ///< The first is what the bare name means.
   bool needs_truth = false;             ///< True for a control that is given the labels (`oracle`).
-  std::string manifest = {};            ///< Path of the manifest of an external method.
+  Calibration confidence = {};  ///< Empty: the method gives no evidence (see `EvidenceSink`).
+  std::string manifest = {};    ///< Path of the manifest of an external method.
   std::function<std::unique_ptr<Remover>(const Configuration&)> make;
 
   /// Takes the parameters from `table`, which must outlive the entry; `make_remover` gets their

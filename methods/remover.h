@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,16 @@ class ReasonSink {
   virtual void accept(std::size_t scan, const std::vector<std::uint8_t>& codes) = 0;
 };
 
+/// Takes what speaks for it that each point belongs to something that moves, in a measure of the
+/// method's own. It changes no mask and no score. `Calibration` makes a confidence of it.
+class EvidenceSink {
+ public:
+  virtual ~EvidenceSink() = default;
+  /// For each scan once, in any order, from any thread.
+  /// @param evidence from 0 to 1, the more the likelier; as long as the scan has points
+  virtual void accept(std::size_t scan, std::span<const float> evidence) = 0;
+};
+
 /// What a run gives a method besides its data. Everything optional may be null.
 struct RunContext {
   int threads = 1;  ///< The method uses at most so many; the answer never depends on it.
@@ -45,6 +56,7 @@ struct RunContext {
   StageTimes* times = nullptr;
   const std::atomic<bool>* cancel = nullptr;
   ReasonSink* reasons = nullptr;  ///< For a method that can give reasons; most cannot and need not.
+  EvidenceSink* evidence = nullptr;  ///< For a method whose entry has a `Calibration`.
 
   /// @throws Cancelled if the run was asked to stop. Call it once a scan.
   void check_cancelled() const {

@@ -21,13 +21,13 @@ datasets/bags          bag|damage_notes chunks|messages ros1|mcap ros2 open_bag 
 datasets/clouds        format pcd|ply|bin|las|numpy .
 datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
-methods                remover method_entry common
+methods                remover calibration method_entry common
 methods                controls|external|raymoval|raymoval_plus
 methods                |octomap|peopleremover|removert|erasor|dufomap|beautymap|freedom|hmm_mos|dynablox|mapcleaner registry
 methods/common         . patchwork
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects online .
-eval                   . points lattice dynamicmap|erasor|mos protocol_registry columns|comparison|published
+eval                   . points lattice dynamicmap|erasor|mos protocol_registry columns|comparison|confidence|published
 eval/erasor            options|frame maps matching rates scorer .
 benchmark              harness suite result process tables run history|submission picture report clean cli cli/shell cli/commands
 benchmark              kernels

@@ -9,6 +9,7 @@
 #include "benchmark/clean/outputs/map_views.h"
 #include "benchmark/clean/outputs/scan_folder.h"
 #include "benchmark/clean/outputs/tile_sink.h"
+#include "benchmark/clean/rows/confidence_rows.h"
 #include "benchmark/picture/maps/map_picture.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
@@ -56,6 +57,14 @@ void check_reference_system(const std::vector<OutputPath>& outputs, const CleanP
                    ".las does. Name one with -o, or leave --crs out.");
 }
 
+/// @throws UsageError if a confidence is asked for that no output holds
+void check_confidence(const std::vector<OutputPath>& outputs, const CleanWriting& writing) {
+  if (!writing.confidence || std::any_of(outputs.begin(), outputs.end(), is_map)) return;
+  throw UsageError(
+      "--confidence has no effect: it is a field of maps, and none is written. Name one with -o, "
+      "or with --labelled to have all points; or leave it out.");
+}
+
 }  // namespace
 
 CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
@@ -64,6 +73,7 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
     : sequence_(sequence) {
   const std::vector<OutputPath> all = paths.all();
   check_reference_system(all, paths, writing);
+  check_confidence(all, writing);
   const MapPrecision precision = map_precision(*sequence.scans);
   const bool needs_rows = std::any_of(all.begin(), all.end(), [](const OutputPath& output) {
     return output.kind != OutputKind::kLabels;
@@ -72,7 +82,11 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
   std::optional<ScanFolderPlan> plan;
   if (!paths.scans.empty() && is_bag) check_bag_copy(sequence, paths.scans);
   if (!paths.scans.empty() && !is_bag) plan = planned_scans(all, sequence);
-  if (needs_rows) rows_.emplace(sequence, precision.coordinates, progress, cancel);
+  if (needs_rows) {
+    rows_.emplace(sequence, precision.coordinates, progress, cancel);
+    layout_ = writing.confidence ? layout_with_confidence(rows_->layout()) : rows_->layout();
+    has_confidence_ = writing.confidence;
+  }
   check_intensity_scale(all, paths, writing);
   for (const OutputPath& output : all) {
     if (is_map(output)) add_map(output, paths, writing, precision.origin);
@@ -118,7 +132,7 @@ void CleanOutputs::check_intensity_scale(const std::vector<OutputPath>& outputs,
 void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
                            const CleanWriting& writing, const Eigen::Vector3d& voxel_origin) {
   const MapContent content = content_of(output);
-  const RecordLayout layout = content.labelled ? labelled_layout(rows_->layout()) : rows_->layout();
+  const RecordLayout layout = content.labelled ? labelled_layout(layout_) : layout_;
   const std::string name = format_name(output, paths, writing);
   if (rows_->is_widened()) check_coordinates(name, Coordinates::kDouble);
   note_losses(output, name, layout);
@@ -138,8 +152,8 @@ void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
   } else {
     sink = std::make_unique<FileSink>(output.path, layout, records);
   }
-  auto map = std::make_unique<MapOutput>(std::move(sink), rows_->layout(), content,
-                                         writing.voxel_size, voxel_origin);
+  auto map = std::make_unique<MapOutput>(std::move(sink), layout_, content, writing.voxel_size,
+                                         voxel_origin);
   if (auto shown = shown_intensity(name, layout)) {
     map->count_intensity({std::move(*shown), records.intensity_scale}, output.option);
   }
@@ -158,11 +172,12 @@ void CleanOutputs::add_views(const CleanPaths& paths, const CleanWriting& writin
       paths.picture, texts, sequence_.upright_frame(), window_around_way(upright)));
 }
 
-void CleanOutputs::add(const Scan& scan, const Mask& mask) {
+void CleanOutputs::add(const Scan& scan, const Mask& mask, const std::string& confidence) {
   std::optional<PointRecords> stored;
   if (sequence_.records != nullptr && rows_) stored = sequence_.records->records(scan.index);
   const PointRecords* records = stored ? &*stored : nullptr;
-  const ScanRows rows = rows_ ? rows_->rows(scan, records) : ScanRows{};
+  ScanRows rows = rows_ ? rows_->rows(scan, records) : ScanRows{};
+  if (has_confidence_) rows = rows_with_confidence(rows, layout_, confidence);
   const CleanedScan cleaned{scan, mask, rows, records};
   for (const auto& output : outputs_) output->add(cleaned);
 }

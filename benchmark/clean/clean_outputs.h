@@ -22,6 +22,7 @@ struct CleanWriting {
   std::optional<std::string> crs = std::nullopt;         ///< See `RecordWriting`.
   std::optional<double> intensity_scale = std::nullopt;  ///< See `RecordWriting`.
   std::string method = "clean";                          ///< What pictures and pages call it.
+  bool confidence = false;  ///< Whether maps have the field of `layout_with_confidence`.
 };
 
 /// The outputs of `raymoval clean`. All are opened at the beginning, so that a place where nothing
@@ -37,7 +38,8 @@ class CleanOutputs {
                Progress& progress, const std::atomic<bool>& cancel);
 
   /// Scans come in order. @param mask 1 = removed, 0 = kept, `kLeftOutMask` = in no output
-  void add(const Scan& scan, const Mask& mask);
+  /// @param confidence of each point in steps (`kConfidenceSteps`), if it is written
+  void add(const Scan& scan, const Mask& mask, const std::string& confidence = {});
   /// Ends all outputs, which may find the disk full, and then gives them their names.
   void commit();
 
@@ -63,6 +65,8 @@ class CleanOutputs {
 
   const Sequence& sequence_;
   std::optional<MapRows> rows_;
+  RecordLayout layout_;  ///< Of all rows.
+  bool has_confidence_ = false;
   std::vector<std::unique_ptr<CleanOutput>> outputs_;
   const CleanOutput* first_map_ = nullptr;
   const class ScanFolder* scans_ = nullptr;

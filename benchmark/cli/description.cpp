@@ -77,6 +77,13 @@ std::string parameter_lines(const Description& description) {
   return text;
 }
 
+/// What a method says of how sure it is, as a line; empty for a protocol.
+std::string confidence_line(const Description& description) {
+  if (!description.confidence) return "";
+  return "Confidence: " + (description.confidence->empty() ? "none." : *description.confidence) +
+         "\n";
+}
+
 }  // namespace
 
 Description describe_method(const MethodRegistry& registry, const std::string& name_and_variant) {
@@ -84,6 +91,7 @@ Description describe_method(const MethodRegistry& registry, const std::string& n
   const MethodEntry& entry = *method.entry;
   Description description{entry.name,  entry.sentence, entry.source,    entry.version,
                           entry.notes, entry.variants, entry.parameters};
+  description.confidence = entry.confidence.empty() ? "" : entry.confidence.sentence;
   if (name_and_variant.find(':') == std::string::npos) return description;
   description.name = method.full_name();
   description.sentence += " " + method.variant.sentence;
@@ -108,6 +116,7 @@ std::string description_text(const Description& description) {
   std::string text =
       description.name + " (version " + description.version + ")\n" + description.sentence + "\n";
   if (!description.source.empty()) text += "Source: " + description.source + "\n";
+  text += confidence_line(description);
   if (!description.variants.empty()) text += "Variants:\n";
   for (const MethodVariant& variant : description.variants) {
     text += "  " + variant.name + (variant.online ? " [online]" : " [offline]") + ": " +
@@ -122,6 +131,7 @@ std::string description_text(const Description& description) {
 std::string description_markdown(const Description& description) {
   std::string text = "### " + description.name + "\n\n" + description.sentence + "\n";
   if (!description.source.empty()) text += "\nSource: " + description.source + "\n";
+  if (description.confidence) text += "\n" + confidence_line(description);
   if (!description.variants.empty()) text += "\n";
   for (const MethodVariant& variant : description.variants) {
     text += "- `" + description.name.substr(0, description.name.find(':')) + ":" + variant.name +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Description {
   /// Whether each of them can change anything while the others have their defaults; all of them may
   /// where no single variant is described.
   std::vector<bool> acts = {};
+  /// What a method's confidence is made of; empty: it has none. No value of a protocol.
+  std::optional<std::string> confidence = std::nullopt;
 };
 
 /// A method; with a variant ("raymoval:online") its values stand as defaults.

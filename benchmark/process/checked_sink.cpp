@@ -92,6 +92,42 @@ Reasons ReasonStore::finish() {
   return std::move(reasons_);
 }
 
+void CheckedConfidence::accept(std::size_t scan, std::span<const float> evidence) {
+  const std::string who = "method '" + method_ + "', evidence of scan " + std::to_string(scan);
+  if (scan >= scans_.size()) {
+    throw MethodError(who + ": there are only " + std::to_string(scans_.size()) +
+                      " scans, counted from 0.");
+  }
+  if (evidence.size() != scans_.point_count(scan)) {
+    throw MethodError(who + ": there are " + grouped_text(evidence.size()) +
+                      " values, expected one for each of the scan's " +
+                      grouped_text(scans_.point_count(scan)) + " points.");
+  }
+  std::string steps(evidence.size(), '\0');
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const bool is_fit = evidence[i] >= 0.0F && evidence[i] <= 1.0F;  // NaN is not.
+    if (!is_fit) throw MethodError(who + ": a value is not from 0 to 1.");
+    steps[i] = static_cast<char>(confidence_steps(calibration_.confidence(evidence[i])));
+  }
+  const std::lock_guard lock(mutex_);
+  if (is_filled_[scan] != 0) throw MethodError(who + " was given a second time, expected once.");
+  is_filled_[scan] = 1;
+  keep(scan, std::move(steps));
+}
+
+void CheckedConfidence::check_complete() const {
+  const auto missing = std::find(is_filled_.begin(), is_filled_.end(), 0);
+  if (missing == is_filled_.end()) return;
+  throw MethodError("method '" + method_ + "' gave no evidence for scan " +
+                    std::to_string(missing - is_filled_.begin()) + " of " +
+                    std::to_string(is_filled_.size()) + ", expected one for each.");
+}
+
+ConfidenceStore KeptConfidence::finish() {
+  check_complete();
+  return std::move(kept_);
+}
+
 std::string mask_digest(const MaskStore& masks) {
   ContentHasher hasher;
   for (std::size_t scan = 0; scan < masks.size(); ++scan) {

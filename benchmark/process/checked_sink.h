@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "benchmark/process/timed_source.h"
 #include "benchmark/result/removals/reasons.h"
+#include "core/scan/confidence_store.h"
 #include "core/scan/mask_store.h"
+#include "methods/calibration.h"
 #include "methods/remover.h"
 
 namespace raymoval {
@@ -59,6 +64,51 @@ class ReasonStore : public ReasonSink {
   const TimedSource& scans_;
   std::mutex mutex_;
   Reasons reasons_;
+};
+
+/// Makes a confidence of a method's evidence, and holds the method to the contract of
+/// `EvidenceSink`. Where it is kept is left to others.
+class CheckedConfidence : public EvidenceSink {
+ public:
+  /// @param method name for messages
+  /// @param calibration not empty; must outlive this object
+  CheckedConfidence(std::string method, const Calibration& calibration, const TimedSource& scans)
+      : method_(std::move(method)),
+        calibration_(calibration),
+        scans_(scans),
+        is_filled_(scans.size(), 0) {}
+
+  /// @throws MethodError for an unknown scan, a second answer, a wrong size, or a value that is not
+  /// from 0 to 1
+  void accept(std::size_t scan, std::span<const float> evidence) override;
+  /// @throws MethodError that names the first scan without values
+  void check_complete() const;
+
+ protected:
+  /// Takes the steps of a scan's points, by one thread at a time.
+  virtual void keep(std::size_t scan, std::string steps) = 0;
+
+ private:
+  std::string method_;
+  const Calibration& calibration_;
+  const TimedSource& scans_;
+  std::mutex mutex_;
+  std::vector<std::uint8_t> is_filled_;  ///< By scan.
+};
+
+/// Keeps a method's confidence in memory, a byte for each point.
+class KeptConfidence : public CheckedConfidence {
+ public:
+  KeptConfidence(std::string method, const Calibration& calibration, const TimedSource& scans)
+      : CheckedConfidence(std::move(method), calibration, scans),
+        kept_{std::vector<std::string>(scans.size())} {}
+
+  /// What was given. @throws MethodError as `check_complete`
+  [[nodiscard]] ConfidenceStore finish();
+
+ private:
+  void keep(std::size_t scan, std::string steps) override { kept_.steps[scan] = std::move(steps); }
+  ConfidenceStore kept_;
 };
 
 /// Hash of all masks. Two methods gave the same answer exactly if their hashes are equal.

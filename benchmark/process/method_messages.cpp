@@ -33,26 +33,28 @@ struct OrderMessage {
   int threads = 1;
   bool with_reasons = false;
   bool loads_ahead = true;
+  bool with_confidence = false;
   std::vector<double> up;  ///< x, y and z.
   int up_source = 0;
   int progress = 0;
   std::string progress_context;
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OrderMessage, place, name, method, parameters, threads,
-                                   with_reasons, loads_ahead, up, up_source, progress,
-                                   progress_context)
+                                   with_reasons, loads_ahead, with_confidence, up, up_source,
+                                   progress, progress_context)
 
-/// What stands before the masks and reasons of an answer.
+/// What stands before the masks, reasons and confidence of an answer.
 struct AnswerHead {
   std::string status, reason;
   json measured;
   std::vector<std::size_t> points;  ///< Of each scan.
   std::string digest;               ///< Of the masks.
   std::vector<std::string> reasons;
+  bool has_confidence = false;
   std::vector<LoadedData> loaded;  ///< One or none.
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AnswerHead, status, reason, measured, points, digest, reasons,
-                                   loaded)
+                                   has_confidence, loaded)
 
 /// Writes a file piece by piece.
 class MessageWriter {
@@ -118,6 +120,7 @@ void write_order(int file, const MethodOrder& order) {
                                             order.threads,
                                             order.with_reasons,
                                             order.loads_ahead,
+                                            order.with_confidence,
                                             {up.x(), up.y(), up.z()},
                                             static_cast<int>(order.up.source),
                                             static_cast<int>(order.progress),
@@ -135,6 +138,7 @@ MethodOrder read_order(int file, const MethodRegistry& registry) {
   MethodOrder order{place_from(message.place), std::move(request), message.threads};
   order.with_reasons = message.with_reasons;
   order.loads_ahead = message.loads_ahead;
+  order.with_confidence = message.with_confidence;
   order.up = {{message.up.at(0), message.up.at(1), message.up.at(2)},
               static_cast<UpDirection::Source>(message.up_source)};
   order.progress = static_cast<ProgressStyle>(message.progress);
@@ -143,13 +147,10 @@ MethodOrder read_order(int file, const MethodRegistry& registry) {
 }
 
 void write_answer(int file, const MethodAnswer& answer) {
-  AnswerHead head{status_name(answer.status),
-                  answer.reason,
-                  to_json(answer.measured),
-                  {},
-                  mask_digest(answer.masks),
-                  answer.reasons.sentences,
-                  {}};
+  AnswerHead head{status_name(answer.status), answer.reason,
+                  to_json(answer.measured),   {},
+                  mask_digest(answer.masks),  answer.reasons.sentences,
+                  !answer.confidence.empty(), {}};
   for (std::size_t i = 0; i < answer.masks.size(); ++i) {
     head.points.push_back(answer.masks.point_count(i));
   }
@@ -162,6 +163,7 @@ void write_answer(int file, const MethodAnswer& answer) {
   for (const std::vector<std::uint8_t>& codes : answer.reasons.codes) {
     writer.put({reinterpret_cast<const char*>(codes.data()), codes.size()});
   }
+  for (const std::string& steps : answer.confidence.steps) writer.put(steps);
 }
 
 MethodAnswer read_answer(int file) {
@@ -181,10 +183,13 @@ MethodAnswer read_answer(int file) {
   }
   if (mask_digest(answer.masks) != head.digest) throw MethodError("the answer is damaged");
   answer.reasons.sentences = head.reasons;
-  if (head.reasons.empty()) return answer;
   for (const std::size_t points : head.points) {
+    if (head.reasons.empty()) break;
     const std::string codes = reader.take(points);
     answer.reasons.codes.emplace_back(codes.begin(), codes.end());
+  }
+  for (const std::size_t points : head.points) {
+    if (head.has_confidence) answer.confidence.steps.push_back(reader.take(points));
   }
   return answer;
 }

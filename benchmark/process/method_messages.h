@@ -14,8 +14,9 @@ struct MethodOrder {
   SequenceRequest place;  ///< Where the child opens the sequence, and how.
   MethodRequest request;  ///< The child needs its name, method and parameters only.
   int threads = 1;
-  bool with_reasons = false;  ///< Whether the method is asked for its reasons.
-  bool loads_ahead = true;    ///< See `MethodTask`.
+  bool with_reasons = false;     ///< Whether the method is asked for its reasons.
+  bool loads_ahead = true;       ///< See `MethodTask`.
+  bool with_confidence = false;  ///< Whether it is asked for its confidence.
   /// Which way is up there, which takes reading scans to find out.
   UpDirection up = {};
   ProgressStyle progress = ProgressStyle::kQuiet;

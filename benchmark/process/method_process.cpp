@@ -80,8 +80,13 @@ MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& pla
                               const ChildLimits& limits) {
   const Descriptor order_file = memory_file("order");
   const Descriptor answer_file = memory_file("answer");
-  MethodOrder order{
-      place, *task.request, task.threads, task.with_reasons, task.loads_ahead, task.sequence->up()};
+  MethodOrder order{place,
+                    *task.request,
+                    task.threads,
+                    task.with_reasons,
+                    task.loads_ahead,
+                    task.with_confidence,
+                    task.sequence->up()};
   if (task.progress != nullptr) {
     order.progress = task.progress->style();
     order.progress_context = task.progress->context();
@@ -132,7 +137,7 @@ void serve_method(const MethodRegistry& registry) {
     if (sequence.up_choice) sequence.up_choice = std::make_shared<const UpChoice>(order.up);
     const WatchedSequence data = watched(std::move(sequence));
     answer = run_method({&data.sequence, &order.request, order.threads, &progress, nullptr,
-                         order.with_reasons, order.loads_ahead});
+                         order.with_reasons, order.loads_ahead, order.with_confidence});
     answer.loaded = data.loaded();
   } catch (const Error& error) {
     answer.status = CellStatus::kBadData;

@@ -86,6 +86,10 @@ void answer_task(const MethodTask& task, MethodAnswer& answer) {
   context.cancel = task.cancel;
   ReasonStore reasons(task.request->name, scans);
   if (task.with_reasons) context.reasons = &reasons;
+  const Calibration& calibration = task.request->method.entry->confidence;
+  KeptConfidence confidence(task.request->name, calibration, scans);
+  const bool is_asked = task.with_confidence && !calibration.empty();
+  if (is_asked) context.evidence = &confidence;
   const bool was_reset = reset_peak_memory();
   const auto started = std::chrono::steady_clock::now();
   remover->run(scans, sink, context);
@@ -95,6 +99,7 @@ void answer_task(const MethodTask& task, MethodAnswer& answer) {
   answer.measured.peak_memory_mib = peak_since_reset(was_reset);
   answer.masks = sink.finish();
   answer.reasons = reasons.finish();
+  if (is_asked) answer.confidence = confidence.finish();
 }
 
 }  // namespace

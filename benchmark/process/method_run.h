@@ -10,6 +10,7 @@
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/suite/suite.h"
 #include "core/progress.h"
+#include "core/scan/confidence_store.h"
 #include "core/scan/mask_store.h"
 #include "datasets/reading/loaded_data.h"
 
@@ -25,6 +26,7 @@ struct MethodTask {
   bool with_reasons = false;  ///< Whether the method is asked why.
   /// Whether scans are loaded before the method asks for them, if the machine has a second core.
   bool loads_ahead = true;
+  bool with_confidence = false;  ///< Whether the method is asked how sure it is, if it can say.
 };
 
 /// What came of it. There are `masks` and `measured` only if `status` is kOk.
@@ -34,7 +36,8 @@ struct MethodAnswer {
   std::string output_tail;  ///< Of a method that ran in a process of its own and failed.
   MaskStore masks;
   Measurement measured;
-  Reasons reasons = {};  ///< Empty if it was not asked, or cannot say.
+  Reasons reasons = {};             ///< Empty if it was not asked, or cannot say.
+  ConfidenceStore confidence = {};  ///< The same.
   /// What was read of the sequence, if the method ran in a process of its own.
   std::optional<LoadedData> loaded = std::nullopt;
 };

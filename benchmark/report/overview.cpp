@@ -172,6 +172,14 @@ std::string cells_html(const ReportContent& content) {
   return html_table(table, TableHeight::kScrolled);
 }
 
+std::string confidence_html(const ReportContent& content) {
+  const std::string chart = reliability_chart(*content.results, ChartPlace::kPage);
+  if (chart.empty()) return "";
+  std::string html = "<div class=\"charts\">\n" + chart_html(chart) + "</div>\n";
+  for (const TextTable& table : reliability_tables(*content.results)) html += html_table(table);
+  return html;
+}
+
 std::string charts_html(const ReportContent& content) {
   const RunResults& results = *content.results;
   std::string html = "<div class=\"charts\">\n";

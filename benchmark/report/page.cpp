@@ -134,6 +134,7 @@ std::vector<PageSection> sections_of(const PageRequest& request, const Points& p
       {"charts", "Charts", charts_html(content)},
       {"points", "Points", points_html(request, points)},
       {"losses", "Losses", losses_html(content)},
+      {"confidence", "Confidence", confidence_html(content)},
       {"accuracy", "Accuracy", accuracy_html(content)},
       {"cells", "Cells", cells_html(content)},
       {"configuration", "Configuration", configuration_html(content, *request.methods)}};

@@ -31,6 +31,8 @@ std::string accuracy_html(const ReportContent& content);
 std::string cells_html(const ReportContent& content);
 /// The charts: PR against RR, accuracy against time, time of stages.
 std::string charts_html(const ReportContent& content);
+/// What methods said of points against what came true, as a chart and tables.
+std::string confidence_html(const ReportContent& content);
 /// The shares of moving points that stay and of static points that are removed, by range, height
 /// and class.
 std::string losses_html(const ReportContent& content);

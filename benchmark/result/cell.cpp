@@ -39,6 +39,7 @@ void Cell::fail(CellStatus why, const std::string& text) {
   reason = text;
   scores.clear();
   columns.reset();
+  reliability.reset();
 }
 
 }  // namespace raymoval

@@ -10,6 +10,7 @@
 #include "core/parameters.h"
 #include "datasets/sequence_record.h"
 #include "eval/columns/columns.h"
+#include "eval/confidence/reliability.h"
 #include "eval/protocol.h"
 
 namespace raymoval {
@@ -107,6 +108,7 @@ struct Cell {
   std::optional<DataRecord> data = std::nullopt;  ///< No value if the data could not be read.
   std::vector<Score> scores = {};  ///< One for each protocol; empty unless the status is kOk.
   std::optional<ColumnRecord> columns = std::nullopt;
+  std::optional<Reliability> reliability = std::nullopt;  ///< If its confidence was asked for.
   std::optional<MaskRecord> masks = std::nullopt;
   std::optional<Measurement> measured = std::nullopt;  ///< No value in a reference without times.
 

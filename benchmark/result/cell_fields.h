@@ -15,6 +15,15 @@ void describe_rates(RecordWriter& writer, const std::vector<Interval>& rates);
 void describe_rates(RecordReader& reader, std::vector<Interval>& rates);
 void describe(RecordWriter& writer, const ColumnRecord& columns);
 void describe(RecordReader& reader, ColumnRecord& columns);
+void describe(RecordWriter& writer, const Reliability& reliability);
+void describe(RecordReader& reader, Reliability& reliability);
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<ReliabilityBin> bin) {
+  visitor.field("points", bin.points);
+  visitor.field("moving", bin.moving);
+  visitor.field("steps", bin.steps);
+}
 
 /// A column without its name, under which it stands.
 template <class Visitor>
@@ -170,6 +179,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<Cell> cell) {
   visitor.nullable("data", cell.data);
   visitor.field("protocols", cell.scores);
   visitor.nullable("columns", cell.columns);
+  visitor.optional("confidence", cell.reliability);
   visitor.nullable("masks", cell.masks);
   visitor.nullable("measured", cell.measured);
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/result/cell_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "benchmark/result/cell_fields.h"
 #include "core/files/files.h"
@@ -85,6 +89,26 @@ void describe(RecordReader& reader, ColumnRecord& columns) {
     columns.values.push_back(std::move(column));
     columns.values.back().name = name;
   }
+}
+
+void describe(RecordWriter& writer, const Reliability& reliability) {
+  writer.field("bins",
+               std::vector<ReliabilityBin>(reliability.bins.begin(), reliability.bins.end()));
+  writer.field("expected_calibration_error", reliability.expected_error());
+  writer.field("mean_gap", reliability.mean_gap());
+}
+
+void describe(RecordReader& reader, Reliability& reliability) {
+  std::vector<ReliabilityBin> bins;
+  reader.field("bins", bins);
+  std::optional<double> error, gap;  // They follow from the bins.
+  for (const char* key : {"expected_calibration_error", "mean_gap"}) reader.require(key);
+  reader.nullable("expected_calibration_error", error);
+  reader.nullable("mean_gap", gap);
+  if (bins.size() != reliability.bins.size()) {
+    reader.fail("confidence.bins", "expected " + std::to_string(kConfidenceBins) + " of them");
+  }
+  std::copy(bins.begin(), bins.end(), reliability.bins.begin());
 }
 
 ordered_json to_json(const Cell& cell) {

@@ -70,6 +70,13 @@ void add_columns(const Cell& cell, RunResults& results) {
   }
 }
 
+void add_reliability(const Cell& cell, RunResults& results) {
+  if (!cell.reliability) return;
+  MethodReliability& method = item_of(results.reliability, cell.name);
+  ++method.sequences;
+  method.all += *cell.reliability;
+}
+
 void add_stage(MethodTimes& times, const std::string& name, double seconds) {
   for (auto& [known, sum] : times.stages) {
     if (known == name) {
@@ -231,6 +238,7 @@ RunResults shown_results(const ResultsRecord& results) {
   for (const Cell& cell : results.cells) {
     add_rows(cell, shown);
     add_columns(cell, shown);
+    add_reliability(cell, shown);
     add_times(cell, shown);
     if (cell.ok()) continue;
     shown.failures.push_back({cell.sequence, cell.name, status_name(cell.status), cell.reason,

@@ -9,6 +9,7 @@
 
 #include "benchmark/result/run_record.h"
 #include "eval/averages.h"
+#include "eval/confidence/reliability.h"
 
 namespace raymoval {
 
@@ -80,6 +81,13 @@ struct MethodColumns {
   [[nodiscard]] Share find(const std::string& name) const;
 };
 
+/// Whether what a method said of points came true, over all sequences where it was asked.
+struct MethodReliability {
+  std::string cell;
+  std::size_t sequences = 0;
+  Reliability all;
+};
+
 /// What tables are made of: results.json by rows, and added up over sequences.
 struct RunResults {
   std::string name;
@@ -88,7 +96,8 @@ struct RunResults {
   std::vector<std::string> protocols;
   std::vector<ResultRow> rows;
   std::vector<MethodColumns> columns;
-  std::vector<MethodTimes> times;  ///< Controls are left out.
+  std::vector<MethodReliability> reliability;  ///< Of methods that were asked.
+  std::vector<MethodTimes> times;              ///< Controls are left out.
   std::vector<SweptCell> sweeps;
   std::vector<FailedCell> failures;
   std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.

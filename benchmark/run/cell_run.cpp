@@ -41,9 +41,9 @@ void check_cancelled(const CellTask& task) {
   if (task.cancel != nullptr && task.cancel->load()) throw Cancelled();
 }
 
-void score_all(const CellTask& task, const MaskStore& masks, Cell& cell) {
+void score_all(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
   check_cancelled(task);
-  SequenceScores scores = task.scored->score(masks, task.cancel);
+  SequenceScores scores = task.scored->score(answer.masks, task.cancel, answer.confidence);
   for (std::size_t i = 0; i < scores.protocols.size(); ++i) {
     ProtocolResult& result = scores.protocols[i];
     cell.scores.push_back({protocol_record(*task.scored, i), std::move(result.counts),
@@ -51,6 +51,7 @@ void score_all(const CellTask& task, const MaskStore& masks, Cell& cell) {
                            std::move(result.intervals), std::move(result.by_scan)});
   }
   cell.columns = ColumnRecord{kColumnsVersion, std::move(scores.columns)};
+  cell.reliability = scores.reliability;
 }
 
 void write_cell_removals(const CellTask& task, const MethodAnswer& answer) {
@@ -76,7 +77,7 @@ void fill_cell(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
   cell.measured = answer.measured;
   cell.masks = MaskRecord{mask_digest(answer.masks),
                           static_cast<std::int64_t>(answer.masks.removed_count())};
-  score_all(task, answer.masks, cell);
+  score_all(task, answer, cell);
 }
 
 /// What a control answers is known from the labels, so no process is started and no scan is read
@@ -106,7 +107,8 @@ MethodAnswer answer_of_method(const CellTask& task) {
                           task.scored->progress(),
                           task.cancel,
                           !task.removals.empty(),
-                          task.is_alone};
+                          task.is_alone,
+                          task.with_confidence};
   return task.place == nullptr ? run_method(method)
                                : run_method_apart(method, *task.place, task.limits);
 }

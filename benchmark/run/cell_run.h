@@ -23,6 +23,7 @@ struct CellTask {
   const SequenceRequest* place = nullptr;
   ChildLimits limits;
   bool is_alone = true;  ///< Whether no other cell runs meanwhile, so that a core may be idle.
+  bool with_confidence = false;  ///< Whether the method is asked how sure it is, if it can say.
 };
 
 /// What the cell's key is made from. @throws DataError if the data cannot be read

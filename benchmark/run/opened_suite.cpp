@@ -120,7 +120,8 @@ void OpenedSuite::give_back(std::size_t sequence, ScoredSequence scored) {
 
 StoredCell OpenedSuite::stored_cell(ScoredSequence& scored, CellIndex cell) const {
   const ScanSource* scans = options_.keep_removals ? scored.sequence().scans.get() : nullptr;
-  return store_.find(name(cell), cell_identity(scored, method(cell)), scans);
+  const bool confidence = options_.confidence && !method(cell).method.entry->confidence.empty();
+  return store_.find(name(cell), cell_identity(scored, method(cell)), scans, confidence);
 }
 
 CellIndex OpenedSuite::find(const std::string& wanted) {

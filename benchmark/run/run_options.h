@@ -13,6 +13,7 @@ namespace raymoval {
 struct RunOptions {
   std::filesystem::path out;   ///< Run folder; it is made if it is missing.
   bool keep_removals = false;  ///< Whether label files are kept beside each cell.
+  bool confidence = false;     ///< Whether methods are asked how sure they are of each point.
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
   /// Whether each method runs in a child process, with the suite's limits. The child is this very

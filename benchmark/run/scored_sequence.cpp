@@ -139,12 +139,15 @@ void ScoredSequence::open_protocols() {
   }
 }
 
-SequenceScores ScoredSequence::score(const MaskStore& masks, const std::atomic<bool>* cancel) {
+SequenceScores ScoredSequence::score(const MaskStore& masks, const std::atomic<bool>* cancel,
+                                     const ConfidenceStore& confidence) {
   open_protocols();
   EvaluationInput scored = input();
   scored.cancel = cancel;
   RemovalCount removals(scored);
   std::vector<ScanVisitor*> visitors = {&removals};
+  std::optional<ReliabilityCount> reliability;
+  if (!confidence.empty()) visitors.push_back(&reliability.emplace(scored, confidence));
   std::vector<std::unique_ptr<Scoring>> scorings;
   for (const OpenedProtocol& opened : protocols_) {
     scorings.push_back(opened.scorer->start());
@@ -157,6 +160,7 @@ SequenceScores ScoredSequence::score(const MaskStore& masks, const std::atomic<b
     scorings[i].reset();
   }
   scores.columns = column_values(removals.tally());
+  if (reliability) scores.reliability = reliability->reliability();
   return scores;
 }
 

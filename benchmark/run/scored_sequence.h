@@ -4,14 +4,17 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmark/suite/suite.h"
 #include "core/progress.h"
+#include "core/scan/confidence_store.h"
 #include "core/scan/local_frame.h"
 #include "datasets/reading/loaded_data.h"
 #include "eval/columns/columns.h"
+#include "eval/confidence/reliability.h"
 #include "eval/points/cloud_masks.h"
 #include "eval/protocol_registry.h"
 
@@ -21,6 +24,7 @@ namespace raymoval {
 struct SequenceScores {
   std::vector<ProtocolResult> protocols;  ///< In the order of the sequence's protocols.
   std::vector<ColumnValue> columns;       ///< By class, range and height.
+  std::optional<Reliability> reliability = std::nullopt;  ///< If there is a confidence.
 };
 
 /// An opened sequence with the protocols that score on it. What a protocol derives from scans and
@@ -59,8 +63,10 @@ class ScoredSequence {
 
   /// Scores `masks` by all protocols and by columns. All of them read a scan together.
   /// @param cancel ends the scoring when it is set; null: nothing does
+  /// @param confidence of the method that gave the masks; may be empty
   /// @throws DataError, MethodError as the protocols; Cancelled
-  SequenceScores score(const MaskStore& masks, const std::atomic<bool>* cancel = nullptr);
+  SequenceScores score(const MaskStore& masks, const std::atomic<bool>* cancel = nullptr,
+                       const ConfidenceStore& confidence = {});
 
   /// Scores a cleaned cloud by protocol `i`.
   ProtocolResult score_cloud(std::size_t i, const CloudEstimate& cloud);

@@ -147,6 +147,7 @@ CellTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const {
   const RunOptions& options = suite_.options();
   CellTask task{&scored, &suite_.method(index), {}, options.cancel, nullptr, {}};
   task.is_alone = !is_side_by_side();
+  task.with_confidence = options.confidence;
   if (options.keep_removals) task.removals = suite_.store().new_removals(suite_.name(index));
   if (options.isolate) {
     task.place = &suite_.suite().sequences[index.sequence];

@@ -110,6 +110,7 @@ std::vector<TextTable> make_tables(const RunResults& results, const TableOptions
   append(published_tables(results, options));
   append(ranking_tables(results, options));
   append(compact_column_tables(results));
+  append(reliability_tables(results));
   for (const std::string& protocol : results.protocols) {
     append(control_tables(results, protocol, options));
   }

@@ -36,6 +36,10 @@ std::vector<TextTable> published_tables(const RunResults& results, const TableOp
 std::vector<std::string> unpublished_sequences(const RunResults& results,
                                                const std::vector<OutsideColumn>& outside);
 
+/// What the methods that were asked said of points against what came true: a row for each bin of
+/// confidence, a table for each method. None without any.
+std::vector<TextTable> reliability_tables(const RunResults& results);
+
 /// Whether the controls are as they must be, in words.
 std::string controls_text(const RunResults& results);
 

@@ -70,6 +70,8 @@ class OctomapRun {
     for_each_scan("octomap, answers", scans_, context_, [&](const Scan& scan) {
       const std::vector<octomap::point3d> points = in_tree_frame(scan);
       sink.accept(scan.index, removed(scan.index, points));
+      if (context_.evidence == nullptr) return;
+      context_.evidence->accept(scan.index, evidence(scan.index, points));
     });
     warn_of_points_outside();
   }
@@ -148,6 +150,23 @@ class OctomapRun {
     for (std::size_t k = 0; k < kept.size(); ++k) mask[k] = kept[k] != 0 ? 0 : mask[k];
     for (std::size_t k = 0; k < dropped.size(); ++k) mask[k] = dropped[k] != 0 ? 1 : mask[k];
     return mask;
+  }
+
+  /// How likely the leaf of each point is free; 0 for the ground, 1 for noise that goes, and one
+  /// half where the tree knows nothing.
+  [[nodiscard]] std::vector<float> evidence(std::size_t scan,
+                                            const std::vector<octomap::point3d>& points) const {
+    std::vector<float> free(points.size(), 0.5F);
+    const Mask kept = kept_.get(scan), dropped = dropped_.get(scan);
+    TreeReader reader(map_.tree());
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const std::optional<CellCode> cell = lattice_.cell_of(points[k]);
+      const octomap::OcTreeNode* node = cell ? reader.find(*cell) : nullptr;
+      if (node != nullptr) free[k] = static_cast<float>(1.0 - node->getOccupancy());
+      if (!kept.empty() && kept[k] != 0) free[k] = 0.0F;
+      if (!dropped.empty() && dropped[k] != 0) free[k] = 1.0F;
+    }
+    return free;
   }
 
   bool is_removed(const octomap::point3d& point, TreeReader& reader) {

@@ -7,6 +7,7 @@
 #include "methods/common/prepared_scans.h"
 #include "methods/common/workspaces.h"
 #include "methods/raymoval_plus/objects/low_points.h"
+#include "methods/raymoval_plus/objects/point_evidence.h"
 #include "methods/raymoval_plus/objects/point_runs.h"
 #include "methods/raymoval_plus/objects/reasons.h"
 
@@ -19,6 +20,11 @@ Mask removed_points(const Verdicts& verdicts) {
     removed[k] = verdicts[k] == Verdict::kDynamic ? 1 : 0;
   }
   return removed;
+}
+
+/// Whether somebody asks for more of each point than whether it is removed.
+bool asks_for_more(const RunContext& context) {
+  return context.reasons != nullptr || context.evidence != nullptr;
 }
 
 /// The answers of a run that has seen all scans. Tracks need the objects of all scans, and may mark
@@ -42,9 +48,9 @@ class Answers {
     for_scans_at_once("raymoval_plus, objects", "objects", scans_, context_,
                       [&](Scan& scan) { decide_without_tracks(std::move(scan)); });
     marked_ = objects_on_tracks(objects_, parameters_, context_);  // 7
-    std::vector<std::size_t> again;  // Scans whose answer changes, or needs its reasons.
+    std::vector<std::size_t> again;  // Scans whose answer changes, or needs more.
     for (std::size_t i = 0; i < scans_.size(); ++i) {
-      if (marked_[i].empty() && context_.reasons == nullptr) {
+      if (marked_[i].empty() && !asks_for_more(context_)) {
         sink_.accept(i, unmarked_.get(i));
       } else {
         again.push_back(i);
@@ -82,7 +88,7 @@ class Answers {
   void answer_with_tracks(Scan scan) {
     const std::size_t index = scan.index;
     workspaces_.with_one([&](SegmentedScan& segmented) {
-      if (context_.reasons == nullptr && all_are_remembered(index)) {
+      if (!asks_for_more(context_) && all_are_remembered(index)) {
         locate(std::move(scan), segmented);
         Verdicts verdicts = remembered_verdicts(segmented);             // 6, 7
         decide_low_points(segmented, parameters_, of_scan_, verdicts);  // 8
@@ -148,8 +154,12 @@ void answer(const SegmentedScan& scan, const std::vector<int>& marked, const Evi
   Verdicts decided = by_objects;
   decide_low_points(scan, parameters, context, decided);  // 8
   sink.accept(scan.scan.index, removed_points(decided));
-  if (context.reasons == nullptr) return;
-  context.reasons->accept(scan.scan.index, reasons_for(scan, map, by_objects, decided));
+  if (context.reasons != nullptr) {
+    context.reasons->accept(scan.scan.index, reasons_for(scan, map, by_objects, decided));
+  }
+  if (context.evidence != nullptr) {
+    context.evidence->accept(scan.scan.index, evidence_of_points(scan, decided, map, parameters));
+  }
 }
 
 }  // namespace raymoval::raymoval_plus_method

@@ -120,6 +120,17 @@ for tile in tiles/tile_*.pcd; do sum=$((sum + $(points "$tile"))); done
 holds "tiles have every point" test "$sum" -eq "$(points all/static.pcd)"
 holds "the manifest lists each" test "$(grep -c '"file"' tiles/manifest.json)" -eq "$(ls tiles/*.pcd | wc -l)"
 
+# How sure the method is stands behind the other fields of each map, and changes nothing else.
+expect 2 "raymoval does not tell how sure it is" clean drive "${online[@]}" -o sure.pcd --confidence
+expect 2 "--confidence has no effect" clean drive --labels sure --confidence
+sure=(--method octomap --quiet)
+expect 0 "" clean drive "${sure[@]}" -o unsure.pcd
+expect 0 "" clean drive "${sure[@]}" -o sure.pcd --labelled sure.ply --confidence
+holds "all points are sure" test "$(points sure.ply)" -eq $(($(cat drive/velodyne/*.bin | wc -c) / 16))
+holds "the decision is the same" test "$(points sure.pcd)" -eq "$(points unsure.pcd)"
+holds "a field says how sure" grep -aqx "property float confidence" sure.ply
+holds "nobody is sure unasked" test "$(grep -ac confidence unsure.pcd)" -eq 0
+
 # A map in LAS says its reference system, and has every point.
 expect 0 "" clean drive "${online[@]}" -o utm.las --crs EPSG:32632
 holds "LAS says its reference system" python3 - "$(points all/static.pcd)" <<'PYTHON'

@@ -24,6 +24,21 @@ expect 0 "raymoval describe protocol:erasor" describe erasor
 expect 0 "PR, RR, F1" describe protocol:erasor
 expect 2 "there is no method or protocol" describe protocol:erasr
 
+# How sure a method is. Who was not asked is run again, who cannot tell is not.
+expect 0 "Confidence: How likely" describe octomap
+expect 0 "Confidence: none." describe raymoval
+asked=(run "${short[@]}" --method octomap --method raymoval:online --out sure)
+expect 0 "" "${asked[@]}"
+expect 0 "1 of 5 cells are to be run." "${asked[@]}" --confidence --explain
+expect 0 "octomap:r20: its confidence is asked for" "${asked[@]}" --confidence --explain
+expect 0 "" "${asked[@]}" --confidence
+expect 0 "0 of 5 cells are to be run." "${asked[@]}" --confidence --explain
+holds "the cell has bins" grep -q '"mean_gap"' sure/cells/street/octomap-r20/cell.json
+holds "others have none" test -z "$(grep -l mean_gap sure/cells/street/raymoval-online/cell.json)"
+holds "the table tells" grep -q "Confidence of octomap" sure/table.md
+expect 0 "" report sure -o sure.html --no-points
+holds "the page has the chart" grep -q "What methods say of points, and what comes true" sure.html
+
 # Slips of the command line name what is near.
 expect 2 "a command is missing"
 expect 2 "'run'" runn

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <span>
+#include <vector>
 
 #include "core/scan/reach.h"
 #include "tests/methods/moved_world.h"
@@ -41,6 +43,16 @@ bool knows_origin(const ConfiguredMethod& method) {
   return name == "hmm_mos:published" || name == "hmm_mos:fine";
 }
 
+/// Keeps the evidence of a run.
+class KeptEvidence : public EvidenceSink {
+ public:
+  explicit KeptEvidence(std::size_t scans) : by_scan(scans) {}
+  void accept(std::size_t scan, std::span<const float> evidence) override {
+    by_scan[scan].assign(evidence.begin(), evidence.end());
+  }
+  std::vector<std::vector<float>> by_scan;
+};
+
 }  // namespace
 
 // Where the world's origin lies and which way its axes point is nobody's business: what a method
@@ -75,6 +87,32 @@ TEST_CASE("any number of threads gives the same answer", "[threads][every-method
       const MaskStore many = masks_of(*method.make(), world, threads);
       CHECK(toy::different_verdicts(one, many, world.size()) == 0);
     }
+  }
+}
+
+// Nobody who looks closer changes what there is to see.
+TEST_CASE("evidence changes no mask, and is the same for any number of threads",
+          "[threads][every-method]") {
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
+  const toy::World world = toy::street(10);
+  for (const ConfiguredMethod& method : all_methods()) {
+    if (method.entry->confidence.empty()) continue;
+    INFO(method.full_name());
+    const MaskStore unasked = masks_of(*method.make(), world);
+    std::vector<std::vector<float>> one;
+    for (const int threads : {1, 2, 8}) {
+      INFO(threads << " threads");
+      toy::Masks masks(world.size());
+      KeptEvidence kept(world.size());
+      RunContext context;
+      context.threads = threads;
+      context.evidence = &kept;
+      method.make()->run(world, masks, context);
+      CHECK(toy::different_verdicts(unasked, masks.store, world.size()) == 0);
+      if (threads == 1) one = kept.by_scan;
+      CHECK(kept.by_scan == one);
+    }
+    for (std::size_t i = 0; i < world.size(); ++i) CHECK(one[i].size() == world.load(i).size());
   }
 }
 

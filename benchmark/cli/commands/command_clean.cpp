@@ -35,6 +35,7 @@ struct CleanFlags {
   std::string method = "raymoval_plus:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
+  bool confidence = false;
   bool overwrite = false;
   bool force = false;
   bool in_process = false;
@@ -74,34 +75,59 @@ ConfiguredMethod configured(const CleanFlags& flags) {
   for (const std::string& text : flags.settings) settings.push_back(parse_setting(text));
   apply_settings(suite, settings);
   warn_of_settings_without_effect(suite);
-  return suite.methods.front().method;
+  ConfiguredMethod method = suite.methods.front().method;
+  if (flags.confidence && method.entry->confidence.empty()) {
+    std::vector<std::string> names;
+    for (const auto& entry : program_methods().entries()) {
+      if (!entry->confidence.empty()) names.push_back(entry->name);
+    }
+    throw UsageError("--confidence: " + method.entry->name +
+                     " does not tell how sure it is. Choose another --method (" + join(names) +
+                     "), or leave it out.");
+  }
+  return method;
 }
 
+/// What a method gives, in files without names.
+struct SpooledAnswer {
+  MaskSpool masks;
+  std::optional<ConfidenceSpool> confidence;  ///< If it is asked for.
+
+  SpooledAnswer(const ConfiguredMethod& method, const TimedSource& scans,
+                const std::filesystem::path& beside, bool with_confidence)
+      : masks(method.full_name(), scans, beside) {
+    if (!with_confidence) return;
+    confidence.emplace(method.full_name(), method.entry->confidence, scans, beside);
+  }
+};
+
 void find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
-                   const Sequence& sequence, const TimedSource& scans, MaskSpool& masks,
+                   const Sequence& sequence, const TimedSource& scans, SpooledAnswer& answer,
                    Progress& progress) {
   const auto remover = make_remover(method, sequence);
   RunContext context;
   context.threads = flags.work.thread_count();
   context.progress = &progress;
   context.cancel = &interrupt_flag();
-  remover->run(scans, masks, context);
-  masks.check_complete();
+  if (answer.confidence) context.evidence = &*answer.confidence;
+  remover->run(scans, answer.masks, context);
+  answer.masks.check_complete();
+  if (answer.confidence) answer.confidence->check_complete();
 }
 
-void write_outputs(const ScanSource& scans, const MaskSpool& masks, CleaningFacts& facts,
+void write_outputs(const ScanSource& scans, const SpooledAnswer& answer, CleaningFacts& facts,
                    CleanOutputs& outputs, Progress& progress) {
   RangeCut& range = facts.range;
   progress.begin("writing the outputs", scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (interrupt_flag()) throw Cancelled();
     const Scan scan = scans.load(i);
-    const Mask mask = range.cut(scan, masks.get(i));
+    const Mask mask = range.cut(scan, answer.masks.get(i));
     facts.shares.add(scan, mask);
-    outputs.add(scan, mask);
+    outputs.add(scan, mask, answer.confidence ? answer.confidence->get(i) : std::string());
     progress.advance();
   }
-  if (range.left_out == masks.point_count()) {
+  if (range.left_out == answer.masks.point_count()) {
     throw DataError("no point lies within --range " + number_text(range.kept->min) + ":" +
                     number_text(range.kept->max) +
                     " (metres from the sensor), so nothing was written. Choose another.");
@@ -146,6 +172,7 @@ CleanWriting writing_of(const CleanFlags& flags, const ConfiguredMethod& method)
     writing.intensity_scale = parse_positive("--intensity-scale", flags.intensity_scale);
   }
   writing.method = method.full_name();
+  writing.confidence = flags.confidence;
   return writing;
 }
 
@@ -255,9 +282,10 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   for (const std::string& note : outputs.notes()) print_error("raymoval: " + note);
   const LocalFrameSource local(*data.sequence.scans, sequence.method_frame());
   const TimedSource scans(local);
-  MaskSpool masks(method.full_name(), scans, paths.all().front().path);
-  find_removals(flags, method, data.sequence, scans, masks, progress);
-  write_outputs(*data.sequence.scans, masks, facts, outputs, progress);
+  SpooledAnswer answer(method, scans, paths.all().front().path, flags.confidence);
+  const MaskSpool& masks = answer.masks;
+  find_removals(flags, method, data.sequence, scans, answer, progress);
+  write_outputs(*data.sequence.scans, answer, facts, outputs, progress);
   facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!is_control(method.entry->name)) {
     check_removed(masks.removed_count(), masks.point_count(), flags.path);
@@ -298,6 +326,9 @@ Command add_clean_command(CommandParser& program) {
   options.add("--dynamic", "FILE", flags->dynamic, "Also write what was removed, as a map");
   options.add("--labelled", "FILE", flags->labelled,
               "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
+  options.add_flag("--confidence", flags->confidence,
+                   "Give maps a field `confidence`: how sure the method is that a point moves, "
+                   "from 0 to 1");
   options.add(
       "--labels", "DIR", flags->labels,
       "Also write a label file for each scan into this folder (251 = removed, 9 = kept, 0 = left "

@@ -22,6 +22,7 @@ struct RunFlags {
   std::string out, shard, cell, jobs;
   std::vector<std::string> only;
   bool keep_removals = false;
+  bool confidence = false;
   bool explain = false;
   bool collect = false;
   bool in_process = false;
@@ -140,6 +141,7 @@ ExitCode run(const RunFlags& flags) {
   RunOptions options;
   options.out = flags.out;
   options.keep_removals = flags.keep_removals;
+  options.confidence = flags.confidence;
   options.progress = &progress;
   options.cancel = &interrupt_flag();
   options.isolate = !flags.in_process;
@@ -177,6 +179,9 @@ void add_options(CommandOptions& options, RunFlags& flags) {
                    "Run nothing; say which cells would be run, and why");
   options.add_flag("--keep-removals", flags.keep_removals,
                    "Keep what each method removed from each scan");
+  options.add_flag("--confidence", flags.confidence,
+                   "Ask the methods that can tell how sure they are of each point, and count what "
+                   "comes true (see `raymoval describe METHOD`)");
   options.add_flag("--in-process", flags.in_process,
                    "Run methods in this process, for a debugger; a crash then ends the whole run");
   options.add_flag("--overwrite", flags.overwrite,

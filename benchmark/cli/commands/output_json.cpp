@@ -74,10 +74,12 @@ ordered_json to_json(const Description& description) {
     parameters.push_back(parameter_json(description.parameters[i]));
     if (!description.acts.empty()) parameters.back()["acts"] = bool{description.acts[i]};
   }
-  return {{"name", description.name},           {"sentence", description.sentence},
-          {"source", description.source},       {"version", description.version},
-          {"notes", description.notes},         {"variants", std::move(variants)},
-          {"parameters", std::move(parameters)}};
+  ordered_json json = {{"name", description.name},           {"sentence", description.sentence},
+                       {"source", description.source},       {"version", description.version},
+                       {"notes", description.notes},         {"variants", std::move(variants)},
+                       {"parameters", std::move(parameters)}};
+  if (description.confidence) json["confidence"] = *description.confidence;
+  return json;
 }
 
 ordered_json to_json(const PlannedCell& cell, bool looked) {

@@ -34,6 +34,11 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol,
 /// there are no times.
 std::string stage_chart(const RunResults& results, ChartPlace place = ChartPlace::kFile);
 
+/// Shows which share of the points moves (upwards) against the mean confidence that was said of
+/// them (to the right), a marker for each bin with points, a line for each method that was asked. A
+/// dotted diagonal is where what is said comes true. The text is empty if no method was asked.
+std::string reliability_chart(const RunResults& results, ChartPlace place = ChartPlace::kFile);
+
 /// Shows the mean of the headline rate over the sequences against milliseconds per scan
 /// (logarithmic). A line joins the methods that no other one beats in both. The text is empty if no
 /// method has both.

@@ -72,7 +72,7 @@ path CellStore::new_removals(const CellName& cell) const {
 }
 
 StoredCell CellStore::find(const CellName& name, const CellIdentity& wanted,
-                           const ScanSource* scans) const {
+                           const ScanSource* scans, bool confidence) const {
   using State = StoredCell::State;
   const path file = folder(name) / "cell.json";
   if (!has_file(file)) return {State::kMissing, "is not there yet", {}};
@@ -87,6 +87,9 @@ StoredCell CellStore::find(const CellName& name, const CellIdentity& wanted,
     if (!same) return {State::kStale, identity_difference(cell, wanted), {}};
     if (scans != nullptr && !has_removals(folder(name), cell, *scans)) {
       return {State::kStale, "its removals are asked for and not there, or not whole", {}};
+    }
+    if (confidence && !cell.reliability) {
+      return {State::kStale, "its confidence is asked for and was not scored", {}};
     }
     return {State::kFresh, "", std::move(cell)};
   } catch (const UnreadableError&) {

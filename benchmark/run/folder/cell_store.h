@@ -35,8 +35,9 @@ class CellStore {
   [[nodiscard]] std::filesystem::path new_removals(const CellName& cell) const;
 
   /// @param scans if they are given, the cell's removals of them have to be there too
+  /// @param confidence whether the cell's has to have been scored
   [[nodiscard]] StoredCell find(const CellName& name, const CellIdentity& wanted,
-                                const ScanSource* scans) const;
+                                const ScanSource* scans, bool confidence = false) const;
   /// Repeat `number` (2, 3 ...) of the cell with `key`; no value if it is not there.
   [[nodiscard]] std::optional<RepeatRecord> find_repeat(const CellName& cell, int number,
                                                         const std::string& key) const;

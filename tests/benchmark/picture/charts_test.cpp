@@ -90,6 +90,21 @@ TEST_CASE("PR against RR: every point is where its rates say") {
   CHECK(count(svg, "class=\"mark\"") == 2 + 3);  // Two points; the legend has the failed one too.
 }
 
+TEST_CASE("What was said against what came true: each bin is where it says") {
+  RunResults results = two_points();
+  CHECK(reliability_chart(results).empty());
+  MethodReliability method{"x", 1, {}};
+  method.all.bins[9] = {200, 150, 200 * 225};  // Said 0.9, and 0.75 move.
+  method.all.bins[5] = {99, 0, 99 * 125};      // Too few.
+  results.reliability = {method};
+  const std::string svg = reliability_chart(results);
+  CHECK(is_well_formed(svg));
+  // The plot's corner is at (56, 44) and it is 300 wide and high: 56 + 270, 44 + 75.
+  CHECK_THAT(svg, Contains("cx=\"326\" cy=\"119\" r=\"5\"><title>x: said 0.900, 0.750 of 200 "
+                           "points move</title>"));
+  CHECK(count(svg, "class=\"mark\"") == 1 + 1);  // One of them in the legend.
+}
+
 TEST_CASE("Lines of equal F1 go through the points that have it") {
   const std::string svg = pr_rr_chart(two_points(), "erasor");
   // F1 0.9 where one rate is 100 and the other 90 * 100 / (200 - 90) = 81.818: at RR 81.818 the

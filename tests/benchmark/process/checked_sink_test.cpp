@@ -2,6 +2,7 @@
 #include "benchmark/process/checked_sink.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "tests/benchmark/small_world.h"
 
@@ -24,6 +25,33 @@ TEST_CASE("The sink holds a method to one mask of the right size per scan") {
   sink.accept(1, {0});
   CHECK(sink.finish().get(0) == Mask{1, 0, 1});
   CHECK(sink.finish().removed_count() == 2);
+}
+
+TEST_CASE("Evidence becomes a confidence in steps of 1/250, once per scan and point") {
+  const test::TwoScans world;  // Three points, then one.
+  const TimedSource scans(world);
+  const Calibration calibration{"", {{0.0F, 0.1F}, {1.0F, 0.9F}}};
+  KeptConfidence sink("mine", calibration, scans);
+  const auto give = [&](std::size_t scan, const std::vector<float>& evidence) {
+    sink.accept(scan, evidence);
+  };
+
+  CHECK_THROWS_WITH(give(2, {1}), Contains("only 2 scans"));
+  CHECK_THROWS_WITH(give(0, {1, 0}), Contains("scan 0") && Contains("2 values"));
+  CHECK_THROWS_WITH(give(0, {1, 0, 1.5F}), Contains("not from 0 to 1"));
+  CHECK_THROWS_WITH(give(0, {1, 0, std::numeric_limits<float>::quiet_NaN()}),
+                    Contains("not from 0 to 1"));
+
+  give(0, {0, 0.5F, 1});
+  CHECK_THROWS_WITH(give(0, {0, 0.5F, 1}), Contains("second time"));
+  CHECK_THROWS_WITH(sink.check_complete(), Contains("no evidence for scan 1"));
+  give(1, {0});
+  const ConfidenceStore kept = sink.finish();
+  CHECK(kept.at(0, 0) == 25);  // 0.1
+  CHECK(kept.at(0, 1) == 125);
+  CHECK(kept.at(0, 2) == 225);
+  CHECK(kept.at(1, 0) == 25);
+  CHECK(confidence_of_steps(kept.at(0, 2)) == 0.9F);
 }
 
 TEST_CASE("The digest tells masks apart, also where only the scans' borders differ") {

@@ -23,6 +23,20 @@ TEST_CASE("Masks come back from the spool in any order, and leave no file") {
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
+TEST_CASE("Confidence comes back from its spool, and leaves no file") {
+  const test::TwoScans world;  // Three points, then one.
+  const test::TemporaryFolder folder;
+  const TimedSource scans(world);
+  const Calibration calibration{"", {{0.0F, 0.0F}, {1.0F, 1.0F}}};
+  ConfidenceSpool spool("mine", calibration, scans, folder.path() / "map.pcd");
+  spool.accept(1, std::vector<float>{1.0F});
+  spool.accept(0, std::vector<float>{0.0F, 0.5F, 0.004F});
+  spool.check_complete();
+  CHECK(spool.get(0) == std::string({0, 125, 1}));
+  CHECK(spool.get(1) == std::string({static_cast<char>(250)}));
+  CHECK(std::filesystem::is_empty(folder.path()));
+}
+
 TEST_CASE("The spool holds a method to one mask of the right size per scan") {
   const test::TwoScans world;
   const test::TemporaryFolder folder;

@@ -151,6 +151,11 @@ class Draw {
                             return ColumnValue{name(i), {count(), whole}, whole > 0 ? "" : text()};
                           })};
     });
+    cell.reliability = maybe([&] {
+      Reliability said;
+      for (ReliabilityBin& bin : said.bins) bin = {count(), count(), count()};
+      return said;
+    });
     cell.masks = maybe([&] { return MaskRecord{text(), count()}; });
     cell.measured = maybe([&] { return measurement(); });
     return cell;
@@ -223,30 +228,16 @@ bool may_be_missing(const Pointer& place) {
     if (is_named && !of_column && place.back() != "undefined") return true;
     if (is_named && text.starts_with("/columns") && !of_column) return true;
   }
-  static const std::vector<std::string> kOptional = {"schema_version",
-                                                     "key",
-                                                     "data",
-                                                     "columns",
-                                                     "masks",
-                                                     "measured",
-                                                     "sensor_basis",
-                                                     "up",
-                                                     "up_source",
-                                                     "max",
-                                                     "scan_period_s",
-                                                     "drop_ego",
-                                                     "label_rule",
-                                                     "fingerprint",
-                                                     "intervals",
-                                                     "median",
-                                                     "p90",
-                                                     "early",
-                                                     "late",
-                                                     "peak_memory_mib",
-                                                     "repeats",
-                                                     "T_sensor",
-                                                     "time_offset_s",
-                                                     "deskew"};
+  static const std::vector<std::string> kOptional = {
+      "schema_version", "key",          "data",
+      "columns",        "confidence",   "masks",
+      "measured",       "sensor_basis", "up",
+      "up_source",      "max",          "scan_period_s",
+      "drop_ego",       "label_rule",   "fingerprint",
+      "intervals",      "median",       "p90",
+      "early",          "late",         "peak_memory_mib",
+      "repeats",        "T_sensor",     "time_offset_s",
+      "deskew"};
   return std::find(kOptional.begin(), kOptional.end(), place.back()) != kOptional.end();
 }
 

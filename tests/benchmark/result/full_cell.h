@@ -29,6 +29,7 @@ inline nlohmann::ordered_json full_cell() {
   score.intervals.emplace().rates = {{"PR", 80.0, 95.0}, {"F1", {}, {}, "nothing moves"}};
   cell.scores = {score};
   cell.columns = ColumnRecord{"1", {{"recall", {1, 2}, ""}, {"residue", {0, 0}, "nothing"}}};
+  cell.reliability.emplace().bins[9] = {4, 3, 950};
   cell.masks = MaskRecord{"d", 7};
   cell.measured = {1, 0.1, 0.1, 0.2, 0.1, 0.1, 1.0, 0.5, {{"cast", 0.3}}, 90.0, {0.1, 0.2}};
   return nlohmann::ordered_json::parse(to_json(cell).dump());

@@ -77,6 +77,27 @@ TEST_CASE("The paper's layout marks best and second and names both averages of F
   CHECK(rows[2].cells[5].text == "0.8000 (1/2)");
 }
 
+TEST_CASE("What was said and what came true stand in a table for each method that was asked") {
+  RunResults results = two_by_two();
+  CHECK(reliability_tables(results).empty());
+  MethodReliability method{"x", 2, {}};
+  method.all.bins[0] = {300, 30, 300 * 10};   // Said 0.04, and 0.1 move.
+  method.all.bins[9] = {100, 80, 100 * 235};  // Said 0.94, and 0.8 move.
+  results.reliability = {method};
+  const std::vector<TextTable> tables = reliability_tables(results);
+  REQUIRE(tables.size() == 1);
+  CHECK(tables[0].title == "Confidence of x");
+  CHECK(tables[0].rows[0].label == "0.0 to 0.1");
+  CHECK(tables[0].rows[0].cells[0].text == "300");
+  CHECK(tables[0].rows[0].cells[1].text == "0.040");
+  CHECK(tables[0].rows[0].cells[2].text == "0.100");
+  CHECK(tables[0].rows[5].cells[1].text == "-");
+  CHECK(tables[0].rows[9].cells[2].text == "0.800");
+  // (300 x 0.06 + 100 x 0.14) / 400, and (0.06 + 0.14) / 2.
+  CHECK_THAT(tables[0].notes[0], Contains("over 2 sequences") && Contains("error 0.08000") &&
+                                     Contains("mean gap 0.100"));
+}
+
 TEST_CASE("What is displayed alike is marked alike") {
   RunResults results = two_by_two();
   results.rows[2].rates["PR"] = 90.0001;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace raymoval {
+
+/// A confidence is kept as a whole number of these steps from 0 to 1, in a byte.
+inline constexpr int kConfidenceSteps = 250;
+
+/// The number of steps of a confidence from 0 to 1.
+inline std::uint8_t confidence_steps(float confidence) {
+  return static_cast<std::uint8_t>(std::lround(confidence * static_cast<float>(kConfidenceSteps)));
+}
+/// The confidence that so many steps are.
+inline float confidence_of_steps(std::uint8_t steps) {
+  return static_cast<float>(steps) / static_cast<float>(kConfidenceSteps);
+}
+
+/// How sure a method is that each point moves: steps by scan, a byte for each point.
+struct ConfidenceStore {
+  std::vector<std::string> steps;  ///< Empty if no method was asked, or it has none.
+
+  [[nodiscard]] bool empty() const { return steps.empty(); }
+  [[nodiscard]] std::uint8_t at(std::size_t scan, std::size_t point) const {
+    return static_cast<std::uint8_t>(steps[scan][point]);
+  }
+};
+
+}  // namespace raymoval

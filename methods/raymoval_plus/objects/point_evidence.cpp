@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects/point_evidence.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+/// Of a point that belongs to no object.
+constexpr float kNoObject = -1.0F;
+
+/// For each point of a scan the share of its object's points that are dynamic, or `kNoObject`.
+std::vector<float> object_shares(const SegmentedScan& scan) {
+  std::vector<float> shares(scan.scan.size(), kNoObject);
+  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
+    const Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
+    shares[scan.high_points[i]] =
+        static_cast<float>(cluster.dynamic) / static_cast<float>(std::max(cluster.points, 1));
+  }
+  return shares;
+}
+
+}  // namespace
+
+float free_share(const VoxelEvidence& evidence, const Parameters& parameters) {
+  const auto needed = static_cast<float>(parameters.free_constant +
+                                         parameters.free_per_agree * evidence.agree_scans);
+  const auto free = static_cast<float>(evidence.free_scans);
+  const float by_count = free > 0.0F ? free / (free + needed) : 0.0F;
+  if (parameters.run_scans == 0) return by_count;
+  const auto run = static_cast<float>(std::max(evidence.leading_free, evidence.trailing_free));
+  return std::max(by_count, run / (run + static_cast<float>(parameters.run_scans)));
+}
+
+std::vector<float> evidence_of_points(const SegmentedScan& scan, const Verdicts& decided,
+                                      const EvidenceMap& map, const Parameters& parameters) {
+  std::vector<float> evidence = object_shares(scan);
+  for (std::size_t k = 0; k < evidence.size(); ++k) {
+    const std::uint32_t voxel = scan.voxel[k];
+    const float own =
+        voxel == EvidenceMap::kNone ? 0.0F : free_share(map.evidence(voxel), parameters);
+    const float object = evidence[k] == kNoObject ? own : evidence[k];
+    const float verdict = decided[k] == Verdict::kDynamic ? 1.0F : 0.0F;
+    evidence[k] = 0.5F * verdict + 0.25F * (own + object);
+  }
+  return evidence;
+}
+
+}  // namespace raymoval::raymoval_plus_method

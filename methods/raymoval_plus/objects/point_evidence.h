@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "methods/raymoval_plus/objects/objects.h"
+
+namespace raymoval::raymoval_plus_method {
+
+/// From 0 to 1, and one half where step 4 begins to call a voxel dynamic: the scans that saw
+/// through it against those that would be needed, or those in a row before or after all that agree.
+float free_share(const VoxelEvidence& evidence, const Parameters& parameters);
+
+/// What speaks for it that each point of a scan moves, from 0 to 1: half of it is what was decided,
+/// a quarter the `free_share` of the point's voxel, and a quarter the dynamic share of its object.
+/// Ground has no voxel and counts as never seen through; for a point without an object, its voxel
+/// counts twice.
+/// @param decided verdicts after step 8
+std::vector<float> evidence_of_points(const SegmentedScan& scan, const Verdicts& decided,
+                                      const EvidenceMap& map, const Parameters& parameters);
+
+}  // namespace raymoval::raymoval_plus_method

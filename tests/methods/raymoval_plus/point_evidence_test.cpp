@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects/point_evidence.h"
+
+#include <catch2/catch.hpp>
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+TEST_CASE("free scans against those that are needed make one half where step 4 decides") {
+  Parameters parameters;  // 1 + 0.3 x agreeing scans have to be free, or four in a row.
+  parameters.free_constant = 1.0;
+  parameters.free_per_agree = 0.3;
+  parameters.run_scans = 4;
+  CHECK(free_share({0, 0, 0, 0}, parameters) == 0.0F);
+  CHECK(free_share({0, 10, 0, 0}, parameters) == 0.0F);
+  CHECK(free_share({1, 0, 0, 0}, parameters) == Approx(0.5));     // 1 of the 1 that is needed.
+  CHECK(free_share({4, 10, 0, 0}, parameters) == Approx(0.5));    // 4 of 1 + 3.
+  CHECK(free_share({12, 10, 0, 0}, parameters) == Approx(0.75));  // 12 / (12 + 4).
+  CHECK(free_share({4, 100, 4, 0}, parameters) == Approx(0.5));   // By the run; 4 / 35 by count.
+  CHECK(free_share({12, 100, 0, 12}, parameters) == Approx(0.75));
+  parameters.run_scans = 0;  // Runs have no say.
+  CHECK(free_share({4, 10, 4, 0}, parameters) == Approx(0.5));
+  CHECK(free_share({31, 100, 31, 0}, parameters) == Approx(0.5));  // 31 of 31.
+}
+
+TEST_CASE("the verdict counts half, the voxel and the object a quarter each") {
+  Parameters parameters;
+  EvidenceMap map(0.2);
+  EvidenceMap::Blocks::Cursor cursor;
+  const std::uint32_t seen_through = map.add({0, 0, 2}, 0, cursor);
+  map.evidence(seen_through).free_scans = 3;  // Of 1 that is needed: 3 / 4.
+  const std::uint32_t untouched = map.add({9, 9, 2}, 0, cursor);
+
+  SegmentedScan scan;
+  scan.scan.points.resize(4);
+  scan.voxel = {seen_through, untouched, untouched, EvidenceMap::kNone};
+  // Points 0 and 1 are one object of which one point is dynamic; the others are none.
+  scan.high_points = {0, 1};
+  scan.cluster_of = {0, 0};
+  scan.clusters.resize(1);
+  scan.clusters[0].points = 2;
+  scan.clusters[0].dynamic = 1;
+  const Verdicts decided = {Verdict::kDynamic, Verdict::kStatic, Verdict::kDynamic,
+                            Verdict::kStatic};
+
+  const std::vector<float> evidence = evidence_of_points(scan, decided, map, parameters);
+  CHECK(evidence[0] == Approx(0.5 + 0.25 * 0.75 + 0.25 * 0.5));
+  CHECK(evidence[1] == Approx(0.25 * 0.5));
+  CHECK(evidence[2] == Approx(0.5));  // Nothing speaks for it but what was decided.
+  CHECK(evidence[3] == 0.0F);         // Ground.
+}
