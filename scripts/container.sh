@@ -74,6 +74,6 @@ for file in static.pcd out/results.csv out/table.md; do
   owner=$(stat -c '%u:%g' "$work/$file")
   [[ $owner == "$user" ]] || { echo "container.sh: $file is owned by $owner, expected $user" >&2; exit 1; }
 done
-grep -q '^my_scans,raymoval,online,erasor,ok,' "$work/out/results.csv" ||
+grep -q '^town,raymoval,online,erasor,ok,' "$work/out/results.csv" ||
   { echo "container.sh: out/results.csv has no score of raymoval:online" >&2; exit 1; }
 echo "container.sh: $engine built $name, and it cleans and runs."
