@@ -52,7 +52,7 @@ install(DIRECTORY scripts/workflow DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
 install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir})
 configure_package_config_file(cmake/raymovalConfig.cmake.in raymovalConfig.cmake
                               INSTALL_DESTINATION ${config_dir})
-write_basic_package_version_file(raymovalConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(raymovalConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfigVersion.cmake
               cmake/system_libraries.cmake DESTINATION ${config_dir})
