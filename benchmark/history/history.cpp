@@ -44,6 +44,8 @@ void compare_speed(const HistoryEvent& before, double band, HistoryEvent& event)
   if (!was || !is || was->yardstick != is->yardstick) return;
   if (!(was->median > 0.0) || !(is->median > 0.0)) return;
   const double ratio = is->median / was->median;
+  // Rounds that overlap say nothing: the machine was busy.
+  if (is->least <= was->most && was->least <= is->most) return;
   if (ratio > band) event.changes.push_back(fmt::format("{:.2f} times slower", ratio));
   if (ratio < 1.0 / band) event.changes.push_back(fmt::format("{:.2f} times faster", 1.0 / ratio));
 }

@@ -58,6 +58,14 @@ TEST_CASE("A time within the band is no change of the history") {
   CHECK(changes({line_at(1, 90, 1.0), line_at(2, 90, 1.35)}, 1.5).empty());
 }
 
+TEST_CASE("Times whose rounds overlap are no change of the history") {
+  HistoryLine busy = line_at(2, 90, 2.0);
+  busy.speed->least = 1.0;
+  CHECK(changes({line_at(1, 90, 1.0), busy}).empty());
+  busy.speed->least = 1.01;
+  CHECK(changes({line_at(1, 90, 1.0), busy}) == Words{"2.00 times slower"});
+}
+
 TEST_CASE("Times by another fixed kernel are not compared") {
   HistoryLine other = line_at(2, 90, 5.0);
   other.speed->yardstick = "kernel 2";
