@@ -11,7 +11,7 @@ short=(--sequence street --frames 0:2 --quiet)
 # Help and listings.
 expect 0 "Examples" --help
 for command in run plan table compare list describe score clean simulate inspect report picture; do expect 0 "Examples" "$command" --help; done
-expect 0 "raymoval 0" --version
+expect 0 "raymoval 1." --version
 expect 0 "oracle" list
 for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
   suites; do expect 0 "" list "$what"; done
