@@ -7,6 +7,7 @@
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/runner.h"
 #include "methods/controls/controls.h"
+#include "tests/benchmark/comb.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -14,28 +15,12 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Removes every `step`-th point: with another step a broken version of the same method.
-class Comb : public Remover {
- public:
-  explicit Comb(std::size_t step) : step_(step) {}
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext&) override {
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      Mask mask(scans.load(i).size(), 0);
-      for (std::size_t k = 0; k < mask.size(); k += step_) mask[k] = 1;
-      sink.accept(i, mask);
-    }
-  }
-
- private:
-  std::size_t step_;
-};
-
 void run_comb(const std::filesystem::path& out, std::size_t step) {
   MethodRegistry methods;
   for (MethodEntry entry : {noop_entry(), remove_all_entry(), oracle_entry()}) methods.add(entry);
   MethodEntry comb = noop_entry();
   comb.name = "comb";
-  comb.make = [step](const Configuration&) { return std::make_unique<Comb>(step); };
+  comb.make = [step](const Configuration&) { return std::make_unique<test::Comb>(step); };
   methods.add(comb);
   Suite suite;
   SequenceOptions options;

@@ -13,6 +13,7 @@
 #include "benchmark/tables/tables.h"
 #include "core/files/files.h"
 #include "methods/controls/controls.h"
+#include "tests/benchmark/comb.h"
 #include "tests/benchmark/small_world.h"
 #include "tests/eval/toy_protocol.h"
 
@@ -20,22 +21,6 @@ using namespace raymoval;
 using Catch::Matchers::Contains;
 
 namespace {
-
-/// Removes every `step`-th point and keeps the others.
-class Thin : public Remover {
- public:
-  explicit Thin(std::size_t step) : step_(step) {}
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext&) override {
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      Mask mask(scans.load(i).size(), 0);
-      for (std::size_t k = 0; k < mask.size(); k += step_) mask[k] = 1;
-      sink.accept(i, mask);
-    }
-  }
-
- private:
-  std::size_t step_;
-};
 
 const MethodRegistry& methods() {
   static const MethodRegistry registry = [] {
@@ -46,7 +31,7 @@ const MethodRegistry& methods() {
     thin.parameters = {{"step", std::int64_t{10}, {.minimum = 1.0}, {}}};
     thin.variants = {{"v", "", true, {}}};
     thin.make = [](const Configuration& values) {
-      return std::make_unique<Thin>(
+      return std::make_unique<test::Comb>(
           static_cast<std::size_t>(std::get<std::int64_t>(values.front().second)));
     };
     made.add(thin);

@@ -8,32 +8,17 @@
 #include "benchmark/run/runner.h"
 #include "core/files/files.h"
 #include "methods/controls/controls.h"
+#include "tests/benchmark/comb.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
 
 namespace {
 
-/// Removes every `step`-th point.
-class Comb : public Remover {
- public:
-  explicit Comb(std::size_t step) : step_(step) {}
-  void run(const ScanSource& scans, RemovalSink& sink, const RunContext&) override {
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      Mask mask(scans.load(i).size(), 0);
-      for (std::size_t k = 0; k < mask.size(); k += step_) mask[k] = 1;
-      sink.accept(i, mask);
-    }
-  }
-
- private:
-  std::size_t step_;
-};
-
 MethodEntry comb_entry(const std::string& name, std::size_t step) {
   MethodEntry comb = noop_entry();
   comb.name = name;
-  comb.make = [step](const Configuration&) { return std::make_unique<Comb>(step); };
+  comb.make = [step](const Configuration&) { return std::make_unique<test::Comb>(step); };
   return comb;
 }
 
