@@ -68,20 +68,20 @@ Intervals bootstrap(const std::vector<Counts>& counts_by_scan,
   const std::vector<Counts> last = block_sums(counts_by_scan, rest);
   // Only the engine's own numbers are used: the library's distributions differ between platforms.
   std::mt19937_64 random(options.seed);
-  std::vector<std::vector<double>> values(rates.size());
   result.draws.resize(rates.size());
   for (int replicate = 0; replicate < options.replicates; ++replicate) {
     Counts sums(counts_by_scan.front().size(), 0);
     for (std::size_t i = 0; i < whole; ++i) add(blocks[random() % scans], sums);
     if (rest > 0) add(last[random() % scans], sums);
     const std::vector<Rate> drawn = rates_of(sums);
-    for (std::size_t i = 0; i < rates.size(); ++i) {
-      result.draws[i].push_back(drawn[i].value);
-      if (drawn[i].value) values[i].push_back(*drawn[i].value);
-    }
+    for (std::size_t i = 0; i < rates.size(); ++i) result.draws[i].push_back(drawn[i].value);
   }
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    result.rates.push_back(interval_of(rates[i].name, values[i], options));
+    std::vector<double> values;
+    for (const std::optional<double>& value : result.draws[i]) {
+      if (value) values.push_back(*value);
+    }
+    result.rates.push_back(interval_of(rates[i].name, values, options));
   }
   return result;
 }
