@@ -3,19 +3,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cstdint>
 #include <utility>
 
+#include "benchmark/clean/rows/added_field.h"
 #include "benchmark/result/removals/removal_files.h"
 
 namespace raymoval {
 
 RecordLayout labelled_layout(const RecordLayout& layout) {
-  RecordLayout labelled = layout;
-  std::string name = "label";
-  while (layout.find({name}) != nullptr) name = "raymoval_" + name;
-  labelled.add(name, 'U', 2);
-  return labelled;
+  return layout_with_field(layout, "label", 'U', sizeof(std::uint16_t));
 }
 
 MapOutput::MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, MapContent content,
@@ -44,16 +41,9 @@ std::vector<std::string> MapOutput::remarks() const {
 
 ScanRows MapOutput::with_label(const ScanRows& rows,
                                const std::vector<std::uint8_t>& removed) const {
-  const std::size_t size = rows.rows.size();
-  ScanRows result{{layout_, std::vector<std::byte>(size * layout_.row_bytes), size, 1}, rows.world};
-  result.rows.las = rows.rows.las;
-  const std::size_t bytes = rows.rows.layout.row_bytes;
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::uint16_t label = removed[i] != 0 ? kRemovedLabel : kKeptLabel;
-    std::memcpy(result.rows.row(i), rows.rows.row(i), bytes);
-    std::memcpy(result.rows.row(i) + bytes, &label, sizeof label);
-  }
-  return result;
+  return rows_with_field(rows, layout_, [&](std::size_t i) -> std::uint16_t {
+    return removed[i] != 0 ? kRemovedLabel : kKeptLabel;
+  });
 }
 
 void MapOutput::write(const ScanRows& rows) {
