@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Makes docs/field.md's numbers anew: every family of methods on simulated scenes, with other sensors, at
-# lower rates, and in the hand (the suite `field`); about an hour and a half on two cores.
+# lower rates, and in the hand (the suite `field`), and on the worlds made to be hard (`field-hard`); more than two
+# hours on two cores.
 #
 #   scripts/field.sh                 # runs the suite in out/field; a second call goes on where it was stopped
 #   scripts/field.sh DRIVE           # also a drive of yours at three rates, points from 2.7 m to 50 m
 #   JOBS=1 scripts/field.sh          # one cell at a time
+#   ONLY='*/raymoval_plus:*' scripts/field.sh DRIVE    # these cells anew, such as those of a method that has changed
 #
 # It writes results/field/*.csv, the tables of docs/field.md, and the pictures of that page.
 set -euo pipefail
@@ -27,12 +29,22 @@ cmake --preset release
 cmake --build --preset release --target raymoval_program
 raymoval=build/release/raymoval
 
-# Times of cells that ran side by side are no measure, and memory is not this page's matter.
-keep_rates() { cut -d, -f1-15,18 "$1"; }
+only=()
+within=()
+if [[ -n ${ONLY:-} ]]; then
+  only=(--only "$ONLY")
+  within=(--within)
+fi
+
+# field NAME SUITE: runs a suite, and takes its rates into results/field/NAME.csv.
+field() {
+  "$raymoval" run "$2" --out "$out/$1" --jobs "$jobs" "${only[@]}"
+  python3 -B scripts/field_rows.py "${within[@]}" "$out/$1/results.csv" "results/field/$1.csv"
+}
 
 mkdir -p results/field
-"$raymoval" run field --out $out/scenes --jobs "$jobs"
-keep_rates $out/scenes/results.csv >results/field/scenes.csv
+field scenes field
+field hard field-hard
 
 if [[ -n $drive ]]; then
   # "name": a suite's sequences need one each, for they are the same folder.
@@ -48,8 +60,7 @@ if [[ -n $drive ]]; then
     { "path": $path, "name": "drive-2hz", "frames": "::5", $range }
   ],
 EOF
-  "$raymoval" run $out/drive.json --out $out/drive --jobs "$jobs"
-  keep_rates $out/drive/results.csv >results/field/drive.csv
+  field drive $out/drive.json
 fi
 python3 -B scripts/field_page.py
 

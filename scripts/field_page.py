@@ -23,6 +23,10 @@ SCENES = ("town", "highway", "country", "suburb", "crossing", "excavator")
 SENSORS = (("16 beams", "vlp16"), ("32", "hdl32e"), ("64", ""), ("128", "os1-128"), ("solid state", "solid-state"),
            ("rosette", "rosette"))
 RATES = (("10 Hz", ""), ("5 Hz", "5hz"), ("2 Hz", "2hz"))
+HARD = ("junction", "market", "walk", "carpark", "motorway", "mountain", "warehouse", "rain", "glass", "revisit")
+HARD_SEEDS = ("306", "308", "310")
+HARD_SENSORS = (("its own", HARD_SEEDS), ("16 beams", ("vlp16",)), ("32", ("hdl32e",)),
+                ("solid state", ("solid-state",)), ("rosette", ("rosette",)))
 
 
 def with_suffix(scenes, suffix):
@@ -36,6 +40,10 @@ TABLES = {
     + [("in the hand", ["walk"])],
     "rates": [(label, with_suffix(("town", "highway", "crossing"), suffix)) for label, suffix in RATES],
     "drive": [("10 Hz", ["drive"]), ("5 Hz", ["drive-5hz"]), ("2 Hz", ["drive-2hz"])],
+    "hard": [(world, [f"{world}-{seed}" for seed in HARD_SEEDS]) for world in HARD]
+    + [("mean", [f"{world}-{seed}" for world in HARD for seed in HARD_SEEDS])],
+    "hard-sensors": [(label, [f"{world}-{suffix}" for world in HARD for suffix in suffixes])
+                     for label, suffixes in HARD_SENSORS],
 }
 
 
