@@ -58,7 +58,7 @@ struct Parameters {
   int settled_scans = 10;
   // Tracks.
   bool tracks = true;
-  double track_dynamic_share = 0.5;
+  double track_dynamic_share = 0.25;
   double track_slack = 1.0;
   double track_width = 15.0;
   int track_points = 4;

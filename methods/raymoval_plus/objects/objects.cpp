@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "methods/common/range_adaptive_clusters.h"
+#include "methods/raymoval_plus/objects/whole_things.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -52,7 +53,21 @@ std::vector<int> clusters_among(const SegmentedScan& scan, const Parameters& par
 }
 
 bool is_mostly_dynamic(const Cluster& cluster, const Parameters& parameters) {
-  return cluster.dynamic >= parameters.object_dynamic_share * cluster.points;
+  return cluster.is_whole || cluster.dynamic >= parameters.object_dynamic_share * cluster.points;
+}
+
+/// Finds the clusters that have many dynamic points and are not mostly dynamic, but one thing.
+void find_whole_clusters(const EvidenceMap& map, const Parameters& parameters,
+                         SegmentedScan& scan) {
+  std::vector<std::uint8_t> is_mixed(scan.clusters.size());
+  for (std::size_t c = 0; c < is_mixed.size(); ++c) {
+    const Cluster& cluster = scan.clusters[c];
+    is_mixed[c] =
+        cluster.dynamic >= parameters.group_points && !is_mostly_dynamic(cluster, parameters) ? 1
+                                                                                              : 0;
+  }
+  const std::vector<std::uint8_t> is_whole = find_whole_things(scan, is_mixed, map, parameters);
+  for (std::size_t c = 0; c < is_mixed.size(); ++c) scan.clusters[c].is_whole = is_whole[c] != 0;
 }
 
 /// Divides the clusters that have many dynamic points, but are not mostly dynamic.
@@ -159,7 +174,9 @@ void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
   for (Cluster& cluster : scan.clusters) {
     cluster.is_hardly_dynamic = cluster.dynamic <= parameters.object_static_share * cluster.points;
   }
-  if (parameters.settled_scans > 0) divide_mixed_clusters(map, parameters, scan);
+  if (parameters.settled_scans == 0) return;
+  find_whole_clusters(map, parameters, scan);
+  divide_mixed_clusters(map, parameters, scan);
 }
 
 std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const EvidenceMap& map,
@@ -187,6 +204,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     ObjectSummary& object = objects[c];
     object.points = scan.clusters[c].points;
     object.dynamic = scan.clusters[c].dynamic;
+    object.is_whole = scan.clusters[c].is_whole;
     if (follow[c] == 0 || object.width() > parameters.track_width) continue;
     object.center /= object.points;
     object.range = static_cast<float>((object.center - sensor).norm());

@@ -20,6 +20,8 @@ struct Cluster {
   /// voxels that many scans agree with stay in it, and the others make parts of their own.
   bool is_part = false;
   bool is_hardly_dynamic = false;  ///< The cluster, or the one that it is a part of, is.
+  /// It is mixed, and what is not dynamic in it stands on what is: all of it is one dynamic thing.
+  bool is_whole = false;
 };
 
 /// A scan with its clusters.

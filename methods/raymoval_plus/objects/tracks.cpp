@@ -124,9 +124,8 @@ bool is_mostly_dynamic(const Track& track, const Motion& motion, const Parameter
   return dynamic >= parameters.track_dynamic_share * static_cast<double>(dynamic + others);
 }
 
-/// How the object of a track moved, if it is known to have moved.
+/// How the object of a track moved, if its dynamic objects are far enough from each other.
 std::optional<Motion> motion_of(const Track& track, const Parameters& parameters) {
-  if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
   std::vector<double> widths;
   const Track::Node *first = nullptr, *last = nullptr;
   for (const Track::Node& node : track.nodes) {
@@ -138,25 +137,48 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
   const double typical = median(std::move(widths));
   const double moved = (last->object.center - first->object.center).head<2>().norm();
   if (moved < std::max(kLeastMotion, kLeastMotionShare * typical)) return std::nullopt;
-  const Motion motion{typical, moved / scans_between(first->scan, last->scan)};
-  return is_mostly_dynamic(track, motion, parameters) ? std::optional(motion) : std::nullopt;
+  return Motion{typical, moved / scans_between(first->scan, last->scan)};
 }
 
-/// Whether an object is not dynamic by itself, but belongs to one that moved: scans agree on it no
-/// longer than its length and speed explain, or than it was followed while it stood.
+/// Whether scans agree on an object no longer than it was followed while it stood.
 /// @param stay scans that it spends in its place
-bool is_marked(const ObjectSummary& object, int stay, const Motion& motion,
-               const Parameters& parameters) {
-  if (is_dynamic(object, parameters)) return false;
-  return is_explained(object, motion, parameters) ||
-         object.agree_scans <= kStaySlack * stay + kScansMore;
+bool is_explained_by_stay(const ObjectSummary& object, int stay) {
+  return object.agree_scans <= kStaySlack * stay + kScansMore;
+}
+
+/// Whether enough of the objects of a track that stands are dynamic: it came or leaves.
+bool came_or_leaves(const Track& track, const Parameters& parameters) {
+  return dynamic_objects(track, parameters) >=
+         parameters.track_dynamic_share * static_cast<double>(track.nodes.size());
+}
+
+/// For each object of a track 1 if it is not dynamic by itself, but belongs to one that moved, came
+/// or leaves: scans agree on it no longer than its length and speed explain, or than it was
+/// followed while it stood.
+std::vector<std::uint8_t> marks_of(const Track& track, const Parameters& parameters) {
+  std::vector<std::uint8_t> marks(track.nodes.size(), 0);
+  if (dynamic_objects(track, parameters) < kLeastDynamic) return marks;
+  const auto motion = motion_of(track, parameters);
+  const bool is_known =
+      motion ? is_mostly_dynamic(track, *motion, parameters) : came_or_leaves(track, parameters);
+  if (!is_known) return marks;
+  const std::vector<int> stays =
+      motion ? scans_in_place(track, motion->length)
+             : std::vector<int>(marks.size(), static_cast<int>(marks.size()));
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const ObjectSummary& object = track.nodes[k].object;
+    if (is_dynamic(object, parameters)) continue;
+    const bool is_explained_by_motion = motion && is_explained(object, *motion, parameters);
+    marks[k] = is_explained_by_motion || is_explained_by_stay(object, stays[k]) ? 1 : 0;
+  }
+  return marks;
 }
 
 }  // namespace
 
 bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
-  return object.dynamic >= parameters.object_dynamic_share * object.points &&
-         object.dynamic >= parameters.object_points;
+  return object.dynamic >= parameters.object_points &&
+         (object.is_whole || object.dynamic >= parameters.object_dynamic_share * object.points);
 }
 
 void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& objects) {
@@ -212,11 +234,8 @@ std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
     const auto node = std::find_if(track.nodes.rbegin(), track.nodes.rend(),
                                    [&](const Track::Node& some) { return some.scan == scan; });
     if (node == track.nodes.rend()) continue;
-    const auto motion = motion_of(track, parameters);
-    if (!motion) continue;
     const auto at = static_cast<std::size_t>(track.nodes.rend() - node) - 1;
-    const int stay = scans_in_place(track, motion->length)[at];
-    if (is_marked(node->object, stay, *motion, parameters)) marked.push_back(node->object.cluster);
+    if (marks_of(track, parameters)[at] != 0) marked.push_back(node->object.cluster);
   }
   return marked;
 }
@@ -233,14 +252,10 @@ std::vector<std::vector<int>> objects_on_tracks(
       tracker.follow(scan, scans[scan]);
     }
     for (const Track& track : tracker.finish()) {
-      const auto motion = motion_of(track, parameters);
-      if (!motion) continue;
-      const std::vector<int> stays = scans_in_place(track, motion->length);
-      for (std::size_t k = 0; k < stays.size(); ++k) {
+      const std::vector<std::uint8_t> marks = marks_of(track, parameters);
+      for (std::size_t k = 0; k < marks.size(); ++k) {
         const auto& [scan, object] = track.nodes[k];
-        if (is_marked(object, stays[k], *motion, parameters)) {
-          marked[scan].push_back(object.cluster);
-        }
+        if (marks[k] != 0) marked[scan].push_back(object.cluster);
       }
     }
   }

@@ -20,13 +20,14 @@ struct ObjectSummary {
   /// The number of scans that agree with a point, on average over the points that are not dynamic.
   float agree_scans = 0.0F;
   int points = 0;
-  int dynamic = 0;  ///< How many points are dynamic.
-  int cluster = 0;  ///< Number within its scan.
+  int dynamic = 0;        ///< How many points are dynamic.
+  bool is_whole = false;  ///< The others stand on these, see `Cluster::is_whole`.
+  int cluster = 0;        ///< Number within its scan.
 
   [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
 };
 
-/// Whether an object is mostly dynamic, and has enough dynamic points.
+/// Whether an object is mostly dynamic, or whole, and has enough dynamic points.
 bool is_dynamic(const ObjectSummary& object, const Parameters& parameters);
 
 /// One object in the scans in which it was found.

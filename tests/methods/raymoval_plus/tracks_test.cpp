@@ -92,10 +92,41 @@ TEST_CASE("what waits before it leaves, or comes and stays, is one thing with wh
   }
 }
 
+TEST_CASE("what stands is one thing in all scans if in enough of them it came or leaves") {
+  // Who stands for ten scans is dynamic in the first three or two of them; later only his upper
+  // half is in view, through which no scan ever saw.
+  for (const int dynamic : {2, 3}) {
+    for (const float agree_scans : {22.0F, 23.0F}) {
+      Scans scans;
+      for (int i = 0; i < 10; ++i) {
+        scans.push_back({walker(0, i < dynamic ? 18 : 0, agree_scans)});
+        if (i >= dynamic) scans.back()[0].low.z() += 0.7;
+      }
+      const auto marked = marked_by_tracks(scans);
+      // 22 scans are twice as many as he was followed, and two more.
+      const bool is_one = dynamic == 3 && agree_scans == 22.0F;
+      for (std::size_t i = 3; i < 10; ++i) {
+        CHECK(marked[i] == (is_one ? std::vector{0} : std::vector<int>{}));
+      }
+    }
+  }
+  // Three of thirteen scans are too few.
+  Scans scans;
+  for (int i = 0; i < 13; ++i) scans.push_back({walker(0, i < 3 ? 18 : 0, 4.0)});
+  CHECK(marked_by_tracks(scans)[10].empty());
+}
+
+TEST_CASE("a whole thing is dynamic though most of its points are not") {
+  ObjectSummary object = walker(0, 8, 4.0);
+  CHECK_FALSE(is_dynamic(object, Parameters{}));
+  object.is_whole = true;
+  CHECK(is_dynamic(object, Parameters{}));
+}
+
 TEST_CASE("an object that did not move, or changed its size, marks nothing") {
   Scans standing, growing;
   for (int i = 0; i < 10; ++i) {
-    standing.push_back({walker(0, i < 7 ? 18 : 0, 4.0)});
+    standing.push_back({walker(0, i < 2 ? 18 : 0, 4.0)});
     growing.push_back({walker(i, i < 7 ? 18 : 0, 4.0)});
     if (i >= 7) growing.back()[0].high.z() += 2.0;  // 2 m more than 0.6 m + 0.3 x 3.4 m.
   }
