@@ -38,6 +38,10 @@ fi
 
 # field NAME SUITE: runs a suite, and takes its rates into results/field/NAME.csv.
 field() {
+  if [[ ${#within[@]} -gt 0 && ! -e results/field/$1.csv ]]; then
+    echo "field.sh: results/field/$1.csv is not there, so there is nothing to put these cells into; suite $2 is left out."
+    return
+  fi
   "$raymoval" run "$2" --out "$out/$1" --jobs "$jobs" "${only[@]}"
   python3 -B scripts/field_rows.py "${within[@]}" "$out/$1/results.csv" "results/field/$1.csv"
 }
