@@ -9,9 +9,10 @@ ARG DEBIAN=12-slim
 FROM docker.io/library/debian:${DEBIAN} AS build
 WORKDIR /src
 # Alone, so that a change of the source does not install all packages again. git says which commit
-# is built.
+# is built. The slim image has no folders for manual pages, without which Java, which libpcl-dev
+# depends on, is not installed.
 COPY scripts/install_dependencies.sh scripts/
-RUN apt-get update && apt-get install --yes --no-install-recommends git ca-certificates dpkg-dev file && scripts/install_dependencies.sh
+RUN mkdir -p /usr/share/man/man1 && apt-get update && apt-get install --yes --no-install-recommends git ca-certificates dpkg-dev file && scripts/install_dependencies.sh
 COPY . .
 # ON, OFF, or AUTO: whether reports have the 3-D view, for which three.js comes from the npm registry.
 ARG RAYMOVAL_REPORT_3D=ON

@@ -51,8 +51,11 @@ esac
 
 # Whoever starts it; for root somebody else, since what root can do says little.
 user=$(id -u):$(id -g)
-if [[ $user == 0:0 ]]; then
+as_user=(-u "$user")
+[[ $engine != podman ]] || as_user=(--userns=keep-id)
+if [[ $(id -u) == 0 ]]; then
   user=12345:12345
+  as_user=(-u "$user")  # podman maps users (keep-id) for others than root only.
   chown "$user" "$work"
 fi
 in_image() {
@@ -61,8 +64,7 @@ in_image() {
     buildah)
       [[ -n $working ]] || working=$(buildah from "$name")
       buildah run --isolation chroot --user "$user" -v "$work:/data" "$working" -- raymoval "$@" ;;
-    podman) podman run --rm --userns=keep-id -v "$work:/data" "$name" "$@" ;;
-    docker) docker run --rm -u "$user" -v "$work:/data" "$name" "$@" ;;
+    *) "$engine" run --rm "${as_user[@]}" -v "$work:/data" "$name" "$@" ;;
   esac
 }
 in_image --version

@@ -34,8 +34,8 @@ done
 [[ -z ${RAYMOVAL:-} ]] || RAYMOVAL=$(readlink -f "$RAYMOVAL")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 raymoval=${RAYMOVAL:-build/release/raymoval}
-if [[ ! -x $raymoval ]]; then
-  echo "docs.sh: there is no program $raymoval; build it, or say where it is with RAYMOVAL." >&2
+if [[ ! -f $raymoval || ! -x $raymoval || $("$raymoval" --version) != "raymoval "* ]]; then
+  echo "docs.sh: $raymoval is no program raymoval; build it, or say where it is with RAYMOVAL." >&2
   exit 2
 fi
 if ! mkdocs build --help 2>/dev/null | grep -q material; then  # It lists its themes.

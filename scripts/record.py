@@ -34,12 +34,19 @@ def output_of(command, **options):
 
 
 def git(*arguments):
-    return output_of(["git", "-C", ROOT, *arguments],
-                     env={**os.environ, "TZ": "UTC"}).strip()
+    return output_of(["git", "-C", ROOT, *arguments], env={**os.environ, "TZ": "UTC"}).rstrip()
 
 
 def commit_of(revision):
-    return git("rev-parse", "--verify", revision + "^{commit}")
+    try:
+        git("rev-parse", "--git-dir")
+    except Failure:
+        raise Failure("a commit is recorded, so a git repository is needed") from None
+    try:
+        return git("rev-parse", "--verify", "--quiet", revision + "^{commit}")
+    except Failure:
+        raise Failure(f"{revision}: this repository has no such commit (git log lists them; after "
+                      "git clone --depth, git fetch --unshallow brings the older ones)") from None
 
 
 def date_of(commit):

@@ -49,10 +49,17 @@ namespace {
 
 using std::filesystem::path;
 
-HistoryLine line_from(const std::string& text, const std::string& where) {
-  const std::string remedy =
-      " Lines are appended by scripts/record.sh and never changed; take the file from the "
-      "repository again.";
+/// What to do about a line of `file` that is none.
+std::string remedy_for(const path& file) {
+  if (file.extension() == ".json") {
+    return " Expected a file *.jsonl, which scripts/record.sh writes: a line for each method.";
+  }
+  return " Lines are appended by scripts/record.sh and never changed; take the file from the "
+         "repository again.";
+}
+
+HistoryLine line_from(const std::string& text, const std::string& where,
+                      const std::string& remedy) {
   try {
     const nlohmann::ordered_json json = parse_ordered_json(text, where);
     RecordReader(json, where).check_schema_version();
@@ -66,13 +73,14 @@ HistoryLine line_from(const std::string& text, const std::string& where) {
 
 void read_lines(const path& file, std::vector<HistoryLine>& lines) {
   const std::string text = read_text(file);
+  const std::string remedy = remedy_for(file);
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     ++number;
     if (end > begin) {
-      lines.push_back(
-          line_from(text.substr(begin, end - begin), file.string() + ":" + std::to_string(number)));
+      lines.push_back(line_from(text.substr(begin, end - begin),
+                                file.string() + ":" + std::to_string(number), remedy));
     }
     begin = end + 1;
   }

@@ -22,24 +22,57 @@ std::vector<path> cells_of_run(const path& folder) {
   return files;
 }
 
+/// The .json files that stand in `folder` itself.
+std::vector<path> json_files_in(const path& folder) {
+  std::vector<path> files;
+  for (const path& entry : entries_of(folder)) {
+    if (entry.extension() == ".json" && is_file(entry)) files.push_back(entry);
+  }
+  return files;
+}
+
+bool looks_submitted(const path& folder) {
+  try {
+    return has_folder(folder / "cells") || !json_files_in(folder).empty();
+  } catch (const DataError&) {
+    return false;  // It cannot be listed, so it is not proposed.
+  }
+}
+
+/// results/submissions, or cells/05 of a run: what can be verified stands in the folder.
+std::string hint_below(const path& folder) {
+  for (const path& below : folders_in(folder)) {
+    if (!looks_submitted(below)) continue;
+    return " Give the folders in it instead, such as " + below.string() + ".";
+  }
+  return "";
+}
+
+/// A run's own records are no cells, though they stand beside `cells`.
+void check_no_record_of_run(const path& file) {
+  const path folder = std::filesystem::absolute(file).parent_path();
+  const bool record = file.filename() == "results.json" || file.filename() == "run.json";
+  if (!record || !has_folder(folder / "cells")) return;
+  throw DataError(file.string() + ": is about a whole run; expected the run folder " +
+                  folder.string() + ", or a cell.json below its folder cells.");
+}
+
 std::vector<path> files_of(const path& given) {
   if (!is_there(given)) {
     throw DataError(given.string() +
                     ": no such file or folder; expected a cell.json of a run, a folder with such "
                     "files, or a run folder.");
   }
-  if (!is_folder(given)) return {given};
-  std::vector<path> files;
-  if (has_folder(given / "cells")) {
-    files = cells_of_run(given);
-  } else {
-    for (const path& entry : entries_of(given)) {
-      if (entry.extension() == ".json" && is_file(entry)) files.push_back(entry);
-    }
+  if (!is_folder(given)) {
+    check_no_record_of_run(given);
+    return {given};
   }
+  std::vector<path> files =
+      has_folder(given / "cells") ? cells_of_run(given) : json_files_in(given);
   if (files.empty()) {
     throw DataError(given.string() +
-                    ": holds no cell; expected files cell.json as `raymoval run` writes them.");
+                    ": holds no cell; expected files cell.json as `raymoval run` writes them." +
+                    hint_below(given));
   }
   return files;
 }

@@ -98,7 +98,8 @@ class ViewCones {
     // A little wider than the image, for roundings.
     const double half_row = 0.51 / grid.rows_per_radian + 1e-4;
     const double low = grid.elevation_min - half_row;
-    const double high = grid.elevation_min + (grid.rows - 1) / grid.rows_per_radian + half_row;
+    const float rows_above = static_cast<float>(grid.rows - 1);
+    const double high = grid.elevation_min + rows_above / grid.rows_per_radian + half_row;
     // What lies above a rising cone, or below a falling one, is convex.
     has_low_ = low < 0.0 && low > -kernels::kQuarterTurn;
     has_high_ = high > 0.0 && high < kernels::kQuarterTurn;

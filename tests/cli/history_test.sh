@@ -76,6 +76,17 @@ holds "lines are only added" cmp before <(head -n 1 "lines/$file")
 echo more >>house/CMakeLists.txt
 tells 2 "the tree is not clean" house/scripts/record.sh
 tells 2 "CMakeLists.txt" house/scripts/record.sh
+"${git[@]}" checkout -q CMakeLists.txt
+
+# Lines that were recorded before and are not committed yet do not count as a change.
+mkdir -p house/results/history bin
+cp before house/results/history/desk.jsonl
+"${git[@]}" add .
+GIT_COMMITTER_DATE=2035-01-02T00:00:00Z "${git[@]}" commit -qm three
+echo >>house/results/history/desk.jsonl
+printf '#!/bin/sh\necho the build begins >&2\nexit 1\n' >bin/cmake
+chmod +x bin/cmake
+PATH=$PWD/bin:$PATH tells 2 "the build begins" house/scripts/record.sh
 
 expect 0 "counts of erasor (F1 +0.0500)" history lines
 expect 0 "${second:0:9}" history lines --format md
@@ -99,6 +110,7 @@ tells 0 "lines added" house/scripts/record.sh --reference "$first" --out referen
 holds "the lines of a reference are of no machine" test -s references/reference.jsonl
 holds "controls are left out" test -z "$(grep -F oracle references/reference.jsonl)"
 expect 0 "0.7.0" history references
+tells 2 "nonsense: this repository has no such commit" house/scripts/record.sh --reference nonsense
 tells 2 "it has no results/reference" house/scripts/record.sh --reference "$first" "$(
   "${git[@]}" commit-tree "$("${git[@]}" hash-object -t tree -w /dev/null)" -m empty)"
 # The project's own.

@@ -93,9 +93,10 @@ speed other.json 10.0 octomap:r20
 expect 0 "no regression" compare --speed same.json kernels
 expect 1 "the whole cell takes 1.31 times the reference" compare --speed slow.json kernels
 expect 0 "no regression" compare --speed slow.json kernels/speed.json --time-band 1.5
+expect 2 "folders that scripts/benchmark.sh wrote" compare --speed . kernels
 expect 2 "raymoval:online is missing in the run" compare --speed other.json kernels
 echo '{' >torn.json
 expect 2 "this is no JSON" compare --speed same.json torn.json
 expect 2 "of the other options it goes with --time-band" compare --speed same.json kernels --tolerance F1=1
-expect 2 "No such file" compare --speed same.json nothing.json
+expect 2 "nothing.json: no such file" compare --speed same.json nothing.json
 finish jobs

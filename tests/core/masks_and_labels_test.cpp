@@ -54,7 +54,7 @@ TEST_CASE("A mask set again replaces the first") {
 TEST_CASE("Points that are all kept or all removed take next to nothing") {
   constexpr std::size_t kPoints = 64 * 64 * 3 + 70;  // Two groups of words are full, one is not.
   MaskStore store(1);
-  for (const std::uint8_t value : {0, 1}) {
+  for (const std::uint8_t value : Mask{0, 1}) {
     Mask mask(kPoints, value);
     store.set(0, mask);
     CHECK(store.get(0) == mask);

@@ -120,8 +120,14 @@ ExitCode judged(const Comparison& comparison, const ComparisonOptions& options) 
 
 /// What `compare --speed` was given: a file, or the folder of scripts/benchmark.sh.
 std::filesystem::path speed_file(const std::string& given) {
-  const std::filesystem::path path(given);
-  return is_folder(path) ? path / "speed.json" : path;
+  std::filesystem::path path(given);
+  if (is_folder(path)) path /= "speed.json";
+  if (!is_there(path)) {
+    throw DataError(path.string() +
+                    ": no such file; expected two folders that scripts/benchmark.sh "
+                    "wrote, or the speed.json in them.");
+  }
+  return path;
 }
 
 /// Whole cells' times of two machines or versions.

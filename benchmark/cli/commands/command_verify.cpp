@@ -56,11 +56,18 @@ class Verifier {
       if (error.exit_code() == ExitCode::kInternal) throw;
       problem = error.what();
     }
-    return {submitted, {}, problem};
+    return {submitted, {}, once(problem)};
   }
   void end() { progress_.end(); }
 
  private:
+  /// All cells of a run have the problem of a --data that is not there. It is told once.
+  std::string once(const std::string& problem) {
+    if (problem == told_) return "for the reason given above";
+    told_ = problem;
+    return problem;
+  }
+
   ScoredSequence& scored_for(const Cell& cell) {
     const std::string place = place_of(cell, flags_.data);
     for (Opened& opened : opened_) {
@@ -79,6 +86,7 @@ class Verifier {
   int threads_;
   Progress progress_;
   std::deque<Opened> opened_;
+  std::string told_;  ///< The last problem.
 };
 
 std::vector<Verification> verify_all(const VerifyFlags& flags) {

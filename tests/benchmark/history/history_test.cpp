@@ -147,4 +147,7 @@ TEST_CASE("A damaged line of a history is named by file and line") {
   CHECK_THROWS_WITH(read_history(folder.path()), Catch::Contains("a.jsonl:2"));
   std::ofstream(folder / "a.jsonl") << "{\"schema_version\":9}\n";
   CHECK_THROWS_WITH(read_history(folder.path()), Catch::Contains("schema version 9"));
+  std::ofstream(folder / "results.json") << "{\n}\n";
+  CHECK_THROWS_WITH(read_history(folder / "results.json"),
+                    Catch::Contains("Expected a file *.jsonl"));
 }

@@ -6,6 +6,7 @@
 #include "benchmark/harness.h"
 #include "benchmark/result/cell_json.h"
 #include "benchmark/run/runner.h"
+#include "benchmark/submission/submission.h"
 #include "core/files/files.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/comb.h"
@@ -124,6 +125,18 @@ TEST_CASE("A submission without data, masks, result or whole file cannot be chec
   CHECK(run.verify({run.path("theirs"), "--masks", run.path("nothing")}) == 2);
   std::ofstream(run.path("theirs") + "/street.json", std::ios::app) << "x";
   CHECK(run.verify({run.path("theirs")}) == 2);
+}
+
+TEST_CASE("What holds no cell itself, but beside or below it, says where the cells are") {
+  const CombRun run;
+  const std::filesystem::path run_folder = run.path("run");
+  const std::filesystem::path sequence = run.cell_folder().parent_path();
+  CHECK_THROWS_WITH(read_submission(sequence, "", true),
+                    Catch::Contains("such as " + (sequence / "coarse-default").string()));
+  CHECK_THROWS_WITH(read_submission(run_folder.parent_path(), "", true),
+                    Catch::Contains("such as " + run_folder.string()));
+  CHECK_THROWS_WITH(read_submission(run_folder / "results.json", "", true),
+                    Catch::Contains("expected the run folder " + run_folder.string()));
 }
 
 TEST_CASE("Only what holds is in the table") {

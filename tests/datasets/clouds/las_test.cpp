@@ -98,7 +98,9 @@ TEST_CASE("points of the old formats have their bits and bytes where LAS has the
   las.points[17] = static_cast<char>(200);
   put<std::uint16_t>(las.points, 18, 1234);
   put(las.points, 20, 1e9 + 0.1);
-  for (int i = 0; i < 3; ++i) put<std::uint16_t>(las.points, 28 + 2 * i, 1000 + i);
+  for (std::uint16_t i = 0; i < 3; ++i) {
+    put(las.points, 28 + 2 * i, static_cast<std::uint16_t>(1000 + i));
+  }
   const auto path = folder.write("a.las", las.file());
   const PointRecords records = read_records(path);
   REQUIRE(records.size() == 1);

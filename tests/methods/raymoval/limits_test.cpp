@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/angle.h"
 #include "core/simd/instruction_set_scope.h"
 #include "methods/common/range_adaptive_clusters.h"
 #include "methods/raymoval/consistency.h"
@@ -61,7 +62,6 @@ TEST_CASE("eqs 2-3: points just outside the rows are in no bin, on any processor
 }
 
 TEST_CASE("grids of the sensor's steps have as many bins as the steps need", "[raymoval]") {
-  constexpr double kTurn = 6.283185307179586;
   Parameters parameters;
   parameters.azimuth_bins = parameters.elevation_bins = 0;
   parameters.elevation_margin = 0;
