@@ -25,6 +25,20 @@ constexpr int kOrderFile = 3;
 constexpr int kAnswerFile = 4;
 constexpr int kProgressFile = 5;
 
+[[noreturn]] void refuse_to_serve() {
+  throw UsageError(fmt::format("'{}' is what `raymoval run` starts by itself. Use `raymoval run`.",
+                               kMethodCommand));
+}
+
+/// A shell may have left files of its own open under these numbers, which hold no order.
+MethodOrder order_at_hand(const MethodRegistry& registry) {
+  try {
+    return read_order(kOrderFile, registry);
+  } catch (const MethodError&) {
+    refuse_to_serve();
+  }
+}
+
 /// What became of a child that gave no answer.
 MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
   MethodAnswer answer;
@@ -120,11 +134,10 @@ MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& pla
 
 void serve_method(const MethodRegistry& registry) {
   if (::lseek(kOrderFile, 0, SEEK_SET) != 0 || ::lseek(kAnswerFile, 0, SEEK_SET) != 0) {
-    throw UsageError(fmt::format(
-        "'{}' is what `raymoval run` starts by itself. Use `raymoval run`.", kMethodCommand));
+    refuse_to_serve();
   }
   end_family_with_parent();
-  const MethodOrder order = read_order(kOrderFile, registry);
+  const MethodOrder order = order_at_hand(registry);
   std::FILE* terminal = ::fdopen(kProgressFile, "w");
   Progress progress(terminal != nullptr ? order.progress : ProgressStyle::kQuiet,
                     terminal != nullptr ? terminal : stderr);
