@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Makes docs/field.md's numbers anew: every family of methods on simulated scenes, with other sensors, at
-# lower rates, and in the hand (the suite `field`), and on the worlds made to be hard (`field-hard`); more than two
-# hours on two cores.
+# lower rates, and in the hand (the suite `field`; about an hour and a half on two cores), and on the worlds made to be
+# hard (`field-hard`, twice as many cells).
 #
 #   scripts/field.sh                 # runs the suite in out/field; a second call goes on where it was stopped
 #   scripts/field.sh DRIVE           # also a drive of yours at three rates, points from 2.7 m to 50 m
