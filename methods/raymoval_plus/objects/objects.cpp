@@ -56,27 +56,27 @@ bool is_mostly_dynamic(const Cluster& cluster, const Parameters& parameters) {
   return cluster.is_whole || cluster.dynamic >= parameters.object_dynamic_share * cluster.points;
 }
 
-/// Finds the clusters that have many dynamic points and are not mostly dynamic, but one thing.
-void find_whole_clusters(const EvidenceMap& map, const Parameters& parameters,
-                         SegmentedScan& scan) {
-  std::vector<std::uint8_t> is_mixed(scan.clusters.size());
-  for (std::size_t c = 0; c < is_mixed.size(); ++c) {
-    const Cluster& cluster = scan.clusters[c];
-    is_mixed[c] =
-        cluster.dynamic >= parameters.group_points && !is_mostly_dynamic(cluster, parameters) ? 1
-                                                                                              : 0;
-  }
-  const std::vector<std::uint8_t> is_whole = find_whole_things(scan, is_mixed, map, parameters);
-  for (std::size_t c = 0; c < is_mixed.size(); ++c) scan.clusters[c].is_whole = is_whole[c] != 0;
+/// Whether a cluster has many dynamic points, but is not mostly dynamic.
+bool is_mixed(const Cluster& cluster, const Parameters& parameters) {
+  return cluster.dynamic >= parameters.group_points && !is_mostly_dynamic(cluster, parameters);
 }
 
-/// Divides the clusters that have many dynamic points, but are not mostly dynamic.
+/// Finds the mixed clusters that are one thing.
+void find_whole_clusters(const EvidenceMap& map, const Parameters& parameters,
+                         SegmentedScan& scan) {
+  std::vector<std::uint8_t> mixed(scan.clusters.size());
+  for (std::size_t c = 0; c < mixed.size(); ++c) {
+    mixed[c] = is_mixed(scan.clusters[c], parameters) ? 1 : 0;
+  }
+  const std::vector<std::uint8_t> is_whole = find_whole_things(scan, mixed, map, parameters);
+  for (std::size_t c = 0; c < mixed.size(); ++c) scan.clusters[c].is_whole = is_whole[c] != 0;
+}
+
+/// Divides the mixed clusters.
 void divide_mixed_clusters(const EvidenceMap& map, const Parameters& parameters,
                            SegmentedScan& scan) {
   const auto is_left_over = [&](std::size_t k, const Cluster& cluster) {
-    if (cluster.dynamic < parameters.group_points || is_mostly_dynamic(cluster, parameters)) {
-      return false;
-    }
+    if (!is_mixed(cluster, parameters)) return false;
     return scan.verdict[k] == Verdict::kDynamic ||
            agreeing_scans(map, scan.voxel[k]) < parameters.settled_scans;
   };
