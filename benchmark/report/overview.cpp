@@ -189,6 +189,9 @@ std::string charts_html(const ReportContent& content) {
   for (const std::string& protocol : results.protocols) {
     html += chart_html(accuracy_time_chart(results, protocol, ChartPlace::kPage));
   }
+  for (const std::string& protocol : results.protocols) {
+    html += chart_html(sweep_chart(results, protocol, ChartPlace::kPage));
+  }
   html += chart_html(stage_chart(results, ChartPlace::kPage)) + "</div>\n";
   std::string stages;
   for (const TextTable& table : make_tables(results)) {

@@ -28,13 +28,13 @@ struct PictureFlags {
 };
 
 const std::vector<std::string>& kinds() {
-  static const std::vector<std::string> names = {"map",   "range",  "overview",
-                                                 "pr-rr", "stages", "accuracy-time"};
+  static const std::vector<std::string> names = {"map",    "range",         "overview", "pr-rr",
+                                                 "stages", "accuracy-time", "sweep"};
   return names;
 }
 
 bool is_chart(const std::string& kind) {
-  return kind == "pr-rr" || kind == "stages" || kind == "accuracy-time";
+  return kind == "pr-rr" || kind == "stages" || kind == "accuracy-time" || kind == "sweep";
 }
 
 /// @throws UsageError for an option that says nothing about the kind of picture
@@ -52,7 +52,7 @@ void check_options(const PictureFlags& flags) {
                {"--scan", !flags.scan.empty(), {"range"}},
                {"--data", !flags.data.empty(), {"map", "range", "overview"}},
                {"--simulate", flags.simulate, {"map", "range", "overview"}},
-               {"--protocol", !flags.protocol.empty(), {"pr-rr", "accuracy-time"}}};
+               {"--protocol", !flags.protocol.empty(), {"pr-rr", "accuracy-time", "sweep"}}};
   for (const auto& rule : rules) {
     const bool fits =
         std::find(rule.kinds.begin(), rule.kinds.end(), flags.kind) != rule.kinds.end();
@@ -158,7 +158,9 @@ DrawChart charted(const PictureFlags& flags) {
   }
   RunResults checked = results;
   if (!flags.protocol.empty()) choose_protocols(checked, {flags.protocol});
-  const auto chart = flags.kind == "pr-rr" ? pr_rr_chart : accuracy_time_chart;
+  const auto chart = flags.kind == "pr-rr"   ? pr_rr_chart
+                     : flags.kind == "sweep" ? sweep_chart
+                                             : accuracy_time_chart;
   for (const std::string& protocol : checked.protocols) {
     if (chart(results, protocol, ChartPlace::kFile).empty()) continue;
     return [=](ChartPlace place) { return chart(results, protocol, place); };
@@ -189,9 +191,10 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
   options.add(
       "-o,--output", "FILE", flags.output,
       "The picture, a .png file; charts may also be .svg or .pdf. An existing file is replaced");
-  options.add("--kind", "KIND", flags.kind,
-              "map (default), range, overview, pr-rr, stages or accuracy-time; the last three "
-              "are charts");
+  options.add(
+      "--kind", "KIND", flags.kind,
+      "map (default), range, overview, pr-rr, stages, accuracy-time or sweep; the last four "
+      "are charts");
   options.add(
       "--only", "PATTERN", flags.only,
       "map: only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?); "
@@ -208,7 +211,7 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
   options.add("--size", "PIXELS", flags.size,
               "The longer side of a panel, or the width of range images, in pixels");
   options.add("--protocol", "NAME", flags.protocol,
-              "pr-rr, accuracy-time: the protocol that is shown");
+              "pr-rr, accuracy-time, sweep: the protocol that is shown");
   options.add(
       "--data", "PATH", flags.data,
       "Where the sequences are, if they are no longer where the run found them: the folder of a "

@@ -105,6 +105,11 @@ LinearAxis axis_from_zero(double most) {
   return axis;
 }
 
+LinearAxis axis_between(double low, double high) {
+  const double step = round_step((high - low) / 3.0);
+  return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step, step};
+}
+
 std::string axis_title(const RateSpec& rate) {
   return rate.name + (rate.unit == RateUnit::kPercent ? ", %" : "");
 }

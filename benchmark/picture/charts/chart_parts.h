@@ -49,6 +49,9 @@ LinearAxis axis_to_best(const RateSpec& rate, double worst);
 /// An axis that begins at 0 and ends at a round number above `most`.
 LinearAxis axis_from_zero(double most);
 
+/// An axis with both values, from a round number to another. @param low less than `high`
+LinearAxis axis_between(double low, double high);
+
 /// The name of a rate with its unit: "PR, %".
 std::string axis_title(const RateSpec& rate);
 

@@ -39,6 +39,13 @@ std::string stage_chart(const RunResults& results, ChartPlace place = ChartPlace
 /// dotted diagonal is where what is said comes true. The text is empty if no method was asked.
 std::string reliability_chart(const RunResults& results, ChartPlace place = ChartPlace::kFile);
 
+/// Shows, for each sweep over one parameter that is a number, the rates over that parameter: a plot
+/// for what is kept, what is removed and the headline rate, a line for each sequence, and one for
+/// the mean of several. The text is empty if there is no such sweep with a result.
+/// @param protocol its name in the run
+std::string sweep_chart(const RunResults& results, const std::string& protocol,
+                        ChartPlace place = ChartPlace::kFile);
+
 /// Shows the mean of the headline rate over the sequences against milliseconds per scan
 /// (logarithmic). A line joins the methods that no other one beats in both. The text is empty if no
 /// method has both.

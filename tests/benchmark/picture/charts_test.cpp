@@ -221,6 +221,50 @@ TEST_CASE("Points of a sweep carry what they were set to, apart from each other"
   CHECK(pr_rr_chart(two_points(), "erasor").find("class=\"small\"") == std::string::npos);
 }
 
+TEST_CASE("Rates over a parameter: each point is where its value and its rate say") {
+  RunResults results = two_points();
+  CHECK(sweep_chart(results, "erasor").empty());
+  // In the order of the values, whatever the order of the cells.
+  results.sweeps = {{"x", "m", {{"delay", "2"}}}, {"y", "m", {{"delay", "0.5"}}}};
+  const std::string svg = sweep_chart(results, "erasor");
+  CHECK(is_well_formed(svg));
+  CHECK_THAT(svg, Contains(">m over delay</text>") && Contains(">delay</text>"));
+  // From 0.5 to 2 the axis has steps of 0.5. Its plots are 230 wide and high with their corners at
+  // (56, 92), (360, 92) and (664, 92). PR has an axis from 88 to 100, RR from 50, F1 from 0.7.
+  CHECK_THAT(svg, Contains("points=\"56,92 286,283.67 \""));
+  CHECK_THAT(svg, Contains("points=\"360,92 590,276 \""));
+  CHECK_THAT(svg, Contains("points=\"664,92 894,306.67 \""));
+  CHECK_THAT(svg, Contains("<title>s at delay 2: F1 0.7200</title>"));
+  CHECK(count(svg, "mean") == 1);  // In the description.
+}
+
+TEST_CASE("Rates over a parameter: several sequences have a mean where all have a value") {
+  RunResults results = two_points();
+  results.sweeps = {{"x", "m", {{"delay", "2"}}}, {"y", "m", {{"delay", "0.5"}}}};
+  results.sequences.emplace_back("t");
+  results.rows.push_back(row("y", 98, 90, 0.94));
+  results.rows.back().sequence = "t";
+  const std::string svg = sweep_chart(results, "erasor");
+  CHECK(is_well_formed(svg));
+  CHECK_THAT(svg, Contains("<title>mean at delay 0.5: F1 0.9700</title>") &&
+                      Contains("<title>t at delay 0.5: F1 0.9400</title>"));
+  CHECK(svg.find("mean at delay 2") == std::string::npos);
+  CHECK(count(svg, "class=\"joined\"") == 3);  // Of s, a plot for each rate.
+}
+
+TEST_CASE("What is no number, or stays the same, is no curve") {
+  RunResults results = two_points();
+  const auto is_empty = [&](const std::string& first, const std::string& second) {
+    results.sweeps = {{"x", "m", {{"p", first}}}, {"y", "m", {{"p", second}}}};
+    return sweep_chart(results, "erasor").empty();
+  };
+  CHECK(is_empty("true", "false"));
+  CHECK(is_empty("1", "1"));
+  CHECK_FALSE(is_empty("-1", "1"));
+  results.sweeps = {{"x", "m", {{"p", "1"}, {"q", "1"}}}, {"y", "m", {{"p", "2"}, {"q", "1"}}}};
+  CHECK(sweep_chart(results, "erasor").empty());
+}
+
 TEST_CASE("Two sweeps of one variant are two series") {
   RunResults results = two_points();
   results.sweeps = {{"x", "m", {{"tau", "1"}}}, {"y", "m", {{"test", "true"}}}};
