@@ -1,26 +1,31 @@
-# Several source files of a folder compiled as one: a third of the work where headers cost more than
+# Several source files compiled as one: a third of the work where headers cost more than
 # what is in the files. For builds that nobody edits in: names in anonymous namespaces have to
 # differ within a group. A forgotten #include may go unnoticed by the compiler;
 # scripts/check_own_includes.py looks for those.
 set(RAYMOVAL_UNITY core datasets methods eval benchmark python tests CACHE STRING
     "Rooms, and tests, that are compiled several files at a time, such as core;benchmark;tests")
 
-# raymoval_unity(NAME TARGET SOURCE...): groups of up to eight files of one folder, if NAME is in
-# RAYMOVAL_UNITY.
+# raymoval_unity(NAME TARGET [BY_FOLDER] SOURCE...): groups of up to ten files in the order of their
+# paths, if NAME is in RAYMOVAL_UNITY. BY_FOLDER keeps files of different folders apart, as tests have
+# to be, each of which uses the namespace of what it tests.
 function(raymoval_unity name target)
   if(NOT name IN_LIST RAYMOVAL_UNITY)
     return()
   endif()
+  cmake_parse_arguments(given "BY_FOLDER" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # A class with members of an unnamed namespace is at home in a source file, and is taken for a
   # header's here.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  foreach(source ${ARGN})
-    file(RELATIVE_PATH group ${PROJECT_SOURCE_DIR} ${source})
-    get_filename_component(group ${group} DIRECTORY)
-    string(MAKE_C_IDENTIFIER ${group} group)
+  set(group ${name})
+  foreach(source ${given_UNPARSED_ARGUMENTS})
+    if(given_BY_FOLDER)
+      file(RELATIVE_PATH group ${PROJECT_SOURCE_DIR} ${source})
+      get_filename_component(group ${group} DIRECTORY)
+      string(MAKE_C_IDENTIFIER ${group} group)
+    endif()
     math(EXPR count_${group} "${count_${group}} + 0")
-    math(EXPR part "${count_${group}} / 8")
+    math(EXPR part "${count_${group}} / 10")
     math(EXPR count_${group} "${count_${group}} + 1")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${part})
   endforeach()

@@ -8,22 +8,20 @@
 namespace raymoval {
 namespace {
 
-using namespace erasor;
-
 std::unique_ptr<Scorer> open_erasor(const EvaluationInput& input, const Configuration& options) {
-  return make_scorer(input, option_table().read(options));
+  return erasor::make_scorer(input, erasor::option_table().read(options));
 }
 
 bool frame_needs_calibration(const Configuration& options) {
-  return option_table().read(options).frame == FrameOption::kErasor;
+  return erasor::option_table().read(options).frame == erasor::FrameOption::kErasor;
 }
 
 /// Labels that are found again by nearest neighbour, or not looked at, let a static point stand in
 /// for a removed one.
 bool labels_are_uncertain(const Configuration& configuration) {
-  const Options options = option_table().read(configuration);
-  return options.label_mode == LabelMode::kNearest ||
-         options.label_rule == LabelRuleOption::kGeometry;
+  const erasor::Options options = erasor::option_table().read(configuration);
+  return options.label_mode == erasor::LabelMode::kNearest ||
+         options.label_rule == erasor::LabelRuleOption::kGeometry;
 }
 
 }  // namespace
@@ -34,9 +32,9 @@ ProtocolEntry erasor_protocol_entry() {
           .sentence =
               "Preservation and rejection rate over labelled map voxels (ERASOR paper): "
               "PR, RR, F1.",
-          .parameters = option_table().specs(),
-          .rates = rate_list(),
-          .counts = count_list(),
+          .parameters = erasor::option_table().specs(),
+          .rates = erasor::rate_list(),
+          .counts = erasor::count_list(),
           .open = open_erasor,
           .cloud_options = {{"label_mode", std::string("nearest")}, {"lift", 0.0}},
           .reads_calibration = frame_needs_calibration,

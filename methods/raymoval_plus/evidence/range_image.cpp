@@ -34,7 +34,7 @@ constexpr int kMargin = 32;
 constexpr double kLeastRow = 0.01 * kDegree, kFewestColumns = 90.0, kMostColumns = 7200.0;
 constexpr int kMostBins = 4'000'000;
 /// 30 degrees in rows of 1 degree are 30 rows, also if their quotient is a little more.
-constexpr double kRounding = 1e-6;
+constexpr double kRowRounding = 1e-6;
 /// Windows grow with nearness. Where they start to, roundings may go either way, so that places a
 /// little farther are looked at, too.
 constexpr float kWindowsGrow = 1.001F;
@@ -102,13 +102,13 @@ void RangeImage::choose_steps(const SensorModel& sensor) {
   // Rows are as high as they are to be, whatever the field of view is. If beams fall on every
   // second row, they then do so in all of the image.
   const int most_rows = kMostBins / columns;
-  const double rows = std::ceil((high - low) / height - kRounding);
+  const double rows = std::ceil((high - low) / height - kRowRounding);
   image_.rows = static_cast<int>(std::clamp(rows, 1.0, static_cast<double>(most_rows)));
   elevation_step_ = static_cast<float>(rows > most_rows ? (high - low) / most_rows : height);
   image_.columns = columns;
   image_.margin = kMargin;
-  image_.first_unseen_row = static_cast<int>(
-      std::ceil((sensor.elevation_max - low) / static_cast<double>(elevation_step_) - kRounding));
+  image_.first_unseen_row = static_cast<int>(std::ceil(
+      (sensor.elevation_max - low) / static_cast<double>(elevation_step_) - kRowRounding));
   grid_ = {1.0F / azimuth_step_, 1.0F / elevation_step_, static_cast<float>(low), columns};
 }
 

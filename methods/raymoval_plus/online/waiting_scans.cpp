@@ -12,7 +12,7 @@ namespace raymoval::raymoval_plus_method {
 namespace {
 
 /// Times are read from decimal numbers: a tenth of a second ten times over is to be a second.
-constexpr double kRounding = 1e-6;
+constexpr double kTimeRounding = 1e-6;
 /// With more scans the memory would fill, and no sensor turns so fast.
 constexpr std::size_t kMostWaiting = 256;
 
@@ -40,11 +40,11 @@ SegmentedScan& WaitingScans::add() {
 }
 
 bool WaitingScans::is_due() const {
-  return !waiting_.empty() && clock_ >= waiting_.front().since + delay_ - kRounding;
+  return !waiting_.empty() && clock_ >= waiting_.front().since + delay_ - kTimeRounding;
 }
 
 bool WaitingScans::is_overdue() const {
-  return !waiting_.empty() && clock_ > waiting_.front().since + delay_ + kRounding;
+  return !waiting_.empty() && clock_ > waiting_.front().since + delay_ + kTimeRounding;
 }
 
 void WaitingScans::remove_first() {

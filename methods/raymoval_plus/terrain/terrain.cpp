@@ -23,13 +23,14 @@ constexpr int kPitRounds = 2;
 /// Stacks whose quantiles a thread finds at a time. It changes no answer.
 constexpr std::size_t kStacksATask = 64;
 /// A distance of three columns of 0.4 m is not to be more than 1.2 m.
-constexpr double kRounding = 1e-9;
+constexpr double kReachRounding = 1e-9;
 }  // namespace
 
 Terrain::Terrain(const Parameters& parameters)
     : parameters_(parameters),
       inverse_cell_(1.0 / parameters.terrain_cell),
-      reach_(static_cast<int>(std::floor(parameters.terrain_reach * inverse_cell_ + kRounding))),
+      reach_(
+          static_cast<int>(std::floor(parameters.terrain_reach * inverse_cell_ + kReachRounding))),
       margin_(kPitRounds * kPitNeighbours + reach_),
       side_(kTile + 2 * margin_),
       counts_(0),
@@ -134,7 +135,7 @@ Terrain::Window Terrain::no_steeper_than_slope(const Window& ground) const {
   for (int dy = -reach_; dy <= reach_; ++dy) {
     for (int dx = -reach_; dx <= reach_; ++dx) {
       const double distance = std::hypot(dx, dy) * parameters_.terrain_cell;
-      if (distance > parameters_.terrain_reach + kRounding) continue;
+      if (distance > parameters_.terrain_reach + kReachRounding) continue;
       const auto rise = static_cast<float>(parameters_.terrain_slope * distance);
       for (int y = 0; y < kTile; ++y) {
         const float* const from = ground.data() + (y + margin_ + dy) * side_ + margin_ + dx;
