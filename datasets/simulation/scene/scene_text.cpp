@@ -46,9 +46,9 @@ const Setter& setter_of(const std::string& key, const std::string& text) {
 
 /// Scene and options of `text`. A path may hold colons of its own, so it ends behind ".json".
 std::pair<std::string, std::string> parts_of(const std::string& text) {
-  const std::size_t json = text.find(".json:");
-  if (json == std::string::npos && text.ends_with(".json") && is_file(text)) return {text, ""};
-  const std::size_t colon = json == std::string::npos ? text.find(':') : json + 5;
+  const std::size_t ending = text.find(".json:");
+  if (ending == std::string::npos && text.ends_with(".json") && is_file(text)) return {text, ""};
+  const std::size_t colon = ending == std::string::npos ? text.find(':') : ending + 5;
   if (colon == std::string::npos) return {text, ""};
   return {text.substr(0, colon), text.substr(colon + 1)};
 }

@@ -86,20 +86,20 @@ void write_description(const SimulationOptions& options, const SimulatedSequence
                        simulated::SceneFolder& folder) {
   const auto known = sensor_model_names();
   const bool named = std::find(known.begin(), known.end(), sequence.sensor_name()) != known.end();
-  nlohmann::ordered_json json;
-  json["name"] = sequence.name();
-  json["source"] =
+  nlohmann::ordered_json record;
+  record["name"] = sequence.name();
+  record["source"] =
       "simulated by raymoval: scene " + sequence.name() + ", sensor " + sequence.sensor_name() +
       ", seed " + std::to_string(options.seed) + ", pose noise " + number_text(options.pose_noise) +
       ", rolling " + kRollingNames[static_cast<int>(options.rolling)] +
       (options.noise_free ? ", noise-free" : "") + angle_text(", turned by ", options.turned_deg) +
       angle_text(", tilted by ", options.tilted_deg);
-  json["sensor"] = named ? sequence.sensor_name() : "estimated";
-  json["scan_period_s"] = sequence.scan_period_s();
-  json["poses"] = "poses.txt";
-  json["range_m"] = {{"min", sequence.range_m().min}, {"max", sequence.range_m().max}};
-  json["labels"] = {{"ignored", {0, 1}}, {"moving", {252, 253, 254, 255, 256, 257, 258, 259}}};
-  folder.write("sequence.json", json.dump(2) + "\n");
+  record["sensor"] = named ? sequence.sensor_name() : "estimated";
+  record["scan_period_s"] = sequence.scan_period_s();
+  record["poses"] = "poses.txt";
+  record["range_m"] = {{"min", sequence.range_m().min}, {"max", sequence.range_m().max}};
+  record["labels"] = {{"ignored", {0, 1}}, {"moving", {252, 253, 254, 255, 256, 257, 258, 259}}};
+  folder.write("sequence.json", record.dump(2) + "\n");
 }
 
 /// Times (seconds) from which a mover moves or stands, for the whole sequence.
@@ -127,16 +127,16 @@ void write_movers(const SimulatedSequence& sequence, simulated::SceneFolder& fol
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     states.push_back(sequence.movers(static_cast<double>(i) * sequence.scan_period_s()));
   }
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  nlohmann::ordered_json movers = nlohmann::ordered_json::array();
   for (std::size_t m = 0; m < states.front().size(); ++m) {
     const MoverTruth& truth = states.front()[m];
-    json.push_back({{"instance", truth.instance},
-                    {"label", truth.semantic},
-                    {"kind", truth.kind},
-                    {"moves", truth.moves},
-                    {"when", moves_of(sequence, m, states)}});
+    movers.push_back({{"instance", truth.instance},
+                      {"label", truth.semantic},
+                      {"kind", truth.kind},
+                      {"moves", truth.moves},
+                      {"when", moves_of(sequence, m, states)}});
   }
-  folder.write("movers.json", json.dump(1) + "\n");
+  folder.write("movers.json", movers.dump(1) + "\n");
 }
 
 }  // namespace
