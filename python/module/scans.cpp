@@ -50,7 +50,7 @@ py::object moving_of(const HeldScan& held) {
   return array_of(moving);
 }
 
-std::string repr_of(const HeldScan& held) {
+std::string repr_of_scan(const HeldScan& held) {
   const Scan& scan = held.scan;
   return "<raymoval.Scan " + std::to_string(scan.index) + " (" + scan.name +
          "): " + std::to_string(scan.size()) + " points>";
@@ -119,7 +119,7 @@ void bind_scans(py::module_& module) {
           "stored_point_count", [](const HeldScan& held) { return held.scan.stored_point_count; },
           "Points in the file or array, those left out included.")
       .def("__len__", [](const HeldScan& held) { return held.scan.size(); })
-      .def("__repr__", &repr_of);
+      .def("__repr__", &repr_of_scan);
 }
 
 }  // namespace raymoval::python

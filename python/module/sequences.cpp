@@ -202,7 +202,7 @@ HeldScan load(const HeldSequence& held, py::ssize_t index) {
   return {held.sequence->scans->load(at), held.truth};
 }
 
-std::string repr_of(const HeldSequence& held) {
+std::string repr_of_sequence(const HeldSequence& held) {
   const Sequence& sequence = *held.sequence;
   return "<raymoval.Sequence " + sequence.name + " (" + sequence.layout +
          "): " + counted_text(sequence.scans->size(), "scan") +
@@ -259,7 +259,7 @@ void bind_sequences(py::module_& module) {
   sequence.def("__len__", [](const HeldSequence& held) { return held.sequence->scans->size(); })
       .def("__getitem__", &load, py::arg("index"))
       .def("__iter__", &iterator_over)
-      .def("__repr__", &repr_of);
+      .def("__repr__", &repr_of_sequence);
   bind_facts(sequence);
   module.def("open", &open, py::arg("path"), py::arg("options"), py::arg("threads"),
              py::arg("on_progress"));
