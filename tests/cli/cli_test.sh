@@ -418,7 +418,7 @@ for kind in pr-rr stages accuracy-time; do
   expect 0 "" picture shown -o $kind.svg --kind $kind
   holds "$kind is an SVG" grep -q '^<svg xmlns="http://www.w3.org/2000/svg"' $kind.svg
 done
-expect 1 "no method has what --kind sweep shows" picture shown -o sweep.svg --kind sweep
+expect 2 "no method has what --kind sweep shows" picture shown -o sweep.svg --kind sweep
 expect 2 "which run" picture -o map.png
 expect 2 "-o FILE.png" picture shown
 expect 2 "no such run folder" picture nowhere -o map.png
