@@ -60,6 +60,10 @@ void add_terrain(Lines& table) {
                "Steepest ground from a column to its neighbours.", kTerrain);
   table.number("terrain_reach", &P::terrain_reach, "m", 0, 10,
                "How far a column's ground bounds that of its neighbours.", kTerrain);
+  table.number("terrain_far_slope", &P::terrain_far_slope, "", 0, 2,
+               "Steepest ground over up to 22 columns, beside the slope of the land around; 0 for "
+               "any.",
+               kTerrain);
   table.number("ground_height", &P::ground_height, "m", 0, 1,
                "Points lower than this above the ground are ground.", kTerrain);
 }

@@ -23,6 +23,7 @@ struct Parameters {
   double terrain_drop = 0.5;
   double terrain_slope = 0.2;
   double terrain_reach = 1.2;
+  double terrain_far_slope = 0.1;
   double ground_height = 0.07;
   // Evidence.
   double voxel_size = 0.2;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "methods/raymoval_plus/terrain/far_ground.h"
 #include "methods/raymoval_plus/terrain/pits.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -24,6 +25,12 @@ constexpr int kPitRounds = 2;
 constexpr std::size_t kStacksATask = 64;
 /// A distance of three columns of 0.4 m is not to be more than 1.2 m.
 constexpr double kReachRounding = 1e-9;
+
+/// Whether ground farther away bounds the ground.
+bool looks_far(const Parameters& parameters) {
+  return parameters.terrain_far_slope > 0.0;
+}
+
 }  // namespace
 
 Terrain::Terrain(const Parameters& parameters)
@@ -31,7 +38,7 @@ Terrain::Terrain(const Parameters& parameters)
       inverse_cell_(1.0 / parameters.terrain_cell),
       reach_(
           static_cast<int>(std::floor(parameters.terrain_reach * inverse_cell_ + kReachRounding))),
-      margin_(kPitRounds * kPitNeighbours + reach_),
+      margin_(kPitRounds * kPitNeighbours + (looks_far(parameters) ? kFarMargin : 0) + reach_),
       side_(kTile + 2 * margin_),
       counts_(0),
       ground_(-kNoGround) {}
@@ -164,6 +171,10 @@ void Terrain::update(const RunContext& context) {
     Window ground = low_quantiles(voxel_index(tiles[i]));
     for (int round = 0; round < kPitRounds; ++round) {
       ground = without_pits(ground, side_, static_cast<float>(parameters_.terrain_drop));
+    }
+    if (looks_far(parameters_)) {
+      ground =
+          bounded_from_afar(ground, side_, parameters_.terrain_cell, parameters_.terrain_far_slope);
     }
     found[i] = no_steeper_than_slope(ground);
   });

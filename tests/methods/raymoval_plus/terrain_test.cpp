@@ -53,7 +53,9 @@ TEST_CASE("ground is the low quantile, without pits and walls") {
 TEST_CASE("under a roof the ground rises no more than the slope allows") {
   // Columns are 0.4 m. Ground at 0 m up to x = 4 m; from there on all returns come from a roof at 2
   // m.
-  Terrain terrain{Parameters{}};
+  Parameters parameters;
+  parameters.terrain_far_slope = 0.0;  // Only what is near has a say.
+  Terrain terrain{parameters};
   std::vector<Eigen::Vector3d> points;
   for (int x = 0; x < 20; ++x) {
     for (int y = -10; y < 10; ++y) {
@@ -68,6 +70,30 @@ TEST_CASE("under a roof the ground rises no more than the slope allows") {
   CHECK(height_of(terrain, {4.2, 0.2, 2.0}) == Approx(1.92).margin(0.05));
   CHECK(height_of(terrain, {5.0, 0.2, 2.0}) == Approx(1.76).margin(0.05));
   CHECK(height_of(terrain, {5.4, 0.2, 2.0}) == Approx(0.0).margin(0.05));
+}
+
+TEST_CASE("what stands between rings of ground is no ground") {
+  // Returns of the ground end at x = 4 m. The next are those of a thing from 8 m on, 0.8 m high.
+  std::vector<Eigen::Vector3d> points;
+  for (int x = 0; x < 25; ++x) {
+    if (x >= 10 && x < 20) continue;
+    for (int y = -10; y < 10; ++y) {
+      for (int k = 0; k < 3; ++k) {
+        points.emplace_back(0.4 * x + 0.2, 0.4 * y + 0.2, x < 10 ? 0.0 : 0.8);
+      }
+    }
+  }
+  for (const double far_slope : {0.1, 0.0}) {
+    Parameters parameters;
+    parameters.terrain_far_slope = far_slope;
+    Terrain terrain{parameters};
+    terrain.add(cells_of(terrain, points), RunContext{});
+    terrain.update(RunContext{});
+    CHECK(height_of(terrain, {3.8, 0.2, 0.0}) == Approx(0.0).margin(0.05));
+    // Eleven columns from the last one of ground, of 0.04 m each.
+    const double expected = far_slope > 0.0 ? 0.8 - 0.44 : 0.0;
+    CHECK(height_of(terrain, {8.2, 0.2, 0.8}) == Approx(expected).margin(0.05));
+  }
 }
 
 TEST_CASE("ground found scan by scan is the ground found at once") {

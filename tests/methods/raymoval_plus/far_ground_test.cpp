@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/terrain/far_ground.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <random>
+
+using namespace raymoval::raymoval_plus_method;
+
+namespace {
+
+constexpr float kNowhere = std::numeric_limits<float>::infinity();
+constexpr double kCell = 0.4;
+
+std::size_t at(int x, int y, int side) {
+  return static_cast<std::size_t>(y * side + x);
+}
+
+/// Ground of which a share is known: rough, on a slope, with things on it.
+std::vector<float> random_ground(int side, double known, std::mt19937& random) {
+  std::uniform_real_distribution<float> zero_to_one(0.0F, 1.0F);
+  std::vector<float> ground(static_cast<std::size_t>(side * side), kNowhere);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      if (zero_to_one(random) >= static_cast<float>(known)) continue;
+      const float thing = zero_to_one(random) < 0.2F ? 3.0F * zero_to_one(random) : 0.0F;
+      ground[at(x, y, side)] = 0.05F * static_cast<float>(x) + 0.1F * zero_to_one(random) + thing;
+    }
+  }
+  return ground;
+}
+
+}  // namespace
+
+TEST_CASE("what stands beyond a gap is bounded by the ground before it") {
+  // The ground is known up to column 10. A thing that is a metre high is found from 20 on.
+  const int side = 61;
+  std::vector<float> ground(std::size_t{61} * 61, kNowhere);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x <= 10; ++x) ground[at(x, y, side)] = 0.0F;
+    for (int x = 20; x <= 35; ++x) ground[at(x, y, side)] = 1.0F;
+  }
+  const std::vector<float> bounded = bounded_from_afar(ground, side, kCell, 0.1);
+  // The land is level: no two columns of it have other heights. 0.04 m for each column then.
+  CHECK(bounded[at(0, 30, side)] == 0.0F);
+  CHECK(bounded[at(10, 30, side)] == 0.0F);
+  CHECK(bounded[at(15, 30, side)] == kNowhere);
+  CHECK(bounded[at(20, 30, side)] == Approx(0.40));
+  CHECK(bounded[at(24, 30, side)] == Approx(0.56));
+  CHECK(bounded[at(32, 30, side)] == Approx(0.88));
+  // 22 columns are as far as it reaches.
+  CHECK(bounded[at(33, 30, side)] == 1.0F);
+}
+
+TEST_CASE("a slope of any steepness bounds nothing that lies on it") {
+  const int side = 80;
+  for (const float slope_x : {0.0F, 0.15F, -0.4F}) {
+    for (const float slope_y : {0.0F, 0.3F}) {
+      std::vector<float> ground(std::size_t{80} * 80);
+      for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+          ground[at(x, y, side)] =
+              0.4F * (slope_x * static_cast<float>(x) + slope_y * static_cast<float>(y));
+        }
+      }
+      CHECK(bounded_from_afar(ground, side, kCell, 0.1) == ground);
+      // A box on it is cut, however the land rises.
+      std::vector<float> with_box = ground;
+      for (int y = 38; y < 42; ++y) {
+        for (int x = 38; x < 42; ++x) with_box[at(x, y, side)] += 1.5F;
+      }
+      const std::vector<float> bounded = bounded_from_afar(with_box, side, kCell, 0.1);
+      CHECK(bounded[at(40, 40, side)] - ground[at(40, 40, side)] < 0.7F);
+    }
+  }
+}
+
+TEST_CASE("far ground turns with the world") {
+  std::mt19937 random(3);
+  const int side = 70;
+  for (const double known : {0.1, 0.4, 1.0}) {
+    const std::vector<float> ground = random_ground(side, known, random);
+    std::vector<float> turned(ground.size());
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) turned[at(side - 1 - y, x, side)] = ground[at(x, y, side)];
+    }
+    const std::vector<float> bounded = bounded_from_afar(ground, side, kCell, 0.1);
+    const std::vector<float> of_turned = bounded_from_afar(turned, side, kCell, 0.1);
+    int lowered = 0, others = 0;
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        lowered += bounded[at(x, y, side)] < ground[at(x, y, side)] ? 1 : 0;
+        others += of_turned[at(side - 1 - y, x, side)] != bounded[at(x, y, side)] ? 1 : 0;
+      }
+    }
+    CHECK(lowered > 0);
+    CHECK(others == 0);
+  }
+}
+
+TEST_CASE("ground beyond the margin changes nothing") {
+  std::mt19937 random(4);
+  const int inner = 2 * kFarMargin + 9, outer = inner + 20;
+  const std::vector<float> ground = random_ground(outer, 0.4, random);
+  std::vector<float> part(static_cast<std::size_t>(inner * inner));
+  for (int y = 0; y < inner; ++y) {
+    for (int x = 0; x < inner; ++x) part[at(x, y, inner)] = ground[at(x + 10, y + 10, outer)];
+  }
+  const std::vector<float> of_all = bounded_from_afar(ground, outer, kCell, 0.1);
+  const std::vector<float> of_part = bounded_from_afar(part, inner, kCell, 0.1);
+  int others = 0;
+  for (int y = kFarMargin; y < inner - kFarMargin; ++y) {
+    for (int x = kFarMargin; x < inner - kFarMargin; ++x) {
+      others += of_part[at(x, y, inner)] != of_all[at(x + 10, y + 10, outer)] ? 1 : 0;
+    }
+  }
+  CHECK(others == 0);
+}
