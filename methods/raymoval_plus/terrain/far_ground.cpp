@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+
+#include "methods/raymoval_plus/terrain/tiles.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::infinity();
 /// A difference counts as this at most, metres: crowns of trees are far above the land.
 constexpr float kMostDifference = 1.0F;
 /// With fewer differences along an axis the land is taken for level by as much as are missing.
@@ -53,7 +53,7 @@ class Rises {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
         const bool is_inside = x >= lag_x && y >= lag_y && x + lag_x < side && y + lag_y < side;
-        float rise = kUnknown;
+        float rise = kNoGround;
         if (is_inside) {
           rise = ground[static_cast<std::size_t>((y + lag_y) * side + x + lag_x)] -
                  ground[static_cast<std::size_t>((y - lag_y) * side + x - lag_x)];
@@ -79,22 +79,6 @@ class Rises {
   Sums sums_, counts_;
 };
 
-/// By how much the ground of each column may be above that of the column beside it, metres.
-std::vector<float> highest_rises(const std::vector<float>& ground, int side, double cell,
-                                 double slope) {
-  const Rises along_x(ground, side, 1), along_y(ground, side, 0);
-  std::vector<float> rises(ground.size());
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const float rise_x = along_x.around(x, y), rise_y = along_y.around(x, y);
-      rises[static_cast<std::size_t>(y * side + x)] =
-          static_cast<float>(slope * cell) +
-          std::sqrt(rise_x * rise_x + rise_y * rise_y) / (2.0F * kHalfLag);
-    }
-  }
-  return rises;
-}
-
 /// Lowers heights to what those a step away, to either side and obliquely, allow.
 void lower_by_step(int step, const std::vector<float>& rises, int side,
                    std::vector<float>& heights) {
@@ -115,13 +99,27 @@ void lower_by_step(int step, const std::vector<float>& rises, int side,
 
 }  // namespace
 
-std::vector<float> bounded_from_afar(const std::vector<float>& ground, int side, double cell,
-                                     double slope) {
-  const std::vector<float> rises = highest_rises(ground, side, cell, slope);
+std::vector<float> highest_rises(const std::vector<float>& ground, int side, double cell,
+                                 double slope) {
+  const Rises along_x(ground, side, 1), along_y(ground, side, 0);
+  std::vector<float> rises(ground.size());
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const float rise_x = along_x.around(x, y), rise_y = along_y.around(x, y);
+      rises[static_cast<std::size_t>(y * side + x)] =
+          static_cast<float>(slope * cell) +
+          std::sqrt(rise_x * rise_x + rise_y * rise_y) / (2.0F * kHalfLag);
+    }
+  }
+  return rises;
+}
+
+std::vector<float> bounded_from_afar(const std::vector<float>& ground,
+                                     const std::vector<float>& rises, int side) {
   std::vector<float> lowest = ground;
   for (const int step : kFarSteps) lower_by_step(step, rises, side, lowest);
   for (std::size_t i = 0; i < lowest.size(); ++i) {
-    if (!(ground[i] < kUnknown)) lowest[i] = kUnknown;
+    if (!(ground[i] < kNoGround)) lowest[i] = kNoGround;
   }
   return lowest;
 }

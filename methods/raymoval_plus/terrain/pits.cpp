@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
+
+#include "methods/raymoval_plus/terrain/tiles.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-constexpr float kNoGround = std::numeric_limits<float>::infinity();
 constexpr std::size_t kAcross = 2 * kPitNeighbours + 1;
 /// The lower quartile of the columns around is at most a height if so many are. There are at most
 /// `kAcross` squared.

@@ -21,6 +21,8 @@ constexpr double kStep = 0.05;
 constexpr std::uint64_t kLeastPoints = 3;
 /// The second round finds columns that were beside another pit.
 constexpr int kPitRounds = 2;
+/// Columns to either side that this depends on.
+constexpr int kPitMargin = kPitRounds * kPitNeighbours;
 /// Stacks whose quantiles a thread finds at a time. It changes no answer.
 constexpr std::size_t kStacksATask = 64;
 /// A distance of three columns of 0.4 m is not to be more than 1.2 m.
@@ -38,9 +40,9 @@ Terrain::Terrain(const Parameters& parameters)
       inverse_cell_(1.0 / parameters.terrain_cell),
       reach_(
           static_cast<int>(std::floor(parameters.terrain_reach * inverse_cell_ + kReachRounding))),
-      margin_(kPitRounds * kPitNeighbours + (looks_far(parameters) ? kFarMargin : 0) + reach_),
-      side_(kTile + 2 * margin_),
       counts_(0),
+      own_ground_(kNoGround),
+      rises_(kNoGround),
       ground_(-kNoGround) {}
 
 void Terrain::find_cells_of(const Scan& scan, int threads, ScanCells& cells) const {
@@ -78,9 +80,11 @@ void Terrain::mark_changed(const VoxelIndex& block) {
   stack.low = std::min(stack.low, block.z());
   stack.high = std::max(stack.high, block.z());
   if (!std::exchange(stack.is_stale, true)) stale_.push_back(key);
-  const VoxelIndex corner = block * Counts::kSideXY, margin(margin_, margin_, 0);
-  const VoxelIndex low = Heights::block_of(corner - margin);
-  const VoxelIndex high = Heights::block_of(corner.array() + Counts::kSideXY - 1 + margin.array());
+  const VoxelIndex corner = block * Counts::kSideXY,
+                   margin(kPitMargin + reach_, kPitMargin + reach_, 0);
+  const VoxelIndex low = TileHeights::block_of(corner - margin);
+  const VoxelIndex high =
+      TileHeights::block_of(corner.array() + Counts::kSideXY - 1 + margin.array());
   for (int y = low.y(); y <= high.y(); ++y) {
     for (int x = low.x(); x <= high.x(); ++x) changed_.insert(voxel_key(x, y, 0));
   }
@@ -116,11 +120,12 @@ void Terrain::find_low_quantiles(const VoxelIndex& block, Stack& stack) const {
   }
 }
 
-Terrain::Window Terrain::low_quantiles(const VoxelIndex& tile) const {
-  Window window(static_cast<std::size_t>(side_ * side_), kNoGround);
-  const int left = tile.x() * kTile - margin_, bottom = tile.y() * kTile - margin_;
+Terrain::Window Terrain::low_quantiles(const VoxelIndex& tile, int margin) const {
+  const int side = kTile + 2 * margin;
+  Window window(static_cast<std::size_t>(side * side), kNoGround);
+  const int left = tile.x() * kTile - margin, bottom = tile.y() * kTile - margin;
   const VoxelIndex low = Counts::block_of({left, bottom, 0});
-  const VoxelIndex high = Counts::block_of({left + side_ - 1, bottom + side_ - 1, 0});
+  const VoxelIndex high = Counts::block_of({left + side - 1, bottom + side - 1, 0});
   for (int v = low.y(); v <= high.y(); ++v) {
     for (int u = low.x(); u <= high.x(); ++u) {
       const auto stack = stacks_.find(voxel_key(u, v, 0));
@@ -128,15 +133,16 @@ Terrain::Window Terrain::low_quantiles(const VoxelIndex& tile) const {
       for (std::size_t c = 0; c < kStackColumns; ++c) {
         const int x = u * Counts::kSideXY + static_cast<int>(c) % Counts::kSideXY - left;
         const int y = v * Counts::kSideXY + static_cast<int>(c) / Counts::kSideXY - bottom;
-        if (x < 0 || y < 0 || x >= side_ || y >= side_) continue;
-        window[static_cast<std::size_t>(y * side_ + x)] = stack->second.ground[c];
+        if (x < 0 || y < 0 || x >= side || y >= side) continue;
+        window[static_cast<std::size_t>(y * side + x)] = stack->second.ground[c];
       }
     }
   }
   return window;
 }
 
-Terrain::Window Terrain::no_steeper_than_slope(const Window& ground) const {
+Terrain::Window Terrain::no_steeper_than_slope(const Window& ground, int margin) const {
+  const int side = kTile + 2 * margin;
   // Columns without points of their own take the ground from beside them.
   Window lowest(std::size_t{kTile} * kTile, kNoGround);
   for (int dy = -reach_; dy <= reach_; ++dy) {
@@ -145,46 +151,84 @@ Terrain::Window Terrain::no_steeper_than_slope(const Window& ground) const {
       if (distance > parameters_.terrain_reach + kReachRounding) continue;
       const auto rise = static_cast<float>(parameters_.terrain_slope * distance);
       for (int y = 0; y < kTile; ++y) {
-        const float* const from = ground.data() + (y + margin_ + dy) * side_ + margin_ + dx;
+        const float* const from = ground.data() + (y + margin + dy) * side + margin + dx;
         float* const to = lowest.data() + y * kTile;
         for (int x = 0; x < kTile; ++x) to[x] = std::min(to[x], from[x] + rise);
       }
     }
   }
+  // Any height is far above no ground.
+  std::replace(lowest.begin(), lowest.end(), kNoGround, -kNoGround);
   return lowest;
 }
 
-void Terrain::update(const RunContext& context) {
-  const StageScope timed(context.times, "terrain");
+Terrain::Window Terrain::without_pits_in(const VoxelIndex& tile) const {
+  Window ground = low_quantiles(tile, kPitMargin);
+  for (int round = 0; round < kPitRounds; ++round) {
+    ground =
+        without_pits(ground, kTile + 2 * kPitMargin, static_cast<float>(parameters_.terrain_drop));
+  }
+  return middle_of(ground, kPitMargin);
+}
+
+Terrain::Window Terrain::rises_in(const VoxelIndex& tile) const {
+  const Window ground = around_tile(own_ground_, tile, kLandMargin);
+  return middle_of(highest_rises(ground, kTile + 2 * kLandMargin, parameters_.terrain_cell,
+                                 parameters_.terrain_far_slope),
+                   kLandMargin);
+}
+
+Terrain::Window Terrain::bounded_in(const VoxelIndex& tile) const {
+  if (!looks_far(parameters_)) {
+    return no_steeper_than_slope(around_tile(own_ground_, tile, reach_), reach_);
+  }
+  const int margin = kFarReach + reach_;
+  const Window ground = bounded_from_afar(around_tile(own_ground_, tile, margin),
+                                          around_tile(rises_, tile, margin), kTile + 2 * margin);
+  return no_steeper_than_slope(ground, margin);
+}
+
+void Terrain::update_low_quantiles(const RunContext& context) {
   parallel_for(context.threads, stale_.size(), kStacksATask, [&](std::size_t i) {
     Stack& stack = stacks_.find(stale_[i]).value();
     find_low_quantiles(voxel_index(stale_[i]), stack);
     stack.is_stale = false;
   });
   stale_.clear();
-  std::vector<VoxelKey> tiles(changed_.begin(), changed_.end());
-  changed_.clear();
-  std::fill(has_news_.begin(), has_news_.end(), std::uint8_t{0});
-  std::sort(tiles.begin(), tiles.end());
-  std::vector<Window> found(tiles.size());
-  parallel_for(context.threads, tiles.size(), 1, [&](std::size_t i) {
-    Window ground = low_quantiles(voxel_index(tiles[i]));
-    for (int round = 0; round < kPitRounds; ++round) {
-      ground = without_pits(ground, side_, static_cast<float>(parameters_.terrain_drop));
-    }
-    if (looks_far(parameters_)) {
-      ground =
-          bounded_from_afar(ground, side_, parameters_.terrain_cell, parameters_.terrain_far_slope);
-    }
-    found[i] = no_steeper_than_slope(ground);
-  });
-  Heights::Cursor cursor;
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const VoxelIndex corner = voxel_index(tiles[i]) * kTile;
-    float* const cells = &ground_.make(corner, cursor);
-    std::transform(found[i].begin(), found[i].end(), cells,
-                   [](float ground) { return ground < kNoGround ? ground : -kNoGround; });
+}
+
+void Terrain::fill_tiles(const VoxelSet& tiles, const RunContext& context, TileHeights& heights,
+                         Window (Terrain::*values_in)(const VoxelIndex&) const) const {
+  std::vector<VoxelKey> keys(tiles.begin(), tiles.end());
+  std::sort(keys.begin(), keys.end());
+  std::vector<Window> found(keys.size());
+  parallel_for(context.threads, keys.size(), 1,
+               [&](std::size_t i) { found[i] = (this->*values_in)(voxel_index(keys[i])); });
+  TileHeights::Cursor cursor;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    std::copy(found[i].begin(), found[i].end(),
+              &heights.make(voxel_index(keys[i]) * kTile, cursor));
   }
+}
+
+void Terrain::update(const RunContext& context) {
+  const StageScope timed(context.times, "terrain");
+  update_low_quantiles(context);
+  std::fill(has_news_.begin(), has_news_.end(), std::uint8_t{0});
+  VoxelSet tiles = std::exchange(changed_, {});
+  tiles_.insert(tiles.begin(), tiles.end());
+  fill_tiles(tiles, context, own_ground_, &Terrain::without_pits_in);
+  if (looks_far(parameters_)) {
+    tiles = with_tiles_around(tiles, kLandMargin);
+    fill_tiles(tiles, context, rises_, &Terrain::rises_in);
+    // Ground is found only where there are points, or beside them.
+    VoxelSet known;
+    for (const VoxelKey tile : with_tiles_around(tiles, kFarReach + reach_)) {
+      if (tiles_.contains(tile)) known.insert(tile);
+    }
+    tiles = std::move(known);
+  }
+  fill_tiles(tiles, context, ground_, &Terrain::bounded_in);
 }
 
 void Terrain::find_heights(const ScanCells& cells, const RunContext& context,
@@ -192,7 +236,7 @@ void Terrain::find_heights(const ScanCells& cells, const RunContext& context,
   heights.resize(cells.size());
   parallel_chunks(
       context.threads, cells.size(), kPointsATask, [&](std::size_t begin, std::size_t end) {
-        Heights::Cursor cursor;
+        TileHeights::Cursor cursor;
         for (std::size_t k = begin; k < end; ++k) {
           heights[k] = cells.height[k] - ground_.get({cells.x[k], cells.y[k], 0}, cursor);
         }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "methods/common/dense_blocks.h"
 #include "methods/raymoval_plus/common/parameters.h"
 #include "methods/raymoval_plus/common/scan_cells.h"
+#include "methods/raymoval_plus/terrain/tiles.h"
 #include "methods/remover.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -37,12 +37,9 @@ class Terrain {
                     std::vector<float>& heights) const;
 
  private:
-  using Heights = DenseBlocks<float, 6, 0>;         ///< A block is a tile of 64 x 64 columns.
   using Counts = DenseBlocks<std::uint32_t, 2, 4>;  ///< A block has 4 x 4 columns, 16 steps of z.
-  static constexpr int kTile = Heights::kSideXY;
-  /// The ground of a tile's columns and of those around it, row by row.
+  /// Values of a tile's columns and of those around it, row by row.
   using Window = std::vector<float>;
-  static constexpr float kNoGround = std::numeric_limits<float>::infinity();
   static constexpr std::size_t kStackColumns = std::size_t{Counts::kSideXY} * Counts::kSideXY;
   /// The blocks of `counts_` above each other, and what they say of the ground.
   struct Stack {
@@ -61,20 +58,31 @@ class Terrain {
   void mark_changed(const VoxelIndex& block);
   void find_low_quantiles(const VoxelIndex& block, Stack& stack) const;
   /// The low quantiles of a tile's columns and of those around it.
-  [[nodiscard]] Window low_quantiles(const VoxelIndex& tile) const;
-  [[nodiscard]] Window no_steeper_than_slope(const Window& ground) const;
+  [[nodiscard]] Window low_quantiles(const VoxelIndex& tile, int margin) const;
+  /// The ground of a tile's columns from their own points.
+  [[nodiscard]] Window without_pits_in(const VoxelIndex& tile) const;
+  /// By how much the ground of a tile's columns may rise.
+  [[nodiscard]] Window rises_in(const VoxelIndex& tile) const;
+  /// The ground of a tile's columns, bounded by that around them.
+  [[nodiscard]] Window bounded_in(const VoxelIndex& tile) const;
+  [[nodiscard]] Window no_steeper_than_slope(const Window& ground, int margin) const;
+  void update_low_quantiles(const RunContext& context);
+  /// Writes what is found of each of some tiles.
+  void fill_tiles(const VoxelSet& tiles, const RunContext& context, TileHeights& heights,
+                  Window (Terrain::*values_in)(const VoxelIndex&) const) const;
 
   Parameters parameters_;
   double inverse_cell_;
-  int reach_;   ///< Columns to either side whose ground bounds that of a column.
-  int margin_;  ///< Columns to either side of a tile that its ground depends on.
-  int side_;    ///< Columns in a row of a window.
+  int reach_;  ///< Columns to either side whose ground bounds that of a column.
   Counts counts_;
   VoxelMap<Stack> stacks_;              ///< By x and y of their blocks.
   std::vector<VoxelKey> stale_;         ///< Stacks whose quantiles are to be found anew.
   std::vector<std::uint8_t> has_news_;  ///< Blocks of `counts_` that `changed_` knows of: 1.
-  VoxelSet changed_;                    ///< Tiles whose ground may have changed.
-  Heights ground_;
+  VoxelSet changed_;                    ///< Tiles in which, or near which, points were added.
+  VoxelSet tiles_;                      ///< All that ever were among these.
+  /// By column, metres: the ground from its own points, by how much it may rise from one column to
+  /// the next, and the ground in the end.
+  TileHeights own_ground_, rises_, ground_;
 };
 
 }  // namespace raymoval::raymoval_plus_method

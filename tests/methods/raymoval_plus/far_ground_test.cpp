@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kNowhere = std::numeric_limits<float>::infinity();
 constexpr double kCell = 0.4;
+constexpr int kMargin = kFarReach + kLandMargin;
 
 std::size_t at(int x, int y, int side) {
   return static_cast<std::size_t>(y * side + x);
@@ -30,6 +31,10 @@ std::vector<float> random_ground(int side, double known, std::mt19937& random) {
   return ground;
 }
 
+std::vector<float> bounded(const std::vector<float>& ground, int side) {
+  return bounded_from_afar(ground, highest_rises(ground, side, kCell, 0.1), side);
+}
+
 }  // namespace
 
 TEST_CASE("what stands beyond a gap is bounded by the ground before it") {
@@ -40,16 +45,16 @@ TEST_CASE("what stands beyond a gap is bounded by the ground before it") {
     for (int x = 0; x <= 10; ++x) ground[at(x, y, side)] = 0.0F;
     for (int x = 20; x <= 35; ++x) ground[at(x, y, side)] = 1.0F;
   }
-  const std::vector<float> bounded = bounded_from_afar(ground, side, kCell, 0.1);
+  const std::vector<float> found = bounded(ground, side);
   // The land is level: no two columns of it have other heights. 0.04 m for each column then.
-  CHECK(bounded[at(0, 30, side)] == 0.0F);
-  CHECK(bounded[at(10, 30, side)] == 0.0F);
-  CHECK(bounded[at(15, 30, side)] == kNowhere);
-  CHECK(bounded[at(20, 30, side)] == Approx(0.40));
-  CHECK(bounded[at(24, 30, side)] == Approx(0.56));
-  CHECK(bounded[at(32, 30, side)] == Approx(0.88));
+  CHECK(found[at(0, 30, side)] == 0.0F);
+  CHECK(found[at(10, 30, side)] == 0.0F);
+  CHECK(found[at(15, 30, side)] == kNowhere);
+  CHECK(found[at(20, 30, side)] == Approx(0.40));
+  CHECK(found[at(24, 30, side)] == Approx(0.56));
+  CHECK(found[at(32, 30, side)] == Approx(0.88));
   // 22 columns are as far as it reaches.
-  CHECK(bounded[at(33, 30, side)] == 1.0F);
+  CHECK(found[at(33, 30, side)] == 1.0F);
 }
 
 TEST_CASE("a slope of any steepness bounds nothing that lies on it") {
@@ -63,14 +68,14 @@ TEST_CASE("a slope of any steepness bounds nothing that lies on it") {
               0.4F * (slope_x * static_cast<float>(x) + slope_y * static_cast<float>(y));
         }
       }
-      CHECK(bounded_from_afar(ground, side, kCell, 0.1) == ground);
+      CHECK(bounded(ground, side) == ground);
       // A box on it is cut, however the land rises.
       std::vector<float> with_box = ground;
       for (int y = 38; y < 42; ++y) {
         for (int x = 38; x < 42; ++x) with_box[at(x, y, side)] += 1.5F;
       }
-      const std::vector<float> bounded = bounded_from_afar(with_box, side, kCell, 0.1);
-      CHECK(bounded[at(40, 40, side)] - ground[at(40, 40, side)] < 0.7F);
+      const std::vector<float> found = bounded(with_box, side);
+      CHECK(found[at(40, 40, side)] - ground[at(40, 40, side)] < 0.7F);
     }
   }
 }
@@ -84,13 +89,13 @@ TEST_CASE("far ground turns with the world") {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) turned[at(side - 1 - y, x, side)] = ground[at(x, y, side)];
     }
-    const std::vector<float> bounded = bounded_from_afar(ground, side, kCell, 0.1);
-    const std::vector<float> of_turned = bounded_from_afar(turned, side, kCell, 0.1);
+    const std::vector<float> found = bounded(ground, side);
+    const std::vector<float> of_turned = bounded(turned, side);
     int lowered = 0, others = 0;
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
-        lowered += bounded[at(x, y, side)] < ground[at(x, y, side)] ? 1 : 0;
-        others += of_turned[at(side - 1 - y, x, side)] != bounded[at(x, y, side)] ? 1 : 0;
+        lowered += found[at(x, y, side)] < ground[at(x, y, side)] ? 1 : 0;
+        others += of_turned[at(side - 1 - y, x, side)] != found[at(x, y, side)] ? 1 : 0;
       }
     }
     CHECK(lowered > 0);
@@ -100,17 +105,17 @@ TEST_CASE("far ground turns with the world") {
 
 TEST_CASE("ground beyond the margin changes nothing") {
   std::mt19937 random(4);
-  const int inner = 2 * kFarMargin + 9, outer = inner + 20;
+  const int inner = 2 * kMargin + 9, outer = inner + 20;
   const std::vector<float> ground = random_ground(outer, 0.4, random);
   std::vector<float> part(static_cast<std::size_t>(inner * inner));
   for (int y = 0; y < inner; ++y) {
     for (int x = 0; x < inner; ++x) part[at(x, y, inner)] = ground[at(x + 10, y + 10, outer)];
   }
-  const std::vector<float> of_all = bounded_from_afar(ground, outer, kCell, 0.1);
-  const std::vector<float> of_part = bounded_from_afar(part, inner, kCell, 0.1);
+  const std::vector<float> of_all = bounded(ground, outer);
+  const std::vector<float> of_part = bounded(part, inner);
   int others = 0;
-  for (int y = kFarMargin; y < inner - kFarMargin; ++y) {
-    for (int x = kFarMargin; x < inner - kFarMargin; ++x) {
+  for (int y = kMargin; y < inner - kMargin; ++y) {
+    for (int x = kMargin; x < inner - kMargin; ++x) {
       others += of_part[at(x, y, inner)] != of_all[at(x + 10, y + 10, outer)] ? 1 : 0;
     }
   }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/terrain/tiles.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+/// So many tiles have columns at most `margin` columns from a tile, to either side.
+int tiles_within(int margin) {
+  return (margin + kTile - 1) / kTile;
+}
+
+}  // namespace
+
+VoxelSet with_tiles_around(const VoxelSet& tiles, int margin) {
+  const int reach = tiles_within(margin);
+  VoxelSet around;
+  for (const VoxelKey key : tiles) {
+    const VoxelIndex tile = voxel_index(key);
+    for (int y = tile.y() - reach; y <= tile.y() + reach; ++y) {
+      for (int x = tile.x() - reach; x <= tile.x() + reach; ++x) around.insert(voxel_key(x, y, 0));
+    }
+  }
+  return around;
+}
+
+std::vector<float> around_tile(const TileHeights& heights, const VoxelIndex& tile, int margin) {
+  const int side = kTile + 2 * margin, reach = tiles_within(margin);
+  std::vector<float> around(static_cast<std::size_t>(side * side), kNoGround);
+  for (int v = -reach; v <= reach; ++v) {
+    for (int u = -reach; u <= reach; ++u) {
+      const std::uint32_t block = heights.block(tile + VoxelIndex(u, v, 0));
+      if (block == TileHeights::kNone) continue;
+      // Where the block's lower corner is in the square, and what of the block lies in it.
+      const int left = u * kTile + margin, bottom = v * kTile + margin;
+      const int begin = std::max(0, -left), end = std::min(kTile, side - left);
+      for (int y = std::max(0, -bottom); y < std::min(kTile, side - bottom); ++y) {
+        std::copy_n(heights.cells(block) + y * kTile + begin, end - begin,
+                    around.data() + (bottom + y) * side + left + begin);
+      }
+    }
+  }
+  return around;
+}
+
+std::vector<float> middle_of(const std::vector<float>& around, int margin) {
+  const int side = kTile + 2 * margin;
+  std::vector<float> middle;
+  middle.reserve(std::size_t{kTile} * kTile);
+  for (int y = margin; y < margin + kTile; ++y) {
+    const float* const row = around.data() + y * side + margin;
+    middle.insert(middle.end(), row, row + kTile);
+  }
+  return middle;
+}
+
+}  // namespace raymoval::raymoval_plus_method

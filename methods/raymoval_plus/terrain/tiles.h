@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "core/scan/voxel_key.h"
+#include "methods/common/dense_blocks.h"
+
+namespace raymoval::raymoval_plus_method {
+
+/// A height of each column, metres. A block is a tile of 64 x 64 columns.
+using TileHeights = DenseBlocks<float, 6, 0>;
+inline constexpr int kTile = TileHeights::kSideXY;
+
+/// The height of the ground where none is known.
+inline constexpr float kNoGround = std::numeric_limits<float>::infinity();
+
+/// The tiles, and those that have columns at most `margin` columns from one of them.
+VoxelSet with_tiles_around(const VoxelSet& tiles, int margin);
+
+/// The heights of a tile's columns and of `margin` columns to either side, row by row. Where there
+/// is no tile they are `kNoGround`.
+std::vector<float> around_tile(const TileHeights& heights, const VoxelIndex& tile, int margin);
+/// The heights of the tile's own columns, of these.
+std::vector<float> middle_of(const std::vector<float>& around, int margin);
+
+}  // namespace raymoval::raymoval_plus_method
