@@ -31,10 +31,10 @@ bool asks_for_more(const RunContext& context) {
 /// some of them, so that the scans are gone through once, and those with marks once more.
 class Answers {
  public:
-  Answers(const Terrain& terrain, const EvidenceMap& map, const Parameters& parameters,
+  Answers(const Terrain& terrain, const EvidenceMaps& maps, const Parameters& parameters,
           const ScanSource& scans, RemovalSink& sink, const RunContext& context)
       : terrain_(terrain),
-        map_(map),
+        maps_(maps),
         parameters_(parameters),
         scans_(scans),
         sink_(sink),
@@ -64,20 +64,20 @@ class Answers {
   void locate(Scan scan, LocatedScan& located) const {
     located.scan = std::move(scan);
     find_terrain_cells(terrain_, parameters_, of_scan_, located);
-    find_heights_and_cells(terrain_, map_, parameters_, of_scan_, located);
-    look_up(map_, parameters_, of_scan_, located);
+    find_heights_and_cells(terrain_, maps_, parameters_, of_scan_, located);
+    look_up(maps_, parameters_, of_scan_, located);
   }
   void segment(Scan scan, SegmentedScan& segmented) const {
     locate(std::move(scan), segmented);
-    find_clusters(parameters_, of_scan_, segmented);          // 6
-    divide_clusters(map_, parameters_, of_scan_, segmented);  // 6
+    find_clusters(parameters_, of_scan_, segmented);                    // 6
+    divide_clusters(maps_.standing, parameters_, of_scan_, segmented);  // 6
   }
 
   void decide_without_tracks(Scan scan) {
     const std::size_t index = scan.index;
     workspaces_.with_one([&](SegmentedScan& segmented) {
       segment(std::move(scan), segmented);
-      objects_[index] = summarise_objects(segmented, map_, parameters_, of_scan_);
+      objects_[index] = summarise_objects(segmented, maps_.standing, parameters_, of_scan_);
       runs_[index] = remembered_points(segmented, objects_[index], parameters_);
       Verdicts verdicts = decide_objects(segmented, {}, parameters_, of_scan_);  // 6
       decide_low_points(segmented, parameters_, of_scan_, verdicts);             // 8
@@ -95,7 +95,7 @@ class Answers {
         sink_.accept(index, removed_points(verdicts));
       } else {
         segment(std::move(scan), segmented);
-        answer(segmented, marked_[index], map_, parameters_, sink_, of_scan_);  // 6 to 8
+        answer(segmented, marked_[index], maps_, parameters_, sink_, of_scan_);  // 6 to 8
       }
     });
   }
@@ -128,7 +128,7 @@ class Answers {
   }
 
   const Terrain& terrain_;
-  const EvidenceMap& map_;
+  const EvidenceMaps& maps_;
   const Parameters& parameters_;
   const ScanSource& scans_;
   RemovalSink& sink_;
@@ -143,22 +143,22 @@ class Answers {
 
 }  // namespace
 
-void answer_from_map(const Terrain& terrain, const EvidenceMap& map, const Parameters& parameters,
+void answer_from_map(const Terrain& terrain, const EvidenceMaps& maps, const Parameters& parameters,
                      const ScanSource& scans, RemovalSink& sink, const RunContext& context) {
-  Answers(terrain, map, parameters, scans, sink, context).give();
+  Answers(terrain, maps, parameters, scans, sink, context).give();
 }
 
-void answer(const SegmentedScan& scan, const std::vector<int>& marked, const EvidenceMap& map,
+void answer(const SegmentedScan& scan, const std::vector<int>& marked, const EvidenceMaps& maps,
             const Parameters& parameters, RemovalSink& sink, const RunContext& context) {
   const Verdicts by_objects = decide_objects(scan, marked, parameters, context);  // 6, 7
   Verdicts decided = by_objects;
   decide_low_points(scan, parameters, context, decided);  // 8
   sink.accept(scan.scan.index, removed_points(decided));
   if (context.reasons != nullptr) {
-    context.reasons->accept(scan.scan.index, reasons_for(scan, map, by_objects, decided));
+    context.reasons->accept(scan.scan.index, reasons_for(scan, maps, by_objects, decided));
   }
   if (context.evidence != nullptr) {
-    context.evidence->accept(scan.scan.index, evidence_of_points(scan, decided, map, parameters));
+    context.evidence->accept(scan.scan.index, evidence_of_points(scan, decided, maps, parameters));
   }
 }
 

@@ -2,6 +2,7 @@
 // The eight steps of README.md; the numbers in comments are those of the steps there.
 #include "methods/raymoval_plus/raymoval_plus.h"
 
+#include <array>
 #include <span>
 
 #include "methods/common/prepared_scans.h"
@@ -28,18 +29,17 @@ class Run {
         sink_(sink),
         context_(context),
         terrain_(parameters),
-        map_(parameters.voxel_size),
+        maps_(parameters),
         image_(scans.sensor(), parameters),
         earlier_scans_(parameters) {}
 
   /// Four passes, and a fifth over the scans in which a track marked something.
   void offline() {
-    if (parameters_.terrain) find_terrain();                                // 1
-    find_voxels();                                                          // 2
-    find_evidence();                                                        // 3
-    decide_all(false, parameters_, context_, map_);                         // 4
-    vote(parameters_, context_, map_);                                      // 5
-    answer_from_map(terrain_, map_, parameters_, scans_, sink_, context_);  // 6 to 8
+    if (parameters_.terrain) find_terrain();                                 // 1
+    find_voxels();                                                           // 2
+    find_evidence();                                                         // 3
+    decide_and_vote(false);                                                  // 4, 5
+    answer_from_map(terrain_, maps_, parameters_, scans_, sink_, context_);  // 6 to 8
   }
 
   /// One pass, another one for the answers, and a third as above.
@@ -49,9 +49,8 @@ class Run {
       arrive(std::move(scan), located);            // 1
       add_arrived(located, WhenToDecide::kLater);  // 2, 3
     });
-    decide_all(true, parameters_, context_, map_);                          // 4
-    vote(parameters_, context_, map_);                                      // 5
-    answer_from_map(terrain_, map_, parameters_, scans_, sink_, context_);  // 6 to 8
+    decide_and_vote(true);                                                   // 4, 5
+    answer_from_map(terrain_, maps_, parameters_, scans_, sink_, context_);  // 6 to 8
   }
 
   /// One pass, in which each scan is answered from those up to a fixed time after it.
@@ -71,9 +70,9 @@ class Run {
           context_, [&] { add_arrived(scan, WhenToDecide::kNow); },    // 2 to 4
           [&] { find_clusters(parameters_, beside_others_, scan); });  // 6
       if (parameters_.delay > 0.0) {
-        look_up_verdicts(map_, context_, scan);
+        look_up_verdicts(maps_, context_, scan);
         count_points(scan);
-        recent.take(scan, map_, context_);
+        recent.take(scan, maps_.standing, context_);
       }
       while (waiting.is_due()) answer_first();
     });
@@ -104,10 +103,10 @@ class Run {
         [&](Scan scan, LocatedScan& located, const RunContext& context) {
           located.scan = std::move(scan);
           find_terrain_cells(terrain_, parameters_, context, located);
-          find_heights_and_cells(terrain_, map_, parameters_, context, located);
+          find_heights_and_cells(terrain_, maps_, parameters_, context, located);
         },
         [&](LocatedScan& located, const RunContext& context) {
-          add_to_map(parameters_, context, located, map_);
+          add_to_maps(parameters_, context, located, maps_);
         });
   }
 
@@ -116,9 +115,18 @@ class Run {
     std::vector<PosedImage> posed(images.size());
     for_scan_batches("raymoval_plus, evidence", scans_, context_, [&](std::span<Scan> batch) {
       fill_images(batch, images, posed);
-      add_evidence(std::span(posed).first(batch.size()), parameters_, WhenToDecide::kLater,
-                   context_, map_);
+      for (EvidenceMap* const map : maps_.both()) {
+        add_evidence(std::span(posed).first(batch.size()), parameters_, WhenToDecide::kLater,
+                     context_, *map);
+      }
     });
+  }
+
+  void decide_and_vote(bool also_unseen) {
+    for (EvidenceMap* const map : maps_.both()) {
+      decide_all(also_unseen, parameters_, context_, *map);
+      vote(parameters_, context_, *map);
+    }
   }
 
   void fill_images(std::span<const Scan> batch, std::vector<RangeImage>& images,
@@ -149,42 +157,52 @@ class Run {
     const bool is_due =
         located.scan.index % static_cast<std::size_t>(parameters_.terrain_period) == 0;
     if (parameters_.terrain && is_due) terrain_.update(context_);
-    find_heights_and_cells(terrain_, map_, parameters_, context_, located);
+    find_heights_and_cells(terrain_, maps_, parameters_, context_, located);
   }
 
   /// Steps 2 to 4 for a scan that is read only once.
   void add_arrived(LocatedScan& located, WhenToDecide when) {
-    const std::size_t first_new = map_.size();
+    const auto known = maps_.sizes();
     const PosedImage posed{&image_, located.scan.T_world_sensor};
-    add_to_map(parameters_, context_, located, map_);  // 2
-    earlier_scans_.add_evidence(first_new, posed.T_world_sensor.translation(), when, context_,
-                                map_);                                      // 3, 4
-    add_evidence(std::span(&posed, 1), parameters_, when, context_, map_);  // 3, 4
+    add_to_maps(parameters_, context_, located, maps_);                  // 2
+    ask_earlier_scans(known, posed.T_world_sensor.translation(), when);  // 3, 4
+    for (EvidenceMap* const map : maps_.both()) {
+      add_evidence(std::span(&posed, 1), parameters_, when, context_, *map);  // 3, 4
+    }
     earlier_scans_.keep(std::move(image_), posed.T_world_sensor);
+  }
+
+  /// Steps 3 and 4 for the voxels that were added since the maps had so many.
+  void ask_earlier_scans(const std::array<std::size_t, 2>& known, const Eigen::Vector3d& center,
+                         WhenToDecide when) {
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      earlier_scans_.add_evidence(known[i], center, when, context_, *maps_.both()[i]);
+    }
   }
 
   /// Steps 1 to 4 and 6 for a scan that has waited: the ground below a person who fills a column is
   /// seen only when he has gone on.
   void find_heights_again(SegmentedScan& scan) {
-    const std::size_t first_new = map_.size();
+    const auto known = maps_.sizes();
     find_heights(terrain_, parameters_, context_, scan);  // 1
-    correct_voxels(parameters_, context_, scan, map_);    // 2
-    earlier_scans_.add_evidence(first_new, scan.scan.T_world_sensor.translation(),
-                                WhenToDecide::kNow, context_, map_);  // 3, 4
-    find_clusters(parameters_, context_, scan);                       // 6
+    correct_voxels(parameters_, context_, scan, maps_);   // 2
+    ask_earlier_scans(known, scan.scan.T_world_sensor.translation(),
+                      WhenToDecide::kNow);       // 3, 4
+    find_clusters(parameters_, context_, scan);  // 6
   }
 
   /// Steps 5 to 8 for a scan, by the map and the objects as they are now.
   void answer_by_now(SegmentedScan& scan, RecentObjects& recent) {
     if (parameters_.delay > 0.0) find_heights_again(scan);
-    std::vector<std::uint32_t> blocks = blocks_of(scan, map_);
-    recent.add_blocks(map_, blocks);
-    vote(blocks, parameters_, context_, map_);  // 5
-    look_up_verdicts(map_, context_, scan);
-    divide_clusters(map_, parameters_, context_, scan);  // 6
-    recent.take(scan, map_, context_);
-    recent.judge(map_, context_);
-    answer(scan, recent.marked(scan.scan.index, context_), map_, parameters_, sink_,
+    std::vector<std::uint32_t> blocks = blocks_of(scan.voxel, maps_.standing);
+    recent.add_blocks(maps_.standing, blocks);
+    vote(blocks, parameters_, context_, maps_.standing);                                    // 5
+    vote(blocks_of(scan.ground_voxel, maps_.ground), parameters_, context_, maps_.ground);  // 5
+    look_up_verdicts(maps_, context_, scan);
+    divide_clusters(maps_.standing, parameters_, context_, scan);  // 6
+    recent.take(scan, maps_.standing, context_);
+    recent.judge(maps_.standing, context_);
+    answer(scan, recent.marked(scan.scan.index, context_), maps_, parameters_, sink_,
            context_);  // 6 to 8
     recent.forget_before(scan.scan.index + 1);
   }
@@ -195,7 +213,7 @@ class Run {
   const RunContext& context_;
   RunContext beside_others_ = for_one_of_many(context_);
   Terrain terrain_;
-  EvidenceMap map_;
+  EvidenceMaps maps_;
   RangeImage image_;
   EarlierScans earlier_scans_;
 };

@@ -112,6 +112,8 @@ void add_vote(Lines& table) {
                 "after the last one that agrees; 0 for off.");
   table.number("run_range", &P::run_range, "m", 0, 500, "Range up to which those count.",
                "run_scans > 0");
+  table.flag("ground_evidence", &P::ground_evidence,
+             "Ask the scans about ground, too; else it always stays.", kTerrain);
 }
 
 void add_objects(Lines& table) {

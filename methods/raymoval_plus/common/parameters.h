@@ -43,6 +43,7 @@ struct Parameters {
   int static_agree = 2;
   int run_scans = 4;
   double run_range = 20.0;
+  bool ground_evidence = true;
   // Vote.
   int vote_radius = 3;
   double vote_share = 0.5;

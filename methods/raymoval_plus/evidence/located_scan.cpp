@@ -14,7 +14,7 @@ bool is_ground(float height, const Parameters& parameters) {
   return height < static_cast<float>(parameters.ground_height);
 }
 
-/// The points that are not ground among as many.
+/// Some points of a scan that have to do with the same map, and their slots in it.
 struct PointsAtOnce {
   std::array<std::size_t, kPointsAtOnce> point, slot;
   std::size_t count = 0;
@@ -24,6 +24,82 @@ struct PointsAtOnce {
     slot[count++] = its_slot;
   }
 };
+
+/// What stands, for the functions below.
+struct StandingPoints {
+  static constexpr bool kIsGround = false;
+  static std::vector<std::uint32_t>& voxels(LocatedScan& scan) { return scan.voxel; }
+  static VoxelIndex cell(const LocatedScan& scan, std::size_t k) { return scan.in_map[k]; }
+  static std::uint32_t parts(const LocatedScan& scan, std::size_t k) {
+    return scan.in_map.parts[k];
+  }
+};
+
+/// The ground, likewise.
+struct GroundPoints {
+  static constexpr bool kIsGround = true;
+  static std::vector<std::uint32_t>& voxels(LocatedScan& scan) { return scan.ground_voxel; }
+  static VoxelIndex cell(const LocatedScan& scan, std::size_t k) {
+    return ground_cell(scan.in_map[k]);
+  }
+  static std::uint32_t parts(const LocatedScan& scan, std::size_t k) {
+    return ground_parts(scan.in_map[k], scan.in_map.parts[k]);
+  }
+};
+
+/// Adds those points from `begin` to before `end` that belong to the kind.
+template <class Kind>
+void add_some(std::size_t begin, std::size_t end, const Parameters& parameters, LocatedScan& scan,
+              EvidenceMap& map, EvidenceMap::Blocks::Cursor& cursor) {
+  PointsAtOnce some;
+  for (std::size_t k = begin; k < end; ++k) {
+    if (is_ground(scan.height[k], parameters) != Kind::kIsGround) continue;
+    some.add(k, map.make_slot(Kind::cell(scan, k), cursor));
+    map.expect_slot(some.slot[some.count - 1]);
+  }
+  for (std::size_t i = 0; i < some.count; ++i) {
+    const std::size_t k = some.point[i];
+    Kind::voxels(scan)[k] = map.make_voxel(Kind::cell(scan, k), some.slot[i]);
+    map.expect_sums(Kind::voxels(scan)[k]);
+  }
+  for (std::size_t i = 0; i < some.count; ++i) {
+    const std::size_t k = some.point[i];
+    map.add_point(Kind::voxels(scan)[k], Kind::parts(scan, k));
+  }
+}
+
+/// Gives those points that belong to the kind a voxel of it, and takes it from the others.
+template <class Kind>
+void correct_some(const Parameters& parameters, LocatedScan& scan, EvidenceMap& map) {
+  EvidenceMap::Blocks::Cursor cursor;
+  std::vector<std::uint32_t>& voxels = Kind::voxels(scan);
+  for (std::size_t k = 0; k < voxels.size(); ++k) {
+    if (is_ground(scan.height[k], parameters) != Kind::kIsGround) {
+      voxels[k] = EvidenceMap::kNone;
+    } else if (voxels[k] == EvidenceMap::kNone) {
+      voxels[k] = map.add(Kind::cell(scan, k), Kind::parts(scan, k), cursor);
+    }
+  }
+}
+
+/// Looks those points from `begin` to before `end` up that belong to the kind.
+template <class Kind>
+void look_up_some(std::size_t begin, std::size_t end, const Parameters& parameters,
+                  const EvidenceMap& map, LocatedScan& scan, EvidenceMap::Blocks::Cursor& cursor) {
+  PointsAtOnce some;
+  for (std::size_t k = begin; k < end; ++k) {
+    if (is_ground(scan.height[k], parameters) != Kind::kIsGround) continue;
+    const std::size_t slot = map.find_slot(Kind::cell(scan, k), cursor);
+    if (slot == EvidenceMap::Blocks::kNoSlot) continue;
+    some.add(k, slot);
+    map.expect_slot(slot);
+  }
+  for (std::size_t i = 0; i < some.count; ++i) {
+    const std::size_t k = some.point[i];
+    Kind::voxels(scan)[k] = map.voxel_in(some.slot[i]);
+    if (Kind::voxels(scan)[k] != EvidenceMap::kNone) scan.verdict[k] = map.verdict_in(some.slot[i]);
+  }
+}
 
 }  // namespace
 
@@ -44,91 +120,67 @@ void find_heights(const Terrain& terrain, const Parameters& parameters, const Ru
   }
 }
 
-void find_heights_and_cells(const Terrain& terrain, const EvidenceMap& map,
+void find_heights_and_cells(const Terrain& terrain, const EvidenceMaps& maps,
                             const Parameters& parameters, const RunContext& context,
                             LocatedScan& scan) {
   find_heights(terrain, parameters, context, scan);
   const StageScope timed(context.times, "heights and cells");
-  map.find_cells_of(scan.scan, context.threads, scan.in_map);
+  maps.standing.find_cells_of(scan.scan, context.threads, scan.in_map);
 }
 
-void add_to_map(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
-                EvidenceMap& map) {
+void add_to_maps(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
+                 EvidenceMaps& maps) {
   const StageScope timed(context.times, "voxels");
   const std::size_t points = scan.scan.size();
   scan.voxel.assign(points, EvidenceMap::kNone);
-  EvidenceMap::Blocks::Cursor cursor;
-  PointsAtOnce some;
+  scan.ground_voxel.assign(points, EvidenceMap::kNone);
+  EvidenceMap::Blocks::Cursor standing, ground;
   for (std::size_t begin = 0; begin < points; begin += kPointsAtOnce) {
-    some.count = 0;
-    for (std::size_t k = begin; k < std::min(points, begin + kPointsAtOnce); ++k) {
-      if (is_ground(scan.height[k], parameters)) continue;
-      some.add(k, map.make_slot(scan.in_map[k], cursor));
-      map.expect_slot(some.slot[some.count - 1]);
-    }
-    for (std::size_t i = 0; i < some.count; ++i) {
-      const std::size_t k = some.point[i];
-      scan.voxel[k] = map.make_voxel(scan.in_map[k], some.slot[i]);
-      map.expect_sums(scan.voxel[k]);
-    }
-    for (std::size_t i = 0; i < some.count; ++i) {
-      const std::size_t k = some.point[i];
-      map.add_point(scan.voxel[k], scan.in_map.parts[k]);
+    const std::size_t end = std::min(points, begin + kPointsAtOnce);
+    add_some<StandingPoints>(begin, end, parameters, scan, maps.standing, standing);
+    if (parameters.ground_evidence) {
+      add_some<GroundPoints>(begin, end, parameters, scan, maps.ground, ground);
     }
   }
 }
 
 void correct_voxels(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
-                    EvidenceMap& map) {
+                    EvidenceMaps& maps) {
   const StageScope timed(context.times, "voxels");
-  EvidenceMap::Blocks::Cursor cursor;
-  for (std::size_t k = 0; k < scan.voxel.size(); ++k) {
-    const bool was_ground = scan.voxel[k] == EvidenceMap::kNone;
-    if (is_ground(scan.height[k], parameters)) {
-      scan.voxel[k] = EvidenceMap::kNone;
-    } else if (was_ground) {
-      scan.voxel[k] = map.add(scan.in_map[k], scan.in_map.parts[k], cursor);
-    }
-  }
+  correct_some<StandingPoints>(parameters, scan, maps.standing);
+  if (parameters.ground_evidence) correct_some<GroundPoints>(parameters, scan, maps.ground);
 }
 
-void look_up(const EvidenceMap& map, const Parameters& parameters, const RunContext& context,
+void look_up(const EvidenceMaps& maps, const Parameters& parameters, const RunContext& context,
              LocatedScan& scan) {
   const StageScope timed(context.times, "verdicts");
   const std::size_t points = scan.scan.size();
   scan.voxel.assign(points, EvidenceMap::kNone);
+  scan.ground_voxel.assign(points, EvidenceMap::kNone);
   scan.verdict.assign(points, Verdict::kStatic);
-  const auto look_up_some = [&](std::size_t begin, std::size_t end,
-                                EvidenceMap::Blocks::Cursor& cursor) {
-    PointsAtOnce some;
-    for (std::size_t k = begin; k < end; ++k) {
-      if (is_ground(scan.height[k], parameters)) continue;
-      const std::size_t slot = map.find_slot(scan.in_map[k], cursor);
-      if (slot == EvidenceMap::Blocks::kNoSlot) continue;
-      some.add(k, slot);
-      map.expect_slot(slot);
-    }
-    for (std::size_t i = 0; i < some.count; ++i) {
-      const std::size_t k = some.point[i];
-      scan.voxel[k] = map.voxel_in(some.slot[i]);
-      if (scan.voxel[k] == EvidenceMap::kNone) continue;
-      scan.verdict[k] = map.verdict_in(some.slot[i]);
-    }
-  };
   parallel_chunks(context.threads, points, kPointsATask, [&](std::size_t begin, std::size_t end) {
-    EvidenceMap::Blocks::Cursor cursor;
+    EvidenceMap::Blocks::Cursor standing, ground;
     for (std::size_t first = begin; first < end; first += kPointsAtOnce) {
-      look_up_some(first, std::min(end, first + kPointsAtOnce), cursor);
+      const std::size_t last = std::min(end, first + kPointsAtOnce);
+      look_up_some<StandingPoints>(first, last, parameters, maps.standing, scan, standing);
+      if (parameters.ground_evidence) {
+        look_up_some<GroundPoints>(first, last, parameters, maps.ground, scan, ground);
+      }
     }
   });
 }
 
-void look_up_verdicts(const EvidenceMap& map, const RunContext& context, LocatedScan& scan) {
+void look_up_verdicts(const EvidenceMaps& maps, const RunContext& context, LocatedScan& scan) {
   const StageScope timed(context.times, "verdicts");
   scan.verdict.resize(scan.voxel.size());
   parallel_for(context.threads, scan.voxel.size(), kPointsATask, [&](std::size_t k) {
-    const std::uint32_t voxel = scan.voxel[k];
-    scan.verdict[k] = voxel == EvidenceMap::kNone ? Verdict::kStatic : map.verdict(voxel);
+    if (scan.voxel[k] != EvidenceMap::kNone) {
+      scan.verdict[k] = maps.standing.verdict(scan.voxel[k]);
+    } else if (scan.ground_voxel[k] != EvidenceMap::kNone) {
+      scan.verdict[k] = maps.ground.verdict(scan.ground_voxel[k]);
+    } else {
+      scan.verdict[k] = Verdict::kStatic;
+    }
   });
 }
 

@@ -6,7 +6,7 @@
 
 #include "methods/raymoval_plus/common/parameters.h"
 #include "methods/raymoval_plus/common/scan_cells.h"
-#include "methods/raymoval_plus/evidence/evidence_map.h"
+#include "methods/raymoval_plus/evidence/evidence_maps.h"
 #include "methods/raymoval_plus/terrain/terrain.h"
 #include "methods/remover.h"
 
@@ -17,9 +17,12 @@ namespace raymoval::raymoval_plus_method {
 struct LocatedScan {
   Scan scan;
   ScanCells in_terrain, in_map;
-  std::vector<float> height;         ///< Of each point above the ground, metres, or +infinity.
-  std::vector<std::uint32_t> voxel;  ///< Number in the map, or `EvidenceMap::kNone` for ground.
-  std::vector<Verdict> verdict;      ///< Of each point's voxel (steps 4 and 5); ground is static.
+  std::vector<float> height;  ///< Of each point above the ground, metres, or +infinity.
+  /// Number among the voxels of what stands, or `EvidenceMap::kNone` for ground.
+  std::vector<std::uint32_t> voxel;
+  /// Number among the voxels of the ground, or `EvidenceMap::kNone` for what stands.
+  std::vector<std::uint32_t> ground_voxel;
+  std::vector<Verdict> verdict;  ///< Of each point's voxel (steps 4 and 5).
 
   [[nodiscard]] Eigen::Vector3d world(std::size_t point) const {
     return scan.T_world_sensor * scan.points[point].cast<double>();
@@ -33,21 +36,22 @@ void find_terrain_cells(const Terrain& terrain, const Parameters& parameters,
 void find_heights(const Terrain& terrain, const Parameters& parameters, const RunContext& context,
                   LocatedScan& scan);
 /// The same, and finds their cells in the map.
-void find_heights_and_cells(const Terrain& terrain, const EvidenceMap& map,
+void find_heights_and_cells(const Terrain& terrain, const EvidenceMaps& maps,
                             const Parameters& parameters, const RunContext& context,
                             LocatedScan& scan);
-/// Step 2: adds the points that are not ground to the map. Fills `voxel`.
-void add_to_map(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
-                EvidenceMap& map);
+/// Step 2: adds the points to the maps. Fills `voxel` and `ground_voxel`.
+void add_to_maps(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
+                 EvidenceMaps& maps);
 /// Step 2 for a scan that was added before its heights were found anew: adds the points that were
-/// ground and are not, and forgets the voxels of those that are ground now.
+/// ground and are not, and the other way round, and forgets the voxels that were theirs.
 void correct_voxels(const Parameters& parameters, const RunContext& context, LocatedScan& scan,
-                    EvidenceMap& map);
-/// Looks the points up in a map that has all of them. Fills `voxel` and `verdict`. A point has no
-/// voxel if it was ground when its scan was added, and is not after the terrain was found anew.
-void look_up(const EvidenceMap& map, const Parameters& parameters, const RunContext& context,
+                    EvidenceMaps& maps);
+/// Looks the points up in maps that have all of them. Fills `voxel`, `ground_voxel` and `verdict`.
+/// A point has no voxel, and is static, if it was ground when its scan was added and is not after
+/// the terrain was found anew, or the other way round.
+void look_up(const EvidenceMaps& maps, const Parameters& parameters, const RunContext& context,
              LocatedScan& scan);
-/// Fills `verdict`, given `voxel`.
-void look_up_verdicts(const EvidenceMap& map, const RunContext& context, LocatedScan& scan);
+/// Fills `verdict`, given `voxel` and `ground_voxel`.
+void look_up_verdicts(const EvidenceMaps& maps, const RunContext& context, LocatedScan& scan);
 
 }  // namespace raymoval::raymoval_plus_method

@@ -275,10 +275,11 @@ void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& 
   vote(blocks, parameters, context, map);
 }
 
-std::vector<std::uint32_t> blocks_of(const LocatedScan& scan, const EvidenceMap& map) {
+std::vector<std::uint32_t> blocks_of(const std::vector<std::uint32_t>& voxels,
+                                     const EvidenceMap& map) {
   std::vector<std::uint8_t> is_found(map.blocks().block_count(), 0);
   std::vector<std::uint32_t> blocks;
-  for (const std::uint32_t voxel : scan.voxel) {
+  for (const std::uint32_t voxel : voxels) {
     if (voxel == EvidenceMap::kNone) continue;
     const std::uint32_t block = map.block_of(voxel);
     if (std::exchange(is_found[block], std::uint8_t{1}) == 0) blocks.push_back(block);

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "methods/raymoval_plus/common/parameters.h"
-#include "methods/raymoval_plus/evidence/located_scan.h"
+#include "methods/raymoval_plus/evidence/evidence_map.h"
+#include "methods/remover.h"
 
 namespace raymoval::raymoval_plus_method {
 
@@ -17,6 +18,8 @@ void vote(const std::vector<std::uint32_t>& blocks, const Parameters& parameters
 void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& map);
 
 /// The blocks that hold points of a scan, in order of their first points.
-std::vector<std::uint32_t> blocks_of(const LocatedScan& scan, const EvidenceMap& map);
+/// @param voxels of the points, or `EvidenceMap::kNone`
+std::vector<std::uint32_t> blocks_of(const std::vector<std::uint32_t>& voxels,
+                                     const EvidenceMap& map);
 
 }  // namespace raymoval::raymoval_plus_method

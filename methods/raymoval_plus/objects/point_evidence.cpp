@@ -21,6 +21,16 @@ std::vector<float> object_shares(const SegmentedScan& scan) {
   return shares;
 }
 
+/// The `free_share` of a point's voxel, but 0 for ground that stays.
+float own_share(const LocatedScan& scan, std::size_t k, const EvidenceMaps& maps,
+                const Parameters& parameters) {
+  if (scan.voxel[k] != EvidenceMap::kNone) {
+    return free_share(maps.standing.evidence(scan.voxel[k]), parameters);
+  }
+  if (scan.verdict[k] != Verdict::kDynamic) return 0.0F;
+  return free_share(maps.ground.evidence(scan.ground_voxel[k]), parameters);
+}
+
 }  // namespace
 
 float free_share(const VoxelEvidence& evidence, const Parameters& parameters) {
@@ -34,12 +44,10 @@ float free_share(const VoxelEvidence& evidence, const Parameters& parameters) {
 }
 
 std::vector<float> evidence_of_points(const SegmentedScan& scan, const Verdicts& decided,
-                                      const EvidenceMap& map, const Parameters& parameters) {
+                                      const EvidenceMaps& maps, const Parameters& parameters) {
   std::vector<float> evidence = object_shares(scan);
   for (std::size_t k = 0; k < evidence.size(); ++k) {
-    const std::uint32_t voxel = scan.voxel[k];
-    const float own =
-        voxel == EvidenceMap::kNone ? 0.0F : free_share(map.evidence(voxel), parameters);
+    const float own = own_share(scan, k, maps, parameters);
     const float object = evidence[k] == kNoObject ? own : evidence[k];
     const float verdict = decided[k] == Verdict::kDynamic ? 1.0F : 0.0F;
     evidence[k] = 0.5F * verdict + 0.25F * (own + object);

@@ -13,10 +13,10 @@ float free_share(const VoxelEvidence& evidence, const Parameters& parameters);
 
 /// What speaks for it that each point of a scan moves, from 0 to 1: half of it is what was decided,
 /// a quarter the `free_share` of the point's voxel, and a quarter the dynamic share of its object.
-/// Ground has no voxel and counts as never seen through; for a point without an object, its voxel
-/// counts twice.
+/// Ground that stays counts as never seen through; for a point without an object, its voxel counts
+/// twice.
 /// @param decided verdicts after step 8
 std::vector<float> evidence_of_points(const SegmentedScan& scan, const Verdicts& decided,
-                                      const EvidenceMap& map, const Parameters& parameters);
+                                      const EvidenceMaps& maps, const Parameters& parameters);
 
 }  // namespace raymoval::raymoval_plus_method

@@ -267,7 +267,7 @@ TEST_CASE("the points of what a track may mark are remembered") {
 }
 
 TEST_CASE("the reason for a verdict is the step that made it") {
-  // Six voxels and a point of the ground: whether it was seen through, what the vote, then the
+  // Eight voxels, and three of the ground: whether it was seen through, what the vote, then the
   // objects, then the low points made of it.
   struct Story {
     bool seen_through, voted, object, removed;
@@ -284,7 +284,9 @@ TEST_CASE("the reason for a verdict is the step that made it") {
       {true, true, false, false, "it belongs to an object that hardly anything was seen through"},
       {false, false, false, true, "what stands above it moved"},
       {true, true, true, false, "what stands above it stays"},
-      {false, false, false, false, "it is ground"}};
+      {false, false, false, false, "it is ground"},
+      {true, false, false, false, "it is ground"},
+      {true, true, true, true, "scans saw through its voxel, more than agree with it allow"}};
   const auto verdict = [](bool dynamic) { return dynamic ? Verdict::kDynamic : Verdict::kStatic; };
   Scene scene;
   SegmentedScan scan;
@@ -296,8 +298,16 @@ TEST_CASE("the reason for a verdict is the step that made it") {
     decided.push_back(verdict(stories[k].removed));
   }
   scan.voxel = scene.scan.voxel;
-  scan.voxel.back() = EvidenceMap::kNone;
-  const auto reasons = reasons_for(scan, scene.map, by_objects, decided);
+  scan.ground_voxel.assign(stories.size(), EvidenceMap::kNone);
+  EvidenceMaps maps(scene.parameters);
+  maps.standing = scene.map;
+  EvidenceMap::Blocks::Cursor cursor;
+  for (std::size_t k = stories.size() - 3; k < stories.size(); ++k) {  // The ground.
+    scan.voxel[k] = EvidenceMap::kNone;
+    scan.ground_voxel[k] = maps.ground.add({static_cast<int>(k), 0, 0}, 0, cursor);
+    maps.ground.set_decision(scan.ground_voxel[k], verdict(stories[k].seen_through));
+  }
+  const auto reasons = reasons_for(scan, maps, by_objects, decided);
   const auto sentences = reason_sentences();
   for (std::size_t k = 0; k < stories.size(); ++k) {
     CHECK(sentences.at(reasons[k]) == stories[k].reason);

@@ -25,27 +25,35 @@ TEST_CASE("free scans against those that are needed make one half where step 4 d
 
 TEST_CASE("the verdict counts half, the voxel and the object a quarter each") {
   Parameters parameters;
-  EvidenceMap map(0.2);
-  EvidenceMap::Blocks::Cursor cursor;
+  EvidenceMaps maps(parameters);
+  EvidenceMap& map = maps.standing;
+  EvidenceMap::Blocks::Cursor cursor, ground_cursor;
   const std::uint32_t seen_through = map.add({0, 0, 2}, 0, cursor);
   map.evidence(seen_through).free_scans = 3;  // Of 1 that is needed: 3 / 4.
   const std::uint32_t untouched = map.add({9, 9, 2}, 0, cursor);
+  const std::uint32_t false_ground = maps.ground.add({5, 5, 0}, 0, ground_cursor);
+  maps.ground.evidence(false_ground).free_scans = 4;  // 4 / 5.
 
   SegmentedScan scan;
-  scan.scan.points.resize(4);
-  scan.voxel = {seen_through, untouched, untouched, EvidenceMap::kNone};
+  constexpr std::uint32_t kNone = EvidenceMap::kNone;
+  scan.scan.points.resize(6);
+  scan.voxel = {seen_through, untouched, untouched, kNone, kNone, kNone};
+  scan.ground_voxel = {kNone, kNone, kNone, kNone, false_ground, false_ground};
   // Points 0 and 1 are one object of which one point is dynamic; the others are none.
   scan.high_points = {0, 1};
   scan.cluster_of = {0, 0};
   scan.clusters.resize(1);
   scan.clusters[0].points = 2;
   scan.clusters[0].dynamic = 1;
-  const Verdicts decided = {Verdict::kDynamic, Verdict::kStatic, Verdict::kDynamic,
-                            Verdict::kStatic};
+  const Verdicts decided = {Verdict::kDynamic, Verdict::kStatic,  Verdict::kDynamic,
+                            Verdict::kStatic,  Verdict::kDynamic, Verdict::kStatic};
+  scan.verdict = decided;
 
-  const std::vector<float> evidence = evidence_of_points(scan, decided, map, parameters);
+  const std::vector<float> evidence = evidence_of_points(scan, decided, maps, parameters);
   CHECK(evidence[0] == Approx(0.5 + 0.25 * 0.75 + 0.25 * 0.5));
   CHECK(evidence[1] == Approx(0.25 * 0.5));
   CHECK(evidence[2] == Approx(0.5));  // Nothing speaks for it but what was decided.
-  CHECK(evidence[3] == 0.0F);         // Ground.
+  CHECK(evidence[3] == 0.0F);         // Ground that nobody asked about.
+  CHECK(evidence[4] == Approx(0.5 + 0.5 * 0.8));
+  CHECK(evidence[5] == 0.0F);  // Ground that stays.
 }

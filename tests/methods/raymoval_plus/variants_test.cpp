@@ -84,6 +84,28 @@ TEST_CASE("raymoval_plus online-lag measures heights above the ground that was s
   for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, masks, fixed, 0, 11) == 0.0);
 }
 
+TEST_CASE("what was taken for ground goes if scans see through it, and the road stays") {
+  // Rays meet the ground 1.5 m before the box and beyond it, never where it stands, so that its
+  // lowest row is the lowest thing there.
+  const toy::Box ground{{-20, -40, -2.5}, {120, 40, -1.5}}, box{{30.3, -1.5, -1.0}, {32, 1.5, 0.6}},
+      wall{{45, -40, -1.5}, {46, 40, 8}};
+  toy::World world(toy::Scanner{});
+  for (int i = 0; i < 12; ++i) {
+    std::vector<toy::Box> boxes{ground, wall};
+    if (i < 3) boxes.push_back(box);
+    world.scan(boxes, Pose::Identity());
+  }
+  for (const bool asks : {true, false}) {
+    ConfiguredMethod method = variant("offline");
+    set_parameter(method.configuration, "terrain_far_slope", 0.0);
+    set_parameter(method.configuration, "ground_evidence", asks);
+    const MaskStore masks = toy::masks_of(*method.make(), world);
+    const double removed = toy::removed_share(world, masks, 2, 0, 2);
+    CHECK((asks ? removed == 1.0 : removed > 0.5 && removed < 1.0));
+    for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, masks, fixed, 0, 11) == 0.0);
+  }
+}
+
 TEST_CASE("one pass removes nearly what four do") {
   const toy::World world = toy::street(16);
   const MaskStore masks = toy::masks_of(*variant("online-map").make(), world);

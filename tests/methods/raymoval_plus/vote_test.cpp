@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "methods/raymoval_plus/evidence/located_scan.h"
 #include "tests/methods/raymoval_plus/map_points.h"
 
 using namespace raymoval;
@@ -69,7 +70,7 @@ TEST_CASE("only the blocks of a scan get new verdicts when it arrives") {
   LocatedScan scan;
   for (const int cell : {20, 0, 3}) scan.voxel.push_back(row.add(cell, Verdict::kDynamic));
   scan.voxel[0] = EvidenceMap::kNone;  // Ground.
-  const auto blocks = blocks_of(scan, row.map);
+  const auto blocks = blocks_of(scan.voxel, row.map);
   CHECK(blocks == std::vector{row.map.block_of(scan.voxel[1])});
   vote(blocks, Parameters{}, RunContext{}, row.map);
   CHECK(row.verdict(0) == Verdict::kDynamic);
