@@ -247,14 +247,16 @@ def record_references(given):
 def arguments():
     parser = argparse.ArgumentParser(prog="record.sh", add_help=False)
     parser.add_argument("--program")
-    parser.add_argument("--commit", default="HEAD")
+    parser.add_argument("--commit")
     parser.add_argument("--reference", nargs="+")
     parser.add_argument("--machine")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--out", default=os.path.join(ROOT, "results/history"))
     given = parser.parse_args()
-    if given.commit != "HEAD" and not given.program:
+    if given.commit and not given.program:
         raise Failure("--commit goes with --program: what is built here is HEAD")
+    if given.program and not given.commit:
+        raise Failure("--program goes with --commit: expected the commit that it was built from")
     if given.reference and (given.program or given.machine):
         raise Failure("--reference goes without --program and --machine: nothing is run")
     if given.rounds < 0:
@@ -272,7 +274,7 @@ def record(given):
     else:
         check_clean(given.out)
         program = build()
-    commit = commit_of(given.commit)
+    commit = commit_of(given.commit or "HEAD")
     sequences, methods, protocols = wanted(program)
     with tempfile.TemporaryDirectory(prefix="raymoval-record-") as scratch:
         print(f"record.sh: commit {commit[:12]}, {len(methods)} methods on {len(sequences)} scenes",

@@ -65,8 +65,9 @@ KEPT=91 tells 1 "recorded with another answer" "${record[@]}" --commit HEAD
 holds "an error adds nothing" cmp before "lines/$file"
 BUILT=0000 tells 2 "was built from commit 0000" "${record[@]}" --commit HEAD
 tells 2 "--commit goes with --program" house/scripts/record.sh --commit HEAD~1
-tells 2 "expected lower-case letters" "${record[@]}" --machine 'My PC'
-tells 2 "no program" house/scripts/record.sh --program nothing
+tells 2 "expected lower-case letters" "${record[@]}" --commit HEAD --machine 'My PC'
+tells 2 "no program" house/scripts/record.sh --program nothing --commit HEAD
+tells 2 "--program goes with --commit" house/scripts/record.sh --program program --rounds 0 --out lines
 
 # Lines are sorted by the dates of commits, which are whole seconds.
 GIT_COMMITTER_DATE=2035-01-01T00:00:00Z "${git[@]}" commit -q --allow-empty -m two

@@ -52,13 +52,9 @@ std::vector<int> clusters_among(const SegmentedScan& scan, const Parameters& par
   return among;
 }
 
-bool is_mostly_dynamic(const Cluster& cluster, const Parameters& parameters) {
-  return cluster.is_whole || cluster.dynamic >= parameters.object_dynamic_share * cluster.points;
-}
-
-/// Whether a cluster has many dynamic points, but is not mostly dynamic.
+/// Whether a cluster has many dynamic points, but too few to be one dynamic thing.
 bool is_mixed(const Cluster& cluster, const Parameters& parameters) {
-  return cluster.dynamic >= parameters.group_points && !is_mostly_dynamic(cluster, parameters);
+  return cluster.dynamic >= parameters.group_points && !is_one_dynamic_thing(cluster, parameters);
 }
 
 /// Finds the mixed clusters that are one thing.
@@ -228,7 +224,7 @@ Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marke
     const Cluster& cluster = scan.clusters[number];
     const int enough = cluster.is_part ? parameters.group_points : parameters.object_points;
     if (marks[number] != 0 ||
-        (is_mostly_dynamic(cluster, parameters) && cluster.dynamic >= enough)) {
+        (is_one_dynamic_thing(cluster, parameters) && cluster.dynamic >= enough)) {
       verdict[scan.high_points[i]] = Verdict::kDynamic;
     } else if (spared[i] == 0 && cluster.is_hardly_dynamic) {
       verdict[scan.high_points[i]] = Verdict::kStatic;

@@ -177,8 +177,7 @@ std::vector<std::uint8_t> marks_of(const Track& track, const Parameters& paramet
 }  // namespace
 
 bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
-  return object.dynamic >= parameters.object_points &&
-         (object.is_whole || object.dynamic >= parameters.object_dynamic_share * object.points);
+  return object.dynamic >= parameters.object_points && is_one_dynamic_thing(object, parameters);
 }
 
 void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& objects) {

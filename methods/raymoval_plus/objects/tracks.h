@@ -27,7 +27,14 @@ struct ObjectSummary {
   [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
 };
 
-/// Whether an object is mostly dynamic, or whole, and has enough dynamic points.
+/// Whether a cluster, or what is remembered of it, is one dynamic thing: whole, or with enough of
+/// its points dynamic.
+template <class Thing>
+bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
+  return thing.is_whole || thing.dynamic >= parameters.object_dynamic_share * thing.points;
+}
+
+/// Whether an object is one dynamic thing and has enough dynamic points.
 bool is_dynamic(const ObjectSummary& object, const Parameters& parameters);
 
 /// One object in the scans in which it was found.
