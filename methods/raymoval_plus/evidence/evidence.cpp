@@ -51,7 +51,7 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
     for (const auto& [image, T_world_sensor] : images) {
       image->observe(tile.places,
                      T_world_sensor.inverse(Eigen::Isometry) * Eigen::Translation3d(tile.origin),
-                     observed);
+                     map.seen_through(), observed);
       for (const ObservedPlace& place : observed) {
         VoxelEvidence& evidence = tile.evidence[place.place];
         if (when == WhenToDecide::kLater) {
@@ -92,7 +92,8 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
     }
     std::vector<ObservedPlace> observed;
     for (const EarlierScan& scan : kept_) {
-      scan.image.observe(places, scan.T_sensor_world * Eigen::Translation3d(center), observed);
+      scan.image.observe(places, scan.T_sensor_world * Eigen::Translation3d(center),
+                         map.seen_through(), observed);
       for (const ObservedPlace& place : observed) {
         add_observation(place.observation, place.range, parameters_,
                         map.evidence(first_voxel + begin + place.place));

@@ -7,6 +7,7 @@
 #include "core/scan/voxel_key.h"
 #include "methods/common/dense_blocks.h"
 #include "methods/raymoval_plus/common/scan_cells.h"
+#include "methods/raymoval_plus/evidence/seen_through.h"
 
 namespace raymoval::raymoval_plus_method {
 
@@ -30,8 +31,11 @@ class EvidenceMap {
   using Blocks = DenseBlocks<std::uint32_t, 2, 2>;  ///< A block has 4 x 4 x 4 voxels.
   static constexpr std::uint32_t kNone = Blocks::kNone;
 
-  explicit EvidenceMap(double voxel_size)
-      : size_(voxel_size), inverse_(1.0 / voxel_size), blocks_(kNone) {}
+  explicit EvidenceMap(double voxel_size, SeenThrough seen = SeenThrough::kInRowOrBelow)
+      : size_(voxel_size), inverse_(1.0 / voxel_size), seen_through_(seen), blocks_(kNone) {}
+
+  /// Which beams see through its voxels.
+  [[nodiscard]] SeenThrough seen_through() const { return seen_through_; }
 
   /// Finds the cells of a scan's points, and where the points are in them.
   void find_cells_of(const Scan& scan, int threads, ScanCells& cells) const {
@@ -141,6 +145,7 @@ class EvidenceMap {
   [[nodiscard]] VoxelIndex tile_at(const Eigen::Vector3d& place) const;
 
   double size_, inverse_;
+  SeenThrough seen_through_;
   Blocks blocks_;
   std::vector<std::uint8_t> dynamic_;  ///< By block: see `dynamic_in`.
   /// By block: 1 if a voxel of it is dynamic, and whether it was at the last `update_surroundings`.

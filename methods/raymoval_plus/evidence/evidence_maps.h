@@ -19,7 +19,8 @@ struct EvidenceMaps {
   static constexpr int kGroundEdges = 2;
 
   explicit EvidenceMaps(const Parameters& parameters)
-      : standing(parameters.voxel_size), ground(kGroundEdges * parameters.voxel_size) {}
+      : standing(parameters.voxel_size),
+        ground(kGroundEdges * parameters.voxel_size, SeenThrough::kAtOrBelow) {}
 
   [[nodiscard]] std::array<EvidenceMap*, 2> both() { return {&standing, &ground}; }
   /// The numbers of their voxels.

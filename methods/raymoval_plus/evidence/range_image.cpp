@@ -113,6 +113,7 @@ void RangeImage::choose_steps(const SensorModel& sensor) {
 }
 
 void RangeImage::fill(const Scan& scan) {
+  up_ = scan.T_world_sensor.linear().row(2).cast<float>();
   fill_bins(scan);
   for (int r = 0; r < image_.rows; ++r) {
     float* const bins = bins_.data() + bin(r, -kMargin);
@@ -128,6 +129,7 @@ void RangeImage::fill(const Scan& scan) {
 
 void RangeImage::fill_bins(const Scan& scan) {
   bins_.assign(bin(image_.rows, -kMargin), kInfinite);
+  lowest_.assign(size(), kInfinite);
   const kernels::Sights sights = sight_room.room_for(scan.size()).sights;
   kernels_.locate(grid_,
                   in_sensor_frame(scan.points.empty() ? nullptr : scan.points.front().data(),
@@ -141,13 +143,20 @@ void RangeImage::fill_bins(const Scan& scan) {
     float* const found = bins_.data() + bin(r, sights.column[k]);
     found[0] = std::min(found[0], range);
     found[1] = std::min(found[1], -range);
+    float& lowest = lowest_[static_cast<std::size_t>(r * image_.columns + sights.column[k])];
+    lowest = std::min(lowest, up_.dot(scan.points[k]) / range);
   }
 }
 
-Observation RangeImage::observe(const Eigen::Vector3f& place) const {
+Observation RangeImage::observe(const Eigen::Vector3f& place, SeenThrough seen) const {
   const kernels::Sights sights = sight_room.room_for(1).sights;
   kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights);
-  return observe_every_bin(sights.range[0], sights.column[0], sights.row[0]);
+  const float range = sights.range[0];
+  const int column = sights.column[0], row = sights.row[0];
+  const Observation observation = observe_every_bin(range, column, row);
+  const bool may_pass_above = observation == Observation::kFree && seen == SeenThrough::kAtOrBelow;
+  return may_pass_above && !sees_at_or_below(place, range, column, row) ? Observation::kUnknown
+                                                                        : observation;
 }
 
 kernels::SightTest RangeImage::test() const {
@@ -168,7 +177,7 @@ kernels::SightTest RangeImage::test() const {
 }
 
 void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_places,
-                         std::vector<ObservedPlace>& observed) const {
+                         SeenThrough seen, std::vector<ObservedPlace>& observed) const {
   const std::size_t count = places.size() / 3;
   const kernels::ChosenSights chosen = sight_room.room_for(count);
   const kernels::SightTest test = this->test();
@@ -190,6 +199,13 @@ void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_
     if (sighted == kernels::Sighted::kUnsure) {
       observation = observe_large_window(range, chosen.sights.column[i], chosen.sights.row[i]);
       if (observation != Observation::kAgree && observation != Observation::kFree) continue;
+    }
+    if (observation == Observation::kFree && seen == SeenThrough::kAtOrBelow) {
+      const Eigen::Map<const Eigen::Vector3f> place(places.data() + 3 * chosen.place[i]);
+      const Eigen::Vector3f in_sensor = (T_sensor_places * place.cast<double>()).cast<float>();
+      if (!sees_at_or_below(in_sensor, range, chosen.sights.column[i], chosen.sights.row[i])) {
+        continue;
+      }
     }
     observed.push_back({chosen.place[i], observation, range});
   }
@@ -240,6 +256,19 @@ float RangeImage::nearest_in_row(int row, int column, int wide) const {
   float nearest = kInfinite;
   for (int c = 0; c <= 2 * wide; ++c) nearest = std::min(nearest, bins[2 * c]);
   return nearest;
+}
+
+bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int column,
+                                  int row) const {
+  const auto [wide, high] = window_at(range);
+  const float sine = up_.dot(place) / range;
+  for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
+    for (int c = column - wide; c <= column + wide; ++c) {
+      const int wrapped = (c + image_.columns) % image_.columns;
+      if (lowest_[static_cast<std::size_t>(r * image_.columns + wrapped)] <= sine) return true;
+    }
+  }
+  return false;
 }
 
 Observation RangeImage::observe_large_window(float range, int column, int row) const {

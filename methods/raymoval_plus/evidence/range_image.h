@@ -8,6 +8,7 @@
 #include "core/scan/scan.h"
 #include "core/scan/sensor_model.h"
 #include "methods/raymoval_plus/common/parameters.h"
+#include "methods/raymoval_plus/evidence/seen_through.h"
 #include "methods/raymoval_plus/evidence/sight_kernels.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -40,12 +41,13 @@ class RangeImage {
   /// **free** if there is a return at or below it, else **unknown**. So any agreement saves a
   /// place, and any occlusion says nothing. This looks at every bin of the window, which is slow:
   /// it is what the other `observe` is compared with.
-  [[nodiscard]] Observation observe(const Eigen::Vector3f& place) const;
+  [[nodiscard]] Observation observe(const Eigen::Vector3f& place,
+                                    SeenThrough seen = SeenThrough::kInRowOrBelow) const;
   /// Replaces `observed` with all places within the evidence range that the scan agrees with or
   /// sees through, in ascending order. Most places need no look at their window, so this is many
   /// times faster.
   /// @param places x y z, x y z, ... of any frame, metres, not far from its origin
-  void observe(const std::vector<float>& places, const Pose& T_sensor_places,
+  void observe(const std::vector<float>& places, const Pose& T_sensor_places, SeenThrough seen,
                std::vector<ObservedPlace>& observed) const;
 
  private:
@@ -76,6 +78,10 @@ class RangeImage {
   bool agrees_in_row(const Bounds& bounds, int row, int column, int wide, bool& occluded) const;
   bool agrees_in_window(const Bounds& bounds, int row, int column, bool& occluded) const;
   [[nodiscard]] float nearest_in_row(int row, int column, int wide) const;
+  /// Whether a return of the window of a place is of a beam that does not pass above it.
+  /// @param place metres, sensor frame
+  [[nodiscard]] bool sees_at_or_below(const Eigen::Vector3f& place, float range, int column,
+                                      int row) const;
 
   Parameters parameters_;
   kernels::SightKernels kernels_ = kernels::best_sight_kernels();
@@ -86,6 +92,10 @@ class RangeImage {
   std::array<float, 2> agree_, occluded_;  ///< Metres at range 0, and for each metre of it.
   /// Returns of each bin, of `window_columns` around it, and of `window_rows` of these.
   std::vector<float> bins_, row_windows_, windows_;
+  /// The direction of the world's z in the sensor frame, and the sine of the least angle above the
+  /// horizon at which each bin has a return, row by row.
+  Eigen::Vector3f up_ = Eigen::Vector3f::UnitZ();
+  std::vector<float> lowest_;
 };
 
 }  // namespace raymoval::raymoval_plus_method

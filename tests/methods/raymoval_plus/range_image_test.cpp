@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "core/angle.h"
 #include "core/simd/instruction_set_scope.h"
@@ -16,12 +18,24 @@ namespace {
 
 /// The image of a scan of some points, by a sensor with steps of half a degree.
 RangeImage image_of(std::vector<Eigen::Vector3f> points,
-                    const SensorModel& sensor = toy::Scanner{}.model()) {
+                    const SensorModel& sensor = toy::Scanner{}.model(),
+                    const Pose& T_world_sensor = Pose::Identity()) {
   Scan scan;
   scan.points = std::move(points);
+  scan.T_world_sensor = T_world_sensor;
   RangeImage image(sensor, Parameters{});
   image.fill(scan);
   return image;
+}
+
+/// Every instruction set with every rule of what is seen through.
+std::vector<std::pair<InstructionSet, SeenThrough>> sets_and_rules() {
+  std::vector<std::pair<InstructionSet, SeenThrough>> all;
+  for (const InstructionSet set : supported_instruction_sets()) {
+    all.emplace_back(set, SeenThrough::kInRowOrBelow);
+    all.emplace_back(set, SeenThrough::kAtOrBelow);
+  }
+  return all;
 }
 
 Eigen::Vector3d direction(double azimuth, double elevation) {
@@ -82,6 +96,37 @@ TEST_CASE("a return above a place does not make it free") {
   CHECK(image.observe({5.0F, 0.0F, 5.0F * slope}) == Observation::kFree);
 }
 
+TEST_CASE("a beam that passes above a place of the ground does not see through it") {
+  // Rows are a quarter of a degree high; the place is in the middle of one.
+  const SensorModel sensor = toy::Scanner{}.model();
+  const double middle = sensor.elevation_min + (8.0 + 0.5) * 0.25 * kDegree;
+  const Eigen::Vector3f place = (40.0 * direction(0.0, middle)).cast<float>();
+  const auto seen_by = [&](double beam, SeenThrough seen) {
+    return image_of({(60.0 * direction(0.0, beam)).cast<float>()}, sensor).observe(place, seen);
+  };
+  for (const SeenThrough seen : {SeenThrough::kInRowOrBelow, SeenThrough::kAtOrBelow}) {
+    const bool may_pass_above = seen == SeenThrough::kInRowOrBelow;
+    CHECK(seen_by(middle - 0.1 * kDegree, seen) == Observation::kFree);
+    CHECK(seen_by(middle, seen) == Observation::kFree);
+    CHECK(seen_by(middle + 0.1 * kDegree, seen) ==
+          (may_pass_above ? Observation::kFree : Observation::kUnknown));
+  }
+}
+
+TEST_CASE("what is above is so in the world, whichever way the sensor is turned") {
+  // The sensor lies on its right side, so that its y is up: the beam at a greater azimuth is above.
+  const double elevation = toy::Scanner{}.model().elevation_min + (8.0 + 0.5) * 0.25 * kDegree;
+  const Pose lying(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()));
+  const Eigen::Vector3f place = (40.0 * direction(0.0, elevation)).cast<float>();
+  for (const double side : {-0.2, 0.2}) {
+    const RangeImage image = image_of({(60.0 * direction(side * kDegree, elevation)).cast<float>()},
+                                      toy::Scanner{}.model(), lying);
+    CHECK(image.observe(place, SeenThrough::kInRowOrBelow) == Observation::kFree);
+    CHECK(image.observe(place, SeenThrough::kAtOrBelow) ==
+          (side < 0.0 ? Observation::kFree : Observation::kUnknown));
+  }
+}
+
 TEST_CASE("a place above the highest beam is not seen through") {
   // A ceiling 3 m above the sensor, whose highest beam looks up by 15 degrees: the nearest return
   // lies 11.2 m ahead, and the ceiling before it is within the window of that beam.
@@ -102,7 +147,8 @@ TEST_CASE("a place above the highest beam is not seen through") {
   const Eigen::Vector3f above = (2.2 * direction(0.0, 16.5 * kDegree)).cast<float>();
   CHECK(image.observe(above) == Observation::kUnknown);
   std::vector<ObservedPlace> observed;
-  image.observe({above.x(), above.y(), above.z()}, Pose::Identity(), observed);
+  image.observe({above.x(), above.y(), above.z()}, Pose::Identity(), SeenThrough::kInRowOrBelow,
+                observed);
   CHECK(observed.empty());
 }
 
@@ -124,17 +170,17 @@ TEST_CASE("places are observed alike one by one, all at once, and by every instr
   }
   const Parameters parameters;
   std::array<int, 4> found{};
-  for (const InstructionSet set : supported_instruction_sets()) {
+  for (const auto& [set, seen] : sets_and_rules()) {
     const InstructionSetScope scope(set);
     const RangeImage image = image_of(points);
     std::vector<ObservedPlace> observed;
-    image.observe(places, Pose::Identity(), observed);
+    image.observe(places, Pose::Identity(), seen, observed);
     auto next = observed.begin();
     for (std::uint32_t k = 0; k < places.size() / 3; ++k) {
       const Eigen::Vector3f place = Eigen::Map<const Eigen::Vector3f>(places.data() + 3 * k);
       const bool near = place.norm() >= static_cast<float>(parameters.evidence_range_min) &&
                         place.norm() <= static_cast<float>(parameters.evidence_range_max);
-      const Observation wanted = image.observe(place);
+      const Observation wanted = image.observe(place, seen);
       ++found[static_cast<std::size_t>(wanted)];
       const bool told = next != observed.end() && next->place == k;
       REQUIRE(told == (near && (wanted == Observation::kAgree || wanted == Observation::kFree)));
@@ -169,15 +215,16 @@ TEST_CASE("places near the sensor, with large windows, are observed as bin by bi
         somewhere(1.5F, [&](float a) { return std::max(2.1F, (0.5F + any(random)) * wall(a)); });
     places.insert(places.end(), place.data(), place.data() + 3);
   }
+  const SeenThrough seen = GENERATE(SeenThrough::kInRowOrBelow, SeenThrough::kAtOrBelow);
   const RangeImage image = image_of(points);
   std::vector<ObservedPlace> observed;
-  image.observe(places, Pose::Identity(), observed);
+  image.observe(places, Pose::Identity(), seen, observed);
   std::vector<Observation> told(places.size() / 3, Observation::kOccluded);
   for (const ObservedPlace& place : observed) told[place.place] = place.observation;
   std::array<int, 4> found{};
   for (std::size_t k = 0; k < told.size(); ++k) {
-    Observation wanted =
-        image.observe(Eigen::Vector3f(Eigen::Map<const Eigen::Vector3f>(places.data() + 3 * k)));
+    Observation wanted = image.observe(
+        Eigen::Vector3f(Eigen::Map<const Eigen::Vector3f>(places.data() + 3 * k)), seen);
     ++found[static_cast<std::size_t>(wanted)];
     if (wanted == Observation::kUnknown) wanted = Observation::kOccluded;
     REQUIRE(told[k] == wanted);
