@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: MIT
 # Makes docs/field.md's numbers anew: every family of methods on simulated scenes, with other sensors, at
 # lower rates, and in the hand (the suite `field`; about an hour and a half on two cores), and on the worlds made to be
-# hard (`field-hard`, twice as many cells).
+# hard (`field-hard`, twice as many cells), and how much answers gain by waiting (`field-delay`, a few minutes).
 #
 #   scripts/field.sh                 # runs the suite in out/field; a second call goes on where it was stopped
 #   scripts/field.sh DRIVE           # also a drive of yours at three rates, points from 2.7 m to 50 m
 #   JOBS=1 scripts/field.sh          # one cell at a time
 #   ONLY='*/raymoval_plus:*' scripts/field.sh DRIVE    # these cells anew, such as those of a method that has changed
 #
-# It writes results/field/*.csv, the tables of docs/field.md, and the pictures of that page.
+# It writes results/field/*.csv, results/delay/*.csv, the tables of docs/field.md, and the pictures of that page.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 case ${1:-} in
@@ -36,35 +36,52 @@ if [[ -n ${ONLY:-} ]]; then
   within=(--within)
 fi
 
-# field NAME SUITE: runs a suite, and takes its rates into results/field/NAME.csv.
-field() {
-  if [[ ${#within[@]} -gt 0 && ! -e results/field/$1.csv ]]; then
-    echo "field.sh: results/field/$1.csv is not there, so there is nothing to put these cells into; suite $2 is left out."
+# take NAME SUITE: runs a suite, and takes its rates into results/NAME.csv.
+take() {
+  if [[ ${#within[@]} -gt 0 && ! -e results/$1.csv ]]; then
+    echo "field.sh: results/$1.csv is not there, so there is nothing to put these cells into; suite $2 is left out."
     return
   fi
-  "$raymoval" run "$2" --out "$out/$1" --jobs "$jobs" "${only[@]}"
-  python3 -B scripts/field_rows.py "${within[@]}" "$out/$1/results.csv" "results/field/$1.csv"
+  "$raymoval" run "$2" --out "out/$1" --jobs "$jobs" "${only[@]}"
+  python3 -B scripts/field_rows.py "${within[@]}" "out/$1/results.csv" "results/$1.csv"
 }
 
-mkdir -p results/field
-field scenes field
-field hard field-hard
+mkdir -p results/field results/delay $out
+take field/scenes field
+take field/hard field-hard
+# The suite field-delay has one method, and a run of no cells is an error.
+delay=
+# shellcheck disable=SC2053  # ONLY is a pattern.
+if [[ -z ${ONLY:-} || town/raymoval_plus:online-lag:delay=1 == $ONLY ]]; then
+  delay=yes
+  take delay/scenes field-delay
+  "$raymoval" picture out/delay/scenes --kind sweep -o results/pictures/delay.svg
+fi
 
-if [[ -n $drive ]]; then
+# drive_suite SUITE: the methods of a shipped suite, and the drive at three rates.
+drive_suite() {
   # "name": a suite's sequences need one each, for they are the same folder.
-  sed -n '/"methods"/,$p' benchmark/suites/field.json >$out/rest.json
+  local path range='"range_m": { "min": 2.7, "max": 50 }'
   path=$(python3 -c 'import json, os, sys; print(json.dumps(os.path.abspath(sys.argv[1])))' "$drive")
-  range='"range_m": { "min": 2.7, "max": 50 }'
-  cat - $out/rest.json >$out/drive.json <<EOF
+  cat <<EOF
 {
-  "name": "field-drive",
+  "name": "$1-drive",
   "sequences": [
     { "path": $path, "name": "drive", $range },
     { "path": $path, "name": "drive-5hz", "frames": "::2", $range },
     { "path": $path, "name": "drive-2hz", "frames": "::5", $range }
   ],
 EOF
-  field drive $out/drive.json
+  sed -n '/"methods"/,$p' "benchmark/suites/$1.json"
+}
+
+if [[ -n $drive ]]; then
+  drive_suite field >$out/drive.json
+  take field/drive $out/drive.json
+  if [[ -n $delay ]]; then
+    drive_suite field-delay >$out/delay_drive.json
+    take delay/drive $out/delay_drive.json
+  fi
 fi
 python3 -B scripts/field_page.py
 

@@ -4,8 +4,8 @@
     field_page.py            # writes docs/field.md's tables and results/pictures/field.svg
     field_page.py --check    # writes nothing; fails if one of them is not what it would write
 
-The numbers stand in results/field/*.csv (the columns of a run's results.csv), and nowhere else: a table in the page
-is what stands between its lines "<!-- table NAME -->" and "<!-- end -->"."""
+The numbers stand in results/field/*.csv and results/delay/*.csv (the columns of a run's results.csv), and nowhere
+else: a table in the page is what stands between its lines "<!-- table NAME -->" and "<!-- end -->"."""
 
 import csv
 import pathlib
@@ -17,6 +17,7 @@ HOUSE = pathlib.Path(__file__).resolve().parent.parent
 PAGE = HOUSE / "docs/field.md"
 CHART = HOUSE / "results/pictures/field.svg"
 RESULTS = HOUSE / "results/field"
+DELAYS = HOUSE / "results/delay"
 CONTROLS = ("noop", "remove-all", "oracle")
 
 SCENES = ("town", "highway", "country", "suburb", "crossing", "excavator")
@@ -47,12 +48,12 @@ TABLES = {
 }
 
 
-def read_rates():
+def read_rates(folder):
     """{(sequence, name): {rate: value}} of every cell that has one; a cell that failed has none."""
     rates = {}
-    files = sorted(RESULTS.glob("*.csv"))
+    files = sorted(folder.glob("*.csv"))
     if not files:
-        sys.exit(f"field_page.py: {RESULTS} has no results; scripts/field.sh makes them.")
+        sys.exit(f"field_page.py: {folder} has no results; scripts/field.sh makes them.")
     for path in files:
         with path.open(newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
@@ -101,6 +102,18 @@ def table(rates, columns, rate):
     return "\n".join(lines)
 
 
+def delay_table(rates):
+    """F1 and DA of the only method there, a row for each sequence and a column for each delay in seconds."""
+    delays = sorted({float(name.rpartition("=")[2]) for _, name in rates})
+    names = {float(name.rpartition("=")[2]): name for _, name in rates}
+    lines = ["| F1 (DA) | " + " | ".join("at once" if delay == 0 else f"{delay:g} s" for delay in delays) + " |",
+             "|---|" + "---:|" * len(delays)]
+    for sequence in dict.fromkeys(sequence for sequence, _ in rates):
+        cells = [rates[sequence, names[delay]] for delay in delays]
+        lines.append(f"| {sequence} | " + " | ".join(f"{cell['F1']:.3f} ({cell['DA']:.1f})" for cell in cells) + " |")
+    return "\n".join(lines)
+
+
 def colour(value):
     """From vermillion (0) over white (.8) to blue (1): told apart by the colour-blind, too."""
     low, middle, high = (213, 94, 0), (255, 255, 255), (0, 114, 178)
@@ -140,12 +153,13 @@ def chart(rates):
             f'<rect width="{width}" height="{height}" fill="#fff"/>\n' + "\n".join(parts) + "\n</svg>\n")
 
 
-def page(rates, text):
+def page(rates, delays, text):
     """The page with each table made anew."""
 
     def made(match):
         name, _, rate = match.group(1).partition(" ")
-        return f"<!-- table {match.group(1)} -->\n{table(rates, TABLES[name], rate or 'F1')}\n<!-- end -->"
+        rows = delay_table(delays) if name == "delay" else table(rates, TABLES[name], rate or "F1")
+        return f"<!-- table {match.group(1)} -->\n{rows}\n<!-- end -->"
 
     return re.sub(r"<!-- table ([^>]*?) -->\n.*?<!-- end -->", made, text, flags=re.DOTALL)
 
@@ -154,13 +168,14 @@ def main():
     check = sys.argv[1:] == ["--check"]
     if sys.argv[1:] and not check:
         sys.exit(f"field_page.py: {' '.join(sys.argv[1:])} is unknown; expected nothing, or --check.")
-    rates = read_rates()
-    for path, new in ((PAGE, page(rates, PAGE.read_text(encoding="utf-8"))), (CHART, chart(rates))):
+    rates = read_rates(RESULTS)
+    new_page = page(rates, read_rates(DELAYS), PAGE.read_text(encoding="utf-8"))
+    for path, new in ((PAGE, new_page), (CHART, chart(rates))):
         if not check:
             path.write_text(new, encoding="utf-8")
         elif not path.exists() or path.read_text(encoding="utf-8") != new:
-            sys.exit(f"field_page.py: {path.relative_to(HOUSE)} does not say what {RESULTS.relative_to(HOUSE)}/ holds; "
-                     "scripts/field_page.py writes it anew.")
+            sys.exit(f"field_page.py: {path.relative_to(HOUSE)} does not say what {RESULTS.relative_to(HOUSE)}/ and "
+                     f"{DELAYS.relative_to(HOUSE)}/ hold; scripts/field_page.py writes it anew.")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,6 @@ MARGINS = {"F1": 0.005, "AA": 1.0}
 KNOWN = {
     ("hard/market-310", "octomap:ground"),
     ("hard/junction-vlp16", "octomap:ground"),
-    ("hard/junction-vlp16", "hmm_mos:offline"),
     ("hard/junction-hdl32e", "octomap:ground"),
     ("hard/market-rosette", "octomap:ground"),
     ("hard/walk-vlp16", "beautymap:wide"),
