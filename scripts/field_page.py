@@ -104,8 +104,8 @@ def table(rates, columns, rate):
 
 def delay_table(rates):
     """F1 and DA of the only method there, a row for each sequence and a column for each delay in seconds."""
-    delays = sorted({float(name.rpartition("=")[2]) for _, name in rates})
     names = {float(name.rpartition("=")[2]): name for _, name in rates}
+    delays = sorted(names)
     lines = ["| F1 (DA) | " + " | ".join("at once" if delay == 0 else f"{delay:g} s" for delay in delays) + " |",
              "|---|" + "---:|" * len(delays)]
     for sequence in dict.fromkeys(sequence for sequence, _ in rates):
