@@ -174,6 +174,17 @@ std::vector<std::uint8_t> marks_of(const Track& track, const Parameters& paramet
   return marks;
 }
 
+/// All tracks through the objects of all scans.
+std::vector<Track> followed(const std::vector<std::vector<ObjectSummary>>& scans, bool backward,
+                            double first_step, const Parameters& parameters) {
+  ObjectTracker tracker(parameters, first_step);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::size_t scan = backward ? scans.size() - 1 - i : i;
+    tracker.follow(scan, scans[scan]);
+  }
+  return tracker.finish();
+}
+
 }  // namespace
 
 bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
@@ -244,19 +255,22 @@ std::vector<std::vector<int>> objects_on_tracks(
     const RunContext& context) {
   const StageScope timed(context.times, "tracks");
   std::vector<std::vector<int>> marked(scans.size());
-  for (const bool backward : {false, true}) {
-    ObjectTracker tracker(parameters);
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      const std::size_t scan = backward ? scans.size() - 1 - i : i;
-      tracker.follow(scan, scans[scan]);
-    }
-    for (const Track& track : tracker.finish()) {
-      const std::vector<std::uint8_t> marks = marks_of(track, parameters);
-      for (std::size_t k = 0; k < marks.size(); ++k) {
-        const auto& [scan, object] = track.nodes[k];
-        if (marks[k] != 0) marked[scan].push_back(object.cluster);
+  // What is fast is lost without a long first step. With one, a track may take a neighbour for the
+  // object that it lost, and then both are lost. So objects are followed with and without.
+  for (const double first_step : {0.0, kFirstStep}) {
+    for (const bool backward : {false, true}) {
+      for (const Track& track : followed(scans, backward, first_step, parameters)) {
+        const std::vector<std::uint8_t> marks = marks_of(track, parameters);
+        for (std::size_t k = 0; k < marks.size(); ++k) {
+          const auto& [scan, object] = track.nodes[k];
+          if (marks[k] != 0) marked[scan].push_back(object.cluster);
+        }
       }
     }
+  }
+  for (std::vector<int>& clusters : marked) {
+    std::sort(clusters.begin(), clusters.end());
+    clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
   }
   return marked;
 }

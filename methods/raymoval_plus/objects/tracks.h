@@ -47,6 +47,10 @@ struct Track {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Metres a scan, in the order followed.
 };
 
+/// An object may move by so many metres between two scans before its speed is known: 40 m/s at ten
+/// scans a second.
+inline constexpr double kFirstStep = 4.0;
+
 /// Follows dynamic objects from scan to scan. Scans come in ascending or in descending order.
 class ObjectTracker {
  public:

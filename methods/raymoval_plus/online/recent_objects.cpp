@@ -5,13 +5,6 @@
 #include <utility>
 
 namespace raymoval::raymoval_plus_method {
-namespace {
-
-/// An object may move by so many metres between two scans before its speed is known: 40 m/s at ten
-/// scans a second.
-constexpr double kFirstStep = 4.0;
-
-}  // namespace
 
 RecentObjects::RecentObjects(const Parameters& parameters)
     : parameters_(parameters), before_(parameters, kFirstStep) {}

@@ -152,7 +152,21 @@ TEST_CASE("a fast object is followed from its first step on if that is allowed")
   CHECK(last_marked(0.0).empty());
   CHECK(last_marked(1.4).empty());
   CHECK(last_marked(4.0) == std::vector{0});
+  CHECK(marked_by_tracks(scans).back() == std::vector{0});
   // What scans agree with for long stood there before, and is no fast thing.
   for (std::size_t i = 1; i < 8; ++i) scans[i][0].agree_scans = 20.0F;
   CHECK(last_marked(4.0).empty());
+}
+
+TEST_CASE("a slow object is followed though a long first step leads to another one") {
+  // A walker is hidden in the second scan, where somebody stands 2 m ahead. Only three scans see
+  // through his place, so that all of them must be of his track.
+  Scans scans;
+  for (int i = 0; i < 10; ++i) {
+    const bool is_dynamic = i == 0 || i == 2 || i == 3;
+    scans.push_back({i == 1 ? walker(10, 0, 1.0) : walker(i, is_dynamic ? 18 : 0, 4.0)});
+  }
+  const auto marked = marked_by_tracks(scans);
+  CHECK(marked[1].empty());
+  for (std::size_t i = 4; i < 10; ++i) CHECK(marked[i] == std::vector{0});
 }
