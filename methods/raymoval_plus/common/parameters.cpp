@@ -92,6 +92,11 @@ void add_evidence(Lines& table) {
                "A return nearer than the voxel's range plus this occludes it.");
   table.number("occluded_slope", &P::occluded_slope, "", 0, 1,
                "occluded_constant grows by this much with each metre of range.");
+  table.flag("gaps", &P::gaps,
+             "See through a voxel also in its own column, beside what is nearer.");
+  table.number("gap_margin", &P::gap_margin, "m", 0, 100,
+               "All returns of that column must be farther by this than those that occlude.",
+               "gaps is true");
   table.number("free_constant", &P::free_constant, "scans", 0, 1000,
                "Scans that must see through a voxel to make it dynamic.");
   table.number("free_per_agree", &P::free_per_agree, "", 0, 10,

@@ -38,6 +38,8 @@ struct Parameters {
   double agree_slope = 0.005;
   double occluded_constant = 0.25;
   double occluded_slope = 0.005;
+  bool gaps = true;
+  double gap_margin = 1.0;
   double free_constant = 1.0;
   double free_per_agree = 0.3;
   int static_agree = 2;

@@ -35,6 +35,10 @@ constexpr double kLeastRow = 0.01 * kDegree, kFewestColumns = 90.0, kMostColumns
 constexpr int kMostBins = 4'000'000;
 /// 30 degrees in rows of 1 degree are 30 rows, also if their quotient is a little more.
 constexpr double kRowRounding = 1e-6;
+/// A gap beside what is nearer must be as high as this many rows toward the horizon. Away from it,
+/// it is as high as the window: below the horizon a surface is met nearer by lower beams, and above
+/// by higher ones, so that one seen at a grazing angle is no gap.
+constexpr int kGapRows = 1;
 /// Windows grow with nearness. Where they start to, roundings may go either way, so that places a
 /// little farther are looked at, too.
 constexpr float kWindowsGrow = 1.001F;
@@ -154,9 +158,14 @@ Observation RangeImage::observe(const Eigen::Vector3f& place, SeenThrough seen) 
   const float range = sights.range[0];
   const int column = sights.column[0], row = sights.row[0];
   const Observation observation = observe_every_bin(range, column, row);
+  const Window window = window_at(range);
+  if (observation == Observation::kOccluded) {
+    return sees_through_gap(place, seen, range, column, row) ? Observation::kFree : observation;
+  }
   const bool may_pass_above = observation == Observation::kFree && seen == SeenThrough::kAtOrBelow;
-  return may_pass_above && !sees_at_or_below(place, range, column, row) ? Observation::kUnknown
-                                                                        : observation;
+  return may_pass_above && !sees_at_or_below(place, range, column, row, window)
+             ? Observation::kUnknown
+             : observation;
 }
 
 kernels::SightTest RangeImage::test() const {
@@ -192,23 +201,39 @@ void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_
   observed.clear();
   for (std::size_t i = 0; i < chosen_count; ++i) {
     const float range = chosen.sights.range[i];
-    const kernels::Sighted sighted = sighted_at(chosen, i);
-    if (sighted == kernels::Sighted::kNothing) continue;
-    Observation observation =
-        sighted == kernels::Sighted::kAgree ? Observation::kAgree : Observation::kFree;
-    if (sighted == kernels::Sighted::kUnsure) {
-      observation = observe_large_window(range, chosen.sights.column[i], chosen.sights.row[i]);
-      if (observation != Observation::kAgree && observation != Observation::kFree) continue;
-    }
-    if (observation == Observation::kFree && seen == SeenThrough::kAtOrBelow) {
+    const int column = chosen.sights.column[i], row = chosen.sights.row[i];
+    const auto in_sensor = [&]() -> Eigen::Vector3f {
       const Eigen::Map<const Eigen::Vector3f> place(places.data() + 3 * chosen.place[i]);
-      const Eigen::Vector3f in_sensor = (T_sensor_places * place.cast<double>()).cast<float>();
-      if (!sees_at_or_below(in_sensor, range, chosen.sights.column[i], chosen.sights.row[i])) {
-        continue;
-      }
+      return (T_sensor_places * place.cast<double>()).cast<float>();
+    };
+    Observation observation = observation_of(sighted_at(chosen, i), range, column, row);
+    if (observation == Observation::kOccluded) {
+      if (!may_be_gap(range, column, row)) continue;
+      if (!sees_through_gap(in_sensor(), seen, range, column, row)) continue;
+      observation = Observation::kFree;
+    } else if (observation == Observation::kFree && seen == SeenThrough::kAtOrBelow) {
+      if (!sees_at_or_below(in_sensor(), range, column, row, window_at(range))) continue;
     }
-    observed.push_back({chosen.place[i], observation, range});
+    if (observation != Observation::kUnknown)
+      observed.push_back({chosen.place[i], observation, range});
   }
+}
+
+Observation RangeImage::observation_of(kernels::Sighted sighted, float range, int column,
+                                       int row) const {
+  switch (sighted) {
+    case kernels::Sighted::kAgree:
+      return Observation::kAgree;
+    case kernels::Sighted::kFree:
+      return Observation::kFree;
+    case kernels::Sighted::kOccluded:
+      return Observation::kOccluded;
+    case kernels::Sighted::kNothing:
+      return Observation::kUnknown;
+    case kernels::Sighted::kUnsure:
+      break;
+  }
+  return observe_large_window(range, column, row);
 }
 
 RangeImage::Window RangeImage::window_at(float range) const {
@@ -258,9 +283,34 @@ float RangeImage::nearest_in_row(int row, int column, int wide) const {
   return nearest;
 }
 
-bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int column,
-                                  int row) const {
-  const auto [wide, high] = window_at(range);
+bool RangeImage::may_be_gap(float range, int column, int row) const {
+  return parameters_.gaps && row >= 0 && row < image_.first_unseen_row && row < image_.rows &&
+         bins_[bin(row, column)] >= bounds_at(range).beyond;
+}
+
+bool RangeImage::sees_through_gap(const Eigen::Vector3f& place, SeenThrough seen, float range,
+                                  int column, int row) const {
+  if (!parameters_.gaps || row >= image_.first_unseen_row) return false;
+  const Window window = window_at(range);
+  const int wide = window.wide - parameters_.window_columns;
+  const int toward = window.high - parameters_.window_rows + kGapRows;
+  const bool is_up = up_.dot(place) > 0.0F;
+  const int low = std::max(row - (is_up ? toward : window.high), 0);
+  const int high = std::min(row + (is_up ? window.high : toward), image_.rows - 1);
+  const float beyond = bounds_at(range).beyond + static_cast<float>(parameters_.gap_margin);
+  bool below = false;
+  for (int r = low; r <= high; ++r) {
+    const float nearest = nearest_in_row(r, column, wide);
+    if (nearest < beyond) return false;
+    below |= r <= row && nearest < kInfinite;
+  }
+  return below && (seen == SeenThrough::kInRowOrBelow ||
+                   sees_at_or_below(place, range, column, row, {wide, window.high}));
+}
+
+bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int column, int row,
+                                  const Window& window) const {
+  const auto [wide, high] = window;
   const float sine = up_.dot(place) / range;
   for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
     for (int c = column - wide; c <= column + wide; ++c) {

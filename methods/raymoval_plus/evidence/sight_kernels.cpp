@@ -229,6 +229,8 @@ void settle(const SightImage& image, const SightTest& test, const std::uint32_t*
     const auto free = hn::And(hn::RebindMask(d, seen), hn::AndNot(found.occluded, found.below));
     W sighted =
         hn::IfThenElse(hn::RebindMask(whole, free), code(Sighted::kFree), code(Sighted::kNothing));
+    sighted =
+        hn::IfThenElse(hn::RebindMask(whole, found.occluded), code(Sighted::kOccluded), sighted);
     sighted = hn::IfThenElse(hn::RebindMask(whole, found.agree), code(Sighted::kAgree), sighted);
     sighted = hn::IfThenElse(hn::RebindMask(whole, known_window), sighted, code(Sighted::kUnsure));
     std::int32_t settled[kMostLanes];

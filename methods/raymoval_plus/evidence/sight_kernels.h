@@ -60,8 +60,8 @@ struct SightTest {
   float range_min = 0.0F, range_max = 0.0F;  ///< Places beyond are not chosen.
 };
 
-/// What a scan says of a place: `kNothing` where it is occluded or unknown.
-enum class Sighted : std::int32_t { kUnsure, kAgree, kFree, kNothing };
+/// What a scan says of a place: `kOccluded` where a return hides it, `kNothing` where none does.
+enum class Sighted : std::int32_t { kUnsure, kAgree, kFree, kOccluded, kNothing };
 
 /// The places that a scan may agree with or see through. Each array has room for `kMostLanes` more
 /// than there are.
