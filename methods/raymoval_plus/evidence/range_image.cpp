@@ -158,12 +158,11 @@ Observation RangeImage::observe(const Eigen::Vector3f& place, SeenThrough seen) 
   const float range = sights.range[0];
   const int column = sights.column[0], row = sights.row[0];
   const Observation observation = observe_every_bin(range, column, row);
-  const Window window = window_at(range);
   if (observation == Observation::kOccluded) {
     return sees_through_gap(place, seen, range, column, row) ? Observation::kFree : observation;
   }
   const bool may_pass_above = observation == Observation::kFree && seen == SeenThrough::kAtOrBelow;
-  return may_pass_above && !sees_at_or_below(place, range, column, row, window)
+  return may_pass_above && !sees_at_or_below(place, range, column, row, window_at(range))
              ? Observation::kUnknown
              : observation;
 }
@@ -214,8 +213,8 @@ void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_
     } else if (observation == Observation::kFree && seen == SeenThrough::kAtOrBelow) {
       if (!sees_at_or_below(in_sensor(), range, column, row, window_at(range))) continue;
     }
-    if (observation != Observation::kUnknown)
-      observed.push_back({chosen.place[i], observation, range});
+    if (observation == Observation::kUnknown) continue;
+    observed.push_back({chosen.place[i], observation, range});
   }
 }
 

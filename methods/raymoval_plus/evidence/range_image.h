@@ -38,9 +38,10 @@ class RangeImage {
   void fill(const Scan& scan);
   /// What the scan says of a place of the sensor frame (metres). It **agrees** if any return of the
   /// window lies at the place's range. Else the place is **occluded** if any return is nearer and
-  /// there is no gap beside that (below), else **free** if there is a return at or below it, else
-  /// **unknown**. So any agreement saves a place, and any occlusion says nothing. This looks at
-  /// every bin of the window, which is slow: it is what the other `observe` is compared with.
+  /// its own column of bins is no gap beside that, else **free** if there is a return at or below
+  /// it, else **unknown**. So any agreement saves a place, and any occlusion says nothing. This
+  /// looks at every bin of the window, which is slow: it is what the other `observe` is compared
+  /// with.
   [[nodiscard]] Observation observe(const Eigen::Vector3f& place,
                                     SeenThrough seen = SeenThrough::kInRowOrBelow) const;
   /// Replaces `observed` with all places within the evidence range that the scan agrees with or
@@ -78,6 +79,8 @@ class RangeImage {
   bool agrees_in_row(const Bounds& bounds, int row, int column, int wide, bool& occluded) const;
   bool agrees_in_window(const Bounds& bounds, int row, int column, bool& occluded) const;
   [[nodiscard]] float nearest_in_row(int row, int column, int wide) const;
+  /// What the kernels said of a place, where they are unsure after a look at its large window. Gaps
+  /// are not looked for.
   [[nodiscard]] Observation observation_of(kernels::Sighted sighted, float range, int column,
                                            int row) const;
   /// Whether an occluded place is seen through in its own column of bins, beside what hides others
@@ -85,7 +88,7 @@ class RangeImage {
   /// @param place metres, sensor frame
   [[nodiscard]] bool sees_through_gap(const Eigen::Vector3f& place, SeenThrough seen, float range,
                                       int column, int row) const;
-  /// False for most places through whose bins no gap is seen.
+  /// A quick look at the place's own bin, which is false for most places that are not seen through.
   [[nodiscard]] bool may_be_gap(float range, int column, int row) const;
   /// Whether a return of a window around a place is of a beam that does not pass above it.
   /// @param place metres, sensor frame
