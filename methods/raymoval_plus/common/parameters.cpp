@@ -112,6 +112,11 @@ void add_vote(Lines& table) {
                "Share of dynamic voxels that makes a voxel dynamic.");
   table.number("vote_keep", &P::vote_keep, "", 0, 1,
                "Share of dynamic voxels below which a dynamic voxel is not.");
+  table.number(
+      "outlast", &P::outlast, "", 0, 10000,
+      "A settled voxel is not outvoted if so many times as many scans agree with it as with "
+      "the dynamic ones around it; 0 for off.",
+      "vote_radius > 0 and settled_scans > 0");
   table.integer("run_scans", &P::run_scans, "scans", 0, 1000,
                 "A voxel is dynamic if so many scans in a row see through it before the first or "
                 "after the last one that agrees; 0 for off.");

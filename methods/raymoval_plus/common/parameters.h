@@ -50,6 +50,7 @@ struct Parameters {
   int vote_radius = 3;
   double vote_share = 0.5;
   double vote_keep = 0.3;
+  double outlast = 8.0;
   // Objects.
   bool objects = true;
   double object_height = 0.3;

@@ -220,6 +220,35 @@ Verdict verdict_by_votes(Verdict decision, std::uint32_t votes, const Parameters
   return dynamic >= share * decided ? Verdict::kDynamic : Verdict::kStatic;
 }
 
+/// Whether many times as many scans agree with a voxel as with the dynamic ones around it, on
+/// average: it is a parked car or a pole that others pass, for which a few scans suffice.
+bool outlasts_dynamic(std::uint32_t voxel, const Parameters& parameters, const EvidenceMap& map) {
+  const int agree = map.evidence(voxel).agree_scans;
+  if (parameters.outlast == 0.0 || parameters.settled_scans == 0) return false;
+  if (agree < parameters.settled_scans) return false;
+  const int side = 2 * parameters.vote_radius + 1;
+  const VoxelIndex corner = map.index(voxel).array() - parameters.vote_radius;
+  EvidenceMap::Blocks::Cursor cursor;
+  int count = 0, sum = 0;
+  for (int n = 0; n < side * side * side; ++n) {
+    const VoxelIndex cell = corner + VoxelIndex(n % side, n / side % side, n / (side * side));
+    const std::size_t slot = map.find_slot(cell, cursor);
+    if (slot == EvidenceMap::Blocks::kNoSlot) continue;
+    const std::uint32_t other = map.voxel_in(slot);
+    if (other == EvidenceMap::kNone || map.decision(other) != Verdict::kDynamic) continue;
+    ++count;
+    sum += map.evidence(other).agree_scans;
+  }
+  return agree * static_cast<double>(count) > parameters.outlast * sum;
+}
+
+/// Whether the votes around a voxel do not change its decision.
+bool is_not_outvoted(std::uint32_t voxel, Verdict voted, const Parameters& parameters,
+                     const EvidenceMap& map) {
+  return was_always_there(map.evidence(voxel), parameters) ||
+         (voted == Verdict::kDynamic && outlasts_dynamic(voxel, parameters, map));
+}
+
 template <class SomeBallot>
 void vote_in_block(std::uint32_t block, int reach, const Parameters& parameters, SomeBallot& ballot,
                    EvidenceMap& map) {
@@ -238,7 +267,7 @@ void vote_in_block(std::uint32_t block, int reach, const Parameters& parameters,
   for_voxels(map, block, [&](std::uint32_t v, std::size_t cell) {
     const Verdict voted = verdict_by_votes(decisions[cell], ballot.around(cell), parameters);
     // The evidence is far away in memory, and only asked where the vote changes something.
-    const bool stays = voted != decisions[cell] && was_always_there(map.evidence(v), parameters);
+    const bool stays = voted != decisions[cell] && is_not_outvoted(v, voted, parameters, map);
     map.set_verdict_in(first_slot + cell, stays ? decisions[cell] : voted);
   });
 }
