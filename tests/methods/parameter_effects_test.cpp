@@ -46,6 +46,7 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"dynablox.public_merges", "three clusters must be in a row (see dynablox/steps_test)"},
     {"dynablox.public_unmapped", "a cluster must reach where nobody has looked"},
     {"raymoval_plus:online.recent_scans", "as for tracks"},
+    {"raymoval_plus.outlast", "more scans must agree with what something passes (see vote_test)"},
     {"raymoval_plus.ground_evidence",
      "something must stand where no ground is seen (see variants_test)"},
     {"freedom.counts_to_revert", "something must stay in free space (see free_map_test)"},
