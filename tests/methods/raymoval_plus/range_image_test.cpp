@@ -43,6 +43,20 @@ Eigen::Vector3d direction(double azimuth, double elevation) {
           std::sin(elevation)};
 }
 
+/// Places around the middle of a bin of `image_of`: bins are half a degree times 1.45 wide and a
+/// quarter of a degree high.
+struct AroundBin {
+  double elevation;  ///< Of the bin's middle, radians.
+
+  /// @param aside columns, @param up rows from the bin
+  [[nodiscard]] Eigen::Vector3f at(double range, double aside, double up) const {
+    const int columns = static_cast<int>(std::round(360.0 / (1.45 * 0.5)));
+    const double column = 360.0 / columns * kDegree;
+    const double azimuth = (columns / 2 + 0.5 + aside) * column - std::numbers::pi;
+    return (range * direction(azimuth, elevation + up * 0.25 * kDegree)).cast<float>();
+  }
+};
+
 }  // namespace
 
 TEST_CASE("a place agrees with, hides behind or stands in front of a return") {
@@ -128,51 +142,39 @@ TEST_CASE("what is above is so in the world, whichever way the sensor is turned"
 }
 
 TEST_CASE("a scan sees through a place beside what is nearer, in its own column of bins") {
-  // Bins are half a degree times 1.45 wide and a quarter of a degree high; the place is in the
-  // middle of one, 20 m away. Somebody stands 10 m away in the column beside it. Without a gap, a
-  // return is beyond from 20 + 0.25 + 0.005 * 20 = 20.35 m on; in a gap, from 1 m farther on.
+  // The place is in the middle of a bin, 20 m away. Somebody stands 10 m away in the column beside
+  // it. Without a gap, a return is beyond from 20 + 0.25 + 0.005 * 20 = 20.35 m on; in a gap, from
+  // 1 m farther on.
   const SensorModel sensor = toy::Scanner{}.model();
-  const double elevation = sensor.elevation_min + (8.0 + 0.5) * 0.25 * kDegree;
-  const int columns = static_cast<int>(std::round(360.0 / (1.45 * 0.5)));
-  const double column = 360.0 / columns * kDegree;
-  const double azimuth = (columns / 2 + 0.5) * column - std::numbers::pi;
-  const auto at = [&](double range, double aside, double up) -> Eigen::Vector3f {
-    return (range * direction(azimuth + aside * column, elevation + up * 0.25 * kDegree))
-        .cast<float>();
-  };
+  const AroundBin bin{sensor.elevation_min + (8.0 + 0.5) * 0.25 * kDegree};
   const auto told = [&](const std::vector<Eigen::Vector3f>& points) {
-    return image_of(points, sensor).observe(at(20.0, 0.0, 0.0));
+    return image_of(points, sensor).observe(bin.at(20.0, 0.0, 0.0));
   };
-  const Eigen::Vector3f beside = at(10.0, 1.0, 0.0);
+  const Eigen::Vector3f beside = bin.at(10.0, 1.0, 0.0);
   CHECK(told({beside}) == Observation::kOccluded);  // No beam goes on beyond.
-  CHECK(told({beside, at(21.3, 0.0, 0.0)}) == Observation::kOccluded);
-  CHECK(told({beside, at(21.4, 0.0, 0.0)}) == Observation::kFree);
-  CHECK(told({at(21.3, 0.0, 0.0)}) == Observation::kFree);  // The whole window is clear.
-  CHECK(told({beside, at(20.0, -1.0, 0.0), at(30.0, 0.0, 0.0)}) == Observation::kAgree);
+  CHECK(told({beside, bin.at(21.3, 0.0, 0.0)}) == Observation::kOccluded);
+  CHECK(told({beside, bin.at(21.4, 0.0, 0.0)}) == Observation::kFree);
+  CHECK(told({bin.at(21.3, 0.0, 0.0)}) == Observation::kFree);  // The whole window is clear.
+  CHECK(told({beside, bin.at(20.0, -1.0, 0.0), bin.at(30.0, 0.0, 0.0)}) == Observation::kAgree);
   // The place is below the horizon. A gap reaches two rows down, and one row up.
-  const Eigen::Vector3f beyond = at(30.0, 0.0, 0.0);
+  const Eigen::Vector3f beyond = bin.at(30.0, 0.0, 0.0);
   for (const int row : {-2, -1, 0, 1}) {
-    CHECK(told({beside, beyond, at(15.0, 0.0, row)}) == Observation::kOccluded);
+    CHECK(told({beside, beyond, bin.at(15.0, 0.0, row)}) == Observation::kOccluded);
   }
-  CHECK(told({beside, beyond, at(15.0, 0.0, 2.0)}) == Observation::kFree);
-  CHECK(told({beside, at(30.0, 0.0, 1.0)}) == Observation::kOccluded);  // Nothing at or below it.
+  CHECK(told({beside, beyond, bin.at(15.0, 0.0, 2.0)}) == Observation::kFree);
+  CHECK(told({beside, bin.at(30.0, 0.0, 1.0)}) ==
+        Observation::kOccluded);  // Nothing at or below it.
 }
 
 TEST_CASE("a gap above the horizon reaches two rows up, and one row down") {
   SensorModel sensor = toy::Scanner{}.model();
   sensor.elevation_min = -15.0 * kDegree;
   sensor.elevation_max = 15.0 * kDegree;
-  const int columns = static_cast<int>(std::round(360.0 / (1.45 * 0.5)));
-  const double column = 360.0 / columns * kDegree;
-  const double azimuth = (columns / 2 + 0.5) * column - std::numbers::pi;
-  const auto at = [&](double range, double aside, double up) -> Eigen::Vector3f {
-    return (range * direction(azimuth + aside * column, (5.125 + up * 0.25) * kDegree))
-        .cast<float>();
-  };
+  const AroundBin bin{5.125 * kDegree};
   const auto told = [&](double row, const Pose& T_world_sensor) {
-    return image_of({at(10.0, 1.0, 0.0), at(30.0, 0.0, 0.0), at(15.0, 0.0, row)}, sensor,
-                    T_world_sensor)
-        .observe(at(20.0, 0.0, 0.0));
+    return image_of({bin.at(10.0, 1.0, 0.0), bin.at(30.0, 0.0, 0.0), bin.at(15.0, 0.0, row)},
+                    sensor, T_world_sensor)
+        .observe(bin.at(20.0, 0.0, 0.0));
   };
   const Pose upright = Pose::Identity();
   CHECK(told(-2.0, upright) == Observation::kFree);
