@@ -13,7 +13,6 @@ namespace raymoval::raymoval_plus_method {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 // Numbers of this step. The parameters azimuth_bin and elevation_bin replace the first two, and
 // EXPERIMENTS.md has other heights of bins.
@@ -35,10 +34,6 @@ constexpr double kLeastRow = 0.01 * kDegree, kFewestColumns = 90.0, kMostColumns
 constexpr int kMostBins = 4'000'000;
 /// 30 degrees in rows of 1 degree are 30 rows, also if their quotient is a little more.
 constexpr double kRowRounding = 1e-6;
-/// A gap beside what is nearer must be as high as this many rows toward the horizon. Away from it,
-/// it is as high as the window: below the horizon a surface is met nearer by lower beams, and above
-/// by higher ones, so that one seen at a grazing angle is no gap.
-constexpr int kGapRows = 1;
 /// Windows grow with nearness. Where they start to, roundings may go either way, so that places a
 /// little farther are looked at, too.
 constexpr float kWindowsGrow = 1.001F;
@@ -280,31 +275,6 @@ float RangeImage::nearest_in_row(int row, int column, int wide) const {
   float nearest = kInfinite;
   for (int c = 0; c <= 2 * wide; ++c) nearest = std::min(nearest, bins[2 * c]);
   return nearest;
-}
-
-bool RangeImage::may_be_gap(float range, int column, int row) const {
-  return parameters_.gaps && row >= 0 && row < image_.first_unseen_row && row < image_.rows &&
-         bins_[bin(row, column)] >= bounds_at(range).beyond;
-}
-
-bool RangeImage::sees_through_gap(const Eigen::Vector3f& place, SeenThrough seen, float range,
-                                  int column, int row) const {
-  if (!parameters_.gaps || row >= image_.first_unseen_row) return false;
-  const Window window = window_at(range);
-  const int wide = window.wide - parameters_.window_columns;
-  const int toward = window.high - parameters_.window_rows + kGapRows;
-  const bool is_up = up_.dot(place) > 0.0F;
-  const int low = std::max(row - (is_up ? toward : window.high), 0);
-  const int high = std::min(row + (is_up ? window.high : toward), image_.rows - 1);
-  const float beyond = bounds_at(range).beyond + static_cast<float>(parameters_.gap_margin);
-  bool below = false;
-  for (int r = low; r <= high; ++r) {
-    const float nearest = nearest_in_row(r, column, wide);
-    if (nearest < beyond) return false;
-    below |= r <= row && nearest < kInfinite;
-  }
-  return below && (seen == SeenThrough::kInRowOrBelow ||
-                   sees_at_or_below(place, range, column, row, {wide, window.high}));
 }
 
 bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int column, int row,

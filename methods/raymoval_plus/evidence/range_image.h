@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/scan/scan.h"
@@ -52,6 +53,8 @@ class RangeImage {
                std::vector<ObservedPlace>& observed) const;
 
  private:
+  /// The range of a bin that has no return.
+  static constexpr float kInfinite = std::numeric_limits<float>::infinity();
   struct Window {
     int wide, high;  ///< Half sizes, bins.
   };
@@ -84,10 +87,23 @@ class RangeImage {
   [[nodiscard]] Observation observation_of(kernels::Sighted sighted, float range, int column,
                                            int row) const;
   /// Whether an occluded place is seen through in its own column of bins, beside what hides others
-  /// of its window: all returns there go on beyond it by `gap_margin` more than they need to.
+  /// of its window: all returns there go on beyond it by `gap_margin` more than they need to, and
+  /// are not of a slope that the place itself is on.
   /// @param place metres, sensor frame
   [[nodiscard]] bool sees_through_gap(const Eigen::Vector3f& place, SeenThrough seen, float range,
                                       int column, int row) const;
+  /// The nearest return of some bins of a row.
+  struct Return {
+    int row;
+    float range;  ///< Metres; infinite for none.
+  };
+  /// The first return in a column from a row on, up or down, if the next beam has one.
+  [[nodiscard]] Return next_return(int row, int step, int column, int wide) const;
+  /// Whether a place is on a plane that beams graze: the return of its column that passes it and
+  /// the next one toward the horizon, which hides it, go on as a third one does. The inverse range
+  /// of a plane is linear in the tangents of direction, so in a few rows.
+  /// @param toward the horizon: 1 if that is up, else -1
+  [[nodiscard]] bool is_on_slope(float range, int column, int row, int wide, int toward) const;
   /// A quick look at the place's own bin, which is false for most places that are not seen through.
   [[nodiscard]] bool may_be_gap(float range, int column, int row) const;
   /// Whether a return of a window around a place is of a beam that does not pass above it.

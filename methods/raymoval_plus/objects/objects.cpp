@@ -203,6 +203,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     object.is_whole = scan.clusters[c].is_whole;
     if (follow[c] == 0 || object.width() > parameters.track_width) continue;
     object.center /= object.points;
+    object.time_s = scan.scan.time_s;
     object.range = static_cast<float>((object.center - sensor).norm());
     object.agree_scans /= static_cast<float>(std::max(object.points - object.dynamic, 1));
     object.cluster = static_cast<int>(c);

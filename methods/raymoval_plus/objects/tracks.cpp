@@ -20,9 +20,11 @@ constexpr int kLeastDynamic = 3;
 /// An object moved if its centre did by so many metres, and by this share of its length: the centre
 /// of a standing thing shifts by less when other sides of it come into sight.
 constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;
-/// An object may be so many metres from where its track is expected, and farther by this share of
-/// the way that it should have gone: things speed up, brake, turn, and are seen in part.
-constexpr double kGate = 0.6, kGateShare = 0.35;
+/// An object may be farther from where its track is expected by this share of the way that it
+/// should have gone: things speed up, brake, turn, and are seen in part.
+constexpr double kGateShare = 0.35;
+/// Seconds after which its acceleration is not asked for: it would lead to anything.
+constexpr double kLongestStep = 0.5;
 /// Along each axis its box may change by so many metres, and by this share of the larger one.
 constexpr double kResize = 0.6, kResizeShare = 0.3;
 /// So many scans more may agree with an object than its length and speed explain: one when it comes
@@ -61,26 +63,6 @@ double scans_passing(const ObjectSummary& object, const Motion& motion,
 bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
   return object.agree_scans <=
          parameters.track_slack * scans_passing(object, motion, parameters) + kScansMore;
-}
-
-/// The distance of an object from where the track is expected, metres, if it can be the same
-/// object.
-std::optional<double> mismatch(const Track& track, const ObjectSummary& found, int scans,
-                               double first_step, const Parameters& parameters) {
-  const ObjectSummary& last = track.nodes.back().object;
-  const Eigen::Vector3d expected = last.center + track.velocity * scans;
-  const double distance = (found.center - expected).head<2>().norm();
-  if (distance > kGate + kGateShare * track.velocity.norm() * scans) {
-    // Nothing is known of the speed of what was seen once, but what is fast is new where it is.
-    const bool may_be_fast = track.nodes.size() == 1 && distance <= first_step * scans &&
-                             is_explained(found, {last.width(), distance / scans}, parameters);
-    if (!may_be_fast) return std::nullopt;
-  }
-  const Eigen::Array3d size = last.high - last.low, found_size = found.high - found.low;
-  if (((size - found_size).abs() > kResize + kResizeShare * size.max(found_size)).any()) {
-    return std::nullopt;
-  }
-  return distance;
 }
 
 void extend(Track& track, const Track::Node& node) {
@@ -176,13 +158,24 @@ std::vector<std::uint8_t> marks_of(const Track& track, const Parameters& paramet
 
 /// All tracks through the objects of all scans.
 std::vector<Track> followed(const std::vector<std::vector<ObjectSummary>>& scans, bool backward,
-                            double first_step, const Parameters& parameters) {
-  ObjectTracker tracker(parameters, first_step);
+                            ObjectTracker tracker) {
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const std::size_t scan = backward ? scans.size() - 1 - i : i;
     tracker.follow(scan, scans[scan]);
   }
   return tracker.finish();
+}
+
+/// Adds the clusters that tracks mark to those of their scans.
+void mark_followed(const std::vector<Track>& tracks, const Parameters& parameters,
+                   std::vector<std::vector<int>>& marked) {
+  for (const Track& track : tracks) {
+    const std::vector<std::uint8_t> marks = marks_of(track, parameters);
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      const auto& [scan, object] = track.nodes[k];
+      if (marks[k] != 0) marked[scan].push_back(object.cluster);
+    }
+  }
 }
 
 }  // namespace
@@ -191,13 +184,33 @@ bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
   return object.dynamic >= parameters.object_points && is_one_dynamic_thing(object, parameters);
 }
 
+std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSummary& found,
+                                              int scans) const {
+  const ObjectSummary& last = track.nodes.back().object;
+  const Eigen::Vector3d expected = last.center + track.velocity * scans;
+  const double distance = (found.center - expected).head<2>().norm();
+  const double seconds = std::min(std::abs(found.time_s - last.time_s), kLongestStep);
+  const double gate = gate_.metres + gate_.acceleration * seconds * seconds;
+  if (distance > gate + kGateShare * track.velocity.norm() * scans) {
+    // Nothing is known of the speed of what was seen once, but what is fast is new where it is.
+    const bool may_be_fast = track.nodes.size() == 1 && distance <= first_step_ * scans &&
+                             is_explained(found, {last.width(), distance / scans}, parameters_);
+    if (!may_be_fast) return std::nullopt;
+  }
+  const Eigen::Array3d size = last.high - last.low, found_size = found.high - found.low;
+  if (((size - found_size).abs() > kResize + kResizeShare * size.max(found_size)).any()) {
+    return std::nullopt;
+  }
+  return distance;
+}
+
 void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& objects) {
   scan_ = scan;
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t t = 0; t < active_.size(); ++t) {
     const int scans = scans_between(active_[t].nodes.back().scan, scan);
     for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (const auto distance = mismatch(active_[t], objects[k], scans, first_step_, parameters_)) {
+      if (const auto distance = mismatch(active_[t], objects[k], scans)) {
         pairs.emplace_back(*distance, t, k);
       }
     }
@@ -255,17 +268,14 @@ std::vector<std::vector<int>> objects_on_tracks(
     const RunContext& context) {
   const StageScope timed(context.times, "tracks");
   std::vector<std::vector<int>> marked(scans.size());
-  // What is fast is lost without a long first step. With one, a track may take a neighbour for the
-  // object that it lost, and then both are lost. So objects are followed with and without.
-  for (const double first_step : {0.0, kFirstStep}) {
-    for (const bool backward : {false, true}) {
-      for (const Track& track : followed(scans, backward, first_step, parameters)) {
-        const std::vector<std::uint8_t> marks = marks_of(track, parameters);
-        for (std::size_t k = 0; k < marks.size(); ++k) {
-          const auto& [scan, object] = track.nodes[k];
-          if (marks[k] != 0) marked[scan].push_back(object.cluster);
-        }
-      }
+  // What is fast is lost without a long first step, and what brakes between two scans without a
+  // wide gate. With them, a track may take a neighbour for the object that it lost, and then both
+  // are lost. So objects are followed with and without.
+  for (const TrackGate& gate : {kGate, kWideGate}) {
+    for (const double first_step : {0.0, kFirstStep}) {
+      const ObjectTracker tracker(parameters, first_step, gate);
+      mark_followed(followed(scans, false, tracker), parameters, marked);
+      mark_followed(followed(scans, true, tracker), parameters, marked);
     }
   }
   for (std::vector<int>& clusters : marked) {

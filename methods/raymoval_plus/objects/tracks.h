@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "methods/raymoval_plus/common/parameters.h"
@@ -16,6 +17,7 @@ struct ObjectSummary {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d high = -low;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< Mean of the points.
+  double time_s = 0.0;                               ///< Of its scan.
   float range = 0.0F;                                ///< Distance of the centre from the sensor.
   /// The number of scans that agree with a point, on average over the points that are not dynamic.
   float agree_scans = 0.0F;
@@ -51,13 +53,26 @@ struct Track {
 /// scans a second.
 inline constexpr double kFirstStep = 4.0;
 
+/// How far from where it is expected the next object of a track may be, beside a share of the way
+/// that it should have gone.
+struct TrackGate {
+  double metres;
+  double acceleration;  ///< And so many metres more for the square of each second that has passed.
+};
+inline constexpr TrackGate kGate{0.6, 0.0};
+/// For what brakes or speeds up between scans half a second apart. What is known of its speed is a
+/// mean of its last steps, so that this is half as much again as the acceleration.
+inline constexpr TrackGate kWideGate{0.9, 3.0};
+
 /// Follows dynamic objects from scan to scan. Scans come in ascending or in descending order.
 class ObjectTracker {
  public:
   /// @param first_step metres a scan that an object may be faster than slow ones in its first step,
   ///   of whose speed nothing is known yet
-  explicit ObjectTracker(const Parameters& parameters, double first_step = 0.0)
-      : parameters_(parameters), first_step_(first_step) {}
+  /// @param gate metres, such as `kGate`
+  explicit ObjectTracker(const Parameters& parameters, double first_step = 0.0,
+                         const TrackGate& gate = kGate)
+      : parameters_(parameters), first_step_(first_step), gate_(gate) {}
 
   /// Takes the objects of the next scan.
   void follow(std::size_t scan, const std::vector<ObjectSummary>& objects);
@@ -67,10 +82,15 @@ class ObjectTracker {
   void forget_ended() { ended_.clear(); }
 
  private:
+  /// The distance of an object from where the track is expected after so many scans, metres, if it
+  /// can be the same object.
+  [[nodiscard]] std::optional<double> mismatch(const Track& track, const ObjectSummary& found,
+                                               int scans) const;
   void end_tracks(std::size_t scan);
 
   Parameters parameters_;
   double first_step_;
+  TrackGate gate_;
   std::size_t scan_ = 0;
   std::vector<Track> active_, ended_;
 };

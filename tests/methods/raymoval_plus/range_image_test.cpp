@@ -185,6 +185,29 @@ TEST_CASE("a gap above the horizon reaches two rows up, and one row down") {
   CHECK(told(2.0, hanging) == Observation::kFree);
 }
 
+TEST_CASE("a place on a slope that beams graze is not seen through beside it") {
+  // The returns of a slope two rows apart are 18, 22.5 and 30 m away: 1/range falls by 1/90 from
+  // each to the next one, by 1/180 in a row. 20.5 m are 0.8 rows before 22.5 m, and 19 m are 1.5.
+  SensorModel sensor = toy::Scanner{}.model();
+  sensor.elevation_min = -15.0 * kDegree;
+  sensor.elevation_max = 15.0 * kDegree;
+  const AroundBin bin{5.125 * kDegree};
+  const auto told = [&](double range, const std::vector<Eigen::Vector3f>& points) {
+    return image_of(points, sensor).observe(bin.at(range, 0.0, 0.0));
+  };
+  const Eigen::Vector3f first = bin.at(18.0, 0.0, -2.0), second = bin.at(22.5, 0.0, 0.0),
+                        third = bin.at(30.0, 0.0, 2.0);
+  CHECK(told(20.5, {first, second, third}) == Observation::kOccluded);
+  // Above the slope by more than a row, or with two returns only, it is seen beside what hides it.
+  CHECK(told(19.0, {first, second, third}) == Observation::kFree);
+  CHECK(told(20.5, {first, second}) == Observation::kFree);
+  // The third return may lie before the others: 15 m are 1/90 more than 18 m.
+  CHECK(told(20.5, {bin.at(15.0, 0.0, -4.0), first, second}) == Observation::kOccluded);
+  // Somebody who stands before the slope: 1/range falls by five times as much as behind him.
+  CHECK(told(20.5, {bin.at(10.0, 0.0, -2.0), second, third}) == Observation::kFree);
+  CHECK(told(20.5, {bin.at(14.0, 0.0, -2.0), second, third}) == Observation::kOccluded);
+}
+
 TEST_CASE("a place above the highest beam is not seen through") {
   // A ceiling 3 m above the sensor, whose highest beam looks up by 15 degrees: the nearest return
   // lies 11.2 m ahead, and the ceiling before it is within the window of that beam.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/objects/tracks.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace raymoval;
@@ -169,4 +170,40 @@ TEST_CASE("a slow object is followed though a long first step leads to another o
   const auto marked = marked_by_tracks(scans);
   CHECK(marked[1].empty());
   for (std::size_t i = 4; i < 10; ++i) CHECK(marked[i] == std::vector{0});
+}
+
+TEST_CASE("what brakes between scans half a second apart is followed") {
+  // A car drives 2 m a scan along x, and stands from the fifth scan on, where nothing was seen
+  // through. It is expected 2 m ahead then, which is less than 0.9 m + 3 x 0.5^2 m + 0.35 x 2 m,
+  // but more than 0.9 m + 3 x 0.1^2 m + 0.35 x 2 m.
+  for (const double period : {0.1, 0.5}) {
+    Scans scans;
+    for (int i = 0; i < 8; ++i) {
+      scans.push_back({walker(10 * std::min(i, 4), i < 5 ? 18 : 0, 4.0)});
+      ObjectSummary& car = scans.back()[0];
+      car.low = car.center - Eigen::Vector3d(2.0, 0.8, 0.7);
+      car.high = car.center + Eigen::Vector3d(2.0, 0.8, 0.7);
+      car.time_s = period * i;
+    }
+    const bool is_followed = period == 0.5;
+    CHECK(marked_by_tracks(scans)[7] == (is_followed ? std::vector{0} : std::vector<int>{}));
+  }
+}
+
+TEST_CASE("an object is followed though a wide gate leads to another one") {
+  // A walker is hidden in the fourth scan, where somebody stands 0.8 m from where he should be.
+  // With a wide gate alone his track would go to the other one, and he would stay.
+  Scans scans;
+  for (int i = 0; i < 10; ++i) {
+    scans.push_back({i == 3 ? walker(7, 0, 1.0) : walker(i, i < 3 ? 18 : 0, 4.0)});
+    if (i == 3) scans.back()[0].center.y() += 0.2;
+  }
+  const auto last_marked = [&](const TrackGate& gate) {
+    ObjectTracker tracker(Parameters{}, 0.0, gate);
+    for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, scans[i]);
+    return marked_in(scans.size() - 1, tracker.finish(), Parameters{});
+  };
+  CHECK(last_marked(kWideGate).empty());
+  CHECK(last_marked(kGate) == std::vector{0});
+  CHECK(marked_by_tracks(scans)[9] == std::vector{0});
 }
