@@ -60,9 +60,10 @@ struct TrackGate {
   double acceleration;  ///< And so many metres more for the square of each second that has passed.
 };
 inline constexpr TrackGate kGate{0.6, 0.0};
-/// For what brakes or speeds up between scans half a second apart. What is known of its speed is a
-/// mean of its last steps, so that this is half as much again as the acceleration.
-inline constexpr TrackGate kWideGate{0.9, 3.0};
+/// For what brakes or speeds up between scans that are far apart in time: by 3 m/s^2, which drivers
+/// seldom exceed. What is known of its speed is a mean of its last steps, so that it is half as
+/// much again.
+inline constexpr TrackGate kWideGate{0.6, 4.5};
 
 /// Follows dynamic objects from scan to scan. Scans come in ascending or in descending order.
 class ObjectTracker {

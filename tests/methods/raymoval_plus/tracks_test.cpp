@@ -174,8 +174,8 @@ TEST_CASE("a slow object is followed though a long first step leads to another o
 
 TEST_CASE("what brakes between scans half a second apart is followed") {
   // A car drives 2 m a scan along x, and stands from the fifth scan on, where nothing was seen
-  // through. It is expected 2 m ahead then, which is less than 0.9 m + 3 x 0.5^2 m + 0.35 x 2 m,
-  // but more than 0.9 m + 3 x 0.1^2 m + 0.35 x 2 m.
+  // through. It is expected 2 m ahead then, which is less than 0.6 m + 4.5 x 0.5^2 m + 0.35 x 2 m,
+  // but more than 0.6 m + 4.5 x 0.1^2 m + 0.35 x 2 m.
   for (const double period : {0.1, 0.5}) {
     Scans scans;
     for (int i = 0; i < 8; ++i) {
@@ -191,12 +191,13 @@ TEST_CASE("what brakes between scans half a second apart is followed") {
 }
 
 TEST_CASE("an object is followed though a wide gate leads to another one") {
-  // A walker is hidden in the fourth scan, where somebody stands 0.8 m from where he should be.
+  // A walker is hidden in the fourth scan, where somebody stands 1.5 m beside where he should be.
   // With a wide gate alone his track would go to the other one, and he would stay.
   Scans scans;
   for (int i = 0; i < 10; ++i) {
-    scans.push_back({i == 3 ? walker(7, 0, 1.0) : walker(i, i < 3 ? 18 : 0, 4.0)});
-    if (i == 3) scans.back()[0].center.y() += 0.2;
+    scans.push_back({walker(i, i < 3 ? 18 : 0, i == 3 ? 1.0 : 4.0)});
+    if (i == 3) scans.back()[0].center.y() += 1.5;
+    scans.back()[0].time_s = 0.5 * i;
   }
   const auto last_marked = [&](const TrackGate& gate) {
     ObjectTracker tracker(Parameters{}, 0.0, gate);
