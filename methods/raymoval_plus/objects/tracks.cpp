@@ -23,7 +23,7 @@ constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;
 /// An object may be farther from where its track is expected by this share of the way that it
 /// should have gone: things speed up, brake, turn, and are seen in part.
 constexpr double kGateShare = 0.35;
-/// Seconds after which its acceleration is not asked for: it would lead to anything.
+/// Seconds for which a gate grows. After more, it would take in anything.
 constexpr double kLongestStep = 0.5;
 /// Along each axis its box may change by so many metres, and by this share of the larger one.
 constexpr double kResize = 0.6, kResizeShare = 0.3;

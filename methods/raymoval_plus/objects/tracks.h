@@ -57,8 +57,10 @@ inline constexpr double kFirstStep = 4.0;
 /// that it should have gone.
 struct TrackGate {
   double metres;
-  double acceleration;  ///< And so many metres more for the square of each second that has passed.
+  double acceleration;  ///< Metres a second squared: so much more, times the square of the time
+                        ///< between.
 };
+/// For what hardly changes its speed between two scans.
 inline constexpr TrackGate kGate{0.6, 0.0};
 /// For what brakes or speeds up between scans that are far apart in time: by 3 m/s^2, which drivers
 /// seldom exceed. What is known of its speed is a mean of its last steps, so that it is half as
@@ -70,7 +72,6 @@ class ObjectTracker {
  public:
   /// @param first_step metres a scan that an object may be faster than slow ones in its first step,
   ///   of whose speed nothing is known yet
-  /// @param gate metres, such as `kGate`
   explicit ObjectTracker(const Parameters& parameters, double first_step = 0.0,
                          const TrackGate& gate = kGate)
       : parameters_(parameters), first_step_(first_step), gate_(gate) {}

@@ -28,6 +28,18 @@ std::vector<std::vector<int>> marked_by_tracks(const Scans& scans) {
   return objects_on_tracks(scans, Parameters{}, RunContext{});
 }
 
+/// What the tracks of one that goes forward mark in the last scan.
+std::vector<int> marked_in_last(const Scans& scans, ObjectTracker tracker) {
+  for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, scans[i]);
+  return marked_in(scans.size() - 1, tracker.finish(), Parameters{});
+}
+
+/// Makes an object as large as a van of 4 m.
+void make_van(ObjectSummary& object) {
+  object.low = object.center - Eigen::Vector3d(2.0, 0.8, 0.7);
+  object.high = object.center + Eigen::Vector3d(2.0, 0.8, 0.7);
+}
+
 }  // namespace
 
 TEST_CASE("an object is followed past its last evidence, a standing one is not") {
@@ -142,13 +154,10 @@ TEST_CASE("a fast object is followed from its first step on if that is allowed")
     scans.push_back({walker(0, i < 5 ? 18 : 0, 1.0)});
     ObjectSummary& van = scans.back()[0];
     van.center.x() = 10.0 + 1.5 * i;
-    van.low = van.center - Eigen::Vector3d(2.0, 0.8, 0.7);
-    van.high = van.center + Eigen::Vector3d(2.0, 0.8, 0.7);
+    make_van(van);
   }
   const auto last_marked = [&](double first_step) {
-    ObjectTracker tracker(Parameters{}, first_step);
-    for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, scans[i]);
-    return marked_in(scans.size() - 1, tracker.finish(), Parameters{});
+    return marked_in_last(scans, ObjectTracker(Parameters{}, first_step));
   };
   CHECK(last_marked(0.0).empty());
   CHECK(last_marked(1.4).empty());
@@ -173,17 +182,15 @@ TEST_CASE("a slow object is followed though a long first step leads to another o
 }
 
 TEST_CASE("what brakes between scans half a second apart is followed") {
-  // A car drives 2 m a scan along x, and stands from the fifth scan on, where nothing was seen
+  // A van drives 2 m a scan along x, and stands from the fifth scan on, where nothing was seen
   // through. It is expected 2 m ahead then, which is less than 0.6 m + 4.5 x 0.5^2 m + 0.35 x 2 m,
   // but more than 0.6 m + 4.5 x 0.1^2 m + 0.35 x 2 m.
   for (const double period : {0.1, 0.5}) {
     Scans scans;
     for (int i = 0; i < 8; ++i) {
       scans.push_back({walker(10 * std::min(i, 4), i < 5 ? 18 : 0, 4.0)});
-      ObjectSummary& car = scans.back()[0];
-      car.low = car.center - Eigen::Vector3d(2.0, 0.8, 0.7);
-      car.high = car.center + Eigen::Vector3d(2.0, 0.8, 0.7);
-      car.time_s = period * i;
+      make_van(scans.back()[0]);
+      scans.back()[0].time_s = period * i;
     }
     const bool is_followed = period == 0.5;
     CHECK(marked_by_tracks(scans)[7] == (is_followed ? std::vector{0} : std::vector<int>{}));
@@ -200,9 +207,7 @@ TEST_CASE("an object is followed though a wide gate leads to another one") {
     scans.back()[0].time_s = 0.5 * i;
   }
   const auto last_marked = [&](const TrackGate& gate) {
-    ObjectTracker tracker(Parameters{}, 0.0, gate);
-    for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, scans[i]);
-    return marked_in(scans.size() - 1, tracker.finish(), Parameters{});
+    return marked_in_last(scans, ObjectTracker(Parameters{}, 0.0, gate));
   };
   CHECK(last_marked(kWideGate).empty());
   CHECK(last_marked(kGate) == std::vector{0});
