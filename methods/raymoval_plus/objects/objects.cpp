@@ -68,6 +68,24 @@ void find_whole_clusters(const EvidenceMap& map, const Parameters& parameters,
   for (std::size_t c = 0; c < mixed.size(); ++c) scan.clusters[c].is_whole = is_whole[c] != 0;
 }
 
+/// Adds clusters that stand for what was divided, as it was before. What is hardly dynamic is no
+/// one thing that moves, and has none.
+/// @param whole the clusters before
+/// @param divided for each part, which come after these, the cluster that it is from
+void add_undivided(const std::vector<Cluster>& whole, const std::vector<std::size_t>& divided,
+                   SegmentedScan& scan) {
+  for (std::size_t part = 0; part < divided.size(); ++part) {
+    const std::size_t from = divided[part];
+    if (whole[from].is_hardly_dynamic) continue;
+    if (scan.clusters[from].undivided < 0) {
+      scan.clusters[from].undivided = static_cast<int>(scan.clusters.size());
+      scan.clusters.push_back(
+          {.points = whole[from].points, .dynamic = whole[from].dynamic, .is_undivided = true});
+    }
+    scan.clusters[whole.size() + part].undivided = scan.clusters[from].undivided;
+  }
+}
+
 /// Divides the mixed clusters.
 void divide_mixed_clusters(const EvidenceMap& map, const Parameters& parameters,
                            SegmentedScan& scan) {
@@ -77,17 +95,20 @@ void divide_mixed_clusters(const EvidenceMap& map, const Parameters& parameters,
            agreeing_scans(map, scan.voxel[k]) < parameters.settled_scans;
   };
   const std::vector<int> parts = clusters_among(scan, parameters, is_left_over);
-  const std::size_t whole_clusters = scan.clusters.size();
+  const std::vector<Cluster> whole = scan.clusters;
+  std::vector<std::size_t> divided;  // The cluster that each part is from.
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i] < 0) continue;
-    const std::size_t number = whole_clusters + static_cast<std::size_t>(parts[i]);
-    if (number >= scan.clusters.size()) scan.clusters.resize(number + 1);
-    scan.clusters[number].is_part = true;
-    scan.clusters[number].is_hardly_dynamic =
-        scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])].is_hardly_dynamic;
-    scan.cluster_of[i] = static_cast<int>(number);
+    const auto part = static_cast<std::size_t>(parts[i]);
+    if (part >= divided.size()) divided.resize(part + 1);
+    divided[part] = static_cast<std::size_t>(scan.cluster_of[i]);
+    scan.cluster_of[i] = static_cast<int>(whole.size() + part);
+  }
+  for (const std::size_t from : divided) {
+    scan.clusters.push_back({.is_part = true, .is_hardly_dynamic = whole[from].is_hardly_dynamic});
   }
   count_points(scan);
+  add_undivided(whole, divided, scan);
 }
 
 /// The dynamic points of hardly dynamic clusters that hang together with enough others: 1 for each
@@ -121,8 +142,8 @@ std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
                                              const Parameters& parameters) {
   std::vector<ObjectSummary> boxes(scan.clusters.size());
   for (std::size_t i = 0; i < scan.high_points.size(); i += kFewPoints) {
-    add_to_box(scan.world(scan.high_points[i]),
-               boxes[static_cast<std::size_t>(scan.cluster_of[i])]);
+    const Eigen::Vector3d point = scan.world(scan.high_points[i]);
+    for_clusters_of(scan, i, [&](std::size_t cluster) { add_to_box(point, boxes[cluster]); });
   }
   std::vector<std::uint8_t> follow(boxes.size());
   for (std::size_t c = 0; c < follow.size(); ++c) {
@@ -183,16 +204,17 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
   std::vector<ObjectSummary> objects(scan.clusters.size());
   const std::vector<std::uint8_t> follow = clusters_to_follow(scan, parameters);
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    const std::size_t k = scan.high_points[i],
-                      cluster = static_cast<std::size_t>(scan.cluster_of[i]);
-    if (follow[cluster] == 0) continue;
-    ObjectSummary& object = objects[cluster];
-    const Eigen::Vector3d point = scan.world(k);
-    add_to_box(point, object);
-    object.center += point;
-    if (scan.verdict[k] != Verdict::kDynamic) {
-      object.agree_scans += static_cast<float>(agreeing_scans(map, scan.voxel[k]));
-    }
+    const std::size_t k = scan.high_points[i];
+    for_clusters_of(scan, i, [&](std::size_t cluster) {
+      if (follow[cluster] == 0) return;
+      ObjectSummary& object = objects[cluster];
+      const Eigen::Vector3d point = scan.world(k);
+      add_to_box(point, object);
+      object.center += point;
+      if (scan.verdict[k] != Verdict::kDynamic) {
+        object.agree_scans += static_cast<float>(agreeing_scans(map, scan.voxel[k]));
+      }
+    });
   }
   const Eigen::Vector3d sensor = scan.scan.T_world_sensor.translation();
   std::vector<ObjectSummary> followed;
@@ -201,6 +223,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     object.points = scan.clusters[c].points;
     object.dynamic = scan.clusters[c].dynamic;
     object.is_whole = scan.clusters[c].is_whole;
+    object.is_undivided = scan.clusters[c].is_undivided;
     if (follow[c] == 0 || object.width() > parameters.track_width) continue;
     object.center /= object.points;
     object.time_s = scan.scan.time_s;
@@ -218,14 +241,18 @@ Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marke
   const StageScope timed(context.times, "objects");
   std::vector<std::uint8_t> marks(scan.clusters.size(), 0);
   for (const int cluster : marked) marks[static_cast<std::size_t>(cluster)] = 1;
+  const auto is_marked = [&](std::size_t i) {
+    bool found = false;
+    for_clusters_of(scan, i, [&](std::size_t cluster) { found = found || marks[cluster] != 0; });
+    return found;
+  };
   const std::vector<std::uint8_t> spared = spared_groups(scan, parameters);
   Verdicts verdict = scan.verdict;
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     const auto number = static_cast<std::size_t>(scan.cluster_of[i]);
     const Cluster& cluster = scan.clusters[number];
     const int enough = cluster.is_part ? parameters.group_points : parameters.object_points;
-    if (marks[number] != 0 ||
-        (is_one_dynamic_thing(cluster, parameters) && cluster.dynamic >= enough)) {
+    if (is_marked(i) || (is_one_dynamic_thing(cluster, parameters) && cluster.dynamic >= enough)) {
       verdict[scan.high_points[i]] = Verdict::kDynamic;
     } else if (spared[i] == 0 && cluster.is_hardly_dynamic) {
       verdict[scan.high_points[i]] = Verdict::kStatic;

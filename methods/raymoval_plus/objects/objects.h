@@ -22,6 +22,11 @@ struct Cluster {
   bool is_hardly_dynamic = false;  ///< The cluster, or the one that it is a part of, is.
   /// It is mixed, and what is not dynamic in it stands on what is: all of it is one dynamic thing.
   bool is_whole = false;
+  /// It stands for a cluster as it was before it was divided. It is no point's own cluster.
+  bool is_undivided = false;
+  /// Of a cluster that was divided and of its parts: the number of the one that stands for all of
+  /// them, if there is one. Otherwise -1.
+  int undivided = -1;
 };
 
 /// A scan with its clusters.
@@ -31,11 +36,22 @@ struct SegmentedScan : LocatedScan {
   std::vector<Cluster> clusters;
 };
 
+/// Calls `visit(number)` with the own cluster of the `n`th of the `high_points`, and with the one
+/// that stands for what this was divided from.
+template <class Visit>
+void for_clusters_of(const SegmentedScan& scan, std::size_t n, Visit&& visit) {
+  const auto own = static_cast<std::size_t>(scan.cluster_of[n]);
+  visit(own);
+  const int undivided = scan.clusters[own].undivided;
+  if (undivided >= 0) visit(static_cast<std::size_t>(undivided));
+}
+
 /// Step 6: finds the clusters. The verdicts need not be known yet.
 void find_clusters(const Parameters& parameters, const RunContext& context, SegmentedScan& scan);
 /// Counts the points of the clusters, and what is dynamic in them.
 void count_points(SegmentedScan& scan);
-/// Step 6: counts what is dynamic in the clusters, and divides those that are mixed.
+/// Step 6: counts what is dynamic in the clusters, and divides those that are mixed. Of what was
+/// divided a cluster more tells what it was.
 void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
                      const RunContext& context, SegmentedScan& scan);
 

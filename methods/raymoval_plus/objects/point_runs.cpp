@@ -27,10 +27,8 @@ std::vector<PointRun> remembered_points(const SegmentedScan& scan,
     object_of[static_cast<std::size_t>(objects[k].cluster)] = static_cast<int>(k);
   }
   std::vector<PointRun> runs;
-  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    const int object = object_of[static_cast<std::size_t>(scan.cluster_of[i])];
-    if (object == kNotRemembered) continue;
-    const std::uint32_t point = scan.high_points[i];
+  const auto remember = [&](std::uint32_t point, int object) {
+    if (object == kNotRemembered) return;
     const bool goes_on = !runs.empty() && runs.back().object == object &&
                          runs.back().first + runs.back().count == point &&
                          runs.back().count < std::numeric_limits<std::uint16_t>::max();
@@ -39,6 +37,10 @@ std::vector<PointRun> remembered_points(const SegmentedScan& scan,
     } else {
       runs.push_back({point, 1, static_cast<std::uint16_t>(object)});
     }
+  };
+  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
+    for_clusters_of(
+        scan, i, [&](std::size_t cluster) { remember(scan.high_points[i], object_of[cluster]); });
   }
   runs.shrink_to_fit();
   return runs;

@@ -7,7 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include "core/parallel.h"
 #include "core/sampling.h"
+#include "methods/raymoval_plus/objects/taken_places.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -15,6 +17,10 @@ namespace {
 // Numbers of this step. EXPERIMENTS.md has them at half and at double their values.
 /// Scans that a track may miss, while something passes before the object.
 constexpr int kLongestGap = 2;
+/// An object of a track of at least so many stands if it moves by less than so many metres a scan,
+/// by which the centre of a standing thing shifts.
+constexpr std::size_t kLeastStanding = 3;
+constexpr double kStandingMotion = 0.05;
 /// Dynamic objects that a track needs: one or two may be chance.
 constexpr int kLeastDynamic = 3;
 /// An object moved if its centre did by so many metres, and by this share of its length: the centre
@@ -134,26 +140,54 @@ bool came_or_leaves(const Track& track, const Parameters& parameters) {
          parameters.track_dynamic_share * static_cast<double>(track.nodes.size());
 }
 
-/// For each object of a track 1 if it is not dynamic by itself, but belongs to one that moved, came
-/// or leaves: scans agree on it no longer than its length and speed explain, or than it was
-/// followed while it stood.
-std::vector<std::uint8_t> marks_of(const Track& track, const Parameters& parameters) {
-  std::vector<std::uint8_t> marks(track.nodes.size(), 0);
-  if (dynamic_objects(track, parameters) < kLeastDynamic) return marks;
+/// How the object of a track goes.
+struct Journey {
+  std::optional<Motion> motion;  ///< None if it came or leaves, and stands else.
+  std::vector<int> stays;        ///< Of each of the track's objects, the scans spent in its place.
+};
+
+/// How the object of a track moved, came or leaves, if that is known.
+std::optional<Journey> journey_of(const Track& track, const Parameters& parameters) {
+  if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
   const auto motion = motion_of(track, parameters);
   const bool is_known =
       motion ? is_mostly_dynamic(track, *motion, parameters) : came_or_leaves(track, parameters);
-  if (!is_known) return marks;
-  const std::vector<int> stays =
-      motion ? scans_in_place(track, motion->length)
-             : std::vector<int>(marks.size(), static_cast<int>(marks.size()));
+  if (!is_known) return std::nullopt;
+  const std::size_t count = track.nodes.size();
+  return Journey{motion, motion ? scans_in_place(track, motion->length)
+                                : std::vector<int>(count, static_cast<int>(count))};
+}
+
+/// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no
+/// longer than its length and speed explain, or than it was followed while it stood.
+bool belongs(const ObjectSummary& object, int stay, const Journey& journey,
+             const Parameters& parameters) {
+  return (journey.motion && is_explained(object, *journey.motion, parameters)) ||
+         is_explained_by_stay(object, stay);
+}
+
+/// For each object of a track 1 if it is not dynamic by itself, but belongs to one that moved, came
+/// or leaves.
+std::vector<std::uint8_t> marks_of(const Track& track, const Parameters& parameters) {
+  std::vector<std::uint8_t> marks(track.nodes.size(), 0);
+  const auto journey = journey_of(track, parameters);
+  if (!journey) return marks;
   for (std::size_t k = 0; k < marks.size(); ++k) {
     const ObjectSummary& object = track.nodes[k].object;
     if (is_dynamic(object, parameters)) continue;
-    const bool is_explained_by_motion = motion && is_explained(object, *motion, parameters);
-    marks[k] = is_explained_by_motion || is_explained_by_stay(object, stays[k]) ? 1 : 0;
+    marks[k] = belongs(object, journey->stays[k], *journey, parameters) ? 1 : 0;
   }
   return marks;
+}
+
+/// Whether the object of a track stands.
+bool stands(const Track& track) {
+  return track.nodes.size() >= kLeastStanding && track.velocity.norm() < kStandingMotion;
+}
+
+void sort_and_unite(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 /// All tracks through the objects of all scans.
@@ -166,16 +200,91 @@ std::vector<Track> followed(const std::vector<std::vector<ObjectSummary>>& scans
   return tracker.finish();
 }
 
-/// Adds the clusters that tracks mark to those of their scans.
-void mark_followed(const std::vector<Track>& tracks, const Parameters& parameters,
-                   std::vector<std::vector<int>>& marked) {
-  for (const Track& track : tracks) {
-    const std::vector<std::uint8_t> marks = marks_of(track, parameters);
-    for (std::size_t k = 0; k < marks.size(); ++k) {
-      const auto& [scan, object] = track.nodes[k];
-      if (marks[k] != 0) marked[scan].push_back(object.cluster);
+/// An object of a track on which scans agree for longer than its motion explains.
+struct Passing {
+  std::size_t scan;
+  ObjectSummary object;
+  double explained;  ///< By its motion: a number of scans.
+};
+
+/// What tracks say of the objects.
+struct Findings {
+  std::vector<std::vector<int>> marked;  ///< Clusters of each scan.
+  std::vector<Passing> passing;
+};
+
+/// Adds what one track says.
+void judge(const Track& track, const Parameters& parameters, Findings& findings) {
+  const auto journey = journey_of(track, parameters);
+  if (!journey) return;
+  for (std::size_t k = 0; k < track.nodes.size(); ++k) {
+    const auto& [scan, object] = track.nodes[k];
+    if (is_dynamic(object, parameters)) continue;
+    if (belongs(object, journey->stays[k], *journey, parameters)) {
+      findings.marked[scan].push_back(object.cluster);
+      continue;
+    }
+    if (!journey->motion) continue;
+    const double passes = scans_passing(object, *journey->motion, parameters);
+    if (journey->stays[k] > passes + kScansMore) continue;
+    findings.passing.push_back({scan, object, parameters.track_slack * passes + kScansMore});
+  }
+}
+
+/// All ways to follow objects. What is fast is lost without a long first step, what brakes between
+/// two scans without a wide gate, and what is divided in some scans and not in others if it may not
+/// be followed as it was before. With these, a track may take a neighbour, or a part, for the
+/// object that it lost, and then both are lost. So objects are followed with and without.
+std::vector<TrackRules> all_rules() {
+  std::vector<TrackRules> rules;
+  for (const bool also_undivided : {false, true}) {
+    for (const TrackGate& gate : {kGate, kWideGate}) {
+      for (const double first_step : {0.0, kFirstStep}) {
+        rules.push_back({first_step, gate, also_undivided});
+      }
     }
   }
+  return rules;
+}
+
+/// What tracks say by all rules, forward and backward in time.
+Findings follow_all(const std::vector<std::vector<ObjectSummary>>& scans,
+                    const Parameters& parameters, int threads) {
+  const std::vector<TrackRules> rules = all_rules();
+  std::vector<Findings> by_rules(2 * rules.size());
+  parallel_for(threads, by_rules.size(), 1, [&](std::size_t i) {
+    by_rules[i].marked.resize(scans.size());
+    const ObjectTracker tracker(parameters, rules[i / 2]);
+    for (const Track& track : followed(scans, i % 2 == 1, tracker)) {
+      judge(track, parameters, by_rules[i]);
+    }
+  });
+  Findings all{std::vector<std::vector<int>>(scans.size()), {}};
+  for (const Findings& some : by_rules) {
+    for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+      all.marked[scan].insert(all.marked[scan].end(), some.marked[scan].begin(),
+                              some.marked[scan].end());
+    }
+    all.passing.insert(all.passing.end(), some.passing.begin(), some.passing.end());
+  }
+  for (std::vector<int>& clusters : all.marked) sort_and_unite(clusters);
+  return all;
+}
+
+/// The places of all objects that are dynamic or marked.
+TakenPlaces taken_places(const std::vector<std::vector<ObjectSummary>>& scans,
+                         const std::vector<std::vector<int>>& marked,
+                         const Parameters& parameters) {
+  TakenPlaces places;
+  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+    for (const ObjectSummary& object : scans[scan]) {
+      const bool is_marked =
+          std::binary_search(marked[scan].begin(), marked[scan].end(), object.cluster);
+      if (is_marked || is_dynamic(object, parameters)) places.add(scan, object);
+    }
+  }
+  places.sort();
+  return places;
 }
 
 }  // namespace
@@ -190,10 +299,10 @@ std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSu
   const Eigen::Vector3d expected = last.center + track.velocity * scans;
   const double distance = (found.center - expected).head<2>().norm();
   const double seconds = std::min(std::abs(found.time_s - last.time_s), kLongestStep);
-  const double gate = gate_.metres + gate_.acceleration * seconds * seconds;
+  const double gate = rules_.gate.metres + rules_.gate.acceleration * seconds * seconds;
   if (distance > gate + kGateShare * track.velocity.norm() * scans) {
     // Nothing is known of the speed of what was seen once, but what is fast is new where it is.
-    const bool may_be_fast = track.nodes.size() == 1 && distance <= first_step_ * scans &&
+    const bool may_be_fast = track.nodes.size() == 1 && distance <= rules_.first_step * scans &&
                              is_explained(found, {last.width(), distance / scans}, parameters_);
     if (!may_be_fast) return std::nullopt;
   }
@@ -210,6 +319,7 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
   for (std::size_t t = 0; t < active_.size(); ++t) {
     const int scans = scans_between(active_[t].nodes.back().scan, scan);
     for (std::size_t k = 0; k < objects.size(); ++k) {
+      if (!may_follow(objects[k])) continue;
       if (const auto distance = mismatch(active_[t], objects[k], scans)) {
         pairs.emplace_back(*distance, t, k);
       }
@@ -225,7 +335,7 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
   }
   end_tracks(scan);
   for (std::size_t k = 0; k < objects.size(); ++k) {
-    if (is_used[k] == 0 && is_dynamic(objects[k], parameters_)) {
+    if (is_used[k] == 0 && may_follow(objects[k]) && is_dynamic(objects[k], parameters_)) {
       active_.push_back({{{scan, objects[k]}}});
     }
   }
@@ -234,7 +344,8 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
 void ObjectTracker::end_tracks(std::size_t scan) {
   std::vector<Track> kept;
   for (Track& track : active_) {
-    if (scans_between(track.nodes.back().scan, scan) <= kLongestGap) {
+    const int patience = stands(track) ? rules_.gate.patience : kLongestGap;
+    if (scans_between(track.nodes.back().scan, scan) <= patience) {
       kept.push_back(std::move(track));
     } else if (dynamic_objects(track, parameters_) >= kLeastDynamic) {
       ended_.push_back(std::move(track));
@@ -267,22 +378,15 @@ std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
     const RunContext& context) {
   const StageScope timed(context.times, "tracks");
-  std::vector<std::vector<int>> marked(scans.size());
-  // What is fast is lost without a long first step, and what brakes between two scans without a
-  // wide gate. With them, a track may take a neighbour for the object that it lost, and then both
-  // are lost. So objects are followed with and without.
-  for (const TrackGate& gate : {kGate, kWideGate}) {
-    for (const double first_step : {0.0, kFirstStep}) {
-      const ObjectTracker tracker(parameters, first_step, gate);
-      mark_followed(followed(scans, false, tracker), parameters, marked);
-      mark_followed(followed(scans, true, tracker), parameters, marked);
-    }
+  Findings findings = follow_all(scans, parameters, context.threads);
+  // Where others stood, scans agree on what passes for as long as these stood there.
+  const TakenPlaces places = taken_places(scans, findings.marked, parameters);
+  for (const auto& [scan, object, explained] : findings.passing) {
+    if (object.agree_scans > explained + places.scans_at(object, parameters.voxel_size)) continue;
+    findings.marked[scan].push_back(object.cluster);
   }
-  for (std::vector<int>& clusters : marked) {
-    std::sort(clusters.begin(), clusters.end());
-    clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
-  }
-  return marked;
+  for (std::vector<int>& clusters : findings.marked) sort_and_unite(clusters);
+  return std::move(findings.marked);
 }
 
 }  // namespace raymoval::raymoval_plus_method

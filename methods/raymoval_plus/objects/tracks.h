@@ -22,9 +22,10 @@ struct ObjectSummary {
   /// The number of scans that agree with a point, on average over the points that are not dynamic.
   float agree_scans = 0.0F;
   int points = 0;
-  int dynamic = 0;        ///< How many points are dynamic.
-  bool is_whole = false;  ///< The others stand on these, see `Cluster::is_whole`.
-  int cluster = 0;        ///< Number within its scan.
+  int dynamic = 0;            ///< How many points are dynamic.
+  bool is_whole = false;      ///< The others stand on these, see `Cluster::is_whole`.
+  bool is_undivided = false;  ///< It was divided, and so stands beside what it was divided into.
+  int cluster = 0;            ///< Number within its scan.
 
   [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
 };
@@ -53,28 +54,36 @@ struct Track {
 /// scans a second.
 inline constexpr double kFirstStep = 4.0;
 
-/// How far from where it is expected the next object of a track may be, beside a share of the way
-/// that it should have gone.
+/// What the next object of a track may be.
 struct TrackGate {
+  /// How far it may be from where it is expected, beside a share of the way that it should have
+  /// gone; ...
   double metres;
-  double acceleration;  ///< Metres a second squared: so much more, times the square of the time
+  double acceleration;  ///< ... metres a second squared: so much more, times the square of the time
                         ///< between.
+  int patience;         ///< The scans that a track may miss while its object stands.
 };
 /// For what hardly changes its speed between two scans.
-inline constexpr TrackGate kGate{0.6, 0.0};
+inline constexpr TrackGate kGate{0.6, 0.0, 2};
 /// For what brakes or speeds up between scans that are far apart in time: by 3 m/s^2, which drivers
 /// seldom exceed. What is known of its speed is a mean of its last steps, so that it is half as
-/// much again.
-inline constexpr TrackGate kWideGate{0.6, 4.5};
+/// much again. Others may pass before it while it stands.
+inline constexpr TrackGate kWideGate{0.6, 4.5, 10};
+
+/// How objects are followed.
+struct TrackRules {
+  /// Metres a scan that an object may be faster than slow ones in its first step, of whose speed
+  /// nothing is known yet.
+  double first_step = 0.0;
+  TrackGate gate = kGate;
+  bool also_undivided = false;  ///< Whether what was divided may be followed as it was before.
+};
 
 /// Follows dynamic objects from scan to scan. Scans come in ascending or in descending order.
 class ObjectTracker {
  public:
-  /// @param first_step metres a scan that an object may be faster than slow ones in its first step,
-  ///   of whose speed nothing is known yet
-  explicit ObjectTracker(const Parameters& parameters, double first_step = 0.0,
-                         const TrackGate& gate = kGate)
-      : parameters_(parameters), first_step_(first_step), gate_(gate) {}
+  explicit ObjectTracker(const Parameters& parameters, const TrackRules& rules = {})
+      : parameters_(parameters), rules_(rules) {}
 
   /// Takes the objects of the next scan.
   void follow(std::size_t scan, const std::vector<ObjectSummary>& objects);
@@ -88,11 +97,13 @@ class ObjectTracker {
   /// can be the same object.
   [[nodiscard]] std::optional<double> mismatch(const Track& track, const ObjectSummary& found,
                                                int scans) const;
+  [[nodiscard]] bool may_follow(const ObjectSummary& object) const {
+    return rules_.also_undivided || !object.is_undivided;
+  }
   void end_tracks(std::size_t scan);
 
   Parameters parameters_;
-  double first_step_;
-  TrackGate gate_;
+  TrackRules rules_;
   std::size_t scan_ = 0;
   std::vector<Track> active_, ended_;
 };
@@ -103,7 +114,8 @@ std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
                            const Parameters& parameters);
 
 /// Step 7: the clusters of each scan that were seen moving before or after, though their own rays
-/// do not say so. A track of dynamic objects passes through them, forward or backward in time.
+/// do not say so. A track of dynamic objects passes through them, forward or backward in time. If
+/// scans agree with them for too long for that, others that go account for the time.
 std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
     const RunContext& context);

@@ -7,11 +7,12 @@
 namespace raymoval::raymoval_plus_method {
 
 RecentObjects::RecentObjects(const Parameters& parameters)
-    : parameters_(parameters), before_(parameters, kFirstStep) {}
+    : parameters_(parameters), before_(parameters, {.first_step = kFirstStep}) {}
 
 void RecentObjects::take(const SegmentedScan& scan, const EvidenceMap& map,
                          const RunContext& context) {
   std::vector<ObjectSummary> objects = summarise_objects(scan, map, parameters_, context);
+  std::erase_if(objects, [](const ObjectSummary& object) { return object.is_undivided; });
   Pieces pieces = pieces_of(scan, map, objects);
   const std::size_t index = scan.scan.index;
   if (objects_.empty()) first_ = index;
@@ -72,7 +73,7 @@ void RecentObjects::judge(const EvidenceMap& map, const RunContext& context) {
 
 std::vector<int> RecentObjects::marked(std::size_t scan, const RunContext& context) const {
   const StageScope timed(context.times, "tracks");
-  ObjectTracker forward = before_, backward(parameters_, kFirstStep);
+  ObjectTracker forward = before_, backward(parameters_, {.first_step = kFirstStep});
   for (std::size_t i = 0; i < objects_.size(); ++i) forward.follow(first_ + i, objects_[i]);
   std::vector<int> marked = marked_in(scan, forward.finish(), parameters_);
   for (std::size_t i = objects_.size(); i > 0 && first_ + i > scan + 1; --i) {

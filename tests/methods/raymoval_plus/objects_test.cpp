@@ -139,6 +139,36 @@ TEST_CASE("what stands on a dynamic part goes with it, what stands beside it doe
   CHECK(hedge.dynamic(25, 65) == 0);
 }
 
+TEST_CASE("tracks may follow what was divided as it was before, unless hardly any of it moves") {
+  // 25 dynamic points and a row that 30 scans agree with, right behind them and as high.
+  for (const int settled : {40, 400}) {
+    Scene scene;
+    for (int i = 0; i < 5; ++i) scene.add_column(3.1, 0.1 + 0.2 * i, 0.4, 5, Verdict::kDynamic);
+    for (int k = 0; k < settled; ++k) {
+      scene.add({3.3, 0.1 * (k % 10), 0.4 + 0.1 * (k / 10 % 4)}, Verdict::kStatic, 30);
+    }
+    const auto objects =
+        summarise_objects(scene.segmented(), scene.map, scene.parameters, RunContext{});
+    const auto undivided = std::find_if(objects.begin(), objects.end(),
+                                        [](const auto& object) { return object.is_undivided; });
+    CHECK(scene.dynamic(0, 25 + settled) == 25);
+    if (settled == 400) {  // 25 of 425 are less than a tenth.
+      CHECK(undivided == objects.end());
+      continue;
+    }
+    REQUIRE(undivided != objects.end());
+    REQUIRE(objects.size() == 3);  // The others are the row, and what is before it.
+    CHECK(undivided->points == objects[0].points + objects[1].points);
+    CHECK(undivided->dynamic == 25);
+    CHECK(undivided->low == objects[0].low.cwiseMin(objects[1].low));
+    CHECK(undivided->high == objects[0].high.cwiseMax(objects[1].high));
+    CHECK(undivided->agree_scans == 30.0F);
+    // What a track says of it is so for all of its points.
+    CHECK(scene.dynamic(0, 65, {undivided->cluster}) == 65);
+    CHECK(scene.dynamic(0, 65, {objects[1].cluster}) == 25);
+  }
+}
+
 TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans agree with it") {
   Scene scene;
   scene.add_column(4.05, 3.05, 0.4, 4, Verdict::kDynamic);

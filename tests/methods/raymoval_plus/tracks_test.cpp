@@ -157,7 +157,7 @@ TEST_CASE("a fast object is followed from its first step on if that is allowed")
     make_van(van);
   }
   const auto last_marked = [&](double first_step) {
-    return marked_in_last(scans, ObjectTracker(Parameters{}, first_step));
+    return marked_in_last(scans, ObjectTracker(Parameters{}, {.first_step = first_step}));
   };
   CHECK(last_marked(0.0).empty());
   CHECK(last_marked(1.4).empty());
@@ -207,9 +207,87 @@ TEST_CASE("an object is followed though a wide gate leads to another one") {
     scans.back()[0].time_s = 0.5 * i;
   }
   const auto last_marked = [&](const TrackGate& gate) {
-    return marked_in_last(scans, ObjectTracker(Parameters{}, 0.0, gate));
+    return marked_in_last(scans, ObjectTracker(Parameters{}, {.gate = gate}));
   };
   CHECK(last_marked(kWideGate).empty());
   CHECK(last_marked(kGate) == std::vector{0});
   CHECK(marked_by_tracks(scans)[9] == std::vector{0});
+}
+
+TEST_CASE("what waits is followed though others pass before it for some scans") {
+  // A walker stands for 20 scans, is hidden in some of them, and walks for 7, in which he is
+  // dynamic.
+  for (const int hidden : {10, 11}) {
+    Scans scans(27);
+    for (int i = 0; i < 27; ++i) {
+      if (i < 16 && i >= 16 - hidden) continue;
+      scans[static_cast<std::size_t>(i)] = {walker(std::max(i - 19, 0), i < 20 ? 0 : 18, 10.0F)};
+    }
+    const auto marked = marked_by_tracks(scans);
+    CHECK(marked[18] == std::vector{0});
+    CHECK(marked[2] == (hidden == 10 ? std::vector{0} : std::vector<int>{}));
+  }
+}
+
+TEST_CASE("what is divided in some scans is followed as it was before") {
+  // A van of 4 m stands for 8 scans and drives off by 0.6 m a scan. In its first three scans its
+  // rear is where it stood, and is divided from its front.
+  const auto van = [](int scan, int dynamic) {
+    ObjectSummary object = walker(3 * std::max(scan - 7, 0), dynamic, scan < 11 ? 6.0F : 2.0F);
+    make_van(object);
+    return object;
+  };
+  Scans scans;
+  for (int i = 0; i < 16; ++i) {
+    scans.push_back({van(i, i < 8 ? 0 : 18)});
+    if (i < 8 || i > 10) continue;
+    ObjectSummary whole = van(i, 8);
+    whole.is_undivided = true;
+    whole.cluster = 2;
+    ObjectSummary rear = whole, front = whole;
+    rear.high.x() = front.low.x() = whole.center.x();
+    rear.center.x() -= 1.0;
+    front.center.x() += 1.0;
+    rear.dynamic = 0;
+    front.points = front.dynamic = 8;
+    rear.is_undivided = front.is_undivided = false;
+    rear.cluster = 0;
+    front.cluster = 1;
+    scans.back() = {rear, front, whole};
+  }
+  const auto marked = marked_by_tracks(scans);
+  for (std::size_t i = 0; i < 8; ++i) CHECK(marked[i] == std::vector{0});
+  for (std::size_t i = 8; i < 11; ++i) CHECK(marked[i] == std::vector{2});
+  for (const bool also_undivided : {false, true}) {
+    ObjectTracker tracker(Parameters{},
+                          {.first_step = kFirstStep, .also_undivided = also_undivided});
+    for (std::size_t i = scans.size(); i > 0; --i) tracker.follow(i - 1, scans[i - 1]);
+    CHECK(marked_in(0, tracker.finish(), Parameters{}).empty() != also_undivided);
+  }
+}
+
+TEST_CASE("scans agree with what passes for as long as others stood there, if these go") {
+  // A walker passes the place where a van stands from scan 20 to 45. It drives off then, or stays.
+  // While he is there, his own rays do not say that he moves.
+  for (const bool leaves : {false, true}) {
+    Scans scans;
+    for (int i = 0; i < 55; ++i) {
+      ObjectSummary van = walker(11 + 3 * std::max(leaves ? i - 45 : 0, 0), 0, 30.0F);
+      if (leaves && i > 45) {
+        van.dynamic = 18;
+        van.agree_scans = 2.0F;
+      }
+      make_van(van);
+      scans.push_back({});
+      if (i < 15) scans.back() = {walker(i, i < 10 ? 18 : 0, i < 10 ? 4.0F : 30.0F)};
+      if (i >= 20) scans.back() = {van};
+    }
+    const auto marked = marked_by_tracks(scans);
+    const auto expected = leaves ? std::vector{0} : std::vector<int>{};
+    CHECK(marked[30] == expected);
+    CHECK(marked[11] == expected);
+    // For longer than that, something else is there.
+    for (std::size_t i = 10; i < 15; ++i) scans[i][0].agree_scans = 60.0F;
+    CHECK(marked_by_tracks(scans)[11].empty());
+  }
 }
