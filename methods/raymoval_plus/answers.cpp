@@ -6,6 +6,7 @@
 #include "core/scan/mask_store.h"
 #include "methods/common/prepared_scans.h"
 #include "methods/common/workspaces.h"
+#include "methods/raymoval_plus/objects/journeys.h"
 #include "methods/raymoval_plus/objects/low_points.h"
 #include "methods/raymoval_plus/objects/point_evidence.h"
 #include "methods/raymoval_plus/objects/point_runs.h"

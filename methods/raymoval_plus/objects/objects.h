@@ -6,7 +6,7 @@
 
 #include "methods/raymoval_plus/common/parameters.h"
 #include "methods/raymoval_plus/evidence/located_scan.h"
-#include "methods/raymoval_plus/objects/tracks.h"
+#include "methods/raymoval_plus/objects/object_summary.h"
 
 namespace raymoval::raymoval_plus_method {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "methods/raymoval_plus/objects/tracks.h"
+#include "methods/raymoval_plus/objects/object_summary.h"
 
 namespace raymoval::raymoval_plus_method {
 

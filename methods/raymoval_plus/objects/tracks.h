@@ -1,44 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
-#include <limits>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "methods/raymoval_plus/common/parameters.h"
-#include "methods/remover.h"
+#include "methods/raymoval_plus/objects/object_summary.h"
 
 namespace raymoval::raymoval_plus_method {
-
-/// What step 7 knows of a cluster of one scan; world frame, metres.
-struct ObjectSummary {
-  /// Bounding box.
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< Mean of the points.
-  double time_s = 0.0;                               ///< Of its scan.
-  float range = 0.0F;                                ///< Distance of the centre from the sensor.
-  /// The number of scans that agree with a point, on average over the points that are not dynamic.
-  float agree_scans = 0.0F;
-  int points = 0;
-  int dynamic = 0;            ///< How many points are dynamic.
-  bool is_whole = false;      ///< The others stand on these, see `Cluster::is_whole`.
-  bool is_undivided = false;  ///< It was divided, and so stands beside what it was divided into.
-  int cluster = 0;            ///< Number within its scan.
-
-  [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
-};
-
-/// Whether a cluster, or what is remembered of it, is one dynamic thing: whole, or with enough of
-/// its points dynamic.
-template <class Thing>
-bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
-  return thing.is_whole || thing.dynamic >= parameters.object_dynamic_share * thing.points;
-}
-
-/// Whether an object is one dynamic thing and has enough dynamic points.
-bool is_dynamic(const ObjectSummary& object, const Parameters& parameters);
 
 /// One object in the scans in which it was found.
 struct Track {
@@ -50,9 +19,34 @@ struct Track {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Metres a scan, in the order followed.
 };
 
+/// Dynamic objects that a track needs: one or two may be chance.
+inline constexpr int kLeastDynamic = 3;
+/// How many of a track's objects are dynamic.
+int dynamic_objects(const Track& track, const Parameters& parameters);
+/// The number of scans from one to another, whichever is first.
+int scans_between(std::size_t a, std::size_t b);
+
+/// How an object moves.
+struct Motion {
+  double length;  ///< Of the object, metres.
+  double speed;   ///< Metres a scan.
+};
+/// So many scans more may agree with an object than its length and speed explain: one when it comes
+/// and one when it leaves are in part.
+inline constexpr double kScansMore = 2.0;
+/// The number of scans that agree with the place of an object that moves on, by its length and
+/// speed.
+double scans_passing(const ObjectSummary& object, const Motion& motion,
+                     const Parameters& parameters);
+/// Whether scans agree on an object no longer than its length and speed explain.
+bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters);
+
 /// An object may move by so many metres between two scans before its speed is known: 40 m/s at ten
 /// scans a second.
 inline constexpr double kFirstStep = 4.0;
+
+/// Scans that a track may miss, while something passes before the object.
+inline constexpr int kLongestGap = 2;
 
 /// What the next object of a track may be.
 struct TrackGate {
@@ -64,7 +58,7 @@ struct TrackGate {
   int patience;         ///< The scans that a track may miss while its object stands.
 };
 /// For what hardly changes its speed between two scans.
-inline constexpr TrackGate kGate{0.6, 0.0, 2};
+inline constexpr TrackGate kGate{0.6, 0.0, kLongestGap};
 /// For what brakes or speeds up between scans that are far apart in time: by 3 m/s^2, which drivers
 /// seldom exceed. What is known of its speed is a mean of its last steps, so that it is half as
 /// much again. Others may pass before it while it stands.
@@ -107,17 +101,5 @@ class ObjectTracker {
   std::size_t scan_ = 0;
   std::vector<Track> active_, ended_;
 };
-
-/// The clusters of one scan that the objects of these tracks are, though their own rays do not say
-/// so.
-std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
-                           const Parameters& parameters);
-
-/// Step 7: the clusters of each scan that were seen moving before or after, though their own rays
-/// do not say so. A track of dynamic objects passes through them, forward or backward in time. If
-/// scans agree with them for too long for that, others that go account for the time.
-std::vector<std::vector<int>> objects_on_tracks(
-    const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
-    const RunContext& context);
 
 }  // namespace raymoval::raymoval_plus_method

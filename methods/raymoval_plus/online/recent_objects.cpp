@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "methods/raymoval_plus/objects/journeys.h"
+
 namespace raymoval::raymoval_plus_method {
 
 RecentObjects::RecentObjects(const Parameters& parameters)

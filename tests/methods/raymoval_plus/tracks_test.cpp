@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/raymoval_plus/objects/tracks.h"
+#include "methods/raymoval_plus/objects/journeys.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

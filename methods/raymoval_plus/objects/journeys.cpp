@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/objects/journeys.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "core/parallel.h"
+#include "core/sampling.h"
+#include "methods/raymoval_plus/objects/taken_places.h"
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+// Numbers of this step. EXPERIMENTS.md has them at half and at double their values.
+/// An object moved if its centre did by so many metres, and by this share of its length: the centre
+/// of a standing thing shifts by less when other sides of it come into sight.
+constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;
+/// An object is in its place while its centre is within this share of its length.
+constexpr double kPlaceShare = 0.5;
+/// Scans may agree with an object that stands so many times as long as it was followed there: other
+/// sides of it come into sight, or something passes before it, and its track is lost.
+constexpr double kStaySlack = 2.0;
+
+/// Of each of a track's objects, the number of scans that it spends where it is then. It is in one
+/// place until its centre is farther from where it was at first than a share of its length.
+std::vector<int> scans_in_place(const Track& track, double length) {
+  const std::size_t count = track.nodes.size();
+  const auto center = [&](std::size_t k) { return track.nodes[k].object.center.head<2>(); };
+  std::vector<int> scans(count);
+  for (std::size_t first = 0, end = 0; first < count; first = end) {
+    while (end < count && (center(end) - center(first)).norm() <= kPlaceShare * length) ++end;
+    const int stay = 1 + scans_between(track.nodes[first].scan, track.nodes[end - 1].scan);
+    std::fill(scans.begin() + static_cast<std::ptrdiff_t>(first),
+              scans.begin() + static_cast<std::ptrdiff_t>(end), stay);
+  }
+  return scans;
+}
+
+/// Whether enough of a track's objects are dynamic. Those that stand do not count against it: where
+/// something stands for long, often nothing was seen before or after.
+bool is_mostly_dynamic(const Track& track, const Motion& motion, const Parameters& parameters) {
+  const std::vector<int> stays = scans_in_place(track, motion.length);
+  int dynamic = 0, others = 0;
+  for (std::size_t k = 0; k < stays.size(); ++k) {
+    const ObjectSummary& object = track.nodes[k].object;
+    if (is_dynamic(object, parameters)) {
+      ++dynamic;
+    } else if (stays[k] <= scans_passing(object, motion, parameters) + kScansMore) {
+      ++others;
+    }
+  }
+  return dynamic >= parameters.track_dynamic_share * static_cast<double>(dynamic + others);
+}
+
+/// How the object of a track moved, if its dynamic objects are far enough from each other.
+std::optional<Motion> motion_of(const Track& track, const Parameters& parameters) {
+  std::vector<double> widths;
+  const Track::Node *first = nullptr, *last = nullptr;
+  for (const Track::Node& node : track.nodes) {
+    widths.push_back(node.object.width());
+    if (!is_dynamic(node.object, parameters)) continue;
+    if (first == nullptr) first = &node;
+    last = &node;
+  }
+  const double typical = median(std::move(widths));
+  const double moved = (last->object.center - first->object.center).head<2>().norm();
+  if (moved < std::max(kLeastMotion, kLeastMotionShare * typical)) return std::nullopt;
+  return Motion{typical, moved / scans_between(first->scan, last->scan)};
+}
+
+/// Whether scans agree on an object no longer than it was followed while it stood.
+/// @param stay scans that it spends in its place
+bool is_explained_by_stay(const ObjectSummary& object, int stay) {
+  return object.agree_scans <= kStaySlack * stay + kScansMore;
+}
+
+/// Whether enough of the objects of a track that stands are dynamic: it came or leaves.
+bool came_or_leaves(const Track& track, const Parameters& parameters) {
+  return dynamic_objects(track, parameters) >=
+         parameters.track_dynamic_share * static_cast<double>(track.nodes.size());
+}
+
+/// How the object of a track goes.
+struct Journey {
+  std::optional<Motion> motion;  ///< None if it came or leaves, and stands else.
+  std::vector<int> stays;        ///< Of each of the track's objects, the scans spent in its place.
+};
+
+/// How the object of a track moved, came or leaves, if that is known.
+std::optional<Journey> journey_of(const Track& track, const Parameters& parameters) {
+  if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
+  const auto motion = motion_of(track, parameters);
+  const bool is_known =
+      motion ? is_mostly_dynamic(track, *motion, parameters) : came_or_leaves(track, parameters);
+  if (!is_known) return std::nullopt;
+  const std::size_t count = track.nodes.size();
+  return Journey{motion, motion ? scans_in_place(track, motion->length)
+                                : std::vector<int>(count, static_cast<int>(count))};
+}
+
+/// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no
+/// longer than its length and speed explain, or than it was followed while it stood.
+bool belongs(const ObjectSummary& object, int stay, const Journey& journey,
+             const Parameters& parameters) {
+  return (journey.motion && is_explained(object, *journey.motion, parameters)) ||
+         is_explained_by_stay(object, stay);
+}
+
+/// For each object of a track 1 if it is not dynamic by itself, but belongs to one that moved, came
+/// or leaves.
+std::vector<std::uint8_t> marks_of(const Track& track, const Parameters& parameters) {
+  std::vector<std::uint8_t> marks(track.nodes.size(), 0);
+  const auto journey = journey_of(track, parameters);
+  if (!journey) return marks;
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const ObjectSummary& object = track.nodes[k].object;
+    if (is_dynamic(object, parameters)) continue;
+    marks[k] = belongs(object, journey->stays[k], *journey, parameters) ? 1 : 0;
+  }
+  return marks;
+}
+
+void sort_and_unite(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// All tracks through the objects of all scans.
+std::vector<Track> followed(const std::vector<std::vector<ObjectSummary>>& scans, bool backward,
+                            ObjectTracker tracker) {
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::size_t scan = backward ? scans.size() - 1 - i : i;
+    tracker.follow(scan, scans[scan]);
+  }
+  return tracker.finish();
+}
+
+/// An object of a track on which scans agree for longer than its motion explains.
+struct Passing {
+  std::size_t scan;
+  ObjectSummary object;
+  double explained;  ///< By its motion: a number of scans.
+};
+
+/// What tracks say of the objects.
+struct Findings {
+  std::vector<std::vector<int>> marked;  ///< Clusters of each scan.
+  std::vector<Passing> passing;
+};
+
+/// Adds what one track says.
+void judge(const Track& track, const Parameters& parameters, Findings& findings) {
+  const auto journey = journey_of(track, parameters);
+  if (!journey) return;
+  for (std::size_t k = 0; k < track.nodes.size(); ++k) {
+    const auto& [scan, object] = track.nodes[k];
+    if (is_dynamic(object, parameters)) continue;
+    if (belongs(object, journey->stays[k], *journey, parameters)) {
+      findings.marked[scan].push_back(object.cluster);
+      continue;
+    }
+    if (!journey->motion) continue;
+    const double passes = scans_passing(object, *journey->motion, parameters);
+    if (journey->stays[k] > passes + kScansMore) continue;
+    findings.passing.push_back({scan, object, parameters.track_slack * passes + kScansMore});
+  }
+}
+
+/// All ways to follow objects. What is fast is lost without a long first step, what brakes between
+/// two scans without a wide gate, and what is divided in some scans and not in others if it may not
+/// be followed as it was before. With these, a track may take a neighbour, or a part, for the
+/// object that it lost, and then both are lost. So objects are followed with and without.
+std::vector<TrackRules> all_rules() {
+  std::vector<TrackRules> rules;
+  for (const bool also_undivided : {false, true}) {
+    for (const TrackGate& gate : {kGate, kWideGate}) {
+      for (const double first_step : {0.0, kFirstStep}) {
+        rules.push_back({first_step, gate, also_undivided});
+      }
+    }
+  }
+  return rules;
+}
+
+/// What tracks say by all rules, forward and backward in time.
+Findings follow_all(const std::vector<std::vector<ObjectSummary>>& scans,
+                    const Parameters& parameters, int threads) {
+  const std::vector<TrackRules> rules = all_rules();
+  std::vector<Findings> by_rules(2 * rules.size());
+  parallel_for(threads, by_rules.size(), 1, [&](std::size_t i) {
+    by_rules[i].marked.resize(scans.size());
+    const ObjectTracker tracker(parameters, rules[i / 2]);
+    for (const Track& track : followed(scans, i % 2 == 1, tracker)) {
+      judge(track, parameters, by_rules[i]);
+    }
+  });
+  Findings all{std::vector<std::vector<int>>(scans.size()), {}};
+  for (const Findings& some : by_rules) {
+    for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+      all.marked[scan].insert(all.marked[scan].end(), some.marked[scan].begin(),
+                              some.marked[scan].end());
+    }
+    all.passing.insert(all.passing.end(), some.passing.begin(), some.passing.end());
+  }
+  for (std::vector<int>& clusters : all.marked) sort_and_unite(clusters);
+  return all;
+}
+
+/// The places of all objects that are dynamic or marked.
+TakenPlaces taken_places(const std::vector<std::vector<ObjectSummary>>& scans,
+                         const std::vector<std::vector<int>>& marked,
+                         const Parameters& parameters) {
+  TakenPlaces places;
+  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+    for (const ObjectSummary& object : scans[scan]) {
+      const bool is_marked =
+          std::binary_search(marked[scan].begin(), marked[scan].end(), object.cluster);
+      if (is_marked || is_dynamic(object, parameters)) places.add(scan, object);
+    }
+  }
+  places.sort();
+  return places;
+}
+
+}  // namespace
+
+std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
+                           const Parameters& parameters) {
+  std::vector<int> marked;
+  for (const Track& track : tracks) {
+    // The nodes are few, and those looked for are mostly the last ones.
+    const auto node = std::find_if(track.nodes.rbegin(), track.nodes.rend(),
+                                   [&](const Track::Node& some) { return some.scan == scan; });
+    if (node == track.nodes.rend()) continue;
+    const auto at = static_cast<std::size_t>(track.nodes.rend() - node) - 1;
+    if (marks_of(track, parameters)[at] != 0) marked.push_back(node->object.cluster);
+  }
+  return marked;
+}
+
+std::vector<std::vector<int>> objects_on_tracks(
+    const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
+    const RunContext& context) {
+  const StageScope timed(context.times, "tracks");
+  Findings findings = follow_all(scans, parameters, context.threads);
+  // Where others stood, scans agree on what passes for as long as these stood there.
+  const TakenPlaces places = taken_places(scans, findings.marked, parameters);
+  for (const auto& [scan, object, explained] : findings.passing) {
+    if (object.agree_scans > explained + places.scans_at(object, parameters.voxel_size)) continue;
+    findings.marked[scan].push_back(object.cluster);
+  }
+  for (std::vector<int>& clusters : findings.marked) sort_and_unite(clusters);
+  return std::move(findings.marked);
+}
+
+}  // namespace raymoval::raymoval_plus_method

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "methods/raymoval_plus/common/parameters.h"
+
+namespace raymoval::raymoval_plus_method {
+
+/// What step 7 knows of a cluster of one scan; world frame, metres.
+struct ObjectSummary {
+  /// Bounding box.
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = -low;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< Mean of the points.
+  double time_s = 0.0;                               ///< Of its scan.
+  float range = 0.0F;                                ///< Distance of the centre from the sensor.
+  /// The number of scans that agree with a point, on average over the points that are not dynamic.
+  float agree_scans = 0.0F;
+  int points = 0;
+  int dynamic = 0;            ///< How many points are dynamic.
+  bool is_whole = false;      ///< The others stand on these, see `Cluster::is_whole`.
+  bool is_undivided = false;  ///< It was divided, and so stands beside what it was divided into.
+  int cluster = 0;            ///< Number within its scan.
+
+  [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
+};
+
+/// Whether a cluster, or what is remembered of it, is one dynamic thing: whole, or with enough of
+/// its points dynamic.
+template <class Thing>
+bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
+  return thing.is_whole || thing.dynamic >= parameters.object_dynamic_share * thing.points;
+}
+
+/// Whether an object is one dynamic thing and has enough dynamic points.
+inline bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
+  return object.dynamic >= parameters.object_points && is_one_dynamic_thing(object, parameters);
+}
+
+}  // namespace raymoval::raymoval_plus_method
