@@ -2,7 +2,6 @@
 #include "methods/raymoval_plus/objects/journeys.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -38,16 +37,24 @@ std::vector<int> scans_in_place(const Track& track, double length) {
   return scans;
 }
 
+/// Whether an object goes on, and does not stand: it is in its place for no longer than its length
+/// and speed explain.
+/// @param stay scans that it spends in its place
+bool goes_on(const ObjectSummary& object, int stay, const Motion& motion,
+             const Parameters& parameters) {
+  return stay <= scans_passing(object, motion, parameters) + kScansMore;
+}
+
 /// Whether enough of a track's objects are dynamic. Those that stand do not count against it: where
 /// something stands for long, often nothing was seen before or after.
-bool is_mostly_dynamic(const Track& track, const Motion& motion, const Parameters& parameters) {
-  const std::vector<int> stays = scans_in_place(track, motion.length);
+bool is_mostly_dynamic(const Track& track, const std::vector<int>& stays, const Motion& motion,
+                       const Parameters& parameters) {
   int dynamic = 0, others = 0;
   for (std::size_t k = 0; k < stays.size(); ++k) {
     const ObjectSummary& object = track.nodes[k].object;
     if (is_dynamic(object, parameters)) {
       ++dynamic;
-    } else if (stays[k] <= scans_passing(object, motion, parameters) + kScansMore) {
+    } else if (goes_on(object, stays[k], motion, parameters)) {
       ++others;
     }
   }
@@ -92,12 +99,13 @@ struct Journey {
 std::optional<Journey> journey_of(const Track& track, const Parameters& parameters) {
   if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
   const auto motion = motion_of(track, parameters);
-  const bool is_known =
-      motion ? is_mostly_dynamic(track, *motion, parameters) : came_or_leaves(track, parameters);
-  if (!is_known) return std::nullopt;
   const std::size_t count = track.nodes.size();
-  return Journey{motion, motion ? scans_in_place(track, motion->length)
-                                : std::vector<int>(count, static_cast<int>(count))};
+  const std::vector<int> stays = motion ? scans_in_place(track, motion->length)
+                                        : std::vector<int>(count, static_cast<int>(count));
+  const bool is_known = motion ? is_mostly_dynamic(track, stays, *motion, parameters)
+                               : came_or_leaves(track, parameters);
+  if (!is_known) return std::nullopt;
+  return Journey{motion, stays};
 }
 
 /// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no
@@ -106,20 +114,6 @@ bool belongs(const ObjectSummary& object, int stay, const Journey& journey,
              const Parameters& parameters) {
   return (journey.motion && is_explained(object, *journey.motion, parameters)) ||
          is_explained_by_stay(object, stay);
-}
-
-/// For each object of a track 1 if it is not dynamic by itself, but belongs to one that moved, came
-/// or leaves.
-std::vector<std::uint8_t> marks_of(const Track& track, const Parameters& parameters) {
-  std::vector<std::uint8_t> marks(track.nodes.size(), 0);
-  const auto journey = journey_of(track, parameters);
-  if (!journey) return marks;
-  for (std::size_t k = 0; k < marks.size(); ++k) {
-    const ObjectSummary& object = track.nodes[k].object;
-    if (is_dynamic(object, parameters)) continue;
-    marks[k] = belongs(object, journey->stays[k], *journey, parameters) ? 1 : 0;
-  }
-  return marks;
 }
 
 void sort_and_unite(std::vector<int>& numbers) {
@@ -161,10 +155,9 @@ void judge(const Track& track, const Parameters& parameters, Findings& findings)
       findings.marked[scan].push_back(object.cluster);
       continue;
     }
-    if (!journey->motion) continue;
-    const double passes = scans_passing(object, *journey->motion, parameters);
-    if (journey->stays[k] > passes + kScansMore) continue;
-    findings.passing.push_back({scan, object, parameters.track_slack * passes + kScansMore});
+    const auto& motion = journey->motion;
+    if (!motion || !goes_on(object, journey->stays[k], *motion, parameters)) continue;
+    findings.passing.push_back({scan, object, scans_explained(object, *motion, parameters)});
   }
 }
 
@@ -234,8 +227,12 @@ std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
     const auto node = std::find_if(track.nodes.rbegin(), track.nodes.rend(),
                                    [&](const Track::Node& some) { return some.scan == scan; });
     if (node == track.nodes.rend()) continue;
+    if (is_dynamic(node->object, parameters)) continue;
+    const auto journey = journey_of(track, parameters);
     const auto at = static_cast<std::size_t>(track.nodes.rend() - node) - 1;
-    if (marks_of(track, parameters)[at] != 0) marked.push_back(node->object.cluster);
+    if (journey && belongs(node->object, journey->stays[at], *journey, parameters)) {
+      marked.push_back(node->object.cluster);
+    }
   }
   return marked;
 }

@@ -241,18 +241,18 @@ Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marke
   const StageScope timed(context.times, "objects");
   std::vector<std::uint8_t> marks(scan.clusters.size(), 0);
   for (const int cluster : marked) marks[static_cast<std::size_t>(cluster)] = 1;
-  const auto is_marked = [&](std::size_t i) {
-    bool found = false;
-    for_clusters_of(scan, i, [&](std::size_t cluster) { found = found || marks[cluster] != 0; });
-    return found;
-  };
+  for (std::size_t c = 0; c < marks.size(); ++c) {
+    const int undivided = scan.clusters[c].undivided;
+    if (undivided >= 0 && marks[static_cast<std::size_t>(undivided)] != 0) marks[c] = 1;
+  }
   const std::vector<std::uint8_t> spared = spared_groups(scan, parameters);
   Verdicts verdict = scan.verdict;
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     const auto number = static_cast<std::size_t>(scan.cluster_of[i]);
     const Cluster& cluster = scan.clusters[number];
     const int enough = cluster.is_part ? parameters.group_points : parameters.object_points;
-    if (is_marked(i) || (is_one_dynamic_thing(cluster, parameters) && cluster.dynamic >= enough)) {
+    if (marks[number] != 0 ||
+        (is_one_dynamic_thing(cluster, parameters) && cluster.dynamic >= enough)) {
       verdict[scan.high_points[i]] = Verdict::kDynamic;
     } else if (spared[i] == 0 && cluster.is_hardly_dynamic) {
       verdict[scan.high_points[i]] = Verdict::kStatic;

@@ -27,14 +27,18 @@ std::vector<PointRun> remembered_points(const SegmentedScan& scan,
     object_of[static_cast<std::size_t>(objects[k].cluster)] = static_cast<int>(k);
   }
   std::vector<PointRun> runs;
+  // Points of a part are also of what it was divided from, so that runs of two objects take turns.
+  constexpr std::size_t kNoRun = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> last_run(objects.size(), kNoRun);
   const auto remember = [&](std::uint32_t point, int object) {
     if (object == kNotRemembered) return;
-    const bool goes_on = !runs.empty() && runs.back().object == object &&
-                         runs.back().first + runs.back().count == point &&
-                         runs.back().count < std::numeric_limits<std::uint16_t>::max();
+    std::size_t& last = last_run[static_cast<std::size_t>(object)];
+    const bool goes_on = last != kNoRun && runs[last].first + runs[last].count == point &&
+                         runs[last].count < std::numeric_limits<std::uint16_t>::max();
     if (goes_on) {
-      ++runs.back().count;
+      ++runs[last].count;
     } else {
+      last = runs.size();
       runs.push_back({point, 1, static_cast<std::uint16_t>(object)});
     }
   };

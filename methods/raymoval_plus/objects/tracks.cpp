@@ -9,7 +9,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of this step. EXPERIMENTS.md has them at half and at double their values.
+// Numbers of this step. EXPERIMENTS.md has most of them at half and at double their values.
 /// An object of a track of at least so many stands if it moves by less than so many metres a scan,
 /// by which the centre of a standing thing shifts.
 constexpr std::size_t kLeastStanding = 3;
@@ -55,9 +55,13 @@ double scans_passing(const ObjectSummary& object, const Motion& motion,
   return (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
 }
 
+double scans_explained(const ObjectSummary& object, const Motion& motion,
+                       const Parameters& parameters) {
+  return parameters.track_slack * scans_passing(object, motion, parameters) + kScansMore;
+}
+
 bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
-  return object.agree_scans <=
-         parameters.track_slack * scans_passing(object, motion, parameters) + kScansMore;
+  return object.agree_scans <= scans_explained(object, motion, parameters);
 }
 
 std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSummary& found,
@@ -81,7 +85,6 @@ std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSu
 }
 
 void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& objects) {
-  scan_ = scan;
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t t = 0; t < active_.size(); ++t) {
     const int scans = scans_between(active_[t].nodes.back().scan, scan);

@@ -14,6 +14,7 @@ RecentObjects::RecentObjects(const Parameters& parameters)
 void RecentObjects::take(const SegmentedScan& scan, const EvidenceMap& map,
                          const RunContext& context) {
   std::vector<ObjectSummary> objects = summarise_objects(scan, map, parameters_, context);
+  // No point's own cluster is one, so that none of their pieces would be known.
   std::erase_if(objects, [](const ObjectSummary& object) { return object.is_undivided; });
   Pieces pieces = pieces_of(scan, map, objects);
   const std::size_t index = scan.scan.index;
