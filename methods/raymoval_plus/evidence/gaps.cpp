@@ -17,6 +17,20 @@ constexpr int kNextBeamRows = 3;
 /// Returns of three beams lie on one plane if their inverse ranges change from the first to the
 /// second by this share, or more, of what they change from the second to the third, or vice versa.
 constexpr float kLeastAlike = 1.0F / 3.0F;
+/// A beam meets the middle of a place, or passes it lower, if it is at most so many metres above.
+constexpr float kMiddle = 0.02F;
+
+/// A point of the vertical plane of a column: its distance ahead of the sensor, and its height.
+Eigen::Vector2f in_plane(float range, float sine) {
+  return range * Eigen::Vector2f(std::sqrt(std::max(1.0F - sine * sine, 0.0F)), sine);
+}
+
+/// How far a point of a plane is above the line through two others.
+float above_line(const Eigen::Vector2f& point, const Eigen::Vector2f& near,
+                 const Eigen::Vector2f& far) {
+  const Eigen::Vector2f along = (far - near).normalized(), from_near = point - near;
+  return along.x() * from_near.y() - along.y() * from_near.x();
+}
 
 }  // namespace
 
@@ -25,9 +39,25 @@ bool RangeImage::may_be_gap(float range, int column, int row) const {
          bins_[bin(row, column)] >= bounds_at(range).beyond;
 }
 
+bool RangeImage::goes_on_beyond(const Eigen::Vector3f& place, float range, int column,
+                                int row) const {
+  if (row < 0 || row >= image_.rows) return false;
+  // Where beams are dense, those beside the middle of a place meet it, too, and have a say.
+  if (2.0F * half_voxel_ > elevation_step_ * range) return false;
+  const float sine = up_.dot(place) / range, beam = lowest_at(row, column);
+  if (sine >= 0.0F || beam > sine + kMiddle / range) return false;
+  const float passes = bins_[bin(row, column)];
+  if (passes < bounds_at(range).beyond + static_cast<float>(parameters_.gap_margin)) return false;
+  const Return below = next_return(row - 1, -1, column, 0);
+  return below.range >= range ||
+         above_line(in_plane(range, sine), in_plane(below.range, lowest_at(below.row, column)),
+                    in_plane(passes, beam)) > half_voxel_;
+}
+
 bool RangeImage::sees_through_gap(const Eigen::Vector3f& place, SeenThrough seen, float range,
                                   int column, int row) const {
   if (!parameters_.gaps || row >= image_.first_unseen_row) return false;
+  if (goes_on_beyond(place, range, column, row)) return true;
   const Window window = window_at(range);
   const int wide = window.wide - parameters_.window_columns;
   const int toward = window.high - parameters_.window_rows + kGapRows;

@@ -283,7 +283,7 @@ bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int
   for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
     for (int c = column - wide; c <= column + wide; ++c) {
       const int wrapped = (c + image_.columns) % image_.columns;
-      if (lowest_[static_cast<std::size_t>(r * image_.columns + wrapped)] <= sine) return true;
+      if (lowest_at(r, wrapped) <= sine) return true;
     }
   }
   return false;

@@ -92,6 +92,17 @@ class RangeImage {
   /// @param place metres, sensor frame
   [[nodiscard]] bool sees_through_gap(const Eigen::Vector3f& place, SeenThrough seen, float range,
                                       int column, int row) const;
+  /// Whether beams meet a place below the horizon that is less high than a bin, at its middle or
+  /// lower, and go on beyond it by `gap_margin` more than they need to. What is nearer in other
+  /// rows ended other beams, which do not meet the place. A surface that beams graze is no such
+  /// place: it is not half a voxel above the line between the returns of these beams and of the
+  /// next below.
+  [[nodiscard]] bool goes_on_beyond(const Eigen::Vector3f& place, float range, int column,
+                                    int row) const;
+  /// The sine of the least angle above the horizon of a bin's returns, or +infinity.
+  [[nodiscard]] float lowest_at(int row, int column) const {
+    return lowest_[static_cast<std::size_t>(row * image_.columns + column)];
+  }
   /// The nearest return of some bins of a row.
   struct Return {
     int row;

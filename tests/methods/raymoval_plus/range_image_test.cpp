@@ -208,6 +208,50 @@ TEST_CASE("a place on a slope that beams graze is not seen through beside it") {
   CHECK(told(20.5, {bin.at(14.0, 0.0, -2.0), second, third}) == Observation::kOccluded);
 }
 
+TEST_CASE("few beams see through what they meet and pass, though lower ones end before it") {
+  // Beams 2 degrees apart, in the middles of rows of 1 degree, look down on a road 1.7 m below:
+  // those at 5 and 3 degrees meet it 19.5 and 32.5 m away. What the upper one meets 26 m away is
+  // 0.34 m above the road, and the lower one is in its window.
+  SensorModel sensor = toy::Scanner{}.model();
+  sensor.elevation_min = -15.5 * kDegree;
+  sensor.elevation_max = 15.5 * kDegree;
+  sensor.elevation_step = 2.0 * kDegree;
+  const auto at = [](double range, double elevation) -> Eigen::Vector3f {
+    return (range * direction(0.0, elevation * kDegree)).cast<float>();
+  };
+  const auto told = [&](const Eigen::Vector3f& place, const std::vector<Eigen::Vector3f>& points,
+                        const Pose& T_world_sensor = Pose::Identity()) {
+    const RangeImage image = image_of(points, sensor, T_world_sensor);
+    const Observation observation = image.observe(place);
+    CHECK(image.observe(place, SeenThrough::kAtOrBelow) == observation);
+    return observation;
+  };
+  const Eigen::Vector3f road = at(19.5, -5.0);
+  CHECK(told(at(26.0, -3.0), {road, at(32.5, -3.0)}) == Observation::kFree);
+  // A return is beyond from 26 + 0.25 + 0.005 * 26 + 1 = 27.38 m on.
+  CHECK(told(at(26.0, -3.0), {road, at(27.3, -3.0)}) == Observation::kOccluded);
+  CHECK(told(at(26.0, -3.0), {road, at(27.5, -3.0)}) == Observation::kFree);
+  // The beam is 1.7 m - 30.4 m * sin(3 degrees) = 0.11 m above the road, and 0.09 m at 30.8 m.
+  CHECK(told(at(30.4, -3.0), {road, at(32.5, -3.0)}) == Observation::kFree);
+  CHECK(told(at(30.8, -3.0), {road, at(32.5, -3.0)}) == Observation::kOccluded);
+  // What the lower beam meets beyond the place is no surface that goes on to it. Somebody hides
+  // the place who stands in the next column.
+  const Eigen::Vector3f beside = (10.0 * direction(0.725 * kDegree, -3.0 * kDegree)).cast<float>();
+  CHECK(told(at(26.0, -3.0), {beside, at(26.8, -5.0), at(32.5, -3.0)}) == Observation::kFree);
+  // The beam may pass 0.02 m above the place: 0.044 degrees at 26 m.
+  CHECK(told(at(26.0, -3.04), {road, at(32.5, -3.0)}) == Observation::kFree);
+  CHECK(told(at(26.0, -3.05), {road, at(32.5, -3.0)}) == Observation::kOccluded);
+  CHECK(told(at(26.0, -2.6), {road, at(32.5, -3.0)}) == Observation::kFree);
+  // All returns of the bin must be beyond.
+  CHECK(told(at(26.0, -3.0), {road, at(32.5, -3.0), at(22.0, -3.1)}) == Observation::kOccluded);
+  // A voxel of 0.2 m is as high as a row 11.46 m away. Nearer ones are met by other beams, too.
+  CHECK(told(at(11.4, -3.0), {at(9.0, -5.0), at(32.5, -3.0)}) == Observation::kOccluded);
+  CHECK(told(at(11.5, -3.0), {at(9.0, -5.0), at(32.5, -3.0)}) == Observation::kFree);
+  // Above the horizon, as the world has it, surfaces are met from below.
+  const Pose tilted(Eigen::AngleAxisd(-10.0 * kDegree, Eigen::Vector3d::UnitY()));
+  CHECK(told(at(26.0, -3.0), {at(19.5, -1.0), at(32.5, -3.0)}, tilted) == Observation::kOccluded);
+}
+
 TEST_CASE("a place above the highest beam is not seen through") {
   // A ceiling 3 m above the sensor, whose highest beam looks up by 15 degrees: the nearest return
   // lies 11.2 m ahead, and the ceiling before it is within the window of that beam.
