@@ -47,7 +47,7 @@ bool RangeImage::goes_on_beyond(const Eigen::Vector3f& place, float range, int c
   const float sine = up_.dot(place) / range, beam = lowest_at(row, column);
   if (sine >= 0.0F || beam > sine + kMiddle / range) return false;
   const float passes = bins_[bin(row, column)];
-  if (passes < bounds_at(range).beyond + static_cast<float>(parameters_.gap_margin)) return false;
+  if (passes < beyond_gap(range)) return false;
   const Return below = next_return(row - 1, -1, column, 0);
   return below.range >= range ||
          above_line(in_plane(range, sine), in_plane(below.range, lowest_at(below.row, column)),
@@ -64,7 +64,7 @@ bool RangeImage::sees_through_gap(const Eigen::Vector3f& place, SeenThrough seen
   const bool is_up = up_.dot(place) > 0.0F;
   const int low = std::max(row - (is_up ? toward : window.high), 0);
   const int high = std::min(row + (is_up ? window.high : toward), image_.rows - 1);
-  const float beyond = bounds_at(range).beyond + static_cast<float>(parameters_.gap_margin);
+  const float beyond = beyond_gap(range);
   bool below = false;
   for (int r = low; r <= high; ++r) {
     const float nearest = nearest_in_row(r, column, wide);

@@ -87,18 +87,22 @@ class RangeImage {
   [[nodiscard]] Observation observation_of(kernels::Sighted sighted, float range, int column,
                                            int row) const;
   /// Whether an occluded place is seen through in its own column of bins, beside what hides others
-  /// of its window: all returns there go on beyond it by `gap_margin` more than they need to, and
-  /// are not of a slope that the place itself is on.
+  /// of its window: all returns there are beyond a gap, and are not of a slope that the place
+  /// itself is on. Or its own beams go on beyond it.
   /// @param place metres, sensor frame
   [[nodiscard]] bool sees_through_gap(const Eigen::Vector3f& place, SeenThrough seen, float range,
                                       int column, int row) const;
   /// Whether beams meet a place below the horizon that is less high than a bin, at its middle or
-  /// lower, and go on beyond it by `gap_margin` more than they need to. What is nearer in other
-  /// rows ended other beams, which do not meet the place. A surface that beams graze is no such
-  /// place: it is not half a voxel above the line between the returns of these beams and of the
-  /// next below.
+  /// lower, and go on beyond a gap. What is nearer in other rows ended other beams, which do not
+  /// meet the place. A surface that beams graze is no such place: it is not half a voxel above the
+  /// line between the returns of these beams and of the next below.
   [[nodiscard]] bool goes_on_beyond(const Eigen::Vector3f& place, float range, int column,
                                     int row) const;
+  /// From what range on returns are beyond a gap at a place: `gap_margin` farther than those that
+  /// do not hide it.
+  [[nodiscard]] float beyond_gap(float range) const {
+    return bounds_at(range).beyond + static_cast<float>(parameters_.gap_margin);
+  }
   /// The sine of the least angle above the horizon of a bin's returns, or +infinity.
   [[nodiscard]] float lowest_at(int row, int column) const {
     return lowest_[static_cast<std::size_t>(row * image_.columns + column)];

@@ -100,12 +100,12 @@ std::optional<Journey> journey_of(const Track& track, const Parameters& paramete
   if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
   const auto motion = motion_of(track, parameters);
   const std::size_t count = track.nodes.size();
-  const std::vector<int> stays = motion ? scans_in_place(track, motion->length)
-                                        : std::vector<int>(count, static_cast<int>(count));
+  std::vector<int> stays = motion ? scans_in_place(track, motion->length)
+                                  : std::vector<int>(count, static_cast<int>(count));
   const bool is_known = motion ? is_mostly_dynamic(track, stays, *motion, parameters)
                                : came_or_leaves(track, parameters);
   if (!is_known) return std::nullopt;
-  return Journey{motion, stays};
+  return Journey{motion, std::move(stays)};
 }
 
 /// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no
