@@ -27,8 +27,9 @@ void find_cells(const Scan& scan, const Eigen::Vector3d& cells_a_metre, BesideCe
                 int threads, ScanCells& cells) {
   const std::size_t points = scan.size();
   for (auto* const axis : {&cells.x, &cells.y, &cells.z}) axis->resize(points);
-  const bool with_parts = beside == BesideCells::kParts;
-  with_parts ? cells.parts.resize(points) : cells.height.resize(points);
+  const bool with_height = beside == BesideCells::kPartsAndHeight;
+  cells.parts.resize(points);
+  if (with_height) cells.height.resize(points);
   kernels::PointsToCells whole;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(whole.rotation.data()) =
       scan.T_world_sensor.linear();
@@ -42,9 +43,8 @@ void find_cells(const Scan& scan, const Eigen::Vector3d& cells_a_metre, BesideCe
     job.points = scan.points[begin].data();
     job.count = end - begin;
     const kernels::PointCells to{cells.x.data() + begin, cells.y.data() + begin,
-                                 cells.z.data() + begin,
-                                 with_parts ? cells.parts.data() + begin : nullptr,
-                                 with_parts ? nullptr : cells.height.data() + begin};
+                                 cells.z.data() + begin, cells.parts.data() + begin,
+                                 with_height ? cells.height.data() + begin : nullptr};
     if (!kernels.find_cells(job, to)) inside = false;
   });
   if (!inside) throw_outside(scan, cells_a_metre);

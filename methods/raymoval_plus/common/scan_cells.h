@@ -31,8 +31,8 @@ struct ScanCells {
   }
 };
 
-/// What `find_cells` finds beside the cells. The other array is left as it is.
-enum class BesideCells : std::uint8_t { kParts, kHeight };
+/// What `find_cells` finds beside the cells. An array that is not named is left as it is.
+enum class BesideCells : std::uint8_t { kParts, kPartsAndHeight };
 
 /// Finds the cells of a scan's points.
 /// @param cells_a_metre along each axis

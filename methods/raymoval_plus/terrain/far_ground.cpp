@@ -11,74 +11,6 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-/// A difference counts as this at most, metres: crowns of trees are far above the land.
-constexpr float kMostDifference = 1.0F;
-/// With fewer differences along an axis the land is taken for level by as much as are missing.
-constexpr std::int64_t kEnoughDifferences = 25;
-/// Whole numbers have the same sum in any order, so that quarter turns change nothing.
-constexpr float kParts = 4096.0F;
-
-/// Sums over rectangles of a square of columns.
-class Sums {
- public:
-  explicit Sums(int side)
-      : stride_(static_cast<std::size_t>(side) + 1), values_(stride_ * stride_, 0) {}
-  /// To be called row by row. @param value of the column (x, y)
-  void set(int x, int y, std::int64_t value) {
-    const std::size_t here = at(x + 1, y + 1);
-    values_[here] =
-        value + values_[here - 1] + values_[here - stride_] - values_[here - stride_ - 1];
-  }
-  /// The sum over columns from (left, bottom) to before (right, top).
-  [[nodiscard]] std::int64_t over(int left, int bottom, int right, int top) const {
-    return values_[at(right, top)] - values_[at(left, top)] - values_[at(right, bottom)] +
-           values_[at(left, bottom)];
-  }
-
- private:
-  [[nodiscard]] std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x);
-  }
-  std::size_t stride_;
-  std::vector<std::int64_t> values_;
-};
-
-/// How much the land rises along an axis, around each column.
-class Rises {
- public:
-  /// @param dx 1 for the rise along x, 0 for that along y
-  Rises(const std::vector<float>& ground, int side, int dx)
-      : side_(side), sums_(side), counts_(side) {
-    const int lag_x = dx * kHalfLag, lag_y = (1 - dx) * kHalfLag;
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        const bool is_inside = x >= lag_x && y >= lag_y && x + lag_x < side && y + lag_y < side;
-        float rise = kNoGround;
-        if (is_inside) {
-          rise = ground[static_cast<std::size_t>((y + lag_y) * side + x + lag_x)] -
-                 ground[static_cast<std::size_t>((y - lag_y) * side + x - lag_x)];
-        }
-        const bool is_known = std::isfinite(rise);
-        const float bounded = is_known ? std::clamp(rise, -kMostDifference, kMostDifference) : 0.0F;
-        sums_.set(x, y, std::lround(bounded * kParts));
-        counts_.set(x, y, is_known ? 1 : 0);
-      }
-    }
-  }
-  /// The mean rise over `2 kHalfLag` columns around a column, metres.
-  [[nodiscard]] float around(int x, int y) const {
-    const int left = std::max(x - kLandReach, 0), right = std::min(x + kLandReach + 1, side_);
-    const int bottom = std::max(y - kLandReach, 0), top = std::min(y + kLandReach + 1, side_);
-    const std::int64_t count = std::max(counts_.over(left, bottom, right, top), kEnoughDifferences);
-    return static_cast<float>(sums_.over(left, bottom, right, top)) /
-           (kParts * static_cast<float>(count));
-  }
-
- private:
-  int side_;
-  Sums sums_, counts_;
-};
-
 /// Lowers heights to what those a step away, to either side and obliquely, allow.
 void lower_by_step(int step, const std::vector<float>& rises, int side,
                    std::vector<float>& heights) {
@@ -99,17 +31,12 @@ void lower_by_step(int step, const std::vector<float>& rises, int side,
 
 }  // namespace
 
-std::vector<float> highest_rises(const std::vector<float>& ground, int side, double cell,
-                                 double slope) {
-  const Rises along_x(ground, side, 1), along_y(ground, side, 0);
-  std::vector<float> rises(ground.size());
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const float rise_x = along_x.around(x, y), rise_y = along_y.around(x, y);
-      rises[static_cast<std::size_t>(y * side + x)] =
-          static_cast<float>(slope * cell) +
-          std::sqrt(rise_x * rise_x + rise_y * rise_y) / (2.0F * kHalfLag);
-    }
+std::vector<float> highest_rises(const std::vector<float>& rise_x, const std::vector<float>& rise_y,
+                                 double cell, double slope) {
+  std::vector<float> rises(rise_x.size());
+  for (std::size_t i = 0; i < rises.size(); ++i) {
+    rises[i] =
+        static_cast<float>(slope * cell) + std::sqrt(rise_x[i] * rise_x[i] + rise_y[i] * rise_y[i]);
   }
   return rises;
 }

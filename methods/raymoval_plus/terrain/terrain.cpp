@@ -33,6 +33,27 @@ bool looks_far(const Parameters& parameters) {
   return parameters.terrain_far_slope > 0.0;
 }
 
+/// Writes what is found of each of some tiles.
+/// @param find gives the values of a tile's columns, row by row
+template <class Value, class Find>
+void fill_tiles(const VoxelSet& tiles, const RunContext& context,
+                DenseBlocks<Value, kTileBits, 0>& values, Find&& find) {
+  std::vector<VoxelKey> keys(tiles.begin(), tiles.end());
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::vector<Value>> found(keys.size());
+  parallel_for(context.threads, keys.size(), 1,
+               [&](std::size_t i) { found[i] = find(voxel_index(keys[i])); });
+  typename DenseBlocks<Value, kTileBits, 0>::Cursor cursor;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    std::copy(found[i].begin(), found[i].end(), &values.make(voxel_index(keys[i]) * kTile, cursor));
+  }
+}
+
+/// Where in its column, of 256 parts, a point is: columns from the middle.
+float from_middle(std::uint32_t part) {
+  return (static_cast<float>(part) + 0.5F) / 256.0F - 0.5F;
+}
+
 }  // namespace
 
 Terrain::Terrain(const Parameters& parameters)
@@ -42,12 +63,13 @@ Terrain::Terrain(const Parameters& parameters)
           static_cast<int>(std::floor(parameters.terrain_reach * inverse_cell_ + kReachRounding))),
       counts_(0),
       own_ground_(kNoGround),
-      rises_(kNoGround),
-      ground_(-kNoGround) {}
+      land_x_(kNoGround),
+      land_y_(kNoGround),
+      ground_(GroundPlane{-kNoGround}) {}
 
 void Terrain::find_cells_of(const Scan& scan, int threads, ScanCells& cells) const {
-  find_cells(scan, {inverse_cell_, inverse_cell_, 1.0 / kStep}, BesideCells::kHeight, threads,
-             cells);
+  find_cells(scan, {inverse_cell_, inverse_cell_, 1.0 / kStep}, BesideCells::kPartsAndHeight,
+             threads, cells);
 }
 
 void Terrain::add(const ScanCells& cells, const RunContext& context) {
@@ -141,27 +163,6 @@ Terrain::Window Terrain::low_quantiles(const VoxelIndex& tile, int margin) const
   return window;
 }
 
-Terrain::Window Terrain::no_steeper_than_slope(const Window& ground, int margin) const {
-  const int side = kTile + 2 * margin;
-  // Columns without points of their own take the ground from beside them.
-  Window lowest(std::size_t{kTile} * kTile, kNoGround);
-  for (int dy = -reach_; dy <= reach_; ++dy) {
-    for (int dx = -reach_; dx <= reach_; ++dx) {
-      const double distance = std::hypot(dx, dy) * parameters_.terrain_cell;
-      if (distance > parameters_.terrain_reach + kReachRounding) continue;
-      const auto rise = static_cast<float>(parameters_.terrain_slope * distance);
-      for (int y = 0; y < kTile; ++y) {
-        const float* const from = ground.data() + (y + margin + dy) * side + margin + dx;
-        float* const to = lowest.data() + y * kTile;
-        for (int x = 0; x < kTile; ++x) to[x] = std::min(to[x], from[x] + rise);
-      }
-    }
-  }
-  // Any height is far above no ground.
-  std::replace(lowest.begin(), lowest.end(), kNoGround, -kNoGround);
-  return lowest;
-}
-
 Terrain::Window Terrain::without_pits_in(const VoxelIndex& tile) const {
   Window ground = low_quantiles(tile, kPitMargin);
   for (int round = 0; round < kPitRounds; ++round) {
@@ -171,21 +172,62 @@ Terrain::Window Terrain::without_pits_in(const VoxelIndex& tile) const {
   return middle_of(ground, kPitMargin);
 }
 
-Terrain::Window Terrain::rises_in(const VoxelIndex& tile) const {
+Terrain::Window Terrain::land_in(const VoxelIndex& tile, int axis) const {
   const Window ground = around_tile(own_ground_, tile, kLandMargin);
-  return middle_of(highest_rises(ground, kTile + 2 * kLandMargin, parameters_.terrain_cell,
-                                 parameters_.terrain_far_slope),
-                   kLandMargin);
+  return middle_of(land_rise(ground, kTile + 2 * kLandMargin, axis), kLandMargin);
 }
 
-Terrain::Window Terrain::bounded_in(const VoxelIndex& tile) const {
-  if (!looks_far(parameters_)) {
-    return no_steeper_than_slope(around_tile(own_ground_, tile, reach_), reach_);
+int Terrain::bound_margin() const {
+  return looks_far(parameters_) ? kFarReach + reach_ : reach_;
+}
+
+std::vector<GroundPlane> Terrain::ground_in(const VoxelIndex& tile) const {
+  const int margin = bound_margin();
+  Window ground = around_tile(own_ground_, tile, margin);
+  if (looks_far(parameters_)) {
+    const Window rises =
+        highest_rises(around_tile(land_x_, tile, margin), around_tile(land_y_, tile, margin),
+                      parameters_.terrain_cell, parameters_.terrain_far_slope);
+    ground = bounded_from_afar(ground, rises, kTile + 2 * margin);
   }
-  const int margin = kFarReach + reach_;
-  const Window ground = bounded_from_afar(around_tile(own_ground_, tile, margin),
-                                          around_tile(rises_, tile, margin), kTile + 2 * margin);
-  return no_steeper_than_slope(ground, margin);
+  const Window rise_x = around_tile(land_x_, tile, 0), rise_y = around_tile(land_y_, tile, 0);
+  std::vector<GroundPlane> planes(rise_x.size());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    planes[i] = steep_part(rise_x[i], rise_y[i], parameters_.terrain_cell);
+  }
+  bound_by_slope(ground, margin, planes);
+  return planes;
+}
+
+void Terrain::bound_by_slope(const Window& ground, int margin,
+                             std::vector<GroundPlane>& planes) const {
+  const int side = kTile + 2 * margin;
+  // Columns without points of their own take the ground from beside them.
+  Window lowest(planes.size(), kNoGround);
+  for (int dy = -reach_; dy <= reach_; ++dy) {
+    for (int dx = -reach_; dx <= reach_; ++dx) {
+      const double distance = std::hypot(dx, dy) * parameters_.terrain_cell;
+      if (distance > parameters_.terrain_reach + kReachRounding) continue;
+      const auto rise = static_cast<float>(parameters_.terrain_slope * distance);
+      const auto x_back = static_cast<float>(-dx), y_back = static_cast<float>(-dy);
+      for (int y = 0; y < kTile; ++y) {
+        const float* const from = ground.data() + (y + margin + dy) * side + margin + dx;
+        float* const to = lowest.data() + y * kTile;
+        const GroundPlane* const plane = planes.data() + y * kTile;
+        for (int x = 0; x < kTile; ++x) {
+          const float of_land = x_back * plane[x].rise_x + y_back * plane[x].rise_y;
+          to[x] = std::min(to[x], from[x] + (rise + of_land));
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    // Any height is far above no ground.
+    planes[i].middle =
+        lowest[i] < kNoGround
+            ? lowest[i] + quantile_below_middle(planes[i], parameters_.terrain_quantile)
+            : -kNoGround;
+  }
 }
 
 void Terrain::update_low_quantiles(const RunContext& context) {
@@ -197,18 +239,12 @@ void Terrain::update_low_quantiles(const RunContext& context) {
   stale_.clear();
 }
 
-void Terrain::fill_tiles(const VoxelSet& tiles, const RunContext& context, TileHeights& heights,
-                         Window (Terrain::*values_in)(const VoxelIndex&) const) const {
-  std::vector<VoxelKey> keys(tiles.begin(), tiles.end());
-  std::sort(keys.begin(), keys.end());
-  std::vector<Window> found(keys.size());
-  parallel_for(context.threads, keys.size(), 1,
-               [&](std::size_t i) { found[i] = (this->*values_in)(voxel_index(keys[i])); });
-  TileHeights::Cursor cursor;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    std::copy(found[i].begin(), found[i].end(),
-              &heights.make(voxel_index(keys[i]) * kTile, cursor));
+VoxelSet Terrain::known_around(const VoxelSet& tiles, int margin) const {
+  VoxelSet known;
+  for (const VoxelKey tile : with_tiles_around(tiles, margin)) {
+    if (tiles_.contains(tile)) known.insert(tile);
   }
+  return known;
 }
 
 void Terrain::update(const RunContext& context) {
@@ -217,18 +253,13 @@ void Terrain::update(const RunContext& context) {
   std::fill(has_news_.begin(), has_news_.end(), std::uint8_t{0});
   VoxelSet tiles = std::exchange(changed_, {});
   tiles_.insert(tiles.begin(), tiles.end());
-  fill_tiles(tiles, context, own_ground_, &Terrain::without_pits_in);
-  if (looks_far(parameters_)) {
-    tiles = with_tiles_around(tiles, kLandMargin);
-    fill_tiles(tiles, context, rises_, &Terrain::rises_in);
-    // Ground is found only where there are points, or beside them.
-    VoxelSet known;
-    for (const VoxelKey tile : with_tiles_around(tiles, kFarReach + reach_)) {
-      if (tiles_.contains(tile)) known.insert(tile);
-    }
-    tiles = std::move(known);
-  }
-  fill_tiles(tiles, context, ground_, &Terrain::bounded_in);
+  fill_tiles(tiles, context, own_ground_,
+             [this](const VoxelIndex& tile) { return without_pits_in(tile); });
+  tiles = known_around(tiles, kLandMargin);
+  fill_tiles(tiles, context, land_x_, [this](const VoxelIndex& tile) { return land_in(tile, 0); });
+  fill_tiles(tiles, context, land_y_, [this](const VoxelIndex& tile) { return land_in(tile, 1); });
+  fill_tiles(known_around(tiles, bound_margin()), context, ground_,
+             [this](const VoxelIndex& tile) { return ground_in(tile); });
 }
 
 void Terrain::find_heights(const ScanCells& cells, const RunContext& context,
@@ -236,9 +267,12 @@ void Terrain::find_heights(const ScanCells& cells, const RunContext& context,
   heights.resize(cells.size());
   parallel_chunks(
       context.threads, cells.size(), kPointsATask, [&](std::size_t begin, std::size_t end) {
-        TileHeights::Cursor cursor;
+        decltype(ground_)::Cursor cursor;
         for (std::size_t k = begin; k < end; ++k) {
-          heights[k] = cells.height[k] - ground_.get({cells.x[k], cells.y[k], 0}, cursor);
+          const GroundPlane plane = ground_.get({cells.x[k], cells.y[k], 0}, cursor);
+          const float x = from_middle(cells.parts[k] & 0xFFU);
+          const float y = from_middle(cells.parts[k] >> 8U & 0xFFU);
+          heights[k] = cells.height[k] - (plane.middle + (plane.rise_x * x + plane.rise_y * y));
         }
       });
 }

@@ -11,6 +11,7 @@
 #include "methods/common/dense_blocks.h"
 #include "methods/raymoval_plus/common/parameters.h"
 #include "methods/raymoval_plus/common/scan_cells.h"
+#include "methods/raymoval_plus/terrain/land.h"
 #include "methods/raymoval_plus/terrain/tiles.h"
 #include "methods/remover.h"
 
@@ -18,7 +19,9 @@ namespace raymoval::raymoval_plus_method {
 
 /// Step 1: the height of the ground below every place that was scanned. It is the low quantile of
 /// all points of a column. Columns that reach far below their neighbours do not count, and from one
-/// column to those around it the ground rises no more than a slope allows.
+/// column to those around it the ground rises no more than a slope allows. Where the land is steep
+/// the ground of a column is a plane that rises as the land does, and the slope allowed is that
+/// between the ground and such a plane.
 ///
 /// z is taken as up. Memory grows with the columns' occupied 5 cm steps, not with scans.
 class Terrain {
@@ -61,15 +64,18 @@ class Terrain {
   [[nodiscard]] Window low_quantiles(const VoxelIndex& tile, int margin) const;
   /// The ground of a tile's columns from their own points.
   [[nodiscard]] Window without_pits_in(const VoxelIndex& tile) const;
-  /// By how much the ground of a tile's columns may rise.
-  [[nodiscard]] Window rises_in(const VoxelIndex& tile) const;
+  /// How much the land of a tile's columns rises along an axis.
+  [[nodiscard]] Window land_in(const VoxelIndex& tile, int axis) const;
+  /// Columns to either side that bound the ground of a tile.
+  [[nodiscard]] int bound_margin() const;
   /// The ground of a tile's columns, bounded by that around them.
-  [[nodiscard]] Window bounded_in(const VoxelIndex& tile) const;
-  [[nodiscard]] Window no_steeper_than_slope(const Window& ground, int margin) const;
+  [[nodiscard]] std::vector<GroundPlane> ground_in(const VoxelIndex& tile) const;
+  /// Sets the heights of a tile's planes to what the slope between them and the ground around
+  /// allows.
+  void bound_by_slope(const Window& ground, int margin, std::vector<GroundPlane>& planes) const;
   void update_low_quantiles(const RunContext& context);
-  /// Writes what is found of each of some tiles.
-  void fill_tiles(const VoxelSet& tiles, const RunContext& context, TileHeights& heights,
-                  Window (Terrain::*values_in)(const VoxelIndex&) const) const;
+  /// Those tiles that ever had points in them or near them, of some tiles and all around these.
+  [[nodiscard]] VoxelSet known_around(const VoxelSet& tiles, int margin) const;
 
   Parameters parameters_;
   double inverse_cell_;
@@ -80,9 +86,9 @@ class Terrain {
   std::vector<std::uint8_t> has_news_;  ///< Blocks of `counts_` that `changed_` knows of: 1.
   VoxelSet changed_;                    ///< Tiles in which, or near which, points were added.
   VoxelSet tiles_;                      ///< All that ever were among these.
-  /// By column, metres: the ground from its own points, by how much it may rise from one column to
-  /// the next, and the ground in the end.
-  TileHeights own_ground_, rises_, ground_;
+  TileHeights own_ground_;              ///< Of each column from its own points, metres.
+  TileHeights land_x_, land_y_;         ///< How much the land rises, see `land_rise`.
+  DenseBlocks<GroundPlane, kTileBits, 0> ground_;
 };
 
 }  // namespace raymoval::raymoval_plus_method

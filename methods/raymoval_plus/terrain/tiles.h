@@ -10,7 +10,8 @@
 namespace raymoval::raymoval_plus_method {
 
 /// A height of each column, metres. A block is a tile of 64 x 64 columns.
-using TileHeights = DenseBlocks<float, 6, 0>;
+inline constexpr int kTileBits = 6;
+using TileHeights = DenseBlocks<float, kTileBits, 0>;
 inline constexpr int kTile = TileHeights::kSideXY;
 
 /// The height of the ground where none is known.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <random>
 
+#include "methods/raymoval_plus/terrain/land.h"
+
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -32,7 +34,9 @@ std::vector<float> random_ground(int side, double known, std::mt19937& random) {
 }
 
 std::vector<float> bounded(const std::vector<float>& ground, int side) {
-  return bounded_from_afar(ground, highest_rises(ground, side, kCell, 0.1), side);
+  const std::vector<float> rises =
+      highest_rises(land_rise(ground, side, 0), land_rise(ground, side, 1), kCell, 0.1);
+  return bounded_from_afar(ground, rises, side);
 }
 
 }  // namespace

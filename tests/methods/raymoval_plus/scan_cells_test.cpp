@@ -39,7 +39,7 @@ TEST_CASE("cells are those of the pose's product, by every instruction set and f
       const Scan scan = turned_scan(points);
       ScanCells cells;
       find_cells(scan, scale, BesideCells::kParts, 2, cells);
-      find_cells(scan, scale, BesideCells::kHeight, 2, cells);
+      find_cells(scan, scale, BesideCells::kPartsAndHeight, 2, cells);
       REQUIRE(cells.size() == points);
       for (std::size_t k = 0; k < points; ++k) {
         const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
@@ -64,6 +64,7 @@ TEST_CASE("a point beyond the lattice is an error, and not a wrong cell") {
     scan.points[37].x() = far;
     CHECK_THROWS_AS(find_cells(scan, Eigen::Vector3d::Constant(5.0), BesideCells::kParts, 1, cells),
                     DataError);
-    CHECK_THROWS_AS(find_cells(scan, {5.0, 5.0, 20.0}, BesideCells::kHeight, 2, cells), DataError);
+    CHECK_THROWS_AS(find_cells(scan, {5.0, 5.0, 20.0}, BesideCells::kPartsAndHeight, 2, cells),
+                    DataError);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/terrain/terrain.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -96,6 +97,41 @@ TEST_CASE("what stands between rings of ground is no ground") {
   }
 }
 
+TEST_CASE(
+    "on steep land heights are those above a plane, and things stand on it as on level land") {
+  // A box of 2 x 2 m, of which nothing lower than half a metre is seen, on land that rises in some
+  // direction.
+  const auto is_box = [](double x, double y) { return std::abs(x) < 1.0 && std::abs(y) < 1.0; };
+  for (const double far_slope : {0.1, 0.0}) {
+    for (const auto& [slope_x, slope_y] :
+         {std::pair(0.0, 0.0), std::pair(0.5, 0.0), std::pair(-0.3, 0.4), std::pair(0.0, -0.6)}) {
+      Parameters parameters;
+      parameters.terrain_far_slope = far_slope;
+      Terrain terrain{parameters};
+      // A hundred points in each column.
+      std::vector<Eigen::Vector3d> points, road, box;
+      for (int n = -400; n < 400; ++n) {
+        for (int m = -400; m < 400; ++m) {
+          const double x = 0.04 * n + 0.02, y = 0.04 * m + 0.02;
+          points.emplace_back(x, y, slope_x * x + slope_y * y + (is_box(x, y) ? 0.5 : 0.0));
+          const double away = std::max(std::abs(x), std::abs(y));
+          if (is_box(x, y)) box.push_back(points.back());
+          if (away > 1.5 && away < 6.0) road.push_back(points.back());
+        }
+      }
+      terrain.add(cells_of(terrain, points), RunContext{});
+      terrain.update(RunContext{});
+      const std::vector<float> of_road = heights_of(terrain, road);
+      // A tenth counts as level: within a column it is 2.8 cm to either side at most.
+      CHECK(*std::max_element(of_road.begin(), of_road.end()) < parameters.ground_height);
+      CHECK(*std::min_element(of_road.begin(), of_road.end()) > -0.05F);
+      // The ground below the box rises by 0.2 a metre from its edge.
+      const std::vector<float> of_box = heights_of(terrain, box);
+      CHECK(*std::min_element(of_box.begin(), of_box.end()) > 0.5F - 0.3F);
+    }
+  }
+}
+
 TEST_CASE("ground found scan by scan is the ground found at once") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-60.0, 60.0), rough(0.0, 0.3);
@@ -105,7 +141,7 @@ TEST_CASE("ground found scan by scan is the ground found at once") {
     std::vector<Eigen::Vector3d> points;
     for (int i = 0; i < 40000; ++i) {
       const double x = place(random), y = place(random);
-      points.emplace_back(x, y, 0.1 * x + rough(random));
+      points.emplace_back(x, y, (x < 0.0 ? 0.1 : 0.4) * x + rough(random));
     }
     in_parts.add(cells_of(in_parts, points), RunContext{});
     in_parts.update(RunContext{.threads = 2});
