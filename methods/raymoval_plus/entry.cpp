@@ -9,7 +9,7 @@ MethodEntry raymoval_plus_entry() {
   entry.sentence =
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
   entry.source = "this project";
-  entry.version = "16";
+  entry.version = "17";
   entry.confidence = {
       "What was decided on a point, the evidence of its voxel, and the dynamic share of its "
       "object.",
@@ -30,18 +30,15 @@ MethodEntry raymoval_plus_entry() {
        {0.9844F, 0.9992F}}};
   entry.variants = {
       {"offline", "Every point answered from all scans.", false, {}},
-      {"online",
-       "Each scan answered when it comes.",
-       true,
-       {{"at_once", true}, {"terrain_far_slope", 0.0}}},
+      {"online", "Each scan answered when it comes.", true, {{"at_once", true}}},
       {"online-lag",
        "Each scan answered once, a second after it came (delay), from the scans up to then.",
        true,
-       {{"at_once", true}, {"delay", 1.0}, {"terrain_far_slope", 0.0}}},
+       {{"at_once", true}, {"delay", 1.0}}},
       {"online-map",
        "One pass as the scans come, every point answered by the map as it is in the end.",
        false,
-       {{"one_pass", true}, {"terrain_far_slope", 0.0}}},
+       {{"one_pass", true}}},
   };
   entry.bind(raymoval_plus_method::parameter_table(), raymoval_plus_method::make_raymoval_plus);
   return entry;

@@ -15,6 +15,9 @@ constexpr float kHighest = 1.0F;
 /// Points near the ground follow the dynamic points above them if these are so many times the
 /// others, and the other way round. Between, they stay what their voxels are.
 constexpr int kMajority = 2;
+/// A foot or a wheel ends on the ground, and its lowest points are taken for it. Those at least so
+/// many metres above the ground, which few points of a road are, follow what is dynamic above them.
+constexpr float kLeastAboveGround = 0.045F;
 
 /// What stands in a column of voxels.
 struct Standing {
@@ -42,6 +45,12 @@ class LowPoints {
   [[nodiscard]] bool is_standing(std::size_t k) const {
     return scan_.height[k] >= low_ && scan_.height[k] < kHighest;
   }
+  [[nodiscard]] bool is_ground(std::size_t k) const { return scan_.voxel[k] == EvidenceMap::kNone; }
+  /// Whether what stands above a point has a say in its verdict.
+  [[nodiscard]] bool may_follow(std::size_t k) const {
+    if (is_ground(k)) return !is_dynamic(k) && scan_.height[k] >= kLeastAboveGround;
+    return scan_.height[k] < low_;
+  }
   [[nodiscard]] bool is_dynamic(std::size_t k) const { return verdict_[k] == Verdict::kDynamic; }
   [[nodiscard]] VoxelIndex column_of(std::size_t k) const {
     return {scan_.in_map.x[k], scan_.in_map.y[k], 0};
@@ -64,7 +73,7 @@ class LowPoints {
   /// Finds the low points whose verdict what stands above them may change.
   void find_undecided() {
     for (std::size_t k = 0; k < verdict_.size(); ++k) {
-      if (!(scan_.height[k] < low_) || scan_.voxel[k] == EvidenceMap::kNone) continue;
+      if (!may_follow(k)) continue;
       if (!is_dynamic(k) && !columns_.get(column_of(k), cursor_).is_near_dynamic) continue;
       undecided_.push_back(k);
       for_columns_around(k, [](Standing& standing) { standing.is_asked = true; });
@@ -85,7 +94,7 @@ class LowPoints {
     });
     if (dynamic > 0 && dynamic >= kMajority * fixed) {
       verdict_[k] = Verdict::kDynamic;
-    } else if (fixed > 0 && fixed >= kMajority * dynamic) {
+    } else if (!is_ground(k) && fixed > 0 && fixed >= kMajority * dynamic) {
       verdict_[k] = Verdict::kStatic;
     }
   }

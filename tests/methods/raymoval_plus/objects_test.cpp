@@ -216,6 +216,30 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
   }
 }
 
+TEST_CASE("what is taken for ground follows what moves above it, if it is no lower than a road") {
+  // A foot whose points at 0.02, 0.04 and 0.06 m are taken for ground, and a leg above it.
+  for (const Verdict leg : {Verdict::kDynamic, Verdict::kStatic}) {
+    for (const Verdict foot : {Verdict::kDynamic, Verdict::kStatic}) {
+      Scene scene;
+      Verdicts verdicts;
+      for (const double z : {0.02, 0.04, 0.06}) {
+        scene.add({5.05, 0.05, z}, foot);
+        scene.scan.voxel.back() = EvidenceMap::kNone;
+        verdicts.push_back(foot);
+      }
+      for (int k = 0; k < 6; ++k) {
+        scene.add({5.05, 0.25, 0.35 + 0.1 * k}, leg);  // In the column beside.
+        verdicts.push_back(leg);
+      }
+      Verdicts expected = verdicts;
+      // What scans saw through stays dynamic, whatever stands above it.
+      if (leg == Verdict::kDynamic) expected[2] = Verdict::kDynamic;
+      decide_low_points(scene.scan, scene.parameters, RunContext{}, verdicts);
+      CHECK(verdicts == expected);
+    }
+  }
+}
+
 namespace {
 
 /// Step 8 with every column counted. 1 for each point that is dynamic afterwards.
@@ -228,7 +252,8 @@ std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before
   std::vector<int> dynamic(before.size());
   for (std::size_t k = 0; k < before.size(); ++k) {
     dynamic[k] = before[k] == Verdict::kDynamic ? 1 : 0;
-    if (scan.voxel[k] == EvidenceMap::kNone || scan.height[k] >= low) continue;
+    const bool is_ground = scan.voxel[k] == EvidenceMap::kNone;
+    if (is_ground ? scan.height[k] < 0.045F : scan.height[k] >= low) continue;
     std::array<int, 2> sum{};
     for (const auto& [at, points] : standing) {
       if (std::abs(at.first - scan.in_map.x[k]) > 1) continue;
@@ -237,7 +262,7 @@ std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before
     }
     if (sum[1] > 0 && sum[1] >= 2 * sum[0]) {
       dynamic[k] = 1;
-    } else if (sum[0] > 0 && sum[0] >= 2 * sum[1]) {
+    } else if (!is_ground && sum[0] > 0 && sum[0] >= 2 * sum[1]) {
       dynamic[k] = 0;
     }
   }
