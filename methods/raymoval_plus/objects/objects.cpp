@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "methods/common/range_adaptive_clusters.h"
+#include "methods/raymoval_plus/objects/fragments.h"
 #include "methods/raymoval_plus/objects/whole_things.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -154,6 +155,43 @@ std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
   return follow;
 }
 
+/// The clusters that go as a whole: 1 for each that is one dynamic thing, or that a track marked.
+std::vector<std::uint8_t> clusters_that_go(const SegmentedScan& scan,
+                                           const std::vector<int>& marked,
+                                           const Parameters& parameters) {
+  std::vector<std::uint8_t> go(scan.clusters.size(), 0);
+  for (const int cluster : marked) go[static_cast<std::size_t>(cluster)] = 1;
+  for (std::size_t c = 0; c < go.size(); ++c) {
+    const Cluster& cluster = scan.clusters[c];
+    const int enough = cluster.is_part ? parameters.group_points : parameters.object_points;
+    const bool is_marked =
+        cluster.undivided >= 0 && go[static_cast<std::size_t>(cluster.undivided)] != 0;
+    if (is_marked || (!cluster.is_undivided && cluster.dynamic >= enough &&
+                      is_one_dynamic_thing(cluster, parameters))) {
+      go[c] = 1;
+    }
+  }
+  return go;
+}
+
+/// Lets fragments go with what goes beside them.
+void add_fragments(const SegmentedScan& scan, const std::vector<std::uint8_t>& go,
+                   const Parameters& parameters, Verdicts& verdict) {
+  if (std::find(go.begin(), go.end(), 1) == go.end()) return;
+  std::vector<ObjectSummary> boxes(go.size());
+  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
+    for_clusters_of(scan, i, [&](std::size_t cluster) {
+      if (go[cluster] != 0) add_to_box(scan.world(scan.high_points[i]), boxes[cluster]);
+    });
+  }
+  const Fragments fragments(scan, parameters);
+  for (std::size_t c = 0; c < go.size(); ++c) {
+    if (go[c] == 0 || is_fragment(scan.clusters[c].points, parameters)) continue;
+    if (boxes[c].width() > parameters.track_width) continue;
+    fragments.for_near(boxes[c], [&](std::uint32_t k) { verdict[k] = Verdict::kDynamic; });
+  }
+}
+
 }  // namespace
 
 void find_clusters(const Parameters& parameters, const RunContext& context, SegmentedScan& scan) {
@@ -239,25 +277,19 @@ Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marke
                         const Parameters& parameters, const RunContext& context) {
   if (!parameters.objects) return scan.verdict;
   const StageScope timed(context.times, "objects");
-  std::vector<std::uint8_t> marks(scan.clusters.size(), 0);
-  for (const int cluster : marked) marks[static_cast<std::size_t>(cluster)] = 1;
-  for (std::size_t c = 0; c < marks.size(); ++c) {
-    const int undivided = scan.clusters[c].undivided;
-    if (undivided >= 0 && marks[static_cast<std::size_t>(undivided)] != 0) marks[c] = 1;
-  }
+  const std::vector<std::uint8_t> go = clusters_that_go(scan, marked, parameters);
   const std::vector<std::uint8_t> spared = spared_groups(scan, parameters);
   Verdicts verdict = scan.verdict;
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     const auto number = static_cast<std::size_t>(scan.cluster_of[i]);
     const Cluster& cluster = scan.clusters[number];
-    const int enough = cluster.is_part ? parameters.group_points : parameters.object_points;
-    if (marks[number] != 0 ||
-        (is_one_dynamic_thing(cluster, parameters) && cluster.dynamic >= enough)) {
+    if (go[number] != 0) {
       verdict[scan.high_points[i]] = Verdict::kDynamic;
     } else if (spared[i] == 0 && cluster.is_hardly_dynamic) {
       verdict[scan.high_points[i]] = Verdict::kStatic;
     }
   }
+  add_fragments(scan, go, parameters, verdict);
   return verdict;
 }
 

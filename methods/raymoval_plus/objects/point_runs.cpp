@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "methods/raymoval_plus/objects/fragments.h"
+
 namespace raymoval::raymoval_plus_method {
 namespace {
 
@@ -45,6 +47,12 @@ std::vector<PointRun> remembered_points(const SegmentedScan& scan,
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     for_clusters_of(
         scan, i, [&](std::size_t cluster) { remember(scan.high_points[i], object_of[cluster]); });
+  }
+  const Fragments fragments(scan, parameters);
+  for (const ObjectSummary& object : objects) {
+    const int number = object_of[static_cast<std::size_t>(object.cluster)];
+    if (number == kNotRemembered || is_fragment(object.points, parameters)) continue;
+    fragments.for_near(object, [&](std::uint32_t point) { remember(point, number); });
   }
   runs.shrink_to_fit();
   return runs;

@@ -8,7 +8,7 @@
 
 namespace raymoval::raymoval_plus_method {
 
-/// Points of one cluster that follow each other in their scan.
+/// Points of one cluster, or of fragments beside it, that follow each other in their scan.
 struct PointRun {
   std::uint32_t first;
   std::uint16_t count;
@@ -20,7 +20,7 @@ struct PointRun {
 /// pass through.
 bool is_remembered(const ObjectSummary& object, const Parameters& parameters);
 
-/// The points of the objects that are remembered.
+/// The points of the objects that are remembered, and those of the fragments beside them.
 /// @param objects of the scan, from `summarise_objects`
 std::vector<PointRun> remembered_points(const SegmentedScan& scan,
                                         const std::vector<ObjectSummary>& objects,

@@ -189,6 +189,52 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
   CHECK(objects[0].width() == Approx(0.2));
 }
 
+TEST_CASE("a fragment goes with what goes beside it") {
+  // An object of 6 points at x = 5.05 m, y = 0.05 m, and beside it 3 points that no scan saw
+  // through. The reach is 2.5 x (0.3 m + 0.01 x their range), 0.881 m at 5.22 m.
+  for (const double apart : {0.6, 0.86, 0.90}) {
+    for (const int points : {3, 4}) {  // Four are an object of their own.
+      for (const bool goes : {true, false}) {
+        Scene scene;
+        const Verdict own = goes ? Verdict::kDynamic : Verdict::kStatic;
+        scene.add_column(5.05, 0.05, 0.85, 6, own);
+        scene.add_column(5.05, 0.05 + apart, 1.0, points, Verdict::kStatic);
+        const bool follows = goes && points == 3 && apart < 0.9;
+        CHECK(scene.dynamic(0, 6) == (goes ? 6 : 0));
+        CHECK(scene.dynamic(6, 6 + points) == (follows ? 3 : 0));
+        if (goes) continue;
+        // A track marked the object: the fragment goes, and is remembered with it.
+        const bool is_fragment = points == 3 && apart < 0.9;
+        const SegmentedScan scan = scene.segmented();
+        const int marked = scan.cluster_of[0];
+        CHECK(scene.dynamic(6, 6 + points, {marked}) == (is_fragment ? 3 : 0));
+        const auto objects = summarise_objects(scan, scene.map, scene.parameters, RunContext{});
+        std::size_t remembered = 0;
+        for (const PointRun& run : remembered_points(scan, objects, scene.parameters)) {
+          if (objects[run.object].cluster == marked) remembered += run.count;
+        }
+        CHECK(remembered == (is_fragment ? 9 : 6));
+      }
+    }
+  }
+}
+
+TEST_CASE("a fragment does not go with another, nor with what is too wide to be one thing") {
+  Scene pair;
+  pair.add_column(5.05, 0.05, 1.0, 3, Verdict::kDynamic);
+  pair.add_column(5.05, 0.65, 1.0, 3, Verdict::kStatic);
+  CHECK(pair.dynamic(0, 3) == 3);
+  CHECK(pair.dynamic(3, 6) == 0);
+  for (const int columns : {60, 90}) {  // 11.8 m and 17.8 m long; 15 m are the most.
+    Scene wide;
+    for (int n = 0; n < columns; ++n) {
+      wide.add_column(5.05, 0.2 * n - 0.1 * columns, 1.0, 2, Verdict::kDynamic);
+    }
+    wide.add({5.65, 0.05, 1.0}, Verdict::kStatic);
+    CHECK(wide.dynamic(2 * columns, 2 * columns + 1) == (columns == 60 ? 1 : 0));
+  }
+}
+
 TEST_CASE("low points follow what stands above them, if two thirds of that agree") {
   // Feet at 0.1 m and 0.2 m, and a leg of ten points from 0.3 m on, of which some are dynamic.
   for (const int dynamic : {3, 5, 7}) {
