@@ -57,7 +57,8 @@ void add_terrain(Lines& table) {
   table.number("terrain_drop", &P::terrain_drop, "m", 0, 10,
                "A column this much below its neighbours' quartile is dropped.", kTerrain);
   table.number("terrain_slope", &P::terrain_slope, "", 0, 2,
-               "Steepest ground from a column to its neighbours.", kTerrain);
+               "Steepest ground from a column to its neighbours, beside the rise of steep land.",
+               kTerrain);
   table.number("terrain_reach", &P::terrain_reach, "m", 0, 10,
                "How far a column's ground bounds that of its neighbours.", kTerrain);
   table.number("terrain_far_slope", &P::terrain_far_slope, "", 0, 2,
@@ -140,7 +141,9 @@ void add_objects(Lines& table) {
   table.number("object_static_share", &P::object_static_share, "", 0, 1,
                "Share of dynamic points up to which a cluster is static.", kObjects);
   table.integer("object_points", &P::object_points, "points", 1, 1000,
-                "Smallest cluster that is removed as a whole.", kObjects);
+                "Smallest cluster that is removed as a whole. One that is no larger also goes with "
+                "a larger one beside it.",
+                kObjects);
   table.integer("group_points", &P::group_points, "points", 1, 1000000,
                 "A group of dynamic points this large stays dynamic in a static cluster.",
                 kObjects);
@@ -152,8 +155,9 @@ void add_objects(Lines& table) {
                "Share of a track's clusters that must be dynamic.", kTracks);
   table.number("track_slack", &P::track_slack, "", 0, 10,
                "How much longer than its length explains scans may agree on an object.", kTracks);
-  table.number("track_width", &P::track_width, "m", 0, 100, "Wider clusters are not followed.",
-               kTracks);
+  table.number("track_width", &P::track_width, "m", 0, 100,
+               "Wider clusters are not followed, and nothing beside them goes with them.",
+               kObjects);
   table.integer("track_points", &P::track_points, "points", 1, 1000,
                 "Smaller clusters are not followed.", kTracks);
   table.flag("low_points", &P::low_points, "Points near the ground follow what stands above them.",
