@@ -9,6 +9,7 @@ namespace raymoval::raymoval_plus_method {
 /// farther away: one after the other, so that the bound reaches as far as all of them together.
 inline constexpr int kFarSteps[] = {1, 2, 4, 8, 4, 2, 1};
 inline constexpr int kFarReach = 22;
+
 /// By how much the ground of each column may be above that of the column beside it, metres: by as
 /// much as the land around rises anyway, and `slope` besides.
 /// @param rise_x, rise_y how much the land rises from one column to the next, metres

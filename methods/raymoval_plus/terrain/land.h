@@ -25,8 +25,9 @@ struct GroundPlane {
   float rise_x = 0.0F, rise_y = 0.0F;  ///< From there to the middle of the next column, metres.
 };
 
-/// The part of the land's rise that tilts the ground of a column: what is above a tenth. So much may
-/// be of things that stand on level land, and the ground may rise by more from column to column.
+/// The part of the land's rise that tilts the ground of a column: what is above a tenth. So much
+/// may be of things that stand on level land, and the ground may rise by more from column to
+/// column.
 /// @param rise_x, rise_y metres from one column to the next
 /// @param cell edge of a column, metres
 /// @return a plane of height 0
