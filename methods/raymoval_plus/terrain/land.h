@@ -12,8 +12,8 @@ inline constexpr int kLandReach = 20, kHalfLag = 2;
 inline constexpr int kLandMargin = kLandReach + kHalfLag;
 
 /// How much the land around each column rises along an axis, metres from one column to the next.
-/// It is the mean of differences over 1.6 m, of which those at the edges of things that stand on
-/// the land cancel out.
+/// It is the mean of differences over 1.6 m. Those at the edges of what stands on the land cancel
+/// out, and those of more than a metre do not count.
 /// @param ground heights of a square of columns, row by row, metres; +infinity where none is known
 /// @param side columns in a row
 /// @param axis 0 for x, 1 for y

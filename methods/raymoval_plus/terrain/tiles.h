@@ -9,8 +9,9 @@
 
 namespace raymoval::raymoval_plus_method {
 
-/// A height of each column, metres. A block is a tile of 64 x 64 columns.
+/// A tile has 2^`kTileBits` columns, 64, along x and y.
 inline constexpr int kTileBits = 6;
+/// A height of each column, metres. A block is a tile.
 using TileHeights = DenseBlocks<float, kTileBits, 0>;
 inline constexpr int kTile = TileHeights::kSideXY;
 
