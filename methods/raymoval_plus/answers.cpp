@@ -80,7 +80,8 @@ class Answers {
       segment(std::move(scan), segmented);
       objects_[index] = summarise_objects(segmented, maps_.standing, parameters_, of_scan_);
       runs_[index] = remembered_points(segmented, objects_[index], parameters_);
-      Verdicts verdicts = decide_objects(segmented, {}, parameters_, of_scan_);  // 6
+      Verdicts verdicts =
+          decide_objects(segmented, maps_.standing, {}, parameters_, of_scan_);  // 6
       decide_low_points(segmented, parameters_, of_scan_, verdicts);             // 8
       unmarked_.set(index, removed_points(verdicts));
     });
@@ -151,7 +152,8 @@ void answer_from_map(const Terrain& terrain, const EvidenceMaps& maps, const Par
 
 void answer(const SegmentedScan& scan, const std::vector<int>& marked, const EvidenceMaps& maps,
             const Parameters& parameters, RemovalSink& sink, const RunContext& context) {
-  const Verdicts by_objects = decide_objects(scan, marked, parameters, context);  // 6, 7
+  const Verdicts by_objects =
+      decide_objects(scan, maps.standing, marked, parameters, context);  // 6, 7
   Verdicts decided = by_objects;
   decide_low_points(scan, parameters, context, decided);  // 8
   sink.accept(scan.scan.index, removed_points(decided));

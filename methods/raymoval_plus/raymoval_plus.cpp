@@ -134,7 +134,7 @@ class Run {
     const StageScope timed(context_.times, "range image");
     parallel_for(context_.threads, batch.size(), 1, [&](std::size_t i) {
       images[i].fill(batch[i]);
-      posed[i] = {&images[i], batch[i].T_world_sensor};
+      posed[i] = {&images[i], batch[i].T_world_sensor, batch[i].index};
     });
   }
 
@@ -163,13 +163,13 @@ class Run {
   /// Steps 2 to 4 for a scan that is read only once.
   void add_arrived(LocatedScan& located, WhenToDecide when) {
     const auto known = maps_.sizes();
-    const PosedImage posed{&image_, located.scan.T_world_sensor};
+    const PosedImage posed{&image_, located.scan.T_world_sensor, located.scan.index};
     add_to_maps(parameters_, context_, located, maps_);                  // 2
     ask_earlier_scans(known, posed.T_world_sensor.translation(), when);  // 3, 4
     for (EvidenceMap* const map : maps_.both()) {
       add_evidence(std::span(&posed, 1), parameters_, when, context_, *map);  // 3, 4
     }
-    earlier_scans_.keep(std::move(image_), posed.T_world_sensor);
+    earlier_scans_.keep(std::move(image_), posed.T_world_sensor, posed.scan);
   }
 
   /// Steps 3 and 4 for the voxels that were added since the maps had so many.

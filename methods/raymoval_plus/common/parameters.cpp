@@ -116,8 +116,9 @@ void add_vote(Lines& table) {
   table.number(
       "outlast", &P::outlast, "", 0, 10000,
       "A settled voxel is not outvoted if so many times as many scans agree with it as with "
-      "the dynamic ones around it; 0 for off.",
-      "vote_radius > 0 and settled_scans > 0");
+      "the dynamic ones around it, and its points do not go with a dynamic cluster if so many "
+      "times as many agree as with the dynamic points of that; 0 for off.",
+      "settled_scans > 0");
   table.integer("run_scans", &P::run_scans, "scans", 0, 1000,
                 "A voxel is dynamic if so many scans in a row see through it before the first or "
                 "after the last one that agrees; 0 for off.");
@@ -149,7 +150,9 @@ void add_objects(Lines& table) {
                 kObjects);
   table.integer("settled_scans", &P::settled_scans, "scans", 0, 10000,
                 "A voxel that so many scans agree with is not outvoted if none saw through it, and "
-                "its points are left out when a mixed cluster is divided; 0 for neither.");
+                "its points are left out when a mixed cluster is divided. What is there so many "
+                "scans before and after something comes and leaves does not go with it. 0 for none "
+                "of these.");
   table.flag("tracks", &P::tracks, "Follow dynamic clusters over scans.", kObjects);
   table.number("track_dynamic_share", &P::track_dynamic_share, "", 0, 1,
                "Share of a track's clusters that must be dynamic.", kTracks);

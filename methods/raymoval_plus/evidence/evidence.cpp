@@ -48,19 +48,19 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
   parallel_for(context.threads, tiles.size(), 1, [&](std::size_t t) {
     EvidenceMap::Tile& tile = map.tile(tiles[t]);
     thread_local std::vector<ObservedPlace> observed;
-    for (const auto& [image, T_world_sensor] : images) {
+    for (const auto& [image, T_world_sensor, scan] : images) {
       image->observe(tile.places,
                      T_world_sensor.inverse(Eigen::Isometry) * Eigen::Translation3d(tile.origin),
                      map.seen_through(), observed);
       for (const ObservedPlace& place : observed) {
         VoxelEvidence& evidence = tile.evidence[place.place];
         if (when == WhenToDecide::kLater) {
-          add_observation(place.observation, place.range, parameters, evidence);
+          add_observation(place.observation, place.range, scan, parameters, evidence);
           continue;
         }
         const bool is_first = is_unseen(evidence);
         const Verdict before = decided(evidence);
-        add_observation(place.observation, place.range, parameters, evidence);
+        add_observation(place.observation, place.range, scan, parameters, evidence);
         const Verdict now = decided(evidence);
         // Most observations change no decision, and then the map need not be written.
         if (is_first || now != before) map.set_decision(tile.voxels[place.place], now);
@@ -95,7 +95,7 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
       scan.image.observe(places, scan.T_sensor_world * Eigen::Translation3d(center),
                          map.seen_through(), observed);
       for (const ObservedPlace& place : observed) {
-        add_observation(place.observation, place.range, parameters_,
+        add_observation(place.observation, place.range, scan.number, parameters_,
                         map.evidence(first_voxel + begin + place.place));
       }
     }
@@ -107,26 +107,29 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
   }
 }
 
-void EarlierScans::keep(RangeImage&& image, const Pose& T_world_sensor) {
+void EarlierScans::keep(RangeImage&& image, const Pose& T_world_sensor, std::size_t scan) {
   const bool is_kept = scans_++ % static_cast<std::size_t>(parameters_.history_step) == 0;
   if (!is_kept || parameters_.history_scans == 0) return;
   const Pose T_sensor_world = T_world_sensor.inverse(Eigen::Isometry);
   if (kept_.size() < static_cast<std::size_t>(parameters_.history_scans)) {
-    kept_.push_back({std::move(image), T_sensor_world});
+    kept_.push_back({std::move(image), T_sensor_world, scan});
     return;
   }
   // The memory of the oldest image is that of the next one.
   std::rotate(kept_.begin(), kept_.begin() + 1, kept_.end());
   std::swap(kept_.back().image, image);
   kept_.back().T_sensor_world = T_sensor_world;
+  kept_.back().number = scan;
 }
 
-void add_observation(Observation observation, float range, const Parameters& parameters,
-                     VoxelEvidence& evidence) {
+void add_observation(Observation observation, float range, std::size_t scan,
+                     const Parameters& parameters, VoxelEvidence& evidence) {
   const auto count_up = [](std::uint16_t& count) {
     if (count < 0xFFFFU) ++count;
   };
   if (observation == Observation::kAgree) {
+    evidence.last_agree = static_cast<std::uint32_t>(scan);
+    if (evidence.agree_scans == 0) evidence.first_agree = evidence.last_agree;
     count_up(evidence.agree_scans);
     evidence.trailing_free = 0;
   } else if (observation == Observation::kFree) {

@@ -13,10 +13,11 @@
 
 namespace raymoval::raymoval_plus_method {
 
-/// The image of a scan and where it was taken.
+/// The image of a scan, and where it was taken.
 struct PosedImage {
   const RangeImage* image = nullptr;
   Pose T_world_sensor = Pose::Identity();
+  std::size_t scan = 0;  ///< Its number.
 };
 
 /// When step 4 decides on voxels: after each scan, or by `decide_all` at the end.
@@ -43,12 +44,14 @@ class EarlierScans {
                     const RunContext& context, EvidenceMap& map) const;
   /// Takes the next scan. One of `history_step` scans is kept, and at most the last
   /// `history_scans`. The image that is left is to be filled anew.
-  void keep(RangeImage&& image, const Pose& T_world_sensor);
+  /// @param scan its number
+  void keep(RangeImage&& image, const Pose& T_world_sensor, std::size_t scan);
 
  private:
   struct EarlierScan {
     RangeImage image;
     Pose T_sensor_world;
+    std::size_t number;
   };
   Parameters parameters_;
   std::size_t scans_ = 0;
@@ -57,8 +60,9 @@ class EarlierScans {
 
 /// Step 3 for one voxel: adds what one scan says. Scans come in order of time.
 /// @param range distance of the voxel from the sensor, metres
-void add_observation(Observation observation, float range, const Parameters& parameters,
-                     VoxelEvidence& evidence);
+/// @param scan the scan's number
+void add_observation(Observation observation, float range, std::size_t scan,
+                     const Parameters& parameters, VoxelEvidence& evidence);
 
 /// Step 4 for one voxel: static, dynamic or undecided.
 Verdict decide(const VoxelEvidence& evidence, const Parameters& parameters);
@@ -83,6 +87,15 @@ class Decisions {
   int run_;                  ///< Scans in a row that show that something came or left.
   std::vector<int> needed_;  ///< By scans that agree: the scans that must see through.
 };
+
+/// Of the scans that say something of what stands, hardly any sees through it: no more than this
+/// share of those that agree. Beams pass beside a pole.
+inline constexpr double kHardlyFree = 0.05;
+/// Whether hardly any scan sees through a voxel, or an object.
+template <class Evidence>
+bool is_hardly_seen_through(const Evidence& evidence) {
+  return evidence.free_scans <= kHardlyFree * evidence.agree_scans;
+}
 
 /// Whether enough scans agree with a voxel and none saw through it: it was there all the time.
 bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters);

@@ -21,6 +21,8 @@ struct VoxelEvidence {
   /// Scans in a row that saw through it from near by, before the first scan that agrees and since
   /// the last one.
   std::uint16_t leading_free = 0, trailing_free = 0;
+  /// The numbers of the first and of the last scan that agree, if any does.
+  std::uint32_t first_agree = 0, last_agree = 0;
 };
 
 /// Step 2: the occupied voxels. Each has the mean of its points, what the scans say of it (step 3),

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/sampling.h"
+#include "methods/raymoval_plus/evidence/evidence.h"
 #include "methods/raymoval_plus/objects/taken_places.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -21,33 +22,45 @@ constexpr double kPlaceShare = 0.5;
 /// Scans may agree with an object that stands so many times as long as it was followed there: other
 /// sides of it come into sight, or something passes before it, and its track is lost.
 constexpr double kStaySlack = 2.0;
+/// With what stands there anyway, at least this share of the scans agree in which it would have to
+/// be gone.
+constexpr double kLeastPresent = 0.4;
 
-/// Of each of a track's objects, the number of scans that it spends where it is then. It is in one
-/// place until its centre is farther from where it was at first than a share of its length.
-std::vector<int> scans_in_place(const Track& track, double length) {
+/// The scans in which the object of a track is in one place.
+struct Stay {
+  std::size_t first, last;
+  [[nodiscard]] int scans() const { return 1 + scans_between(first, last); }
+};
+
+/// The scans from one of a track's objects to another; tracks also lead backward.
+Stay stay_between(const Track::Node& a, const Track::Node& b) {
+  return {std::min(a.scan, b.scan), std::max(a.scan, b.scan)};
+}
+
+/// Of each of a track's objects, the scans that it spends where it is then. It is in one place
+/// until its centre is farther from where it was at first than a share of its length.
+std::vector<Stay> stays_of(const Track& track, double length) {
   const std::size_t count = track.nodes.size();
   const auto center = [&](std::size_t k) { return track.nodes[k].object.center.head<2>(); };
-  std::vector<int> scans(count);
+  std::vector<Stay> stays;
   for (std::size_t first = 0, end = 0; first < count; first = end) {
     while (end < count && (center(end) - center(first)).norm() <= kPlaceShare * length) ++end;
-    const int stay = 1 + scans_between(track.nodes[first].scan, track.nodes[end - 1].scan);
-    std::fill(scans.begin() + static_cast<std::ptrdiff_t>(first),
-              scans.begin() + static_cast<std::ptrdiff_t>(end), stay);
+    stays.resize(end, stay_between(track.nodes[first], track.nodes[end - 1]));
   }
-  return scans;
+  return stays;
 }
 
 /// Whether an object goes on, and does not stand: it is in its place for no longer than its length
 /// and speed explain.
-/// @param stay scans that it spends in its place
-bool goes_on(const ObjectSummary& object, int stay, const Motion& motion,
+/// @param stay where it is then
+bool goes_on(const ObjectSummary& object, const Stay& stay, const Motion& motion,
              const Parameters& parameters) {
-  return stay <= scans_passing(object, motion, parameters) + kScansMore;
+  return stay.scans() <= scans_passing(object, motion, parameters) + kScansMore;
 }
 
 /// Whether enough of a track's objects are dynamic. Those that stand do not count against it: where
 /// something stands for long, often nothing was seen before or after.
-bool is_mostly_dynamic(const Track& track, const std::vector<int>& stays, const Motion& motion,
+bool is_mostly_dynamic(const Track& track, const std::vector<Stay>& stays, const Motion& motion,
                        const Parameters& parameters) {
   int dynamic = 0, others = 0;
   for (std::size_t k = 0; k < stays.size(); ++k) {
@@ -78,9 +91,9 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
 }
 
 /// Whether scans agree on an object no longer than it was followed while it stood.
-/// @param stay scans that it spends in its place
-bool is_explained_by_stay(const ObjectSummary& object, int stay) {
-  return object.agree_scans <= kStaySlack * stay + kScansMore;
+/// @param stay where it is then
+bool is_explained_by_stay(const ObjectSummary& object, const Stay& stay) {
+  return object.agree_scans <= kStaySlack * stay.scans() + kScansMore;
 }
 
 /// Whether enough of the objects of a track that stands are dynamic: it came or leaves.
@@ -92,28 +105,49 @@ bool came_or_leaves(const Track& track, const Parameters& parameters) {
 /// How the object of a track goes.
 struct Journey {
   std::optional<Motion> motion;  ///< None if it came or leaves, and stands else.
-  std::vector<int> stays;        ///< Of each of the track's objects, the scans spent in its place.
+  std::vector<Stay> stays;       ///< Of each of the track's objects.
+  Stay dynamic;                  ///< From its first dynamic object to its last one.
 };
 
 /// How the object of a track moved, came or leaves, if that is known.
 std::optional<Journey> journey_of(const Track& track, const Parameters& parameters) {
   if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
   const auto motion = motion_of(track, parameters);
-  const std::size_t count = track.nodes.size();
-  std::vector<int> stays = motion ? scans_in_place(track, motion->length)
-                                  : std::vector<int>(count, static_cast<int>(count));
+  const Stay whole = stay_between(track.nodes.front(), track.nodes.back());
+  std::vector<Stay> stays =
+      motion ? stays_of(track, motion->length) : std::vector<Stay>(track.nodes.size(), whole);
   const bool is_known = motion ? is_mostly_dynamic(track, stays, *motion, parameters)
                                : came_or_leaves(track, parameters);
   if (!is_known) return std::nullopt;
-  return Journey{motion, std::move(stays)};
+  const auto is_one = [&](const Track::Node& node) { return is_dynamic(node.object, parameters); };
+  const auto first = std::find_if(track.nodes.begin(), track.nodes.end(), is_one);
+  const auto last = std::find_if(track.nodes.rbegin(), track.nodes.rend(), is_one);
+  return Journey{motion, std::move(stays), stay_between(*first, *last)};
+}
+
+/// Whether something stands where an object does, no matter whether the object is there: it is the
+/// pole or the tree whose track somebody who passed took over. Scans agree with it long before the
+/// object would have come, or long after it would have left.
+bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey& journey,
+                   const Parameters& parameters) {
+  if (parameters.settled_scans == 0) return false;
+  if (!is_hardly_seen_through(object)) return false;
+  const double before = static_cast<double>(stay.first) - object.first_agree;
+  const double after = object.last_agree - static_cast<double>(stay.last);
+  const double absent = std::max(before, 0.0) + std::max(after, 0.0);
+  if (object.agree_scans - stay.scans() < kLeastPresent * absent) return false;
+  const bool was_before = before > parameters.settled_scans;
+  const bool is_after = after > parameters.settled_scans;
+  const bool came = journey.dynamic.first<stay.first, left = journey.dynamic.last> stay.last;
+  return (came && was_before) || (left && is_after) || (was_before && is_after);
 }
 
 /// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no
 /// longer than its length and speed explain, or than it was followed while it stood.
-bool belongs(const ObjectSummary& object, int stay, const Journey& journey,
+bool belongs(const ObjectSummary& object, const Stay& stay, const Journey& journey,
              const Parameters& parameters) {
-  return (journey.motion && is_explained(object, *journey.motion, parameters)) ||
-         is_explained_by_stay(object, stay);
+  if (journey.motion && is_explained(object, *journey.motion, parameters)) return true;
+  return is_explained_by_stay(object, stay) && !stands_anyway(object, stay, journey, parameters);
 }
 
 void sort_and_unite(std::vector<int>& numbers) {

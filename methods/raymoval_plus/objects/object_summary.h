@@ -18,6 +18,10 @@ struct ObjectSummary {
   float range = 0.0F;                                ///< Distance of the centre from the sensor.
   /// The number of scans that agree with a point, on average over the points that are not dynamic.
   float agree_scans = 0.0F;
+  /// Of these points also: the number of scans that saw through, and the numbers of the first and
+  /// the last scan that agree, on average.
+  float free_scans = 0.0F;
+  double first_agree = 0.0, last_agree = 0.0;
   int points = 0;
   int dynamic = 0;            ///< How many points are dynamic.
   bool is_whole = false;      ///< The others stand on these, see `Cluster::is_whole`.

@@ -2,10 +2,12 @@
 #include "methods/raymoval_plus/objects/objects.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/parallel.h"
 #include "methods/common/range_adaptive_clusters.h"
 #include "methods/raymoval_plus/objects/fragments.h"
+#include "methods/raymoval_plus/objects/lasting_points.h"
 #include "methods/raymoval_plus/objects/whole_things.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -137,6 +139,27 @@ void add_to_box(const Eigen::Vector3d& point, ObjectSummary& object) {
   object.high = object.high.cwiseMax(point);
 }
 
+/// Adds what scans say of a point's voxel to the sums of an object. Where none agrees, the point's
+/// own scan is the first and the last one.
+void add_evidence_of(std::size_t k, const SegmentedScan& scan, const EvidenceMap& map,
+                     ObjectSummary& object) {
+  VoxelEvidence evidence;
+  if (scan.voxel[k] != EvidenceMap::kNone) evidence = map.evidence(scan.voxel[k]);
+  const auto here = static_cast<double>(scan.scan.index);
+  object.agree_scans += evidence.agree_scans;
+  object.free_scans += evidence.free_scans;
+  object.first_agree += evidence.agree_scans > 0 ? evidence.first_agree : here;
+  object.last_agree += evidence.agree_scans > 0 ? evidence.last_agree : here;
+}
+
+/// Makes means of the sums.
+void divide_evidence(int points, ObjectSummary& object) {
+  object.agree_scans /= static_cast<float>(points);
+  object.free_scans /= static_cast<float>(points);
+  object.first_agree /= points;
+  object.last_agree /= points;
+}
+
 /// The clusters that may be followed: 1 for each that is neither too small nor, by a few of its
 /// points, too wide. Most points of a scan are of houses and trees, which that leaves out.
 std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
@@ -155,26 +178,34 @@ std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
   return follow;
 }
 
-/// The clusters that go as a whole: 1 for each that is one dynamic thing, or that a track marked.
-std::vector<std::uint8_t> clusters_that_go(const SegmentedScan& scan,
-                                           const std::vector<int>& marked,
+/// The clusters that a track marked: 1 for each that is one, or a part of one.
+std::vector<std::uint8_t> marked_clusters(const SegmentedScan& scan,
+                                          const std::vector<int>& marked) {
+  std::vector<std::uint8_t> is_marked(scan.clusters.size(), 0);
+  for (const int cluster : marked) is_marked[static_cast<std::size_t>(cluster)] = 1;
+  for (std::size_t c = 0; c < is_marked.size(); ++c) {
+    const int undivided = scan.clusters[c].undivided;
+    if (undivided >= 0 && is_marked[static_cast<std::size_t>(undivided)] != 0) is_marked[c] = 1;
+  }
+  return is_marked;
+}
+
+/// The clusters that go by themselves: 1 for each that is one dynamic thing, and not marked.
+std::vector<std::uint8_t> dynamic_clusters(const SegmentedScan& scan,
+                                           const std::vector<std::uint8_t>& is_marked,
                                            const Parameters& parameters) {
   std::vector<std::uint8_t> go(scan.clusters.size(), 0);
-  for (const int cluster : marked) go[static_cast<std::size_t>(cluster)] = 1;
   for (std::size_t c = 0; c < go.size(); ++c) {
     const Cluster& cluster = scan.clusters[c];
     const int enough = cluster.is_part ? parameters.group_points : parameters.object_points;
-    const bool is_marked =
-        cluster.undivided >= 0 && go[static_cast<std::size_t>(cluster.undivided)] != 0;
-    if (is_marked || (!cluster.is_undivided && cluster.dynamic >= enough &&
-                      is_one_dynamic_thing(cluster, parameters))) {
-      go[c] = 1;
-    }
+    go[c] = is_marked[c] == 0 && !cluster.is_undivided && cluster.dynamic >= enough &&
+            is_one_dynamic_thing(cluster, parameters);
   }
   return go;
 }
 
 /// Lets fragments go with what goes beside them.
+/// @param go 1 for each cluster that goes
 void add_fragments(const SegmentedScan& scan, const std::vector<std::uint8_t>& go,
                    const Parameters& parameters, Verdicts& verdict) {
   if (std::find(go.begin(), go.end(), 1) == go.end()) return;
@@ -249,9 +280,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
       const Eigen::Vector3d point = scan.world(k);
       add_to_box(point, object);
       object.center += point;
-      if (scan.verdict[k] != Verdict::kDynamic) {
-        object.agree_scans += static_cast<float>(agreeing_scans(map, scan.voxel[k]));
-      }
+      if (scan.verdict[k] != Verdict::kDynamic) add_evidence_of(k, scan, map, object);
     });
   }
   const Eigen::Vector3d sensor = scan.scan.T_world_sensor.translation();
@@ -266,26 +295,31 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     object.center /= object.points;
     object.time_s = scan.scan.time_s;
     object.range = static_cast<float>((object.center - sensor).norm());
-    object.agree_scans /= static_cast<float>(std::max(object.points - object.dynamic, 1));
+    divide_evidence(std::max(object.points - object.dynamic, 1), object);
     object.cluster = static_cast<int>(c);
     followed.push_back(object);
   }
   return followed;
 }
 
-Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marked,
-                        const Parameters& parameters, const RunContext& context) {
+Verdicts decide_objects(const SegmentedScan& scan, const EvidenceMap& map,
+                        const std::vector<int>& marked, const Parameters& parameters,
+                        const RunContext& context) {
   if (!parameters.objects) return scan.verdict;
   const StageScope timed(context.times, "objects");
-  const std::vector<std::uint8_t> go = clusters_that_go(scan, marked, parameters);
+  const std::vector<std::uint8_t> is_marked = marked_clusters(scan, marked);
+  const std::vector<std::uint8_t> is_dynamic = dynamic_clusters(scan, is_marked, parameters);
+  const std::vector<std::uint8_t> lasting = lasting_points(scan, map, is_dynamic, parameters);
   const std::vector<std::uint8_t> spared = spared_groups(scan, parameters);
+  std::vector<std::uint8_t> go(is_marked.size());
+  std::transform(is_marked.begin(), is_marked.end(), is_dynamic.begin(), go.begin(), std::bit_or());
   Verdicts verdict = scan.verdict;
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     const auto number = static_cast<std::size_t>(scan.cluster_of[i]);
-    const Cluster& cluster = scan.clusters[number];
+    const bool is_hardly_dynamic = scan.clusters[number].is_hardly_dynamic;
     if (go[number] != 0) {
-      verdict[scan.high_points[i]] = Verdict::kDynamic;
-    } else if (spared[i] == 0 && cluster.is_hardly_dynamic) {
+      verdict[scan.high_points[i]] = lasting[i] != 0 ? Verdict::kStatic : Verdict::kDynamic;
+    } else if (spared[i] == 0 && is_hardly_dynamic) {
       verdict[scan.high_points[i]] = Verdict::kStatic;
     }
   }

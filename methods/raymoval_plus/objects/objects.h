@@ -61,10 +61,12 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
                                              const RunContext& context);
 
 /// Steps 6 and 7: the verdicts after each cluster was taken as one thing. Mostly dynamic ones and
-/// those that a track marked are dynamic as a whole. Hardly dynamic ones are static, except for
-/// groups of dynamic points that hang together. Fragments go with what goes beside them.
+/// those that a track marked are dynamic as a whole, except for what lasts in the former. Hardly
+/// dynamic ones are static, except for groups of dynamic points that hang together. Fragments go
+/// with what goes beside them.
 /// @param marked numbers of the clusters that a track marked
-Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marked,
-                        const Parameters& parameters, const RunContext& context);
+Verdicts decide_objects(const SegmentedScan& scan, const EvidenceMap& map,
+                        const std::vector<int>& marked, const Parameters& parameters,
+                        const RunContext& context);
 
 }  // namespace raymoval::raymoval_plus_method
