@@ -62,14 +62,17 @@ TEST_CASE("runs of scans that see through are counted at either end of a voxel's
   using enum Observation;
   const Parameters parameters;
   VoxelEvidence evidence;
+  std::size_t scan = 70'000;  // The number of the first one.
   for (const Observation seen : {kFree, kOccluded, kFree, kAgree, kFree, kAgree, kUnknown, kFree}) {
-    add_observation(seen, 10.0F, parameters, evidence);
+    add_observation(seen, 10.0F, scan++, parameters, evidence);
   }
-  add_observation(kFree, 30.0F, parameters, evidence);  // Farther than 20 m: not of a run.
+  add_observation(kFree, 30.0F, scan, parameters, evidence);  // Farther than 20 m: not of a run.
   CHECK(evidence.agree_scans == 2);
   CHECK(evidence.free_scans == 5);
   CHECK(evidence.leading_free == 2);
   CHECK(evidence.trailing_free == 1);
+  CHECK(evidence.first_agree == 70'003);
+  CHECK(evidence.last_agree == 70'005);
 }
 
 TEST_CASE("every voxel in range is asked of a scan, and decided on") {
@@ -81,7 +84,7 @@ TEST_CASE("every voxel in range is asked of a scan, and decided on") {
   const WhenToDecide when = GENERATE(WhenToDecide::kNow, WhenToDecide::kLater);
   for (int scan = 0; scan < 2; ++scan) {
     const RangeImage image = image_of_return(10.0F);
-    const PosedImage posed{&image, Pose::Identity()};
+    const PosedImage posed{&image, Pose::Identity(), 4 + static_cast<std::size_t>(scan)};
     add_evidence(std::span(&posed, 1), Parameters{}, when, RunContext{}, map);
   }
   if (when == WhenToDecide::kLater) {
@@ -91,6 +94,8 @@ TEST_CASE("every voxel in range is asked of a scan, and decided on") {
   CHECK(map.evidence(front).free_scans == 2);
   CHECK(map.decision(front) == Verdict::kDynamic);
   CHECK(map.evidence(hit).agree_scans == 2);
+  CHECK(map.evidence(hit).first_agree == 4);
+  CHECK(map.evidence(hit).last_agree == 5);
   CHECK(map.decision(hit) == Verdict::kStatic);
   for (const auto unseen : {behind, aside}) {
     CHECK(map.evidence(unseen).free_scans + map.evidence(unseen).agree_scans == 0);
@@ -104,15 +109,20 @@ TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") 
   Parameters parameters;
   parameters.history_scans = 2;
   EarlierScans earlier(parameters);
-  for (const float range : {5.0F, 5.0F, 10.0F, 5.0F, 10.0F}) {
-    earlier.keep(image_of_return(range), Pose::Identity());
+  std::size_t scan = 0;
+  for (const float range : {5.0F, 5.0F, 10.0F, 5.0F, 12.0F}) {
+    earlier.keep(image_of_return(range), Pose::Identity(), scan++);
   }
   toy::MapPoints points;
   EvidenceMap& map = points.map;
   const auto known = points.add({5.02, 0.02, 0.02}), fresh = points.add({5.22, 0.02, 0.02});
+  const auto hit = points.add({10.02, 0.02, 0.02});
   earlier.add_evidence(fresh, {0.0, 0.0, 0.0}, WhenToDecide::kNow, RunContext{}, map);
   CHECK(map.evidence(fresh).free_scans == 2);
   CHECK(map.evidence(fresh).agree_scans == 0);
   CHECK(map.decision(fresh) == Verdict::kDynamic);
   CHECK(map.evidence(known).free_scans == 0);
+  CHECK(map.evidence(hit).agree_scans == 1);
+  CHECK(map.evidence(hit).first_agree == 2);
+  CHECK(map.evidence(hit).last_agree == 2);
 }

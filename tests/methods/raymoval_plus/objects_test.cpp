@@ -53,7 +53,7 @@ class Scene {
   }
   /// The number of dynamic points from number `first` to before `end`, after step 6.
   [[nodiscard]] int dynamic(int first, int end, const std::vector<int>& marked = {}) const {
-    const Verdicts verdicts = decide_objects(segmented(), marked, parameters, RunContext{});
+    const Verdicts verdicts = decide_objects(segmented(), map, marked, parameters, RunContext{});
     return static_cast<int>(
         std::count(verdicts.begin() + first, verdicts.begin() + end, Verdict::kDynamic));
   }
@@ -174,6 +174,10 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
   scene.add_column(4.05, 3.05, 0.4, 4, Verdict::kDynamic);
   scene.add_column(4.25, 3.05, 0.4, 4, Verdict::kStatic);   // three scans agree
   scene.add_column(9.05, 3.05, 0.4, 3, Verdict::kDynamic);  // too few points
+  for (std::size_t k = 4; k < 8; ++k) {
+    scene.map.evidence(scene.scan.voxel[k]) = k < 6 ? VoxelEvidence{3, 3, 0, 0, 75'000, 75'008}
+                                                    : VoxelEvidence{0, 3, 0, 0, 75'004, 75'010};
+  }
   const auto objects =
       summarise_objects(scene.segmented(), scene.map, scene.parameters, RunContext{});
   REQUIRE(objects.size() == 1);
@@ -181,12 +185,54 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
   CHECK(objects[0].points == 8);
   CHECK(objects[0].dynamic == 4);
   CHECK(objects[0].agree_scans == 3.0F);
+  CHECK(objects[0].free_scans == 1.5F);
+  CHECK(objects[0].first_agree == 75'002.0);
+  CHECK(objects[0].last_agree == 75'009.0);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int k = 0; k < 8; ++k)
     sum += scene.scan.scan.points[static_cast<std::size_t>(k)].cast<double>();
   CHECK(objects[0].center.isApprox(sum / 8.0));
   CHECK(objects[0].center.isApprox(Eigen::Vector3d(4.15, 3.05, 0.55), 1e-7));  // They are floats.
   CHECK(objects[0].width() == Approx(0.2));
+}
+
+TEST_CASE("a pole stays where somebody stands beside it") {
+  // He has 20 dynamic points, with which five scans agree, 40 to 60; the pole has 12 points.
+  const auto pole_goes = [](VoxelEvidence pole, const std::vector<int>& marked = {}) {
+    Scene scene;
+    scene.scan.scan.index = 50;
+    scene.add_column(5.05, 0.05, 0.4, 20, Verdict::kDynamic);
+    scene.add_column(5.25, 0.05, 0.4, 12, Verdict::kStatic);
+    for (std::size_t k = 0; k < 32; ++k) {
+      scene.map.evidence(scene.scan.voxel[k]) = k < 20 ? VoxelEvidence{10, 5, 0, 0, 40, 60} : pole;
+    }
+    CHECK(scene.dynamic(0, 20, marked) == 20);
+    const int gone = scene.dynamic(20, 32, marked);
+    CHECK((gone == 0 || gone == 12));
+    return gone == 12;
+  };
+  CHECK_FALSE(pole_goes({0, 41, 0, 0, 30, 70}));
+  CHECK_FALSE(pole_goes({2, 41, 0, 0, 0, 150}));  // A twentieth of the scans may see through.
+  CHECK(pole_goes({3, 41, 0, 0, 0, 150}));
+  CHECK(pole_goes({0, 40, 0, 0, 30, 70}));       // More than eight times as many must agree, ...
+  CHECK(pole_goes({0, 41, 0, 0, 31, 70}));       // ... ten scans before ...
+  CHECK(pole_goes({0, 41, 0, 0, 30, 69}));       // ... and ten after.
+  CHECK(pole_goes({0, 41, 0, 0, 30, 70}, {0}));  // What a track marked goes as a whole.
+}
+
+TEST_CASE("points that nobody has seen before are of their own scan's time") {
+  // The dynamic points have no scan that agrees: scan 50 is all that is known of them.
+  for (const std::uint32_t first : {40U, 41U}) {
+    Scene scene;
+    scene.scan.scan.index = 50;
+    scene.add_column(5.05, 0.05, 0.4, 20, Verdict::kDynamic);
+    scene.add_column(5.25, 0.05, 0.4, 12, Verdict::kStatic);
+    for (std::size_t k = 0; k < 32; ++k) {
+      scene.map.evidence(scene.scan.voxel[k]) =
+          k < 20 ? VoxelEvidence{10, 0, 0, 0, 0, 0} : VoxelEvidence{0, 15, 0, 0, first, 60};
+    }
+    CHECK(scene.dynamic(20, 32) == (first == 40 ? 0 : 12));
+  }
 }
 
 TEST_CASE("a fragment goes with what goes beside it") {

@@ -21,6 +21,7 @@ ObjectSummary walker(int scan, int dynamic, float agree_scans) {
   object.points = 20;
   object.dynamic = dynamic;
   object.agree_scans = agree_scans;
+  object.first_agree = object.last_agree = scan;
   return object;
 }
 
@@ -101,6 +102,50 @@ TEST_CASE("what waits before it leaves, or comes and stays, is one thing with wh
         const bool stands = comes ? i >= 10 : i < 40;
         CHECK(marked[i] == (stands ? of_standing : std::vector<int>{}));
       }
+    }
+  }
+}
+
+TEST_CASE(
+    "a pole stays whose track somebody who passes takes over, or whom it takes over from him") {
+  // It is followed for 40 scans, and then he walks on from there for ten. Or, in the other order of
+  // time, he comes there, and it is followed on. Scans agree with it up to `beyond` scans after
+  // that it should have left, or from as many before it should have come.
+  const auto is_marked = [](bool comes, float agree_scans, float free_scans, double beyond) {
+    Scans scans;
+    for (int i = 0; i < 50; ++i) {
+      const int time = comes ? 49 - i : i;
+      scans.push_back({walker(time < 40 ? 0 : time - 39, time < 40 ? 0 : 18, agree_scans)});
+      scans.back()[0].first_agree = comes ? 10.0 - beyond : 0.0;
+      scans.back()[0].last_agree = comes ? 49.0 : 39.0 + beyond;
+      scans.back()[0].free_scans = free_scans;
+    }
+    const auto marked = marked_by_tracks(scans);
+    CHECK(marked[20] == marked[25]);
+    return marked[25] == std::vector{0};
+  };
+  for (const bool comes : {false, true}) {
+    CHECK(is_marked(comes, 60.0F, 0.0F, 10.0));  // That may be how far scans agree around him.
+    CHECK_FALSE(is_marked(comes, 60.0F, 0.0F, 11.0));
+    CHECK_FALSE(is_marked(comes, 60.0F, 3.0F, 20.0));
+    CHECK(is_marked(comes, 60.0F, 3.5F, 20.0));        // Seen through more: others came there.
+    CHECK_FALSE(is_marked(comes, 48.0F, 0.0F, 20.0));  // Eight scans more are 0.4 of the 20.
+    CHECK(is_marked(comes, 47.0F, 0.0F, 20.0));
+  }
+}
+
+TEST_CASE("a pole stays before which somebody came or left for some scans") {
+  // Nothing moves: it is dynamic in four of ten scans. Scans agree 10 or 11 scans before and after.
+  for (const double beyond : {10.0, 11.0}) {
+    for (const bool before_too : {false, true}) {
+      Scans scans;
+      for (int i = 0; i < 10; ++i) {
+        scans.push_back({walker(0, i % 3 == 0 ? 18 : 0, 20.0F)});
+        scans.back()[0].first_agree = before_too ? 0.0 - beyond : 0.0;
+        scans.back()[0].last_agree = 9.0 + beyond;
+      }
+      const bool stands = before_too && beyond == 11.0;
+      CHECK(marked_by_tracks(scans)[2] == (stands ? std::vector<int>{} : std::vector{0}));
     }
   }
 }
