@@ -30,7 +30,6 @@ KNOWN = {
     ("hard/walk-rosette", "beautymap:wide"),
     ("hard/walk-rosette", "freedom:few-counts"),
     ("hard/carpark-solid-state", "peopleremover:normals"),
-    ("hard-60/revisit-vlp16", "mapcleaner:sound"),
 }
 
 
