@@ -97,6 +97,17 @@ bool is_hardly_seen_through(const Evidence& evidence) {
   return evidence.free_scans <= kHardlyFree * evidence.agree_scans;
 }
 
+/// The numbers of the first and of the last scan that agree with a voxel.
+struct AgreeingSpan {
+  std::uint32_t first, last;
+};
+/// Where none agrees, a point's own scan is both.
+inline AgreeingSpan agreeing_span(const VoxelEvidence& evidence, std::size_t own_scan) {
+  if (evidence.agree_scans > 0) return {evidence.first_agree, evidence.last_agree};
+  const auto own = static_cast<std::uint32_t>(own_scan);
+  return {own, own};
+}
+
 /// Whether enough scans agree with a voxel and none saw through it: it was there all the time.
 bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters);
 

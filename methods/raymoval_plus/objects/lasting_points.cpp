@@ -12,11 +12,11 @@ struct DynamicPoints {
   std::int64_t count = 0, agree = 0, first = 0, last = 0;
 
   void add(const VoxelEvidence& evidence, std::size_t scan) {
-    const bool none = evidence.agree_scans == 0;
     ++count;
     agree += evidence.agree_scans;
-    first += none ? static_cast<std::int64_t>(scan) : evidence.first_agree;
-    last += none ? static_cast<std::int64_t>(scan) : evidence.last_agree;
+    const AgreeingSpan scans = agreeing_span(evidence, scan);
+    first += scans.first;
+    last += scans.last;
   }
   /// Whether a voxel was there for much longer than these.
   [[nodiscard]] bool are_outlasted_by(const VoxelEvidence& evidence,

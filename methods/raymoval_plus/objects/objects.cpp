@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "methods/common/range_adaptive_clusters.h"
+#include "methods/raymoval_plus/evidence/evidence.h"
 #include "methods/raymoval_plus/objects/fragments.h"
 #include "methods/raymoval_plus/objects/lasting_points.h"
 #include "methods/raymoval_plus/objects/whole_things.h"
@@ -139,17 +140,16 @@ void add_to_box(const Eigen::Vector3d& point, ObjectSummary& object) {
   object.high = object.high.cwiseMax(point);
 }
 
-/// Adds what scans say of a point's voxel to the sums of an object. Where none agrees, the point's
-/// own scan is the first and the last one.
+/// Adds what scans say of a point's voxel to the sums of an object.
 void add_evidence_of(std::size_t k, const SegmentedScan& scan, const EvidenceMap& map,
                      ObjectSummary& object) {
   VoxelEvidence evidence;
   if (scan.voxel[k] != EvidenceMap::kNone) evidence = map.evidence(scan.voxel[k]);
-  const auto here = static_cast<double>(scan.scan.index);
   object.agree_scans += evidence.agree_scans;
   object.free_scans += evidence.free_scans;
-  object.first_agree += evidence.agree_scans > 0 ? evidence.first_agree : here;
-  object.last_agree += evidence.agree_scans > 0 ? evidence.last_agree : here;
+  const auto [first, last] = agreeing_span(evidence, scan.scan.index);
+  object.first_agree += first;
+  object.last_agree += last;
 }
 
 /// Makes means of the sums.
