@@ -116,8 +116,7 @@ void add_vote(Lines& table) {
   table.number(
       "outlast", &P::outlast, "", 0, 10000,
       "A settled voxel is not outvoted if so many times as many scans agree with it as with "
-      "the dynamic ones around it, and its points do not go with a dynamic cluster if so many "
-      "times as many agree as with the dynamic points of that; 0 for off.",
+      "the dynamic ones around it; 0 for off.",
       "settled_scans > 0");
   table.integer("run_scans", &P::run_scans, "scans", 0, 1000,
                 "A voxel is dynamic if so many scans in a row see through it before the first or "
@@ -151,7 +150,7 @@ void add_objects(Lines& table) {
   table.integer("settled_scans", &P::settled_scans, "scans", 0, 10000,
                 "A voxel that so many scans agree with is not outvoted if none saw through it, and "
                 "its points are left out when a mixed cluster is divided. What is there so many "
-                "scans before and after something comes and leaves does not go with it. 0 for none "
+                "scans before or after something comes or leaves does not go with it. 0 for none "
                 "of these.");
   table.flag("tracks", &P::tracks, "Follow dynamic clusters over scans.", kObjects);
   table.number("track_dynamic_share", &P::track_dynamic_share, "", 0, 1,

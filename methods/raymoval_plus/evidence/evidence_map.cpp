@@ -11,6 +11,10 @@ namespace {
 /// A point's offset in its voxel is counted in 1/256 of the edge, 0.8 mm at 0.2 m: finer than
 /// ranges are measured. Whole numbers give the same sum in any order.
 constexpr double kParts = 256.0;
+/// The offset along z.
+std::uint32_t upward(std::uint32_t parts) {
+  return parts >> 16U & 0xFFU;
+}
 /// With more points a sum of offsets could exceed 32 bits. The mean has long settled by then.
 constexpr std::uint32_t kMostPoints = 1U << 24;
 /// So many blocks are compared at a time with what they were.
@@ -27,7 +31,7 @@ void EvidenceMap::add_point(std::uint32_t voxel, std::uint32_t parts) {
   if (sums.count == kMostPoints) return;
   sums.x += parts & 0xFFU;
   sums.y += parts >> 8U & 0xFFU;
-  sums.z += parts >> 16U & 0xFFU;
+  sums.z += upward(parts);
   ++sums.count;
 }
 
@@ -71,6 +75,11 @@ Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
   const double scale = 1.0 / (kParts * sums.count), half = 0.5 / kParts;
   const Eigen::Vector3d offset(sums.x * scale + half, sums.y * scale + half, sums.z * scale + half);
   return (index(voxel).cast<double>() + offset) * size_;
+}
+
+double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {
+  const Sums& sums = sums_[voxel];
+  return (upward(parts) - static_cast<double>(sums.z) / sums.count) * (size_ / kParts);
 }
 
 VoxelIndex EvidenceMap::tile_at(const Eigen::Vector3d& place) const {

@@ -80,6 +80,9 @@ class EvidenceMap {
   [[nodiscard]] const VoxelIndex& index(std::size_t voxel) const { return voxels_[voxel].index; }
   /// The mean of the voxel's points so far, world frame, metres.
   [[nodiscard]] Eigen::Vector3d centroid(std::size_t voxel) const;
+  /// How far one of the voxel's points lies above that mean, metres.
+  /// @param parts where the point is in its cell, see `ScanCells`
+  [[nodiscard]] double above_mean(std::size_t voxel, std::uint32_t parts) const;
 
   /// 64 x 64 columns of voxels. All voxels of a block belong to the same tile.
   struct Tile {

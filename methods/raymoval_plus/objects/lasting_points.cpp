@@ -1,32 +1,71 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/objects/lasting_points.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "methods/raymoval_plus/evidence/evidence.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-/// What scans say of the dynamic points of a cluster. Whole numbers give the same sums in any order
-/// of the points.
-struct DynamicPoints {
-  std::int64_t count = 0, agree = 0, first = 0, last = 0;
+// Numbers of this step; EXPERIMENTS.md says what others do.
+/// Of the scans between the first and the last one that agree with what lasts, at least so many
+/// times `settled_scans` agree when what is dynamic is not there, ...
+constexpr double kSettledAround = 2.0;
+/// ... and at least this share of those that could.
+constexpr double kLeastAround = 0.8;
 
-  void add(const VoxelEvidence& evidence, std::size_t scan) {
-    ++count;
-    agree += evidence.agree_scans;
-    const AgreeingSpan scans = agreeing_span(evidence, scan);
-    first += scans.first;
-    last += scans.last;
+/// The numbers of some scans, counted from a cluster's own scan, which keeps sums small. Whole
+/// numbers give the same sums in any order of the points.
+struct ScanNumbers {
+  std::int64_t sum = 0, squares = 0;
+
+  void add(std::int64_t number) {
+    sum += number;
+    squares += number * number;
   }
-  /// Whether a voxel was there for much longer than these.
+  [[nodiscard]] double mean(double count) const { return static_cast<double>(sum) / count; }
+  /// The standard deviation.
+  [[nodiscard]] double deviation(double count) const {
+    const double variance = static_cast<double>(squares) / count - mean(count) * mean(count);
+    return std::sqrt(std::max(variance, 0.0));
+  }
+};
+
+/// When the dynamic points of a cluster were where they are.
+class DynamicPoints {
+ public:
+  /// @param scan the cluster's own
+  void add(const VoxelEvidence& evidence, std::size_t scan) {
+    own_scan_ = static_cast<std::int64_t>(scan);
+    const AgreeingSpan scans = agreeing_span(evidence, scan);
+    ++count_;
+    first_.add(scans.first - own_scan_);
+    last_.add(scans.last - own_scan_);
+  }
+  /// Whether a voxel was there long before these came or after they left. These were there from one
+  /// standard deviation before the mean of the first scans that agree with them to one after the
+  /// mean of the last ones. How many scans agree with the voxel in that time is not known; all that
+  /// it has room for are taken to, so that those around it are not overrated.
   [[nodiscard]] bool are_outlasted_by(const VoxelEvidence& evidence,
                                       const Parameters& parameters) const {
-    const std::int64_t settled = parameters.settled_scans;
-    return static_cast<double>(evidence.agree_scans * count) >
-               parameters.outlast * static_cast<double>(agree) &&
-           (evidence.first_agree + settled) * count <= first &&
-           (evidence.last_agree - settled) * count >= last;
+    if (count_ == 0) return false;
+    const auto count = static_cast<double>(count_);
+    const double came = first_.mean(count) - first_.deviation(count);
+    const double left = last_.mean(count) + last_.deviation(count);
+    const auto first = static_cast<double>(evidence.first_agree - own_scan_);
+    const auto last = static_cast<double>(evidence.last_agree - own_scan_);
+    const double together = std::max(std::min(left, last) - std::max(came, first) + 1.0, 0.0);
+    const double around = last - first + 1.0 - together;
+    const double agree_around = evidence.agree_scans - together;
+    return agree_around >= kSettledAround * parameters.settled_scans &&
+           agree_around >= kLeastAround * around;
   }
+
+ private:
+  std::int64_t own_scan_ = 0, count_ = 0;
+  ScanNumbers first_, last_;
 };
 
 }  // namespace
@@ -35,7 +74,7 @@ std::vector<std::uint8_t> lasting_points(const SegmentedScan& scan, const Eviden
                                          const std::vector<std::uint8_t>& may_last,
                                          const Parameters& parameters) {
   std::vector<std::uint8_t> lasting(scan.high_points.size(), 0);
-  if (parameters.settled_scans == 0 || parameters.outlast == 0.0) return lasting;
+  if (parameters.settled_scans == 0) return lasting;
   const auto for_points = [&](auto&& visit) {
     for (std::size_t i = 0; i < lasting.size(); ++i) {
       const std::uint32_t k = scan.high_points[i], voxel = scan.voxel[k];
@@ -50,8 +89,7 @@ std::vector<std::uint8_t> lasting_points(const SegmentedScan& scan, const Eviden
   });
   for_points(
       [&](std::size_t i, bool is_dynamic, const VoxelEvidence& evidence, std::size_t cluster) {
-        lasting[i] = !is_dynamic && evidence.agree_scans >= parameters.settled_scans &&
-                     is_hardly_seen_through(evidence) &&
+        lasting[i] = !is_dynamic && is_hardly_seen_through(evidence) &&
                      dynamic[cluster].are_outlasted_by(evidence, parameters);
       });
   return lasting;

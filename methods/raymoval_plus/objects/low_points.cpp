@@ -16,8 +16,10 @@ constexpr float kHighest = 1.0F;
 /// others, and the other way round. Between, they stay what their voxels are.
 constexpr int kMajority = 2;
 /// A foot or a wheel ends on the ground, and its lowest points are taken for it. Those at least so
-/// many metres above the ground, which few points of a road are, follow what is dynamic above them.
-constexpr float kLeastAboveGround = 0.045F;
+/// many metres above the mean of what was seen of the ground there follow what is dynamic above
+/// them. Their height above the terrain does not tell them: beside a road, that of a pavement is as
+/// high.
+constexpr double kLeastAboveGround = 0.01;
 
 /// What stands in a column of voxels.
 struct Standing {
@@ -30,8 +32,13 @@ struct Standing {
 /// only the columns are counted on which the verdict of a low point can depend.
 class LowPoints {
  public:
-  LowPoints(const LocatedScan& scan, const Parameters& parameters, Verdicts& verdict)
-      : scan_(scan), low_(static_cast<float>(parameters.object_height)), verdict_(verdict) {}
+  LowPoints(const LocatedScan& scan, const EvidenceMap& ground, const Parameters& parameters,
+            Verdicts& verdict)
+      : scan_(scan),
+        ground_(ground),
+        low_(static_cast<float>(parameters.object_height)),
+        asks_ground_(parameters.ground_evidence),
+        verdict_(verdict) {}
 
   void decide() {
     count_dynamic();
@@ -46,10 +53,17 @@ class LowPoints {
     return scan_.height[k] >= low_ && scan_.height[k] < kHighest;
   }
   [[nodiscard]] bool is_ground(std::size_t k) const { return scan_.voxel[k] == EvidenceMap::kNone; }
-  /// Whether what stands above a point has a say in its verdict.
+  /// Whether a point is so low that what stands above it may have a say in its verdict.
   [[nodiscard]] bool may_follow(std::size_t k) const {
-    if (is_ground(k)) return !is_dynamic(k) && scan_.height[k] >= kLeastAboveGround;
-    return scan_.height[k] < low_;
+    return is_ground(k) ? asks_ground_ && !is_dynamic(k) : scan_.height[k] < low_;
+  }
+  /// Whether a point of the ground lies above what was seen of the ground there, or was no ground
+  /// itself when it was seen.
+  [[nodiscard]] bool is_above_ground(std::size_t k) const {
+    const std::uint32_t voxel = scan_.ground_voxel[k];
+    if (voxel == EvidenceMap::kNone) return true;
+    const std::uint32_t parts = ground_parts(scan_.in_map[k], scan_.in_map.parts[k]);
+    return ground_.above_mean(voxel, parts) >= kLeastAboveGround;
   }
   [[nodiscard]] bool is_dynamic(std::size_t k) const { return verdict_[k] == Verdict::kDynamic; }
   [[nodiscard]] VoxelIndex column_of(std::size_t k) const {
@@ -75,6 +89,7 @@ class LowPoints {
     for (std::size_t k = 0; k < verdict_.size(); ++k) {
       if (!may_follow(k)) continue;
       if (!is_dynamic(k) && !columns_.get(column_of(k), cursor_).is_near_dynamic) continue;
+      if (is_ground(k) && !is_above_ground(k)) continue;
       undecided_.push_back(k);
       for_columns_around(k, [](Standing& standing) { standing.is_asked = true; });
     }
@@ -101,7 +116,9 @@ class LowPoints {
 
   using Columns = DenseBlocks<Standing, 4, 0>;
   const LocatedScan& scan_;
+  const EvidenceMap& ground_;
   float low_;
+  bool asks_ground_;
   Verdicts& verdict_;
   Columns columns_{Standing{}};
   Columns::Cursor cursor_;
@@ -110,11 +127,11 @@ class LowPoints {
 
 }  // namespace
 
-void decide_low_points(const LocatedScan& scan, const Parameters& parameters,
-                       const RunContext& context, Verdicts& verdict) {
+void decide_low_points(const LocatedScan& scan, const EvidenceMap& ground,
+                       const Parameters& parameters, const RunContext& context, Verdicts& verdict) {
   if (!parameters.low_points || !parameters.terrain) return;
   const StageScope timed(context.times, "low points");
-  LowPoints(scan, parameters, verdict).decide();
+  LowPoints(scan, ground, parameters, verdict).decide();
 }
 
 }  // namespace raymoval::raymoval_plus_method

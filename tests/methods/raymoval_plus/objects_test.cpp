@@ -24,22 +24,37 @@ class Scene {
   Parameters parameters;
   toy::MapPoints in_map;
   EvidenceMap& map = in_map.map;
+  EvidenceMap ground{EvidenceMaps::kGroundEdges * 0.2};
   LocatedScan scan;
 
   void add(const Eigen::Vector3d& point, Verdict verdict, int agree_scans = 3) {
     const std::uint32_t voxel = in_map.add(point);
     map.evidence(voxel).agree_scans = static_cast<std::uint16_t>(agree_scans);
+    map.evidence(voxel).last_agree = 100;  // All came and left at the same time.
     map.set_decision(voxel, verdict);
     EvidenceMap::Blocks::Cursor cursor;
     map.set_verdict_in(map.find_slot(map.index(voxel), cursor), verdict);
     scan.in_map.x.push_back(map.index(voxel).x());
     scan.in_map.y.push_back(map.index(voxel).y());
     scan.in_map.z.push_back(map.index(voxel).z());
-    scan.in_map.parts.push_back(0);
+    scan.in_map.parts.push_back(toy::MapPoint(point).parts);
     scan.scan.points.push_back(point.cast<float>());
     scan.height.push_back(static_cast<float>(point.z()));
     scan.voxel.push_back(voxel);
+    scan.ground_voxel.push_back(EvidenceMap::kNone);
     scan.verdict.push_back(verdict);
+  }
+  /// Adds what some scan saw of the ground to its map. @return the number of its voxel
+  std::uint32_t see_ground(const Eigen::Vector3d& point) {
+    const toy::MapPoint at(point);
+    EvidenceMap::Blocks::Cursor cursor;
+    return ground.add(ground_cell(at.cell), ground_parts(at.cell, at.parts), cursor);
+  }
+  /// Adds a point that was taken for ground.
+  void add_ground(const Eigen::Vector3d& point, Verdict verdict) {
+    add(point, verdict);
+    scan.voxel.back() = EvidenceMap::kNone;
+    scan.ground_voxel.back() = see_ground(point);
   }
   /// Points in a column above (x, y), 0.1 m from each other, from `low` metres upward.
   void add_column(double x, double y, double low, int points, Verdict verdict) {
@@ -211,27 +226,55 @@ TEST_CASE("a pole stays where somebody stands beside it") {
     CHECK((gone == 0 || gone == 12));
     return gone == 12;
   };
+  // They are there together for 21 scans. Of the 20 scans before and after, all must agree.
   CHECK_FALSE(pole_goes({0, 41, 0, 0, 30, 70}));
-  CHECK_FALSE(pole_goes({2, 41, 0, 0, 0, 150}));  // A twentieth of the scans may see through.
-  CHECK(pole_goes({3, 41, 0, 0, 0, 150}));
-  CHECK(pole_goes({0, 40, 0, 0, 30, 70}));       // More than eight times as many must agree, ...
-  CHECK(pole_goes({0, 41, 0, 0, 31, 70}));       // ... ten scans before ...
-  CHECK(pole_goes({0, 41, 0, 0, 30, 69}));       // ... and ten after.
+  CHECK(pole_goes({0, 40, 0, 0, 30, 70}));
+  CHECK_FALSE(pole_goes({0, 41, 0, 0, 20, 60}));  // They may be all before, ...
+  CHECK_FALSE(pole_goes({0, 41, 0, 0, 40, 80}));  // ... or all after.
+  CHECK(pole_goes({0, 21, 0, 0, 40, 60}));        // It came and left with him.
+  CHECK_FALSE(pole_goes({0, 30, 0, 0, 0, 29}));   // It left before he came.
+  // Of 130 scans before and after, 104 must agree.
+  CHECK_FALSE(pole_goes({0, 125, 0, 0, 0, 150}));
+  CHECK(pole_goes({0, 124, 0, 0, 0, 150}));
+  CHECK_FALSE(pole_goes({6, 125, 0, 0, 0, 150}));  // A twentieth of the scans may see through.
+  CHECK(pole_goes({7, 125, 0, 0, 0, 150}));
   CHECK(pole_goes({0, 41, 0, 0, 30, 70}, {0}));  // What a track marked goes as a whole.
 }
 
+TEST_CASE("a pole stays beside what was there for different times") {
+  // Ten of the dynamic points were there from scan 40 to 60, and ten from 30 to 70: from 35 to 65
+  // on average, and with a standard deviation of 5 before and after from 30 to 70. Of the twenty
+  // scans from 20 on and up to 80 that are not among these 41, all must agree.
+  for (const std::uint16_t agree : {60, 61}) {
+    Scene scene;
+    scene.scan.scan.index = 50;
+    scene.add_column(5.05, 0.05, 0.4, 20, Verdict::kDynamic);
+    scene.add_column(5.25, 0.05, 0.4, 12, Verdict::kStatic);
+    for (std::size_t k = 0; k < 20; k += 2) {  // Two points have one voxel.
+      const bool longer = k % 4 == 0;
+      scene.map.evidence(scene.scan.voxel[k]) =
+          VoxelEvidence{10, 5, 0, 0, longer ? 30U : 40U, longer ? 70U : 60U};
+    }
+    for (std::size_t k = 20; k < 32; ++k) {
+      scene.map.evidence(scene.scan.voxel[k]) = VoxelEvidence{0, agree, 0, 0, 20, 80};
+    }
+    CHECK(scene.dynamic(20, 32) == (agree == 61 ? 0 : 12));
+  }
+}
+
 TEST_CASE("points that nobody has seen before are of their own scan's time") {
-  // The dynamic points have no scan that agrees: scan 50 is all that is known of them.
-  for (const std::uint32_t first : {40U, 41U}) {
+  // The dynamic points have no scan that agrees: scan 50 is all that is known of them. Twenty of
+  // the others must agree.
+  for (const std::uint16_t agree : {20, 21}) {
     Scene scene;
     scene.scan.scan.index = 50;
     scene.add_column(5.05, 0.05, 0.4, 20, Verdict::kDynamic);
     scene.add_column(5.25, 0.05, 0.4, 12, Verdict::kStatic);
     for (std::size_t k = 0; k < 32; ++k) {
       scene.map.evidence(scene.scan.voxel[k]) =
-          k < 20 ? VoxelEvidence{10, 0, 0, 0, 0, 0} : VoxelEvidence{0, 15, 0, 0, first, 60};
+          k < 20 ? VoxelEvidence{10, 0, 0, 0, 0, 0} : VoxelEvidence{0, agree, 0, 0, 40, 60};
     }
-    CHECK(scene.dynamic(20, 32) == (first == 40 ? 0 : 12));
+    CHECK(scene.dynamic(20, 32) == (agree == 21 ? 0 : 12));
   }
 }
 
@@ -299,7 +342,7 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
       scene.add({5.05, 0.05, 1.0 + 0.01 * k}, Verdict::kDynamic);
     }
     Verdicts decided = verdicts;
-    decide_low_points(scene.scan, scene.parameters, RunContext{}, decided);
+    decide_low_points(scene.scan, scene.ground, scene.parameters, RunContext{}, decided);
     const auto feet = std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic);
     CHECK(feet == (dynamic == 3   ? 0
                    : dynamic == 5 ? 2
@@ -308,31 +351,71 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
   }
 }
 
-TEST_CASE("what is taken for ground follows what moves above it, if it is no lower than a road") {
-  // A foot whose points at 0.02, 0.04 and 0.06 m are taken for ground, and a leg above it.
-  for (const Verdict leg : {Verdict::kDynamic, Verdict::kStatic}) {
-    for (const Verdict foot : {Verdict::kDynamic, Verdict::kStatic}) {
-      Scene scene;
-      Verdicts verdicts;
-      for (const double z : {0.02, 0.04, 0.06}) {
-        scene.add({5.05, 0.05, z}, foot);
-        scene.scan.voxel.back() = EvidenceMap::kNone;
-        verdicts.push_back(foot);
+TEST_CASE("what is taken for ground follows what moves above it, if the ground is lower there") {
+  // A foot whose points are taken for ground, and a leg above it. A hundred points of earlier scans
+  // say that the ground is at `base`, which the terrain says is 0: a road, or a pavement beside it.
+  for (const double base : {0.001, 0.051}) {
+    for (const Verdict leg : {Verdict::kDynamic, Verdict::kStatic}) {
+      for (const Verdict foot : {Verdict::kDynamic, Verdict::kStatic}) {
+        Scene scene;
+        for (int n = 0; n < 100; ++n) scene.see_ground({5.05, 0.05, base});
+        Verdicts verdicts;
+        for (const double z : {-0.02, 0.0, 0.006, 0.02}) {
+          scene.add_ground({5.05, 0.05, base + z}, foot);
+          verdicts.push_back(foot);
+        }
+        for (int k = 0; k < 6; ++k) {
+          scene.add({5.05, 0.25, 0.35 + 0.1 * k}, leg);  // In the column beside.
+          verdicts.push_back(leg);
+        }
+        Verdicts expected = verdicts;
+        // The mean stays where it was, within 1 mm. What scans saw through stays dynamic, whatever
+        // stands above it.
+        if (leg == Verdict::kDynamic) expected[3] = Verdict::kDynamic;
+        decide_low_points(scene.scan, scene.ground, scene.parameters, RunContext{}, verdicts);
+        CHECK(verdicts == expected);
       }
-      for (int k = 0; k < 6; ++k) {
-        scene.add({5.05, 0.25, 0.35 + 0.1 * k}, leg);  // In the column beside.
-        verdicts.push_back(leg);
-      }
-      Verdicts expected = verdicts;
-      // What scans saw through stays dynamic, whatever stands above it.
-      if (leg == Verdict::kDynamic) expected[2] = Verdict::kDynamic;
-      decide_low_points(scene.scan, scene.parameters, RunContext{}, verdicts);
-      CHECK(verdicts == expected);
     }
   }
 }
 
+TEST_CASE("what was no ground when it was seen follows what moves above it") {
+  for (const bool ground_evidence : {true, false}) {  // Without, the ground always stays.
+    Scene scene;
+    scene.parameters.ground_evidence = ground_evidence;
+    scene.add({5.05, 0.05, 0.01}, Verdict::kStatic);
+    scene.scan.voxel.back() = EvidenceMap::kNone;  // Nor has it a voxel of the ground.
+    scene.add_column(5.05, 0.05, 0.35, 6, Verdict::kDynamic);
+    Verdicts verdicts = scene.scan.verdict;
+    decide_low_points(scene.scan, scene.ground, scene.parameters, RunContext{}, verdicts);
+    CHECK(verdicts[0] == (ground_evidence ? Verdict::kDynamic : Verdict::kStatic));
+  }
+}
+
 namespace {
+
+/// How far the points that are ground lie above the mean of all in their cells of 0.4 m; metres.
+std::vector<double> slow_above_ground(const LocatedScan& scan) {
+  // In 256ths of a cell's edge.
+  const auto height = [&](std::size_t k) {
+    return (scan.in_map.z[k] * 256 + static_cast<int>(scan.in_map.parts[k] >> 16U)) >> 1;
+  };
+  std::map<std::array<int, 3>, std::array<double, 2>> cells;  // Sum and count.
+  const auto cell_of = [&](std::size_t k) {
+    return std::array{scan.in_map.x[k] >> 1, scan.in_map.y[k] >> 1, scan.in_map.z[k] >> 1};
+  };
+  std::vector<double> above(scan.voxel.size());
+  for (std::size_t k = 0; k < above.size(); ++k) {
+    if (scan.voxel[k] != EvidenceMap::kNone) continue;
+    cells[cell_of(k)][0] += height(k);
+    cells[cell_of(k)][1] += 1.0;
+  }
+  for (std::size_t k = 0; k < above.size(); ++k) {
+    const auto& [sum, count] = cells[cell_of(k)];
+    above[k] = (height(k) - sum / count) * 0.4 / 256.0;
+  }
+  return above;
+}
 
 /// Step 8 with every column counted. 1 for each point that is dynamic afterwards.
 std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before, float low) {
@@ -341,11 +424,12 @@ std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before
     if (scan.height[k] < low || scan.height[k] >= 1.0F) continue;
     ++standing[{scan.in_map.x[k], scan.in_map.y[k]}][before[k] == Verdict::kDynamic ? 1 : 0];
   }
+  const std::vector<double> above_ground = slow_above_ground(scan);
   std::vector<int> dynamic(before.size());
   for (std::size_t k = 0; k < before.size(); ++k) {
     dynamic[k] = before[k] == Verdict::kDynamic ? 1 : 0;
     const bool is_ground = scan.voxel[k] == EvidenceMap::kNone;
-    if (is_ground ? scan.height[k] < 0.045F : scan.height[k] >= low) continue;
+    if (is_ground ? above_ground[k] < 0.01 : scan.height[k] >= low) continue;
     std::array<int, 2> sum{};
     for (const auto& [at, points] : standing) {
       if (std::abs(at.first - scan.in_map.x[k]) > 1) continue;
@@ -365,31 +449,35 @@ std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before
 
 TEST_CASE("low points are those of a count over all columns") {
   std::mt19937 random(21);
-  std::uniform_real_distribution<double> place(-3.0, 3.0), height(0.0, 1.3);
-  int changed = 0;
+  std::uniform_real_distribution<double> place(-1.5, 1.5), height(0.07, 1.3), low(0.0, 0.07);
+  int changed = 0, changed_ground = 0;
   for (int round = 0; round < 10; ++round) {
     Scene scene;
     Verdicts before;
-    for (int i = 0; i < 600; ++i) {
-      const Eigen::Vector3d at(place(random), place(random), height(random));
-      // Dynamic ones gather on one side.
-      const bool dynamic = at.x() > 2.0 ? random() % 4 > 0 : random() % 20 == 0;
+    for (int i = 0; i < 1200; ++i) {
+      const bool is_ground = random() % 3 == 0;
+      const double z = is_ground ? low(random) : height(random);
+      const Eigen::Vector3d at(place(random), place(random), z);
+      // Dynamic ones gather on one side; less of them are ground.
+      const bool dynamic = at.x() > 1.0 ? random() % 4 > (is_ground ? 2U : 0U) : random() % 20 == 0;
       before.push_back(dynamic             ? Verdict::kDynamic
                        : random() % 5 == 0 ? Verdict::kUndecided
                                            : Verdict::kStatic);
-      scene.add(at, before.back());
-      if (at.z() < 0.07) scene.scan.voxel.back() = EvidenceMap::kNone;
+      is_ground ? scene.add_ground(at, before.back()) : scene.add(at, before.back());
     }
     Verdicts decided = before;
-    decide_low_points(scene.scan, scene.parameters, RunContext{}, decided);
+    decide_low_points(scene.scan, scene.ground, scene.parameters, RunContext{}, decided);
     const std::vector<int> expected =
         slow_low_points(scene.scan, before, static_cast<float>(scene.parameters.object_height));
     for (std::size_t k = 0; k < decided.size(); ++k) {
       REQUIRE((decided[k] == Verdict::kDynamic) == (expected[k] == 1));
-      changed += (before[k] == Verdict::kDynamic) != (expected[k] == 1) ? 1 : 0;
+      if ((before[k] == Verdict::kDynamic) == (expected[k] == 1)) continue;
+      ++changed;
+      if (scene.scan.voxel[k] == EvidenceMap::kNone) ++changed_ground;
     }
   }
   CHECK(changed > 50);
+  CHECK(changed_ground > 20);
 }
 
 TEST_CASE("the points of what a track may mark are remembered") {
