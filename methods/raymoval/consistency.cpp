@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "methods/raymoval/kernels/image_kernels.h"
 #include "methods/raymoval/kernels/scan_kernels.h"
 
 namespace raymoval::raymoval_method {
@@ -14,7 +15,7 @@ namespace raymoval::raymoval_method {
 Mask check_consistency(const ProjectedScan& scan, const std::vector<float>& map_reference,
                        const RangeMargin& margin, int threads) {
   Mask dynamic(scan.range.size());
-  const kernels::Kernels kernel = kernels::best_kernels();
+  const kernels::ScanKernels kernel = kernels::best_scan_kernels();
   kernels::ConsistencyCheck job;
   job.range = scan.range.data();
   job.bin = scan.bin.data();
@@ -60,7 +61,7 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
       found.push_back({static_cast<int>(bin), nearest});
     }
   };
-  const kernels::Kernels kernel = kernels::best_kernels();
+  const kernels::ImageKernels kernel = kernels::best_image_kernels();
   kernels::SuspectSearch search;
   search.own = scan.minimum_range.data();
   search.columns = neighbourhood.grid.azimuth_bins;

@@ -6,7 +6,7 @@
 
 #include "core/parallel.h"
 #include "core/simd/simd.h"
-#include "methods/raymoval/kernels/scan_kernels.h"
+#include "methods/raymoval/kernels/image_kernels.h"
 
 namespace raymoval::raymoval_method {
 namespace {
@@ -59,9 +59,9 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
                           const AngularGrid& grid, int radius,
                           const std::array<std::optional<double>, 2>& quantiles, int threads,
                           WindowPercentiles& percentiles) {
-  const kernels::Kernels kernel = kernels::best_kernels();
+  const kernels::ImageKernels kernel = kernels::best_image_kernels();
   const std::array<std::vector<float>*, 2> results = {&percentiles.first, &percentiles.second};
-  if (radius != 1 || grid.azimuth_bins < kernel.row_lanes) {
+  if (radius != 1 || grid.azimuth_bins < kernel.lanes) {
     for (std::size_t q = 0; q < 2; ++q) {
       if (!quantiles[q]) continue;
       *results[q] = windowed_percentile(values, grid, radius, *quantiles[q], threads);
@@ -106,9 +106,9 @@ float windowed_minimum(const std::vector<float>& values, const BinWindow& window
 
 void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
                       int elevation_radius, int threads, std::vector<float>& minimum) {
-  const kernels::Kernels kernel = kernels::best_kernels();
+  const kernels::ImageKernels kernel = kernels::best_image_kernels();
   minimum.resize(values.size());
-  if (grid.azimuth_bins < kernel.row_lanes + azimuth_radius) {
+  if (grid.azimuth_bins < kernel.lanes + azimuth_radius) {
     for (int bin = 0; bin < grid.size(); ++bin) {
       minimum[static_cast<std::size_t>(bin)] =
           windowed_minimum(values, {grid, azimuth_radius, elevation_radius}, bin);
@@ -123,7 +123,7 @@ void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid,
   shared.azimuth_radius = azimuth_radius;
   shared.elevation_radius = elevation_radius;
   const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
-  const auto lanes = static_cast<std::size_t>(kernel.row_lanes);
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
   const std::size_t strips = (columns + lanes - 1) / lanes;
   parallel_chunks(threads, strips, 8, [&](std::size_t begin, std::size_t end) {
     AlignedArray<float> scratch;

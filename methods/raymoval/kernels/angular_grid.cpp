@@ -77,7 +77,7 @@ std::int32_t bin_of_point(const Eigen::Vector3f& point, const AngularGrid& grid,
 
 void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
              ProjectedScan& projected) {
-  const kernels::Kernels kernel = kernels::best_kernels();
+  const kernels::ScanKernels kernel = kernels::best_scan_kernels();
   projected.range.resize(scan.size());
   projected.bin.resize(scan.size());
   kernels::Projection job;

@@ -40,7 +40,7 @@ struct Piece {
 /// Finds the voxels of the points begin .. end - 1.
 void find_piece(const Scan& scan, kernels::Voxelisation job, std::size_t begin, std::size_t end,
                 Piece& piece) {
-  const kernels::Kernels kernel = kernels::best_kernels();
+  const kernels::ScanKernels kernel = kernels::best_scan_kernels();
   const std::size_t count = end - begin, whole = count / kernel.lanes * kernel.lanes;
   job.points += 3 * begin;
   for (std::size_t axis = 0; axis < 3; ++axis) job.voxels[axis] = piece.at[axis].data() + 1;
@@ -77,7 +77,7 @@ void find_part(const Scan& scan, const kernels::Voxelisation& job, std::size_t b
     search.first_point = static_cast<std::uint32_t>(from);
     search.run_voxels = part.voxels.data()->data() + 3 * part.count;
     search.run_first = part.first.data() + part.count;
-    part.count += kernels::best_kernels().find_runs(search);
+    part.count += kernels::best_scan_kernels().find_runs(search);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "methods/raymoval/kernels/scan_kernels.h"
+#include "methods/raymoval/kernels/image_kernels.h"
 
 namespace raymoval::raymoval_method {
 namespace {
@@ -71,7 +71,7 @@ void WantedBins::ask_around(const std::vector<float>& values, const AngularGrid&
   const auto rows = static_cast<std::size_t>(grid.elevation_bins);
   const auto reach = static_cast<std::size_t>(radius);
   const std::size_t words = (columns + kBits - 1) / kBits;
-  const kernels::Kernels kernel = kernels::best_kernels();
+  const kernels::ImageKernels kernel = kernels::best_image_kernels();
   rows_.resize(rows * words);
   for (std::size_t j = 0; j < rows; ++j) {
     kernel.finite(values.data() + j * columns, columns, rows_.data() + j * words);
