@@ -128,6 +128,12 @@ std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points) {
   return surfels;
 }
 
+double fewest_holding(const std::vector<Surfel>& surfels) {
+  Matrix3d held = Matrix3d::Zero();
+  for (const Surfel& surfel : surfels) held += across(surfel);
+  return Eigen::SelfAdjointEigenSolver<Matrix3d>(held, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
 SurfaceMap::SurfaceMap(std::vector<Surfel> surfels) : surfels_(std::move(surfels)) {
   for (std::size_t i = 0; i < surfels_.size(); ++i) {
     cells_[cell_of(surfels_[i].mean, kLookup)].push_back(static_cast<std::uint32_t>(i));

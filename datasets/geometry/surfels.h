@@ -29,6 +29,10 @@ std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points);
 /// points (at least six) lie on a plane or on a pole.
 std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points);
 
+/// How many surfels hold a scan along the direction in which the fewest do: a plane does along its
+/// normal, a pole across itself. The ground alone holds it upright, and nowhere else: 0.
+double fewest_holding(const std::vector<Surfel>& surfels);
+
 /// The surfels of one scan, to which those of another scan are compared.
 class SurfaceMap {
  public:

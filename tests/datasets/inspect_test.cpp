@@ -107,6 +107,35 @@ TEST_CASE("the scenes are silent", "[inspect][every-finding]") {
   }
 }
 
+TEST_CASE("a narrow view of a road with traffic is not taken for another drive",
+          "[inspect][every-finding]") {
+  // The rosette sees little but the ground; the window sees vehicles that all drive along, and a
+  // few poles.
+  for (const char* sensor : {"rosette", "solid-state"}) {
+    SimulationOptions options;
+    options.scene = "motorway";
+    options.scans = 12;
+    options.sensor = sensor;
+    INFO(sensor);
+    CHECK(found(EditedSequence(options).inspected()).count("poses-of-another-sequence") == 0);
+  }
+  // Two scans a second of the rosette, 15 m from each other.
+  SimulationOptions options;
+  options.scene = "motorway";
+  options.scans = 41;
+  options.sensor = "rosette";
+  EditedSequence all(options), some = all;
+  some.scans.clear();
+  some.words.clear();
+  for (std::size_t i = 0; i < all.size(); i += 5) {
+    some.scans.push_back(all.scans[i]);
+    some.scans.back().index = some.words.size();
+    some.words.push_back(all.words[i]);
+  }
+  const std::set<std::string> names = found(some.inspected());
+  CHECK(names.count("poses-of-another-sequence") + names.count("poses-in-millimetres") == 0);
+}
+
 TEST_CASE("a world far from its origin is silent", "[inspect][every-finding]") {
   EditedSequence far = good_drive();
   const Eigen::Translation3d shift(691000.25, 5336000.5, 512.0);

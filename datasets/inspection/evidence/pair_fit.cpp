@@ -2,12 +2,16 @@
 #include "datasets/inspection/evidence/pair_fit.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <iterator>
 #include <numbers>
 
 namespace raymoval::inspection {
 namespace {
 
 constexpr std::size_t kMostSurfels = 1500;
+/// So many surfels hold a scan where a few others are wrong. Uneven ground holds it like one.
+constexpr double kFewestHolding = 12.0;
 
 /// A vehicle goes ahead by up to 3 m between scans.
 void add_drives(std::vector<Pose>& starts) {
@@ -35,6 +39,13 @@ std::vector<Surfel> thinned(const std::vector<Surfel>& all) {
   std::vector<Surfel> some;
   for (std::size_t i = 0; i < kMostSurfels; ++i) some.push_back(all[i * all.size() / kMostSurfels]);
   return some;
+}
+
+std::vector<Surfel> poles_of(const std::vector<Surfel>& surfels) {
+  std::vector<Surfel> poles;
+  std::copy_if(surfels.begin(), surfels.end(), std::back_inserter(poles),
+               [](const Surfel& surfel) { return surfel.is_line(); });
+  return poles;
 }
 
 PairFit::PairFit(const Samples& samples) : samples_(samples) {
@@ -79,6 +90,16 @@ double PairFit::mean_best() const {
 
 bool PairFit::says_something() const {
   return std::any_of(best_.begin(), best_.end(), [](double b) { return b >= kTooLittle; });
+}
+
+bool PairFit::tells_how_far() const {
+  std::size_t agree = 0, tell = 0;
+  for (std::size_t k = 0; k < best_.size(); ++k) {
+    if (best_[k] < kTooLittle) continue;
+    ++agree;
+    if (fewest_holding(moving_.at(samples_.pairs()[k].to)) >= kFewestHolding) ++tell;
+  }
+  return 2 * tell > agree;
 }
 
 std::vector<SeenMotion> PairFit::seen_motions() const {

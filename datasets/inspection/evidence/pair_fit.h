@@ -23,6 +23,9 @@ struct SeenMotion {
   Pose motion = Pose::Identity();  ///< T_from_to.
 };
 
+/// Those of some surfels that are poles.
+std::vector<Surfel> poles_of(const std::vector<Surfel>& surfels);
+
 /// Surfels of a scan that are compared with another one; some of them, if there are many.
 std::vector<Surfel> thinned(const std::vector<Surfel>& all);
 
@@ -48,6 +51,23 @@ class PairFit {
   void find_best(const std::vector<PoseHypothesis>& hypotheses);
   [[nodiscard]] double mean_best() const;
   [[nodiscard]] bool says_something() const;
+  /// Whether most of the pairs that agree enough show how far the sensor went. A narrow view of a
+  /// road may have nothing but the ground and a rail, which look alike wherever it is.
+  [[nodiscard]] bool tells_how_far() const;
+  /// Whether poles, of which traffic has none, agree better under some poses than under the motions
+  /// found. Where all drive alike, the sensor seems to stand among those who drive along.
+  template <class PoseOf>
+  [[nodiscard]] bool poles_prefer(PoseOf&& pose_of) const {
+    double preferred = 0.0;
+    for (std::size_t k = 0; k < samples_.pairs().size(); ++k) {
+      const ScanPair& pair = samples_.pairs()[k];
+      const SurfaceMap& map = maps_.at(pair.from);
+      const std::vector<Surfel> poles = poles_of(moving_.at(pair.to));
+      preferred += map.agreement(poles, pose_of(pair.from).inverse() * pose_of(pair.to)) -
+                   map.agreement(poles, motions_[k]);
+    }
+    return preferred > 0.0;
+  }
   /// The motions of the pairs that agree enough, as `find_best` found them.
   [[nodiscard]] std::vector<SeenMotion> seen_motions() const;
 

@@ -19,9 +19,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Metres from scan to scan that no vehicle goes, and that a moving one always exceeds: beyond them
-/// other units are worth a thought.
-constexpr double kTooFast = 10.0, kTooSlow = 0.02;
+/// Metres from scan to scan that no vehicle goes, also if one scan a second is kept, and that a
+/// moving one always exceeds: beyond them other units are worth a thought.
+constexpr double kTooFast = 50.0, kTooSlow = 0.02;
 
 double longest_step(const std::vector<Pose>& poses) {
   double longest = 0.0;
