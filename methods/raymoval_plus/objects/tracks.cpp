@@ -32,6 +32,11 @@ void extend(Track& track, const Track::Node& node) {
   track.nodes.push_back(node);
 }
 
+/// Where the object of a track is expected after so many scans, world frame, metres.
+Eigen::Vector3d expected_center(const Track& track, int scans) {
+  return track.nodes.back().object.center + track.velocity * scans;
+}
+
 /// Whether the object of a track stands.
 bool stands(const Track& track) {
   return track.nodes.size() >= kLeastStanding && track.velocity.norm() < kStandingMotion;
@@ -64,14 +69,22 @@ bool is_explained(const ObjectSummary& object, const Motion& motion, const Param
   return object.agree_scans <= scans_explained(object, motion, parameters);
 }
 
+double ObjectTracker::gate(const Track& track, int scans, double seconds) const {
+  const double brakes = rules_.gate.acceleration * seconds * seconds;
+  return rules_.gate.metres + brakes + kGateShare * track.velocity.norm() * scans;
+}
+
+double ObjectTracker::farthest(const Track& track, int scans) const {
+  const double widest = gate(track, scans, kLongestStep);
+  return track.nodes.size() == 1 ? std::max(widest, rules_.first_step * scans) : widest;
+}
+
 std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSummary& found,
                                               int scans) const {
   const ObjectSummary& last = track.nodes.back().object;
-  const Eigen::Vector3d expected = last.center + track.velocity * scans;
-  const double distance = (found.center - expected).head<2>().norm();
+  const double distance = (found.center - expected_center(track, scans)).head<2>().norm();
   const double seconds = std::min(std::abs(found.time_s - last.time_s), kLongestStep);
-  const double gate = rules_.gate.metres + rules_.gate.acceleration * seconds * seconds;
-  if (distance > gate + kGateShare * track.velocity.norm() * scans) {
+  if (distance > gate(track, scans, seconds)) {
     // Nothing is known of the speed of what was seen once, but what is fast is new where it is.
     const bool may_be_fast = track.nodes.size() == 1 && distance <= rules_.first_step * scans &&
                              is_explained(found, {last.width(), distance / scans}, parameters_);
@@ -88,8 +101,11 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t t = 0; t < active_.size(); ++t) {
     const int scans = scans_between(active_[t].nodes.back().scan, scan);
+    // Most objects are too far away along one axis alone.
+    const double x = expected_center(active_[t], scans).x();
+    const double reach = farthest(active_[t], scans);
     for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (!may_follow(objects[k])) continue;
+      if (std::abs(objects[k].center.x() - x) > reach || !may_follow(objects[k])) continue;
       if (const auto distance = mismatch(active_[t], objects[k], scans)) {
         pairs.emplace_back(*distance, t, k);
       }

@@ -90,6 +90,10 @@ class ObjectTracker {
   void forget_ended() { ended_.clear(); }
 
  private:
+  /// How far an object may be from where the track is expected after so many scans and seconds.
+  [[nodiscard]] double gate(const Track& track, int scans, double seconds) const;
+  /// The same for any seconds, also for what may be fast; metres.
+  [[nodiscard]] double farthest(const Track& track, int scans) const;
   /// The distance of an object from where the track is expected after so many scans, metres, if it
   /// can be the same object.
   [[nodiscard]] std::optional<double> mismatch(const Track& track, const ObjectSummary& found,
