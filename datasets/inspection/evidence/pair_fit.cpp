@@ -10,7 +10,8 @@ namespace raymoval::inspection {
 namespace {
 
 constexpr std::size_t kMostSurfels = 1500;
-/// So many surfels hold a scan where a few others are wrong. Uneven ground holds it like one.
+/// A direction in which fewer surfels than this hold a scan is not told by them: some are wrong,
+/// and normals of uneven ground point a little along it.
 constexpr double kFewestHolding = 12.0;
 
 /// A vehicle goes ahead by up to 3 m between scans.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <functional>
 #include <map>
 #include <random>
 
@@ -211,18 +212,31 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
   CHECK(objects[0].width() == Approx(0.2));
 }
 
+namespace {
+
+/// How many points of a pole go, of 12. Beside it, and one cluster with it, stands somebody of 20
+/// dynamic points. It is scan 50.
+/// @param person what scans say of the voxel of his point k
+int gone_of_pole(const std::function<VoxelEvidence(std::size_t)>& person, VoxelEvidence pole,
+                 const std::vector<int>& marked = {}) {
+  Scene scene;
+  scene.scan.scan.index = 50;
+  scene.add_column(5.05, 0.05, 0.4, 20, Verdict::kDynamic);
+  scene.add_column(5.25, 0.05, 0.4, 12, Verdict::kStatic);
+  for (std::size_t k = 0; k < 32; ++k) {
+    scene.map.evidence(scene.scan.voxel[k]) = k < 20 ? person(k) : pole;
+  }
+  CHECK(scene.dynamic(0, 20, marked) == 20);
+  return scene.dynamic(20, 32, marked);
+}
+
+}  // namespace
+
 TEST_CASE("a pole stays where somebody stands beside it") {
-  // He has 20 dynamic points, with which five scans agree, 40 to 60; the pole has 12 points.
+  // Five scans agree with him, 40 to 60.
   const auto pole_goes = [](VoxelEvidence pole, const std::vector<int>& marked = {}) {
-    Scene scene;
-    scene.scan.scan.index = 50;
-    scene.add_column(5.05, 0.05, 0.4, 20, Verdict::kDynamic);
-    scene.add_column(5.25, 0.05, 0.4, 12, Verdict::kStatic);
-    for (std::size_t k = 0; k < 32; ++k) {
-      scene.map.evidence(scene.scan.voxel[k]) = k < 20 ? VoxelEvidence{10, 5, 0, 0, 40, 60} : pole;
-    }
-    CHECK(scene.dynamic(0, 20, marked) == 20);
-    const int gone = scene.dynamic(20, 32, marked);
+    const auto person = [](std::size_t) { return VoxelEvidence{10, 5, 0, 0, 40, 60}; };
+    const int gone = gone_of_pole(person, pole, marked);
     CHECK((gone == 0 || gone == 12));
     return gone == 12;
   };
@@ -242,40 +256,22 @@ TEST_CASE("a pole stays where somebody stands beside it") {
 }
 
 TEST_CASE("a pole stays beside what was there for different times") {
-  // Ten of the dynamic points were there from scan 40 to 60, and ten from 30 to 70: from 35 to 65
-  // on average, and with a standard deviation of 5 before and after from 30 to 70. Of the twenty
+  // Half of the person's points were there from scan 40 to 60, and half from 30 to 70: from 35 to
+  // 65 on average, and with a standard deviation of 5 before and after from 30 to 70. Of the twenty
   // scans from 20 on and up to 80 that are not among these 41, all must agree.
-  for (const std::uint16_t agree : {60, 61}) {
-    Scene scene;
-    scene.scan.scan.index = 50;
-    scene.add_column(5.05, 0.05, 0.4, 20, Verdict::kDynamic);
-    scene.add_column(5.25, 0.05, 0.4, 12, Verdict::kStatic);
-    for (std::size_t k = 0; k < 20; k += 2) {  // Two points have one voxel.
-      const bool longer = k % 4 == 0;
-      scene.map.evidence(scene.scan.voxel[k]) =
-          VoxelEvidence{10, 5, 0, 0, longer ? 30U : 40U, longer ? 70U : 60U};
-    }
-    for (std::size_t k = 20; k < 32; ++k) {
-      scene.map.evidence(scene.scan.voxel[k]) = VoxelEvidence{0, agree, 0, 0, 20, 80};
-    }
-    CHECK(scene.dynamic(20, 32) == (agree == 61 ? 0 : 12));
-  }
+  const auto person = [](std::size_t k) {  // Two points that follow each other have one voxel.
+    return k / 2 % 2 == 0 ? VoxelEvidence{10, 5, 0, 0, 30, 70} : VoxelEvidence{10, 5, 0, 0, 40, 60};
+  };
+  CHECK(gone_of_pole(person, {0, 61, 0, 0, 20, 80}) == 0);
+  CHECK(gone_of_pole(person, {0, 60, 0, 0, 20, 80}) == 12);
 }
 
 TEST_CASE("points that nobody has seen before are of their own scan's time") {
   // The dynamic points have no scan that agrees: scan 50 is all that is known of them. Twenty of
   // the others must agree.
-  for (const std::uint16_t agree : {20, 21}) {
-    Scene scene;
-    scene.scan.scan.index = 50;
-    scene.add_column(5.05, 0.05, 0.4, 20, Verdict::kDynamic);
-    scene.add_column(5.25, 0.05, 0.4, 12, Verdict::kStatic);
-    for (std::size_t k = 0; k < 32; ++k) {
-      scene.map.evidence(scene.scan.voxel[k]) =
-          k < 20 ? VoxelEvidence{10, 0, 0, 0, 0, 0} : VoxelEvidence{0, agree, 0, 0, 40, 60};
-    }
-    CHECK(scene.dynamic(20, 32) == (agree == 21 ? 0 : 12));
-  }
+  const auto person = [](std::size_t) { return VoxelEvidence{10, 0, 0, 0, 0, 0}; };
+  CHECK(gone_of_pole(person, {0, 21, 0, 0, 40, 60}) == 0);
+  CHECK(gone_of_pole(person, {0, 20, 0, 0, 40, 60}) == 12);
 }
 
 TEST_CASE("a fragment goes with what goes beside it") {
