@@ -128,10 +128,16 @@ std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points) {
   return surfels;
 }
 
-double fewest_holding(const std::vector<Surfel>& surfels) {
-  Matrix3d held = Matrix3d::Zero();
-  for (const Surfel& surfel : surfels) held += across(surfel);
-  return Eigen::SelfAdjointEigenSolver<Matrix3d>(held, Eigen::EigenvaluesOnly).eigenvalues()[0];
+Vector3d held_part(const Vector3d& shift, const std::vector<Surfel>& surfels, double fewest) {
+  Matrix3d holding = Matrix3d::Zero();
+  for (const Surfel& surfel : surfels) holding += across(surfel);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(holding);
+  Vector3d held = Vector3d::Zero();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Vector3d direction = solver.eigenvectors().col(k);
+    if (solver.eigenvalues()[k] >= fewest) held += direction.dot(shift) * direction;
+  }
+  return held;
 }
 
 SurfaceMap::SurfaceMap(std::vector<Surfel> surfels) : surfels_(std::move(surfels)) {

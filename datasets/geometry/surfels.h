@@ -29,9 +29,11 @@ std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points);
 /// points (at least six) lie on a plane or on a pole.
 std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points);
 
-/// How many surfels hold a scan along the direction in which the fewest do: a plane does along its
-/// normal, a pole across itself. The ground alone holds it upright, and nowhere else: 0.
-double fewest_holding(const std::vector<Surfel>& surfels);
+/// The part of a shift that goes along directions in which at least `fewest` surfels hold a scan: a
+/// plane does along its normal, a pole across itself. The ground alone holds it upright, and
+/// nowhere else.
+Eigen::Vector3d held_part(const Eigen::Vector3d& shift, const std::vector<Surfel>& surfels,
+                          double fewest);
 
 /// The surfels of one scan, to which those of another scan are compared.
 class SurfaceMap {

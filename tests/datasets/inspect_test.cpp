@@ -136,6 +136,22 @@ TEST_CASE("a narrow view of a road with traffic is not taken for another drive",
   CHECK(names.count("poses-of-another-sequence") + names.count("poses-in-millimetres") == 0);
 }
 
+TEST_CASE("a narrow view tells poses that the ground alone contradicts",
+          "[inspect][every-finding]") {
+  // The sensor looks down by 35 degrees. Poses of a car that goes ahead would take it into the
+  // ground.
+  SimulationOptions options;
+  options.scene = "walk";
+  options.scans = 12;
+  options.sensor = "rosette";
+  EditedSequence drive(options);
+  for (Scan& scan : drive.scans) {
+    scan.T_world_sensor = Pose::Identity();
+    scan.T_world_sensor.translation().x() = static_cast<double>(scan.index);
+  }
+  CHECK(found(drive.inspected()).count("poses-of-another-sequence") == 1);
+}
+
 TEST_CASE("a world far from its origin is silent", "[inspect][every-finding]") {
   EditedSequence far = good_drive();
   const Eigen::Translation3d shift(691000.25, 5336000.5, 512.0);

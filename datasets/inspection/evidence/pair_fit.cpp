@@ -6,6 +6,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "core/angle.h"
+
 namespace raymoval::inspection {
 namespace {
 
@@ -13,6 +15,10 @@ constexpr std::size_t kMostSurfels = 1500;
 /// A direction in which fewer surfels than this hold a scan is not told by them: some are wrong,
 /// and normals of uneven ground point a little along it.
 constexpr double kFewestHolding = 12.0;
+/// A motion is another one if it turns by so much more or less, ...
+constexpr double kOtherTurn = 5.0 * kDegree;
+/// ... or goes so many metres elsewhere along what holds the scans. Roads rise by up to this share.
+constexpr double kOtherShift = 0.2, kSlope = 0.2;
 
 /// A vehicle goes ahead by up to 3 m between scans.
 void add_drives(std::vector<Pose>& starts) {
@@ -93,14 +99,13 @@ bool PairFit::says_something() const {
   return std::any_of(best_.begin(), best_.end(), [](double b) { return b >= kTooLittle; });
 }
 
-bool PairFit::tells_how_far() const {
-  std::size_t agree = 0, tell = 0;
-  for (std::size_t k = 0; k < best_.size(); ++k) {
-    if (best_[k] < kTooLittle) continue;
-    ++agree;
-    if (fewest_holding(moving_.at(samples_.pairs()[k].to)) >= kFewestHolding) ++tell;
-  }
-  return 2 * tell > agree;
+bool PairFit::contradicts(std::size_t k, const Pose& motion) const {
+  const Pose& found = motions_[k];
+  const Eigen::AngleAxisd turn(found.linear().transpose() * motion.linear());
+  if (turn.angle() > kOtherTurn) return true;
+  const Eigen::Vector3d shift = motion.translation() - found.translation();
+  const std::vector<Surfel>& surfels = samples_.surfels(samples_.pairs()[k].from);
+  return held_part(shift, surfels, kFewestHolding).norm() > kOtherShift + kSlope * shift.norm();
 }
 
 std::vector<SeenMotion> PairFit::seen_motions() const {

@@ -51,9 +51,19 @@ class PairFit {
   void find_best(const std::vector<PoseHypothesis>& hypotheses);
   [[nodiscard]] double mean_best() const;
   [[nodiscard]] bool says_something() const;
-  /// Whether most of the pairs that agree enough show how far the sensor went. A narrow view of a
-  /// road may have nothing but the ground and a rail, which look alike wherever it is.
-  [[nodiscard]] bool tells_how_far() const;
+  /// Whether most of the pairs that agree enough contradict some poses. A narrow view of a road may
+  /// have nothing but the ground and a rail, which look alike wherever along them it is.
+  template <class PoseOf>
+  [[nodiscard]] bool contradict(PoseOf&& pose_of) const {
+    std::size_t agree = 0, contrary = 0;
+    for (std::size_t k = 0; k < samples_.pairs().size(); ++k) {
+      const ScanPair& pair = samples_.pairs()[k];
+      if (best_[k] < kTooLittle) continue;
+      ++agree;
+      if (contradicts(k, pose_of(pair.from).inverse() * pose_of(pair.to))) ++contrary;
+    }
+    return 2 * contrary > agree;
+  }
   /// Whether poles, of which traffic has none, agree better under some poses than under the motions
   /// found. Where all drive alike, the sensor seems to stand among those who drive along.
   template <class PoseOf>
@@ -73,6 +83,9 @@ class PairFit {
 
  private:
   [[nodiscard]] double agreement(const ScanPair& pair, const Pose& motion) const;
+  /// Whether a motion turns otherwise than the one found for pair `k`, or is another one along a
+  /// direction that the scans tell.
+  [[nodiscard]] bool contradicts(std::size_t k, const Pose& motion) const;
   Pose best_of(const ScanPair& pair, const std::vector<Pose>& starts, double& best) const;
 
   const Samples& samples_;

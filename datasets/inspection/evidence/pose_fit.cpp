@@ -243,7 +243,7 @@ PoseVerdict compare_hypotheses(Samples& samples) {
             now + ", whose positions are whole multiples of " + number_text(step) +
                 " m along an axis: written far from the origin with too few digits"};
   }
-  if (given >= kForeign || !fit.tells_how_far() || fit.poles_prefer(given_pose)) return {};
+  if (given >= kForeign || !fit.contradict(given_pose) || fit.poles_prefer(given_pose)) return {};
   return {"poses-of-another-sequence",
           now +
               " (100 % = registered to each other), and under no usual mistake of frames, units or "
