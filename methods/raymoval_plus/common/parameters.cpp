@@ -149,9 +149,10 @@ void add_objects(Lines& table) {
                 kObjects);
   table.integer("settled_scans", &P::settled_scans, "scans", 0, 10000,
                 "A voxel that so many scans agree with is not outvoted if none saw through it, and "
-                "its points are left out when a mixed cluster is divided. What is there so many "
-                "scans before or after something comes or leaves does not go with it. 0 for none "
-                "of these.");
+                "its points are left out when a mixed cluster is divided. What is there more "
+                "than so many scans before something comes or after it leaves does not go with its "
+                "track, and what is there twice as many, not with its cluster. 0 for none of "
+                "these.");
   table.flag("tracks", &P::tracks, "Follow dynamic clusters over scans.", kObjects);
   table.number("track_dynamic_share", &P::track_dynamic_share, "", 0, 1,
                "Share of a track's clusters that must be dynamic.", kTracks);

@@ -31,6 +31,11 @@ struct ScanCells {
   }
 };
 
+/// Of `ScanCells::parts`, those along z.
+inline std::uint32_t upward(std::uint32_t parts) {
+  return parts >> 16U & 0xFFU;
+}
+
 /// What `find_cells` finds beside the cells. An array that is not named is left as it is.
 enum class BesideCells : std::uint8_t { kParts, kPartsAndHeight };
 

@@ -11,10 +11,6 @@ namespace {
 /// A point's offset in its voxel is counted in 1/256 of the edge, 0.8 mm at 0.2 m: finer than
 /// ranges are measured. Whole numbers give the same sum in any order.
 constexpr double kParts = 256.0;
-/// The offset along z.
-std::uint32_t upward(std::uint32_t parts) {
-  return parts >> 16U & 0xFFU;
-}
 /// With more points a sum of offsets could exceed 32 bits. The mean has long settled by then.
 constexpr std::uint32_t kMostPoints = 1U << 24;
 /// So many blocks are compared at a time with what they were.

@@ -84,7 +84,7 @@ class WholeThings {
  private:
   /// Of a point, in 256ths of a voxel's edge.
   [[nodiscard]] std::int64_t z(std::size_t k) const {
-    return std::int64_t{256} * scan_.in_map.z[k] + (scan_.in_map.parts[k] >> 16U & 0xFFU);
+    return std::int64_t{256} * scan_.in_map.z[k] + upward(scan_.in_map.parts[k]);
   }
   [[nodiscard]] bool is_settled(std::size_t k) const {
     const std::uint32_t voxel = scan_.voxel[k];

@@ -454,7 +454,7 @@ TEST_CASE("low points are those of a count over all columns") {
       const bool is_ground = random() % 3 == 0;
       const double z = is_ground ? low(random) : height(random);
       const Eigen::Vector3d at(place(random), place(random), z);
-      // Dynamic ones gather on one side; less of them are ground.
+      // Dynamic ones gather on one side, of the ground fewer.
       const bool dynamic = at.x() > 1.0 ? random() % 4 > (is_ground ? 2U : 0U) : random() % 20 == 0;
       before.push_back(dynamic             ? Verdict::kDynamic
                        : random() % 5 == 0 ? Verdict::kUndecided
