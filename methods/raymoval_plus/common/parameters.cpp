@@ -148,8 +148,10 @@ void add_objects(Lines& table) {
                 "A group of dynamic points this large stays dynamic in a static cluster.",
                 kObjects);
   table.integer("settled_scans", &P::settled_scans, "scans", 0, 10000,
-                "A voxel that so many scans agree with is not outvoted if none saw through it, and "
-                "its points are left out when a mixed cluster is divided. What is there more "
+                "A voxel that so many scans agree with is not outvoted if none saw through it, its "
+                "points are left out when a mixed cluster is divided, and a scan is not heard that "
+                "sees through it, between these, from much farther than the nearest of them. What "
+                "is there more "
                 "than so many scans before something comes or after it leaves does not go with its "
                 "track, and what is there twice as many, not with its cluster. 0 for none of "
                 "these.");

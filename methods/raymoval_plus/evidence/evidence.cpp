@@ -35,6 +35,13 @@ bool is_unseen(const VoxelEvidence& evidence) {
   return evidence.free_scans == 0 && evidence.agree_scans == 0;
 }
 
+/// How many scans that saw through a voxel are not heard.
+int unheard_scans(const VoxelEvidence& evidence, const Parameters& parameters) {
+  const bool is_settled =
+      parameters.settled_scans > 0 && evidence.agree_scans >= parameters.settled_scans;
+  return is_settled ? evidence.far.unheard() : 0;
+}
+
 }  // namespace
 
 void add_evidence(std::span<const PosedImage> images, const Parameters& parameters,
@@ -130,10 +137,15 @@ void add_observation(Observation observation, float range, std::size_t scan,
   if (observation == Observation::kAgree) {
     evidence.last_agree = static_cast<std::uint32_t>(scan);
     if (evidence.agree_scans == 0) evidence.first_agree = evidence.last_agree;
+    const int all_free = evidence.free_scans + unheard_scans(evidence, parameters);
+    evidence.far.agree(range);
     count_up(evidence.agree_scans);
+    evidence.free_scans = static_cast<std::uint16_t>(
+        std::clamp(all_free - unheard_scans(evidence, parameters), 0, 0xFFFF));
     evidence.trailing_free = 0;
   } else if (observation == Observation::kFree) {
     count_up(evidence.free_scans);
+    if (evidence.agree_scans > 0) evidence.far.see_through(range);
     if (range > static_cast<float>(parameters.run_range)) return;
     count_up(evidence.trailing_free);
     if (evidence.agree_scans == 0) count_up(evidence.leading_free);

@@ -7,6 +7,7 @@
 #include "core/scan/voxel_key.h"
 #include "methods/common/dense_blocks.h"
 #include "methods/raymoval_plus/common/scan_cells.h"
+#include "methods/raymoval_plus/evidence/far_scans.h"
 #include "methods/raymoval_plus/evidence/seen_through.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -16,13 +17,14 @@ enum class Verdict : std::uint8_t { kUndecided, kStatic, kDynamic };
 
 /// The numbers of scans that say something of a voxel.
 struct VoxelEvidence {
-  std::uint16_t free_scans = 0;   ///< Scans that saw through the voxel.
+  std::uint16_t free_scans = 0;   ///< Scans that saw through the voxel, and are heard.
   std::uint16_t agree_scans = 0;  ///< Scans with a return at the voxel.
   /// Scans in a row that saw through it from near by, before the first scan that agrees and since
   /// the last one.
   std::uint16_t leading_free = 0, trailing_free = 0;
   /// The numbers of the first and of the last scan that agree, if any does.
   std::uint32_t first_agree = 0, last_agree = 0;
+  FarFreeScans far = {};  ///< Which others saw through it.
 };
 
 /// Step 2: the occupied voxels. Each has the mean of its points, what the scans say of it (step 3),
