@@ -33,9 +33,6 @@ constexpr double kLeastRow = 0.01 * kDegree, kFewestColumns = 90.0, kMostColumns
 constexpr int kMostBins = 4'000'000;
 /// 30 degrees in rows of 1 degree are 30 rows, also if their quotient is a little more.
 constexpr double kRowRounding = 1e-6;
-/// Windows grow with nearness. Where they start to, roundings may go either way, so that places a
-/// little farther are looked at, too.
-constexpr float kWindowsGrow = 1.001F;
 /// Metres by which the range of returns that might agree is made larger than it is. Differences of
 /// ranges are rounded by less.
 constexpr float kRangeRounding = 1e-3F;
@@ -151,7 +148,9 @@ Observation RangeImage::observe(const Eigen::Vector3f& place, SeenThrough seen) 
   kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights);
   const float range = sights.range[0];
   const int column = sights.column[0], row = sights.row[0];
-  const Observation observation = observe_every_bin(range, column, row);
+  const Observation observation = is_asked_at_height(range, seen)
+                                      ? observe_at_height(place, range, column, row)
+                                      : observe_every_bin(range, column, row);
   if (observation == Observation::kOccluded) {
     return sees_through_gap(place, seen, range, column, row) ? Observation::kFree : observation;
   }
@@ -168,9 +167,7 @@ kernels::SightTest RangeImage::test() const {
   test.row_windows = row_windows_.data();
   test.wide = parameters_.window_columns;
   test.high = parameters_.window_rows;
-  test.least_range = kWindowsGrow * half_voxel_ /
-                     std::min(azimuth_step_ * static_cast<float>(parameters_.window_columns + 1),
-                              elevation_step_ * static_cast<float>(parameters_.window_rows + 1));
+  test.least_range = near_range();
   test.agree = agree_;
   test.occluded = occluded_;
   test.range_min = static_cast<float>(parameters_.evidence_range_min);
@@ -200,6 +197,11 @@ void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_
       return (T_sensor_places * place.cast<double>()).cast<float>();
     };
     Observation observation = observation_of(sighted_at(chosen, i), range, column, row);
+    // Where no return of the window agrees or hides, none at the place's height does.
+    const bool is_met = observation == Observation::kAgree || observation == Observation::kOccluded;
+    if (is_met && is_asked_at_height(range, seen)) {
+      observation = observe_at_height(in_sensor(), range, column, row);
+    }
     if (observation == Observation::kOccluded) {
       if (!may_be_gap(range, column, row)) continue;
       if (!sees_through_gap(in_sensor(), seen, range, column, row)) continue;
@@ -285,47 +287,6 @@ bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int
       const int wrapped = (c + image_.columns) % image_.columns;
       if (lowest_at(r, wrapped) <= sine) return true;
     }
-  }
-  return false;
-}
-
-Observation RangeImage::observe_large_window(float range, int column, int row) const {
-  const auto [wide, high] = window_at(range);
-  const int low = std::max(row - high, 0), top = std::min(row + high, image_.rows - 1);
-  const int least_wide = parameters_.window_columns, least_high = parameters_.window_rows;
-  if (top - low < 2 * least_high) return observe_every_bin(range, column, row);
-  const Bounds bounds = bounds_at(range);
-  bool occluded = false;
-  // Least windows cover the large one. Those at its upper and right ends may lie over others.
-  for (int begin = low; begin <= top; begin += 2 * least_high + 1) {
-    const int r = std::min(begin, top - 2 * least_high) + least_high;
-    for (int left = -wide; left <= wide; left += 2 * least_wide + 1) {
-      const int c = column + std::min(left, wide - 2 * least_wide) + least_wide;
-      if (agrees_in_window(bounds, r, c, occluded)) return Observation::kAgree;
-    }
-  }
-  if (occluded) return Observation::kOccluded;
-  if (row >= image_.first_unseen_row) return Observation::kUnknown;
-  for (int r = std::min(row, top); r >= low; --r) {
-    if (nearest_in_row(r, column, wide) < kInfinite) return Observation::kFree;
-  }
-  return Observation::kUnknown;
-}
-
-bool RangeImage::agrees_in_window(const Bounds& bounds, int row, int column, bool& occluded) const {
-  const int wrapped = column < 0                 ? column + image_.columns
-                      : column >= image_.columns ? column - image_.columns
-                                                 : column;
-  const float* const window = windows_.data() + bin(row, wrapped);
-  // The minus says more than is asked here. Without a return both are +infinity.
-  const float nearest = window[0], farthest = std::abs(window[1]);
-  if (nearest == kInfinite) return false;
-  if (farthest < bounds.from || nearest > bounds.to) {
-    occluded |= nearest < bounds.beyond;
-    return false;
-  }
-  for (int r = row - parameters_.window_rows; r <= row + parameters_.window_rows; ++r) {
-    if (agrees_in_row(bounds, r, wrapped, parameters_.window_columns, occluded)) return true;
   }
   return false;
 }

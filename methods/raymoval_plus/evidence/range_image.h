@@ -78,6 +78,19 @@ class RangeImage {
   [[nodiscard]] Observation observe_every_bin(float range, int column, int row) const;
   /// The same for a place whose window is larger than the least one, by the least windows in it.
   [[nodiscard]] Observation observe_large_window(float range, int column, int row) const;
+  /// Up to which range windows are larger than the least one, metres.
+  [[nodiscard]] float near_range() const;
+  /// Whether only returns at a place's own height have a say: near by, and of what stands. Ground
+  /// is asked for in the whole window, for it may slope.
+  [[nodiscard]] bool is_asked_at_height(float range, SeenThrough seen) const {
+    return seen == SeenThrough::kInRowOrBelow && range <= near_range();
+  }
+  /// What the returns at a near place's own height say, and those before all that could agree. Its
+  /// large window takes in what is lower as well: seen from above, the ground before a foot is as
+  /// far away as the foot.
+  /// @param place metres, sensor frame
+  [[nodiscard]] Observation observe_at_height(const Eigen::Vector3f& place, float range, int column,
+                                              int row) const;
   /// Whether a return in these bins agrees. If not, notes whether any hides the place.
   bool agrees_in_row(const Bounds& bounds, int row, int column, int wide, bool& occluded) const;
   bool agrees_in_window(const Bounds& bounds, int row, int column, bool& occluded) const;

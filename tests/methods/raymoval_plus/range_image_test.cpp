@@ -357,6 +357,51 @@ TEST_CASE("places near the sensor, with large windows, are observed as bin by bi
   for (const int count : found) CHECK(count > 100);
 }
 
+TEST_CASE("seen from above, the ground before a foot says nothing of the foot") {
+  // The sensor is 1.5 m above the ground, and has rows of a quarter of a degree. The middle of a
+  // voxel is 0.15 m above the ground and 2.8 m away. Its window, half a voxel up and down, takes in
+  // ground that is as far away.
+  const double height = 1.5, above = 0.15, range = 2.8;
+  const double elevation = -std::asin((height - above) / range);
+  const Eigen::Vector3f foot = (range * direction(0.0, elevation)).cast<float>();
+  SensorModel sensor = toy::Scanner{}.model();
+  sensor.elevation_min = -60.0 * kDegree;
+  std::vector<Eigen::Vector3f> ground;
+  for (double e = -55.0; e < -5.0; e += 0.25) {
+    for (double a = -5.0; a < 5.0; a += 0.25) {
+      const double length = height / std::sin(-e * kDegree);
+      ground.push_back((length * direction(a * kDegree, e * kDegree)).cast<float>());
+    }
+  }
+  const auto seen = [&](const std::vector<Eigen::Vector3f>& more,
+                        SeenThrough rule = SeenThrough::kInRowOrBelow,
+                        const Eigen::Quaterniond& turn = Eigen::Quaterniond::Identity()) {
+    std::vector<Eigen::Vector3f> points = ground;
+    points.insert(points.end(), more.begin(), more.end());
+    for (Eigen::Vector3f& point : points) point = turn.inverse().cast<float>() * point;
+    const RangeImage image = image_of(points, sensor, Pose(turn));
+    return image.observe(turn.inverse().cast<float>() * foot, rule);
+  };
+  CHECK(seen({}) == Observation::kFree);
+  // What was taken for ground is still asked about all of the window.
+  CHECK(seen({}, SeenThrough::kAtOrBelow) == Observation::kAgree);
+  // The foot itself, 4 cm higher or lower, and 10 cm farther or nearer.
+  for (const double up : {-0.04, 0.04}) {
+    for (const double along : {-0.1, 0.1}) {
+      const Eigen::Vector3f point =
+          foot + Eigen::Vector3f(static_cast<float>(along), 0.0F, static_cast<float>(up));
+      CHECK(seen({point}) == Observation::kAgree);
+    }
+  }
+  // Somebody half a metre before it hides it at whatever height he is hit.
+  const Eigen::Vector3f before = (2.3 * direction(0.0, elevation - 1.5 * kDegree)).cast<float>();
+  CHECK(seen({before}) == Observation::kOccluded);
+  // Height is that above the ground, however the sensor is turned.
+  const Eigen::Quaterniond down(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY()));
+  CHECK(seen({}, SeenThrough::kInRowOrBelow, down) == Observation::kFree);
+  CHECK(seen({foot}, SeenThrough::kInRowOrBelow, down) == Observation::kAgree);
+}
+
 TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders") {
   std::mt19937 random(4);
   std::normal_distribution<float> place(0.0F, 20.0F);
