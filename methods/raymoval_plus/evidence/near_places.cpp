@@ -17,6 +17,12 @@ constexpr float kSameHeight = 0.07F, kSameHeightRows = 1.5F;
 
 }  // namespace
 
+bool has_even_beams(const SensorModel& sensor) {
+  if (sensor.has_beams()) return true;
+  return !sensor.is_estimated() && sensor.elevation_step > 0.0 &&
+         sensor.elevation_step != sensor.azimuth_step;
+}
+
 float RangeImage::near_range() const {
   return kWindowsGrow * half_voxel_ /
          std::min(azimuth_step_ * static_cast<float>(parameters_.window_columns + 1),
@@ -84,7 +90,7 @@ Observation RangeImage::observe_at_height(const Eigen::Vector3f& place, float ra
       if (agrees(nearest) || agrees(farthest)) return Observation::kAgree;
       occluded |=
           nearest < range - bounds.agree || (nearest < bounds.beyond && is_at_height(nearest));
-      below |= r <= row && nearest >= bounds.beyond;
+      below |= r <= row && std::abs(range * sine - height) <= reach && nearest >= bounds.beyond;
     }
   }
   if (occluded) return Observation::kOccluded;

@@ -63,6 +63,11 @@ kernels::SightPlaces in_sensor_frame(const float* places, std::size_t count, con
   return job;
 }
 
+/// Whether a return of the window of a place agrees with it or hides it.
+bool is_met(Observation observation) {
+  return observation == Observation::kAgree || observation == Observation::kOccluded;
+}
+
 kernels::Sighted sighted_at(const kernels::ChosenSights& chosen, std::size_t i) {
   return static_cast<kernels::Sighted>(chosen.sighted[i]);
 }
@@ -71,6 +76,7 @@ kernels::Sighted sighted_at(const kernels::ChosenSights& chosen, std::size_t i) 
 
 RangeImage::RangeImage(const SensorModel& sensor, const Parameters& parameters)
     : parameters_(parameters),
+      has_even_beams_(has_even_beams(sensor)),
       half_voxel_(static_cast<float>(0.5 * parameters.voxel_size)),
       agree_{static_cast<float>(parameters.agree_constant),
              static_cast<float>(parameters.agree_slope)},
@@ -148,9 +154,10 @@ Observation RangeImage::observe(const Eigen::Vector3f& place, SeenThrough seen) 
   kernels_.locate(grid_, in_sensor_frame(place.data(), 1, Pose::Identity()), sights);
   const float range = sights.range[0];
   const int column = sights.column[0], row = sights.row[0];
-  const Observation observation = is_asked_at_height(range, seen)
-                                      ? observe_at_height(place, range, column, row)
-                                      : observe_every_bin(range, column, row);
+  Observation observation = observe_every_bin(range, column, row);
+  if (is_met(observation) && is_asked_at_height(range, seen)) {
+    observation = observe_at_height(place, range, column, row);
+  }
   if (observation == Observation::kOccluded) {
     return sees_through_gap(place, seen, range, column, row) ? Observation::kFree : observation;
   }
@@ -197,9 +204,7 @@ void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_
       return (T_sensor_places * place.cast<double>()).cast<float>();
     };
     Observation observation = observation_of(sighted_at(chosen, i), range, column, row);
-    // Where no return of the window agrees or hides, none at the place's height does.
-    const bool is_met = observation == Observation::kAgree || observation == Observation::kOccluded;
-    if (is_met && is_asked_at_height(range, seen)) {
+    if (is_met(observation) && is_asked_at_height(range, seen)) {
       observation = observe_at_height(in_sensor(), range, column, row);
     }
     if (observation == Observation::kOccluded) {

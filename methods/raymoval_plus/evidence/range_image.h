@@ -24,6 +24,10 @@ struct ObservedPlace {
   float range;  ///< Metres from the sensor.
 };
 
+/// Whether a sensor looks in beams that are about evenly spaced. A rosette, which has neither beams
+/// nor columns, leaves gaps anywhere; such a sensor has the same step both ways.
+bool has_even_beams(const SensorModel& sensor);
+
 /// Step 3: the nearest and the farthest return of a scan in each direction, about one beam to a
 /// bin, and the three-way test of a place against the bins around it.
 class RangeImage {
@@ -40,9 +44,10 @@ class RangeImage {
   /// What the scan says of a place of the sensor frame (metres). It **agrees** if any return of the
   /// window lies at the place's range. Else the place is **occluded** if any return is nearer and
   /// its own column of bins is no gap beside that, else **free** if there is a return at or below
-  /// it, else **unknown**. So any agreement saves a place, and any occlusion says nothing. This
-  /// looks at every bin of the window, which is slow: it is what the other `observe` is compared
-  /// with.
+  /// it, else **unknown**. So any agreement saves a place, and any occlusion says nothing. Near by,
+  /// of what stands, only returns at the place's own height have a say, see `observe_at_height`.
+  /// This looks at every bin of the window, which is slow: it is what the other `observe` is
+  /// compared with.
   [[nodiscard]] Observation observe(const Eigen::Vector3f& place,
                                     SeenThrough seen = SeenThrough::kInRowOrBelow) const;
   /// Replaces `observed` with all places within the evidence range that the scan agrees with or
@@ -80,14 +85,16 @@ class RangeImage {
   [[nodiscard]] Observation observe_large_window(float range, int column, int row) const;
   /// Up to which range windows are larger than the least one, metres.
   [[nodiscard]] float near_range() const;
-  /// Whether only returns at a place's own height have a say: near by, and of what stands. Ground
-  /// is asked for in the whole window, for it may slope.
+  /// Whether only returns at a place's own height have a say: near by, of what stands, and where
+  /// some beam is sure to be at that height. Ground is asked for in the whole window, for it may
+  /// slope.
   [[nodiscard]] bool is_asked_at_height(float range, SeenThrough seen) const {
-    return seen == SeenThrough::kInRowOrBelow && range <= near_range();
+    return has_even_beams_ && seen == SeenThrough::kInRowOrBelow && range <= near_range();
   }
-  /// What the returns at a near place's own height say, and those before all that could agree. Its
-  /// large window takes in what is lower as well: seen from above, the ground before a foot is as
-  /// far away as the foot.
+  /// What the returns at a near place's own height say, and those before all that could agree,
+  /// where any of its window agrees or hides it. That takes in what is lower as well: seen from
+  /// above, the ground before a foot is as far away as the foot. Then only beams at that height see
+  /// through the place.
   /// @param place metres, sensor frame
   [[nodiscard]] Observation observe_at_height(const Eigen::Vector3f& place, float range, int column,
                                               int row) const;
@@ -144,6 +151,7 @@ class RangeImage {
   kernels::SightGrid grid_;
   float azimuth_step_ = 0.0F, elevation_step_ = 0.0F;  ///< Size of a bin, radians.
   kernels::SightImage image_;
+  bool has_even_beams_;
   float half_voxel_;                       ///< Metres.
   std::array<float, 2> agree_, occluded_;  ///< Metres at range 0, and for each metre of it.
   /// Returns of each bin, of `window_columns` around it, and of `window_rows` of these.

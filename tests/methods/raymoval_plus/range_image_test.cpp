@@ -28,6 +28,13 @@ RangeImage image_of(std::vector<Eigen::Vector3f> points,
   return image;
 }
 
+/// The same sensor, of which it is known that it has beams.
+SensorModel sensor_with_beams() {
+  SensorModel sensor = toy::Scanner{}.model();
+  sensor.beams = 41;
+  return sensor;
+}
+
 /// Every instruction set with every rule of what is seen through.
 std::vector<std::pair<InstructionSet, SeenThrough>> sets_and_rules() {
   std::vector<std::pair<InstructionSet, SeenThrough>> all;
@@ -294,10 +301,11 @@ TEST_CASE("places are observed alike one by one, all at once, and by every instr
     places.insert(places.end(), place.data(), place.data() + 3);
   }
   const Parameters parameters;
+  const SensorModel sensor = GENERATE(toy::Scanner{}.model(), sensor_with_beams());
   std::array<int, 4> found{};
   for (const auto& [set, seen] : sets_and_rules()) {
     const InstructionSetScope scope(set);
-    const RangeImage image = image_of(points);
+    const RangeImage image = image_of(points, sensor);
     std::vector<ObservedPlace> observed;
     image.observe(places, Pose::Identity(), seen, observed);
     auto next = observed.begin();
@@ -341,7 +349,7 @@ TEST_CASE("places near the sensor, with large windows, are observed as bin by bi
     places.insert(places.end(), place.data(), place.data() + 3);
   }
   const SeenThrough seen = GENERATE(SeenThrough::kInRowOrBelow, SeenThrough::kAtOrBelow);
-  const RangeImage image = image_of(points);
+  const RangeImage image = image_of(points, GENERATE(toy::Scanner{}.model(), sensor_with_beams()));
   std::vector<ObservedPlace> observed;
   image.observe(places, Pose::Identity(), seen, observed);
   std::vector<Observation> told(places.size() / 3, Observation::kOccluded);
@@ -364,7 +372,7 @@ TEST_CASE("seen from above, the ground before a foot says nothing of the foot") 
   const double height = 1.5, above = 0.15, range = 2.8;
   const double elevation = -std::asin((height - above) / range);
   const Eigen::Vector3f foot = (range * direction(0.0, elevation)).cast<float>();
-  SensorModel sensor = toy::Scanner{}.model();
+  SensorModel sensor = sensor_with_beams();
   sensor.elevation_min = -60.0 * kDegree;
   std::vector<Eigen::Vector3f> ground;
   for (double e = -55.0; e < -5.0; e += 0.25) {
@@ -396,10 +404,36 @@ TEST_CASE("seen from above, the ground before a foot says nothing of the foot") 
   // Somebody half a metre before it hides it at whatever height he is hit.
   const Eigen::Vector3f before = (2.3 * direction(0.0, elevation - 1.5 * kDegree)).cast<float>();
   CHECK(seen({before}) == Observation::kOccluded);
+  // Where the ground is met, beams that pass lower or higher do not see through it, though they
+  // go on.
+  const auto passing = [&](double up) {
+    const Eigen::Vector3f met = (2.85 * direction(0.0, elevation - 0.03)).cast<float>();
+    const Eigen::Vector3f beyond = (6.0 * direction(0.0, elevation + up / range)).cast<float>();
+    return image_of({met, beyond}, sensor).observe(foot);
+  };
+  CHECK(passing(-0.03) == Observation::kFree);
+  CHECK(passing(-0.09) == Observation::kUnknown);
+  CHECK(passing(0.09) == Observation::kUnknown);
   // Height is that above the ground, however the sensor is turned.
   const Eigen::Quaterniond down(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY()));
   CHECK(seen({}, SeenThrough::kInRowOrBelow, down) == Observation::kFree);
   CHECK(seen({foot}, SeenThrough::kInRowOrBelow, down) == Observation::kAgree);
+}
+
+TEST_CASE("a sensor has even beams if they are known, or its steps differ") {
+  SensorModel sensor = toy::Scanner{}.model();  // The same step both ways, as of a rosette.
+  CHECK_FALSE(has_even_beams(sensor));
+  sensor.beams = 41;
+  CHECK(has_even_beams(sensor));
+  sensor.basis = "41 beams";
+  CHECK(has_even_beams(sensor));
+  sensor.beams = 0;
+  sensor.azimuth_step *= 0.5;
+  CHECK_FALSE(has_even_beams(sensor));  // It was estimated, and none were found.
+  for (const std::string& name : sensor_model_names()) {
+    CHECK(has_even_beams(sensor_model_named(name)));
+  }
+  CHECK_FALSE(has_even_beams(SensorModel{}));  // Nothing is known of it.
 }
 
 TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders") {
