@@ -24,12 +24,12 @@ KNOWN = {
     ("hard/walk-solid-state", "octomap:ground"),
     ("hard/walk-solid-state", "peopleremover:normals"),
     ("hard/walk-solid-state", "removert:rm3"),
-    ("hard/walk-solid-state", "dufomap:offline"),
     ("hard/walk-solid-state", "beautymap:wide"),
     ("hard/walk-rosette", "peopleremover:normals"),
     ("hard/walk-rosette", "beautymap:wide"),
     ("hard/walk-rosette", "freedom:few-counts"),
     ("hard/carpark-solid-state", "peopleremover:normals"),
+    ("hard-60/walk", "peopleremover:normals"),
 }
 
 
