@@ -53,10 +53,8 @@ Observation RangeImage::observe_large_window(float range, int column, int row) c
 }
 
 bool RangeImage::agrees_in_window(const Bounds& bounds, int row, int column, bool& occluded) const {
-  const int wrapped = column < 0                 ? column + image_.columns
-                      : column >= image_.columns ? column - image_.columns
-                                                 : column;
-  const float* const window = windows_.data() + bin(row, wrapped);
+  const int own = wrapped(column);
+  const float* const window = windows_.data() + bin(row, own);
   // The minus says more than is asked here. Without a return both are +infinity.
   const float nearest = window[0], farthest = std::abs(window[1]);
   if (nearest == kInfinite) return false;
@@ -65,7 +63,7 @@ bool RangeImage::agrees_in_window(const Bounds& bounds, int row, int column, boo
     return false;
   }
   for (int r = row - parameters_.window_rows; r <= row + parameters_.window_rows; ++r) {
-    if (agrees_in_row(bounds, r, wrapped, parameters_.window_columns, occluded)) return true;
+    if (agrees_in_row(bounds, r, own, parameters_.window_columns, occluded)) return true;
   }
   return false;
 }
@@ -76,21 +74,32 @@ Observation RangeImage::observe_at_height(const Eigen::Vector3f& place, float ra
   const Bounds bounds = bounds_at(range);
   const float height = up_.dot(place);
   const float reach = std::max(kSameHeight, kSameHeightRows * elevation_step_ * range);
+  const auto is_at_height = [&](float at, int r, int c) {
+    return std::abs(at * lowest_at(r, wrapped(c)) - height) <= reach;
+  };
+  const auto agrees = [&](float at, int r, int c) {
+    return std::abs(at - range) <= bounds.agree && is_at_height(at, r, c);
+  };
+  const auto agrees_in_bin = [&](int r, int c) {
+    const float* const returns = bins_.data() + bin(r, c);
+    return agrees(returns[0], r, c) || agrees(-returns[1], r, c);
+  };
+  const int low = std::max(row - high, 0), top = std::min(row + high, image_.rows - 1);
+  // Most places that a scan agrees with are met in their own bin.
+  if (low <= row && row <= top && agrees_in_bin(row, column)) return Observation::kAgree;
   bool occluded = false, below = false;
-  for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
+  for (int r = low; r <= top; ++r) {
     for (int c = column - wide; c <= column + wide; ++c) {
-      const float* const returns = bins_.data() + bin(r, c);
-      const float nearest = returns[0], farthest = -returns[1];
+      const float nearest = bins_[bin(r, c)];
       if (nearest == kInfinite) continue;
-      const float sine = lowest_at(r, (c + image_.columns) % image_.columns);
-      const auto is_at_height = [&](float at) { return std::abs(at * sine - height) <= reach; };
-      const auto agrees = [&](float at) {
-        return std::abs(at - range) <= bounds.agree && is_at_height(at);
-      };
-      if (agrees(nearest) || agrees(farthest)) return Observation::kAgree;
-      occluded |=
-          nearest < range - bounds.agree || (nearest < bounds.beyond && is_at_height(nearest));
-      below |= r <= row && std::abs(range * sine - height) <= reach && nearest >= bounds.beyond;
+      if (agrees_in_bin(r, c)) return Observation::kAgree;
+      if (nearest < range - bounds.agree) {
+        occluded = true;
+      } else if (nearest < bounds.beyond) {
+        occluded |= is_at_height(nearest, r, c);
+      } else {
+        below |= r <= row && is_at_height(range, r, c);
+      }
     }
   }
   if (occluded) return Observation::kOccluded;

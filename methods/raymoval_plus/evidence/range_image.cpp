@@ -289,8 +289,7 @@ bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int
   const float sine = up_.dot(place) / range;
   for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
     for (int c = column - wide; c <= column + wide; ++c) {
-      const int wrapped = (c + image_.columns) % image_.columns;
-      if (lowest_at(r, wrapped) <= sine) return true;
+      if (lowest_at(r, wrapped(c)) <= sine) return true;
     }
   }
   return false;

@@ -69,6 +69,11 @@ class RangeImage {
     return 2 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.stride()) +
                 static_cast<std::size_t>(image_.margin + column));
   }
+  /// A column up to a turn beyond either end, in the image.
+  [[nodiscard]] int wrapped(int column) const {
+    if (column < 0) return column + image_.columns;
+    return column >= image_.columns ? column - image_.columns : column;
+  }
   void fill_bins(const Scan& scan);
   [[nodiscard]] kernels::SightTest test() const;
   [[nodiscard]] Window window_at(float range) const;
