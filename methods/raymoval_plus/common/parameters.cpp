@@ -151,10 +151,9 @@ void add_objects(Lines& table) {
                 "A voxel that so many scans agree with is not outvoted if none saw through it, its "
                 "points are left out when a mixed cluster is divided, and a scan is not heard that "
                 "sees through it, between these, from much farther than the nearest of them. What "
-                "is there more "
-                "than so many scans before something comes or after it leaves does not go with its "
-                "track, and what is there twice as many, not with its cluster. 0 for none of "
-                "these.");
+                "is there more than so many scans before something comes or after it leaves does "
+                "not go with its track, and what is there twice as many, not with its cluster. 0 "
+                "for none of these.");
   table.flag("tracks", &P::tracks, "Follow dynamic clusters over scans.", kObjects);
   table.number("track_dynamic_share", &P::track_dynamic_share, "", 0, 1,
                "Share of a track's clusters that must be dynamic.", kTracks);

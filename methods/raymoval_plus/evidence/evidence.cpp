@@ -37,9 +37,7 @@ bool is_unseen(const VoxelEvidence& evidence) {
 
 /// How many scans that saw through a voxel are not heard.
 int unheard_scans(const VoxelEvidence& evidence, const Parameters& parameters) {
-  const bool is_settled =
-      parameters.settled_scans > 0 && evidence.agree_scans >= parameters.settled_scans;
-  return is_settled ? evidence.far.unheard() : 0;
+  return is_settled(evidence, parameters) ? evidence.far.between_agreeing() : 0;
 }
 
 }  // namespace
@@ -171,9 +169,12 @@ Decisions::Decisions(const Parameters& parameters)
   }
 }
 
+bool is_settled(const VoxelEvidence& evidence, const Parameters& parameters) {
+  return parameters.settled_scans > 0 && evidence.agree_scans >= parameters.settled_scans;
+}
+
 bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters) {
-  return parameters.settled_scans > 0 && evidence.free_scans == 0 &&
-         evidence.agree_scans >= parameters.settled_scans;
+  return evidence.free_scans == 0 && is_settled(evidence, parameters);
 }
 
 }  // namespace raymoval::raymoval_plus_method

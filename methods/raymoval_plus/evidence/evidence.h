@@ -108,7 +108,13 @@ inline AgreeingSpan agreeing_span(const VoxelEvidence& evidence, std::size_t own
   return {own, own};
 }
 
-/// Whether enough scans agree with a voxel and none saw through it: it was there all the time.
+/// Whether enough scans agree with a voxel for it to be settled, if any voxel is to be.
+bool is_settled(const VoxelEvidence& evidence, const Parameters& parameters);
+/// The same of a point's voxel; ground, which is in no voxel of what stands, is not.
+inline bool is_settled(std::uint32_t voxel, const EvidenceMap& map, const Parameters& parameters) {
+  return voxel != EvidenceMap::kNone && is_settled(map.evidence(voxel), parameters);
+}
+/// Whether a voxel is settled and no scan saw through it: it was there all the time.
 bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters);
 
 }  // namespace raymoval::raymoval_plus_method

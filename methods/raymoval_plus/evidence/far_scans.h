@@ -35,7 +35,7 @@ class FarFreeScans {
     heard_ = std::min(heard_, static_cast<std::uint8_t>(first_unheard));
   }
   /// How many scans say nothing.
-  [[nodiscard]] int unheard() const {
+  [[nodiscard]] int between_agreeing() const {
     int scans = 0;
     for (std::size_t k = heard_; k < kFrom.size(); ++k) scans += between_[k];
     return scans;

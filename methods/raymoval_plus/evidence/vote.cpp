@@ -223,9 +223,8 @@ Verdict verdict_by_votes(Verdict decision, std::uint32_t votes, const Parameters
 /// Whether many times as many scans agree with a voxel as with the dynamic ones around it, on
 /// average: it is a parked car or a pole that others pass, for which a few scans suffice.
 bool outlasts_dynamic(std::uint32_t voxel, const Parameters& parameters, const EvidenceMap& map) {
-  const int agree = map.evidence(voxel).agree_scans;
-  if (parameters.outlast == 0.0 || parameters.settled_scans == 0) return false;
-  if (agree < parameters.settled_scans) return false;
+  const VoxelEvidence& evidence = map.evidence(voxel);
+  if (parameters.outlast == 0.0 || !is_settled(evidence, parameters)) return false;
   const int side = 2 * parameters.vote_radius + 1;
   const VoxelIndex corner = map.index(voxel).array() - parameters.vote_radius;
   EvidenceMap::Blocks::Cursor cursor;
@@ -239,7 +238,7 @@ bool outlasts_dynamic(std::uint32_t voxel, const Parameters& parameters, const E
     ++count;
     sum += map.evidence(other).agree_scans;
   }
-  return agree * static_cast<double>(count) > parameters.outlast * sum;
+  return evidence.agree_scans * static_cast<double>(count) > parameters.outlast * sum;
 }
 
 /// Whether the votes around a voxel do not change its decision.

@@ -17,11 +17,6 @@ namespace {
 /// Of each cluster one of so many points is looked at first, to find those that are too wide.
 constexpr std::size_t kFewPoints = 8;
 
-/// The number of scans that agree with a point's voxel; 0 for ground.
-int agreeing_scans(const EvidenceMap& map, std::uint32_t voxel) {
-  return voxel == EvidenceMap::kNone ? 0 : map.evidence(voxel).agree_scans;
-}
-
 /// The cluster of each of the `chosen` points of a scan.
 std::vector<int> clusters_of(const Scan& scan, const std::vector<std::uint32_t>& chosen,
                              const Parameters& parameters) {
@@ -95,8 +90,7 @@ void divide_mixed_clusters(const EvidenceMap& map, const Parameters& parameters,
                            SegmentedScan& scan) {
   const auto is_left_over = [&](std::size_t k, const Cluster& cluster) {
     if (!is_mixed(cluster, parameters)) return false;
-    return scan.verdict[k] == Verdict::kDynamic ||
-           agreeing_scans(map, scan.voxel[k]) < parameters.settled_scans;
+    return scan.verdict[k] == Verdict::kDynamic || !is_settled(scan.voxel[k], map, parameters);
   };
   const std::vector<int> parts = clusters_among(scan, parameters, is_left_over);
   const std::vector<Cluster> whole = scan.clusters;

@@ -5,6 +5,8 @@
 #include <array>
 #include <limits>
 
+#include "methods/raymoval_plus/evidence/evidence.h"
+
 namespace raymoval::raymoval_plus_method {
 namespace {
 
@@ -30,11 +32,11 @@ struct Thing {
 class WholeThings {
  public:
   WholeThings(const SegmentedScan& scan, const std::vector<std::uint8_t>& is_mixed,
-              const EvidenceMap& map, int settled_scans)
+              const EvidenceMap& map, const Parameters& parameters)
       : scan_(scan),
         is_mixed_(is_mixed),
         map_(map),
-        settled_scans_(settled_scans),
+        parameters_(parameters),
         things_(scan.clusters.size()) {}
 
   void add_dynamic() {
@@ -62,7 +64,7 @@ class WholeThings {
       // Most points of walls lie beyond the box. They are not asked for whether they are settled.
       const Eigen::Array2i place(scan_.in_map.x[k], scan_.in_map.y[k]);
       const bool is_beyond = (place < thing.low).any() || (place > thing.high).any();
-      if (!is_beyond && !is_settled(k)) return;
+      if (!is_beyond && !is_settled(scan_.voxel[k], map_, parameters_)) return;
       ++thing.settled;
       if (z(k) * thing.dynamic < thing.dynamic_z) ++thing.lower;
       if (is_beyond) return;
@@ -86,10 +88,6 @@ class WholeThings {
   [[nodiscard]] std::int64_t z(std::size_t k) const {
     return std::int64_t{256} * scan_.in_map.z[k] + upward(scan_.in_map.parts[k]);
   }
-  [[nodiscard]] bool is_settled(std::size_t k) const {
-    const std::uint32_t voxel = scan_.voxel[k];
-    return voxel != EvidenceMap::kNone && map_.evidence(voxel).agree_scans >= settled_scans_;
-  }
   /// Calls `visit(point, cluster, thing)` for each point of a mixed cluster.
   template <class Visit>
   void for_points(Visit&& visit) {
@@ -107,7 +105,7 @@ class WholeThings {
   const SegmentedScan& scan_;
   const std::vector<std::uint8_t>& is_mixed_;
   const EvidenceMap& map_;
-  int settled_scans_;
+  const Parameters& parameters_;
   std::vector<Thing> things_;    ///< By cluster.
   std::vector<Column> columns_;  ///< Ascending.
 };
@@ -117,7 +115,7 @@ class WholeThings {
 std::vector<std::uint8_t> find_whole_things(const SegmentedScan& scan,
                                             const std::vector<std::uint8_t>& is_mixed,
                                             const EvidenceMap& map, const Parameters& parameters) {
-  WholeThings things(scan, is_mixed, map, parameters.settled_scans);
+  WholeThings things(scan, is_mixed, map, parameters);
   things.add_dynamic();
   things.add_settled();
   return things.found();
