@@ -2,6 +2,7 @@
 #include "methods/raymoval_plus/objects/journeys.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -17,14 +18,18 @@ namespace {
 /// An object moved if its centre did by so many metres, and by this share of its length: the centre
 /// of a standing thing shifts by less when other sides of it come into sight.
 constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;
-/// An object is in its place while its centre is within this share of its length.
-constexpr double kPlaceShare = 0.5;
+/// An object is in its place while it moved by no more than this share of its width.
+constexpr double kPlaceShare = 1.0;
 /// Scans may agree with an object that stands so many times as long as it was followed there: other
 /// sides of it come into sight, or something passes before it, and its track is lost.
 constexpr double kStaySlack = 2.0;
 /// With what stands there anyway, at least this share of the scans agree in which it would have to
 /// be gone.
-constexpr double kLeastPresent = 0.4;
+constexpr double kLeastPresent = 0.25;
+/// What stands may be so many times, and by so many metres, wider than anything of its track that
+/// was seen to be dynamic. From nearer by more of it is in sight; a parked car whose track a drop
+/// of rain or a walker took over is larger by far.
+constexpr double kWider = 1.5, kWiderMetres = 0.6;
 
 /// The scans in which the object of a track is in one place.
 struct Stay {
@@ -37,15 +42,31 @@ Stay stay_between(const Track::Node& a, const Track::Node& b) {
   return {std::min(a.scan, b.scan), std::max(a.scan, b.scan)};
 }
 
-/// Of each of a track's objects, the scans that it spends where it is then. It is in one place
-/// until its centre is farther from where it was at first than a share of its length.
-std::vector<Stay> stays_of(const Track& track, double length) {
-  const std::size_t count = track.nodes.size();
-  const auto center = [&](std::size_t k) { return track.nodes[k].object.center.head<2>(); };
+/// By how much a thing moved at least, seen from above, if both objects are what was in sight of
+/// it; metres. Other sides come into sight, so that one box may hold the other, or an edge of it
+/// stays where it is, while the centre shifts.
+double least_shift(const ObjectSummary& a, const ObjectSummary& b) {
+  const Eigen::Array2d low = (b.low - a.low).head<2>(), high = (b.high - a.high).head<2>();
+  return (low * high > 0.0).select(low.abs().min(high.abs()), 0.0).matrix().norm();
+}
+
+/// Whether two objects of a track are in the same place.
+bool are_in_one_place(const ObjectSummary& a, const ObjectSummary& b) {
+  return least_shift(a, b) <= kPlaceShare * std::min(a.width(), b.width());
+}
+
+/// Of each of a track's objects, the scans that it spends where it is then: those before and after
+/// in which it is in the same place.
+std::vector<Stay> stays_of(const Track& track) {
   std::vector<Stay> stays;
-  for (std::size_t first = 0, end = 0; first < count; first = end) {
-    while (end < count && (center(end) - center(first)).norm() <= kPlaceShare * length) ++end;
-    stays.resize(end, stay_between(track.nodes[first], track.nodes[end - 1]));
+  for (auto node = track.nodes.begin(); node != track.nodes.end(); ++node) {
+    const auto is_elsewhere = [&](const Track::Node& other) {
+      return !are_in_one_place(other.object, node->object);
+    };
+    const auto end = std::find_if(node, track.nodes.end(), is_elsewhere);
+    const auto before =
+        std::find_if(std::make_reverse_iterator(node), track.nodes.rend(), is_elsewhere);
+    stays.push_back(stay_between(*before.base(), *std::prev(end)));
   }
   return stays;
 }
@@ -107,22 +128,32 @@ struct Journey {
   std::optional<Motion> motion;  ///< None if it came or leaves, and stands else.
   std::vector<Stay> stays;       ///< Of each of the track's objects.
   Stay dynamic;                  ///< From its first dynamic object to its last one.
+  double widest;                 ///< What stands and is wider does not belong to it; metres.
 };
+
+/// The width of the widest of a track's dynamic objects, metres.
+double dynamic_width(const Track& track, const Parameters& parameters) {
+  double width = 0.0;
+  for (const Track::Node& node : track.nodes) {
+    if (is_dynamic(node.object, parameters)) width = std::max(width, node.object.width());
+  }
+  return width;
+}
 
 /// How the object of a track moved, came or leaves, if that is known.
 std::optional<Journey> journey_of(const Track& track, const Parameters& parameters) {
   if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
   const auto motion = motion_of(track, parameters);
   const Stay whole = stay_between(track.nodes.front(), track.nodes.back());
-  std::vector<Stay> stays =
-      motion ? stays_of(track, motion->length) : std::vector<Stay>(track.nodes.size(), whole);
+  std::vector<Stay> stays = motion ? stays_of(track) : std::vector<Stay>(track.nodes.size(), whole);
   const bool is_known = motion ? is_mostly_dynamic(track, stays, *motion, parameters)
                                : came_or_leaves(track, parameters);
   if (!is_known) return std::nullopt;
   const auto is_one = [&](const Track::Node& node) { return is_dynamic(node.object, parameters); };
   const auto first = std::find_if(track.nodes.begin(), track.nodes.end(), is_one);
   const auto last = std::find_if(track.nodes.rbegin(), track.nodes.rend(), is_one);
-  return Journey{motion, std::move(stays), stay_between(*first, *last)};
+  return Journey{motion, std::move(stays), stay_between(*first, *last),
+                 kWider * dynamic_width(track, parameters) + kWiderMetres};
 }
 
 /// Whether something stands where an object does, no matter whether the object is there: it is the
@@ -138,8 +169,8 @@ bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey&
   if (object.agree_scans - stay.scans() < kLeastPresent * absent) return false;
   const bool was_before = before > parameters.settled_scans;
   const bool is_after = after > parameters.settled_scans;
-  const bool came = journey.dynamic.first < stay.first;
-  const bool left = journey.dynamic.last > stay.last;
+  const bool came = journey.dynamic.first <= stay.first;
+  const bool left = journey.dynamic.last >= stay.last;
   return (came && was_before) || (left && is_after) || (was_before && is_after);
 }
 
@@ -148,7 +179,8 @@ bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey&
 bool belongs(const ObjectSummary& object, const Stay& stay, const Journey& journey,
              const Parameters& parameters) {
   if (journey.motion && is_explained(object, *journey.motion, parameters)) return true;
-  return is_explained_by_stay(object, stay) && !stands_anyway(object, stay, journey, parameters);
+  return object.width() <= journey.widest && is_explained_by_stay(object, stay) &&
+         !stands_anyway(object, stay, journey, parameters);
 }
 
 void sort_and_unite(std::vector<int>& numbers) {

@@ -124,28 +124,88 @@ TEST_CASE(
     CHECK(marked[20] == marked[25]);
     return marked[25] == std::vector{0};
   };
+  // He walks 0.2 m a scan and is 0.71 m wide, so that he is still in its place for three scans.
   for (const bool comes : {false, true}) {
-    CHECK(is_marked(comes, 60.0F, 0.0F, 10.0));  // That may be how far scans agree around him.
-    CHECK_FALSE(is_marked(comes, 60.0F, 0.0F, 11.0));
+    CHECK(is_marked(comes, 60.0F, 0.0F, 13.0));  // That may be how far scans agree around him.
+    CHECK_FALSE(is_marked(comes, 60.0F, 0.0F, 14.0));
     CHECK_FALSE(is_marked(comes, 60.0F, 3.0F, 20.0));
-    CHECK(is_marked(comes, 60.0F, 3.5F, 20.0));        // Seen through more: others came there.
-    CHECK_FALSE(is_marked(comes, 48.0F, 0.0F, 20.0));  // Eight scans more are 0.4 of the 20.
+    CHECK(is_marked(comes, 60.0F, 3.5F, 20.0));  // Seen through more: others came there.
+    // Five scans more than the 43 in which it is followed there are a quarter of the other 17.
+    CHECK_FALSE(is_marked(comes, 48.0F, 0.0F, 20.0));
     CHECK(is_marked(comes, 47.0F, 0.0F, 20.0));
   }
 }
 
 TEST_CASE("a pole stays before which somebody came or left for some scans") {
-  // Nothing moves: it is dynamic in four of ten scans. Scans agree 10 or 11 scans before and after.
-  for (const double beyond : {10.0, 11.0}) {
-    for (const bool before_too : {false, true}) {
-      Scans scans;
-      for (int i = 0; i < 10; ++i) {
-        scans.push_back({walker(0, i % 3 == 0 ? 18 : 0, 20.0F)});
-        scans.back()[0].first_agree = before_too ? 0.0 - beyond : 0.0;
-        scans.back()[0].last_agree = 9.0 + beyond;
-      }
-      const bool stands = before_too && beyond == 11.0;
-      CHECK(marked_by_tracks(scans)[2] == (stands ? std::vector<int>{} : std::vector{0}));
+  // Nothing moves: it is dynamic in four of ten scans. Scans agree 10 or 11 scans before or after,
+  // or both. If it is dynamic until the last scan of its track, none should agree after that; if it
+  // is so in the first scans only, it may have come to stay.
+  const auto is_marked = [](int every, double before, double after) {
+    Scans scans;
+    for (int i = 0; i < 10; ++i) {
+      const bool is_dynamic = every > 1 ? i % every == 0 : i < 4;
+      scans.push_back({walker(0, is_dynamic ? 18 : 0, 20.0F)});
+      scans.back()[0].first_agree = -before;
+      scans.back()[0].last_agree = 9.0 + after;
+    }
+    return marked_by_tracks(scans)[5] == std::vector{0};
+  };
+  for (const int every : {1, 3}) {
+    CHECK(is_marked(every, 10.0, 10.0));
+    CHECK_FALSE(is_marked(every, 11.0, 11.0));
+    CHECK_FALSE(is_marked(every, 11.0, 0.0));
+    CHECK(is_marked(every, 0.0, 10.0));
+  }
+  CHECK_FALSE(is_marked(3, 0.0, 11.0));
+  CHECK(is_marked(1, 0.0, 11.0));
+}
+
+TEST_CASE("what waits is in its place however much of it is in sight") {
+  // A van waits for 40 scans. At first 2.8 m of it are in sight, then less and less behind its
+  // front, until that is 0.4 m deep; then it drives off. Its centre shifts by 1.2 m meanwhile.
+  for (const float agree_scans : {60.0F, 95.0F}) {
+    Scans scans;
+    for (int i = 0; i < 50; ++i) {
+      const double front = 0.3 * std::max(i - 39, 0);
+      const double depth = std::max(2.8 - 0.1 * i, 0.4);
+      ObjectSummary van = walker(0, i < 40 ? 0 : 18, agree_scans);
+      van.low.x() = front - depth;
+      van.high.x() = front;
+      van.center.x() = front - depth / 2.0;
+      van.low.y() = -0.9;
+      van.high.y() = 0.9;
+      van.first_agree = 0.0;
+      van.last_agree = 39.0;
+      scans.push_back({van});
+    }
+    // It is followed there for 40 scans, and in its place for six more: 92 are twice as many. The
+    // scans of the half of its way that its centre shifted alone would be too few for 60.
+    const auto marked = marked_by_tracks(scans);
+    for (std::size_t i = 0; i < 40; ++i) {
+      CHECK(marked[i] == (agree_scans < 90.0F ? std::vector{0} : std::vector<int>{}));
+    }
+  }
+}
+
+TEST_CASE("a parked car stays whose track something much smaller takes over") {
+  // A walker of 0.71 m comes in ten scans; what stands for 40 scans from then on is 1.56 or 1.92 m
+  // wide. Half as wide again and 0.6 m are 1.66 m.
+  for (const bool is_larger : {false, true}) {
+    Scans scans;
+    for (int i = 0; i < 50; ++i) {
+      scans.push_back({walker(std::min(i, 10), i < 10 ? 18 : 0, 40.0F)});
+      if (i < 10) continue;
+      ObjectSummary& standing = scans.back()[0];
+      const Eigen::Vector3d half =
+          is_larger ? Eigen::Vector3d(0.75, 0.6, 0.7) : Eigen::Vector3d(0.6, 0.5, 0.7);
+      standing.low = standing.center - half;
+      standing.high = standing.center + half;
+      standing.first_agree = 10.0;
+      standing.last_agree = 49.0;
+    }
+    const auto marked = marked_by_tracks(scans);
+    for (std::size_t i = 10; i < 50; ++i) {
+      CHECK(marked[i] == (is_larger ? std::vector<int>{} : std::vector{0}));
     }
   }
 }
