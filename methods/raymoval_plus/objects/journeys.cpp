@@ -236,8 +236,8 @@ std::vector<TrackRules> all_rules() {
   std::vector<TrackRules> rules;
   for (const bool also_undivided : {false, true}) {
     for (const TrackGate& gate : {kGate, kWideGate}) {
-      for (const double first_step : {0.0, kFirstStep}) {
-        rules.push_back({first_step, gate, also_undivided});
+      for (const double first_speed : {0.0, kFirstSpeed}) {
+        rules.push_back({first_speed, gate, also_undivided});
       }
     }
   }

@@ -74,19 +74,20 @@ double ObjectTracker::gate(const Track& track, int scans, double seconds) const 
   return rules_.gate.metres + brakes + kGateShare * track.velocity.norm() * scans;
 }
 
-double ObjectTracker::farthest(const Track& track, int scans) const {
+double ObjectTracker::farthest(const Track& track, int scans, double time_s) const {
   const double widest = gate(track, scans, kLongestStep);
-  return track.nodes.size() == 1 ? std::max(widest, rules_.first_step * scans) : widest;
+  if (track.nodes.size() > 1) return widest;
+  return std::max(widest, rules_.first_speed * std::abs(time_s - track.nodes[0].object.time_s));
 }
 
 std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSummary& found,
                                               int scans) const {
   const ObjectSummary& last = track.nodes.back().object;
   const double distance = (found.center - expected_center(track, scans)).head<2>().norm();
-  const double seconds = std::min(std::abs(found.time_s - last.time_s), kLongestStep);
-  if (distance > gate(track, scans, seconds)) {
+  const double seconds = std::abs(found.time_s - last.time_s);
+  if (distance > gate(track, scans, std::min(seconds, kLongestStep))) {
     // Nothing is known of the speed of what was seen once, but what is fast is new where it is.
-    const bool may_be_fast = track.nodes.size() == 1 && distance <= rules_.first_step * scans &&
+    const bool may_be_fast = track.nodes.size() == 1 && distance <= rules_.first_speed * seconds &&
                              is_explained(found, {last.width(), distance / scans}, parameters_);
     if (!may_be_fast) return std::nullopt;
   }
@@ -99,11 +100,12 @@ std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSu
 
 void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& objects) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+  const double time_s = objects.empty() ? 0.0 : objects.front().time_s;  // That of all of them.
   for (std::size_t t = 0; t < active_.size(); ++t) {
     const int scans = scans_between(active_[t].nodes.back().scan, scan);
     // Most objects are too far away along one axis alone.
     const double x = expected_center(active_[t], scans).x();
-    const double reach = farthest(active_[t], scans);
+    const double reach = farthest(active_[t], scans, time_s);
     for (std::size_t k = 0; k < objects.size(); ++k) {
       if (std::abs(objects[k].center.x() - x) > reach || !may_follow(objects[k])) continue;
       if (const auto distance = mismatch(active_[t], objects[k], scans)) {

@@ -44,9 +44,8 @@ double scans_explained(const ObjectSummary& object, const Motion& motion,
 /// Whether scans agree on an object no longer than its length and speed explain.
 bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters);
 
-/// An object may move by so many metres between two scans before its speed is known: 40 m/s at ten
-/// scans a second.
-inline constexpr double kFirstStep = 4.0;
+/// An object may be so fast before its speed is known, metres a second.
+inline constexpr double kFirstSpeed = 40.0;
 
 /// Scans that a track may miss, while something passes before the object.
 inline constexpr int kLongestGap = 2;
@@ -69,9 +68,9 @@ inline constexpr TrackGate kWideGate{0.6, 4.5, 10};
 
 /// How objects are followed.
 struct TrackRules {
-  /// Metres a scan that an object may be faster than slow ones in its first step, of whose speed
-  /// nothing is known yet.
-  double first_step = 0.0;
+  /// So fast may an object be in its first step, when nothing is known of its speed yet; metres a
+  /// second. Slow ones may be followed anyhow.
+  double first_speed = 0.0;
   TrackGate gate = kGate;
   bool also_undivided = false;  ///< Whether what was divided may be followed as it was before.
 };
@@ -92,8 +91,8 @@ class ObjectTracker {
  private:
   /// How far an object may be from where the track is expected after so many scans and seconds.
   [[nodiscard]] double gate(const Track& track, int scans, double seconds) const;
-  /// The same for any seconds, also for what may be fast; metres.
-  [[nodiscard]] double farthest(const Track& track, int scans) const;
+  /// The same at most, also for what may be fast; metres. @param time_s of the object
+  [[nodiscard]] double farthest(const Track& track, int scans, double time_s) const;
   /// The distance of an object from where the track is expected after so many scans, metres, if it
   /// can be the same object.
   [[nodiscard]] std::optional<double> mismatch(const Track& track, const ObjectSummary& found,

@@ -9,7 +9,7 @@
 namespace raymoval::raymoval_plus_method {
 
 RecentObjects::RecentObjects(const Parameters& parameters)
-    : parameters_(parameters), before_(parameters, {.first_step = kFirstStep}) {}
+    : parameters_(parameters), before_(parameters, {.first_speed = kFirstSpeed}) {}
 
 void RecentObjects::take(const SegmentedScan& scan, const EvidenceMap& map,
                          const RunContext& context) {
@@ -76,7 +76,7 @@ void RecentObjects::judge(const EvidenceMap& map, const RunContext& context) {
 
 std::vector<int> RecentObjects::marked(std::size_t scan, const RunContext& context) const {
   const StageScope timed(context.times, "tracks");
-  ObjectTracker forward = before_, backward(parameters_, {.first_step = kFirstStep});
+  ObjectTracker forward = before_, backward(parameters_, {.first_speed = kFirstSpeed});
   for (std::size_t i = 0; i < objects_.size(); ++i) forward.follow(first_ + i, objects_[i]);
   std::vector<int> marked = marked_in(scan, forward.finish(), parameters_);
   for (std::size_t i = objects_.size(); i > 0 && first_ + i > scan + 1; --i) {

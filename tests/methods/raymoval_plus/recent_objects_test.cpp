@@ -12,8 +12,8 @@ using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
-/// A post of 20 points that drives off by 1.5 m a scan. Nothing is known of where it stands; it is
-/// seen later that nothing is left where it stood.
+/// A post of 20 points that drives off by 1.5 m a scan, at 15 m/s. Nothing is known of where it
+/// stands; it is seen later that nothing is left where it stood.
 class DrivingPost {
  public:
   explicit DrivingPost(int recent_scans = 30) : recent_(with_recent_scans(recent_scans)) {}
@@ -22,6 +22,7 @@ class DrivingPost {
   void scan() {
     SegmentedScan scan;
     scan.scan.index = voxels_.size();
+    scan.scan.time_s = 0.1 * static_cast<double>(scan.scan.index);
     voxels_.emplace_back();
     for (int k = 0; k < 20; ++k) {
       const Eigen::Vector3d point(5.05 + 1.5 * static_cast<double>(scan.scan.index), 0.05,

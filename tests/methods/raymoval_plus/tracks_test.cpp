@@ -25,13 +25,22 @@ ObjectSummary walker(int scan, int dynamic, float agree_scans) {
   return object;
 }
 
-std::vector<std::vector<int>> marked_by_tracks(const Scans& scans) {
-  return objects_on_tracks(scans, Parameters{}, RunContext{});
+/// The objects at the times of their scans, of which one comes every `period` seconds.
+Scans timed(Scans scans, double period) {
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    for (ObjectSummary& object : scans[i]) object.time_s = period * static_cast<double>(i);
+  }
+  return scans;
+}
+
+std::vector<std::vector<int>> marked_by_tracks(const Scans& scans, double period = 0.1) {
+  return objects_on_tracks(timed(scans, period), Parameters{}, RunContext{});
 }
 
 /// What the tracks of one that goes forward mark in the last scan.
-std::vector<int> marked_in_last(const Scans& scans, ObjectTracker tracker) {
-  for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, scans[i]);
+std::vector<int> marked_in_last(const Scans& scans, ObjectTracker tracker, double period = 0.1) {
+  const Scans at_times = timed(scans, period);
+  for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, at_times[i]);
   return marked_in(scans.size() - 1, tracker.finish(), Parameters{});
 }
 
@@ -261,16 +270,20 @@ TEST_CASE("a fast object is followed from its first step on if that is allowed")
     van.center.x() = 10.0 + 1.5 * i;
     make_van(van);
   }
-  const auto last_marked = [&](double first_step) {
-    return marked_in_last(scans, ObjectTracker(Parameters{}, {.first_step = first_step}));
+  const auto last_marked = [&](double first_speed, double period = 0.1) {
+    const ObjectTracker tracker(Parameters{}, {.first_speed = first_speed});
+    return marked_in_last(scans, tracker, period);
   };
   CHECK(last_marked(0.0).empty());
-  CHECK(last_marked(1.4).empty());
-  CHECK(last_marked(4.0) == std::vector{0});
+  CHECK(last_marked(14.0).empty());  // 1.4 m a scan.
+  CHECK(last_marked(40.0) == std::vector{0});
   CHECK(marked_by_tracks(scans).back() == std::vector{0});
+  // Twice or half as many scans a second: the speed counts, not the step.
+  CHECK(last_marked(14.0, 0.2) == std::vector{0});
+  CHECK(last_marked(28.0, 0.05).empty());
   // What scans agree with for long stood there before, and is no fast thing.
   for (std::size_t i = 1; i < 8; ++i) scans[i][0].agree_scans = 20.0F;
-  CHECK(last_marked(4.0).empty());
+  CHECK(last_marked(40.0).empty());
 }
 
 TEST_CASE("a slow object is followed though a long first step leads to another one") {
@@ -295,10 +308,10 @@ TEST_CASE("what brakes between scans half a second apart is followed") {
     for (int i = 0; i < 8; ++i) {
       scans.push_back({walker(10 * std::min(i, 4), i < 5 ? 18 : 0, 4.0)});
       make_van(scans.back()[0]);
-      scans.back()[0].time_s = period * i;
     }
     const bool is_followed = period == 0.5;
-    CHECK(marked_by_tracks(scans)[7] == (is_followed ? std::vector{0} : std::vector<int>{}));
+    CHECK(marked_by_tracks(scans, period)[7] ==
+          (is_followed ? std::vector{0} : std::vector<int>{}));
   }
 }
 
@@ -309,14 +322,13 @@ TEST_CASE("an object is followed though a wide gate leads to another one") {
   for (int i = 0; i < 10; ++i) {
     scans.push_back({walker(i, i < 3 ? 18 : 0, i == 3 ? 1.0 : 4.0)});
     if (i == 3) scans.back()[0].center.y() += 1.5;
-    scans.back()[0].time_s = 0.5 * i;
   }
   const auto last_marked = [&](const TrackGate& gate) {
-    return marked_in_last(scans, ObjectTracker(Parameters{}, {.gate = gate}));
+    return marked_in_last(scans, ObjectTracker(Parameters{}, {.gate = gate}), 0.5);
   };
   CHECK(last_marked(kWideGate).empty());
   CHECK(last_marked(kGate) == std::vector{0});
-  CHECK(marked_by_tracks(scans)[9] == std::vector{0});
+  CHECK(marked_by_tracks(scans, 0.5)[9] == std::vector{0});
 }
 
 TEST_CASE("what waits is followed though others pass before it for some scans") {
@@ -365,8 +377,9 @@ TEST_CASE("what is divided in some scans is followed as it was before") {
   for (std::size_t i = 8; i < 11; ++i) CHECK(marked[i] == std::vector{2});
   for (const bool also_undivided : {false, true}) {
     ObjectTracker tracker(Parameters{},
-                          {.first_step = kFirstStep, .also_undivided = also_undivided});
-    for (std::size_t i = scans.size(); i > 0; --i) tracker.follow(i - 1, scans[i - 1]);
+                          {.first_speed = kFirstSpeed, .also_undivided = also_undivided});
+    const Scans at_times = timed(scans, 0.1);
+    for (std::size_t i = scans.size(); i > 0; --i) tracker.follow(i - 1, at_times[i - 1]);
     CHECK(marked_in(0, tracker.finish(), Parameters{}).empty() != also_undivided);
   }
 }
