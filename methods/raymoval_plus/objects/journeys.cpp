@@ -2,7 +2,7 @@
 #include "methods/raymoval_plus/objects/journeys.h"
 
 #include <algorithm>
-#include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -55,40 +55,38 @@ bool are_in_one_place(const ObjectSummary& a, const ObjectSummary& b) {
   return least_shift(a, b) <= kPlaceShare * std::min(a.width(), b.width());
 }
 
-/// Of each of a track's objects, the scans that it spends where it is then: those before and after
-/// in which it is in the same place.
-std::vector<Stay> stays_of(const Track& track) {
-  std::vector<Stay> stays;
-  for (auto node = track.nodes.begin(); node != track.nodes.end(); ++node) {
-    const auto is_elsewhere = [&](const Track::Node& other) {
-      return !are_in_one_place(other.object, node->object);
-    };
-    const auto end = std::find_if(node, track.nodes.end(), is_elsewhere);
-    const auto before =
-        std::find_if(std::make_reverse_iterator(node), track.nodes.rend(), is_elsewhere);
-    stays.push_back(stay_between(*before.base(), *std::prev(end)));
-  }
-  return stays;
+/// The scans that one of a track's objects spends where it is then: those before and after in which
+/// it is in the same place.
+/// @param longest a stay that is longer than so many scans is not looked at to its end
+Stay stay_of(const Track& track, std::size_t at,
+             double longest = std::numeric_limits<double>::infinity()) {
+  const std::vector<Track::Node>& nodes = track.nodes;
+  std::size_t first = at, last = at;
+  const auto goes_on_to = [&](std::size_t k) {
+    return stay_between(nodes[first], nodes[last]).scans() <= longest &&
+           are_in_one_place(nodes[k].object, nodes[at].object);
+  };
+  while (last + 1 < nodes.size() && goes_on_to(last + 1)) ++last;
+  while (first > 0 && goes_on_to(first - 1)) --first;
+  return stay_between(nodes[first], nodes[last]);
 }
 
-/// Whether an object goes on, and does not stand: it is in its place for no longer than its length
-/// and speed explain.
-/// @param stay where it is then
-bool goes_on(const ObjectSummary& object, const Stay& stay, const Motion& motion,
+/// Whether one of a track's objects goes on, and does not stand: it is in its place for no longer
+/// than its length and speed explain.
+bool goes_on(const Track& track, std::size_t at, const Motion& motion,
              const Parameters& parameters) {
-  return stay.scans() <= scans_passing(object, motion, parameters) + kScansMore;
+  const double passing = scans_passing(track.nodes[at].object, motion, parameters) + kScansMore;
+  return stay_of(track, at, passing).scans() <= passing;
 }
 
 /// Whether enough of a track's objects are dynamic. Those that stand do not count against it: where
 /// something stands for long, often nothing was seen before or after.
-bool is_mostly_dynamic(const Track& track, const std::vector<Stay>& stays, const Motion& motion,
-                       const Parameters& parameters) {
+bool is_mostly_dynamic(const Track& track, const Motion& motion, const Parameters& parameters) {
   int dynamic = 0, others = 0;
-  for (std::size_t k = 0; k < stays.size(); ++k) {
-    const ObjectSummary& object = track.nodes[k].object;
-    if (is_dynamic(object, parameters)) {
+  for (std::size_t k = 0; k < track.nodes.size(); ++k) {
+    if (is_dynamic(track.nodes[k].object, parameters)) {
       ++dynamic;
-    } else if (goes_on(object, stays[k], motion, parameters)) {
+    } else if (goes_on(track, k, motion, parameters)) {
       ++others;
     }
   }
@@ -126,7 +124,6 @@ bool came_or_leaves(const Track& track, const Parameters& parameters) {
 /// How the object of a track goes.
 struct Journey {
   std::optional<Motion> motion;  ///< None if it came or leaves, and stands else.
-  std::vector<Stay> stays;       ///< Of each of the track's objects.
   Stay dynamic;                  ///< From its first dynamic object to its last one.
   double widest;                 ///< What stands and is wider does not belong to it; metres.
 };
@@ -144,15 +141,13 @@ double dynamic_width(const Track& track, const Parameters& parameters) {
 std::optional<Journey> journey_of(const Track& track, const Parameters& parameters) {
   if (dynamic_objects(track, parameters) < kLeastDynamic) return std::nullopt;
   const auto motion = motion_of(track, parameters);
-  const Stay whole = stay_between(track.nodes.front(), track.nodes.back());
-  std::vector<Stay> stays = motion ? stays_of(track) : std::vector<Stay>(track.nodes.size(), whole);
-  const bool is_known = motion ? is_mostly_dynamic(track, stays, *motion, parameters)
-                               : came_or_leaves(track, parameters);
+  const bool is_known =
+      motion ? is_mostly_dynamic(track, *motion, parameters) : came_or_leaves(track, parameters);
   if (!is_known) return std::nullopt;
   const auto is_one = [&](const Track::Node& node) { return is_dynamic(node.object, parameters); };
   const auto first = std::find_if(track.nodes.begin(), track.nodes.end(), is_one);
   const auto last = std::find_if(track.nodes.rbegin(), track.nodes.rend(), is_one);
-  return Journey{motion, std::move(stays), stay_between(*first, *last),
+  return Journey{motion, stay_between(*first, *last),
                  kWider * dynamic_width(track, parameters) + kWiderMetres};
 }
 
@@ -176,9 +171,13 @@ bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey&
 
 /// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no
 /// longer than its length and speed explain, or than it was followed while it stood.
-bool belongs(const ObjectSummary& object, const Stay& stay, const Journey& journey,
+bool belongs(const Track& track, std::size_t at, const Journey& journey,
              const Parameters& parameters) {
+  const ObjectSummary& object = track.nodes[at].object;
   if (journey.motion && is_explained(object, *journey.motion, parameters)) return true;
+  // What came or leaves, and stands else, is in one place all the time.
+  const Stay stay =
+      journey.motion ? stay_of(track, at) : stay_between(track.nodes.front(), track.nodes.back());
   return object.width() <= journey.widest && is_explained_by_stay(object, stay) &&
          !stands_anyway(object, stay, journey, parameters);
 }
@@ -218,12 +217,12 @@ void judge(const Track& track, const Parameters& parameters, Findings& findings)
   for (std::size_t k = 0; k < track.nodes.size(); ++k) {
     const auto& [scan, object] = track.nodes[k];
     if (is_dynamic(object, parameters)) continue;
-    if (belongs(object, journey->stays[k], *journey, parameters)) {
+    if (belongs(track, k, *journey, parameters)) {
       findings.marked[scan].push_back(object.cluster);
       continue;
     }
     const auto& motion = journey->motion;
-    if (!motion || !goes_on(object, journey->stays[k], *motion, parameters)) continue;
+    if (!motion || !goes_on(track, k, *motion, parameters)) continue;
     findings.passing.push_back({scan, object, scans_explained(object, *motion, parameters)});
   }
 }
@@ -297,7 +296,7 @@ std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
     if (is_dynamic(node->object, parameters)) continue;
     const auto journey = journey_of(track, parameters);
     const auto at = static_cast<std::size_t>(track.nodes.rend() - node) - 1;
-    if (journey && belongs(node->object, journey->stays[at], *journey, parameters)) {
+    if (journey && belongs(track, at, *journey, parameters)) {
       marked.push_back(node->object.cluster);
     }
   }
