@@ -164,8 +164,10 @@ bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey&
   if (object.agree_scans - stay.scans() < kLeastPresent * absent) return false;
   const bool was_before = before > parameters.settled_scans;
   const bool is_after = after > parameters.settled_scans;
-  const bool came = journey.dynamic.first <= stay.first;
-  const bool left = journey.dynamic.last >= stay.last;
+  // What is in one place all the time is dynamic in it: it did not come to it before, or leave it.
+  const bool moves = journey.motion.has_value();
+  const bool came = moves && journey.dynamic.first <= stay.first;
+  const bool left = moves && journey.dynamic.last >= stay.last;
   return (came && was_before) || (left && is_after) || (was_before && is_after);
 }
 
