@@ -26,6 +26,10 @@ constexpr double kStaySlack = 2.0;
 /// With what stands there anyway, at least this share of the scans agree in which it would have to
 /// be gone.
 constexpr double kLeastPresent = 0.25;
+/// Of what is in one place all the time scans agree with it so many times longer before it comes,
+/// or after it leaves, if it is what stands there anyway: who stood before his track was lost and
+/// begins anew was there as well.
+constexpr double kLongerStay = 2.0;
 /// What stands may be so many times, and by so many metres, wider than anything of its track that
 /// was seen to be dynamic. From nearer by more of it is in sight; a parked car whose track a drop
 /// of rain or a walker took over is larger by far.
@@ -164,11 +168,10 @@ bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey&
   if (object.agree_scans - stay.scans() < kLeastPresent * absent) return false;
   const bool was_before = before > parameters.settled_scans;
   const bool is_after = after > parameters.settled_scans;
-  // What is in one place all the time is dynamic in it: it did not come to it before, or leave it.
-  const bool moves = journey.motion.has_value();
-  const bool came = moves && journey.dynamic.first <= stay.first;
-  const bool left = moves && journey.dynamic.last >= stay.last;
-  return (came && was_before) || (left && is_after) || (was_before && is_after);
+  const double long_time = parameters.settled_scans * (journey.motion ? 1.0 : kLongerStay);
+  const bool came = journey.dynamic.first <= stay.first && before > long_time;
+  const bool left = journey.dynamic.last >= stay.last && after > long_time;
+  return came || left || (was_before && is_after);
 }
 
 /// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no

@@ -146,9 +146,9 @@ TEST_CASE(
 }
 
 TEST_CASE("a pole stays before which somebody came or left for some scans") {
-  // Nothing moves: it is dynamic in four of ten scans. Scans agree 10 or 11 scans before or after,
-  // or both. One who comes to stay is there after, and who was there leaves; a pole is there before
-  // and after.
+  // Nothing moves: it is dynamic in four of ten scans. Scans agree some scans before or after, or
+  // both. If it is dynamic until the last scan of its track, none should agree long after that; if
+  // it is so in the first scans only, it may have come to stay.
   const auto is_marked = [](int every, double before, double after) {
     Scans scans;
     for (int i = 0; i < 10; ++i) {
@@ -162,9 +162,12 @@ TEST_CASE("a pole stays before which somebody came or left for some scans") {
   for (const int every : {1, 3}) {
     CHECK(is_marked(every, 10.0, 10.0));
     CHECK_FALSE(is_marked(every, 11.0, 11.0));
-    CHECK(is_marked(every, 11.0, 10.0));
-    CHECK(is_marked(every, 10.0, 11.0));
+    CHECK(is_marked(every, 20.0, 10.0));  // Who stands was there before his track began anew.
+    CHECK_FALSE(is_marked(every, 21.0, 10.0));
+    CHECK(is_marked(every, 10.0, 20.0));
   }
+  CHECK_FALSE(is_marked(3, 10.0, 21.0));
+  CHECK(is_marked(1, 10.0, 21.0));
 }
 
 TEST_CASE("what waits is in its place however much of it is in sight") {
