@@ -26,9 +26,9 @@ constexpr double kStaySlack = 2.0;
 /// With what stands there anyway, at least this share of the scans agree in which it would have to
 /// be gone.
 constexpr double kLeastPresent = 0.25;
-/// Of what is in one place all the time scans agree with it so many times longer before it comes,
-/// or after it leaves, if it is what stands there anyway: who stood before his track was lost and
-/// begins anew was there as well.
+/// Where nothing moved, scans must agree for so many times as long before a track or after it, for
+/// what stands there to stand anyway: who stood before his track was lost and begins anew was there
+/// as well.
 constexpr double kLongerStay = 2.0;
 /// What stands may be so many times, and by so many metres, wider than anything of its track that
 /// was seen to be dynamic. From nearer by more of it is in sight; a parked car whose track a drop
