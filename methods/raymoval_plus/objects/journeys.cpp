@@ -180,11 +180,11 @@ bool belongs(const Track& track, std::size_t at, const Journey& journey,
              const Parameters& parameters) {
   const ObjectSummary& object = track.nodes[at].object;
   if (journey.motion && is_explained(object, *journey.motion, parameters)) return true;
+  if (object.width() > journey.widest) return false;
   // What came or leaves, and stands else, is in one place all the time.
   const Stay stay =
       journey.motion ? stay_of(track, at) : stay_between(track.nodes.front(), track.nodes.back());
-  return object.width() <= journey.widest && is_explained_by_stay(object, stay) &&
-         !stands_anyway(object, stay, journey, parameters);
+  return is_explained_by_stay(object, stay) && !stands_anyway(object, stay, journey, parameters);
 }
 
 void sort_and_unite(std::vector<int>& numbers) {

@@ -164,7 +164,9 @@ TEST_CASE("a pole stays before which somebody came or left for some scans") {
     CHECK_FALSE(is_marked(every, 11.0, 11.0));
     CHECK(is_marked(every, 20.0, 10.0));  // Who stands was there before his track began anew.
     CHECK_FALSE(is_marked(every, 21.0, 10.0));
+    CHECK_FALSE(is_marked(every, 21.0, 0.0));
     CHECK(is_marked(every, 10.0, 20.0));
+    CHECK(is_marked(every, 0.0, 10.0));
   }
   CHECK_FALSE(is_marked(3, 10.0, 21.0));
   CHECK(is_marked(1, 10.0, 21.0));
