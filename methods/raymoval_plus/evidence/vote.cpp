@@ -220,6 +220,18 @@ Verdict verdict_by_votes(Verdict decision, std::uint32_t votes, const Parameters
   return dynamic >= share * decided ? Verdict::kDynamic : Verdict::kStatic;
 }
 
+/// What beams only passed beside outlasts the dynamic voxels around it if so many times as many
+/// scans agree with it. EXPERIMENTS.md says what others do.
+constexpr double kOutlastBeside = 3.0;
+
+/// Whether beams only passed beside what is in a voxel: hardly any scan saw through it, and from
+/// near by none before it was first seen or after it was last seen, as where something came or
+/// left.
+bool is_only_passed_beside(const VoxelEvidence& evidence) {
+  return is_hardly_seen_through(evidence) && evidence.leading_free == 0 &&
+         evidence.trailing_free == 0;
+}
+
 /// Whether many times as many scans agree with a voxel as with the dynamic ones around it, on
 /// average: it is a parked car or a pole that others pass, for which a few scans suffice.
 bool outlasts_dynamic(std::uint32_t voxel, const Parameters& parameters, const EvidenceMap& map) {
@@ -238,7 +250,10 @@ bool outlasts_dynamic(std::uint32_t voxel, const Parameters& parameters, const E
     ++count;
     sum += map.evidence(other).agree_scans;
   }
-  return evidence.agree_scans * static_cast<double>(count) > parameters.outlast * sum;
+  const double times = is_only_passed_beside(evidence)
+                           ? std::min(kOutlastBeside, parameters.outlast)
+                           : parameters.outlast;
+  return evidence.agree_scans * static_cast<double>(count) > times * sum;
 }
 
 /// Whether the votes around a voxel do not change its decision.

@@ -80,6 +80,32 @@ TEST_CASE("who passes a parked car does not outvote it") {
   }
 }
 
+TEST_CASE("what beams only passed beside is not outvoted by what passes it a few times") {
+  // Two dynamic voxels on either side, with which 20 scans agree each. Three times as many are 60,
+  // eight times 160. A twentieth of 61 scans is three, of 59 two.
+  struct Pole {
+    int agree_scans, free_scans, leading_free, trailing_free;
+    Verdict verdict;
+  };
+  for (const Pole pole : {Pole{61, 3, 0, 0, Verdict::kStatic},      //
+                          Pole{60, 3, 0, 0, Verdict::kDynamic},     // not more than three times
+                          Pole{61, 4, 0, 0, Verdict::kDynamic},     // more than a twentieth
+                          Pole{61, 1, 1, 0, Verdict::kDynamic},     // nothing was there before
+                          Pole{61, 1, 0, 1, Verdict::kDynamic},     // it left
+                          Pole{161, 1, 0, 1, Verdict::kStatic}}) {  // more than eight times
+    Row row;
+    for (const int cell : {-2, -1, 1, 2}) row.add(cell, Verdict::kDynamic, 20);
+    VoxelEvidence& evidence = row.map.evidence(row.add(0, Verdict::kStatic, pole.agree_scans));
+    evidence.free_scans = static_cast<std::uint16_t>(pole.free_scans);
+    evidence.leading_free = static_cast<std::uint16_t>(pole.leading_free);
+    evidence.trailing_free = static_cast<std::uint16_t>(pole.trailing_free);
+    CAPTURE(pole.agree_scans, pole.free_scans, pole.leading_free, pole.trailing_free);
+    vote(Parameters{}, RunContext{}, row.map);
+    CHECK(row.verdict(0) == pole.verdict);
+    CHECK(row.verdict(1) == Verdict::kDynamic);
+  }
+}
+
 TEST_CASE("what few scans agree with is outvoted, however few agree with what is around it") {
   for (const int agree_scans : {9, 10}) {
     Row row;
