@@ -116,7 +116,7 @@ void add_vote(Lines& table) {
   table.number(
       "outlast", &P::outlast, "", 0, 10000,
       "A settled voxel is not outvoted if so many times as many scans agree with it as with "
-      "the dynamic ones around it; 0 for off.",
+      "the dynamic ones around it, or three times where beams only passed beside it; 0 for off.",
       "settled_scans > 0");
   table.integer("run_scans", &P::run_scans, "scans", 0, 1000,
                 "A voxel is dynamic if so many scans in a row see through it before the first or "
