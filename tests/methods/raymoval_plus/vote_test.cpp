@@ -82,7 +82,7 @@ TEST_CASE("who passes a parked car does not outvote it") {
 
 TEST_CASE("what beams only passed beside is not outvoted by what passes it a few times") {
   // Two dynamic voxels on either side, with which 20 scans agree each. Three times as many are 60,
-  // eight times 160. A twentieth of 61 scans is three, of 59 two.
+  // eight times 160. A twentieth of 60 or 61 scans is three.
   struct Pole {
     int agree_scans, free_scans, leading_free, trailing_free;
     Verdict verdict;
