@@ -3,7 +3,7 @@
 # Writes OUTPUT, which ctest reads: a test "ROOM: NAME" for each test case of PROGRAM, a program made
 # with Catch2 of VERSION. SPEC chooses cases as on its command line. Cases with the tag SLOW are started first,
 # so that none of them is left for the end. Cases with the tag TOGETHER are run by one process. If
-# AT_ONCE is above 1, one process runs so many cases, or half as many of those that are SLOW.
+# AT_ONCE is above 1, one process runs so many of the other cases that are not SLOW.
 # Catch2's own catch_discover_tests splits names at semicolons.
 cmake_minimum_required(VERSION 3.22)
 
@@ -102,20 +102,17 @@ function(add_groups cost count)
 endfunction()
 
 if(AT_ONCE GREATER 1)
-  set(others ${cases})
-  set(slow_ones "")
+  set(alone "")
   foreach(case ${cases})
     if(case IN_LIST slow)
-      list(APPEND slow_ones "${case}")
+      list(APPEND alone "${case}")
     endif()
   endforeach()
-  if(slow_ones)
-    list(REMOVE_ITEM others ${slow_ones})
+  if(alone)
+    list(REMOVE_ITEM cases ${alone})
   endif()
-  math(EXPR half "(${AT_ONCE} + 1) / 2")
-  add_groups(50 ${half} ${slow_ones})
-  add_groups(10 ${AT_ONCE} ${others})
-  set(cases "")
+  add_groups(10 ${AT_ONCE} ${cases})
+  set(cases "${alone}")
 endif()
 foreach(case ${cases})
   set(cost 1)

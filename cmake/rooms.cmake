@@ -82,3 +82,12 @@ function(raymoval_room name)
                                                  $<BUILD_INTERFACE:raymoval_coverage>)
   set_target_properties(raymoval_${name} PROPERTIES EXPORT_NAME ${name})
 endfunction()
+
+# raymoval_takes_no_bytes(TARGET): spares a library checks that take a fifth of the time to compile it
+# for sanitizers. The bytes of files, which may lie anywhere, become numbers in core and datasets, and
+# who follows a null pointer is stopped by AddressSanitizer, too.
+function(raymoval_takes_no_bytes target)
+  if(RAYMOVAL_SANITIZE MATCHES "undefined")
+    target_compile_options(${target} PRIVATE -fno-sanitize=null,alignment)
+  endif()
+endfunction()

@@ -101,7 +101,8 @@ step "includes" scripts/check_includes.sh
 step "own includes" scripts/check_own_includes.py
 step "tree" scripts/check_tree.sh
 step "format" check_format
-step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_REPORT_3D=ON -DRAYMOVAL_PYTHON=ON
+step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_REPORT_3D=ON -DRAYMOVAL_PYTHON=ON \
+  -DRAYMOVAL_CASES_AT_ONCE=24
 # The release tests leave much of the processors idle.
 begin build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release"
 run_tests release

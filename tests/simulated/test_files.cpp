@@ -46,7 +46,7 @@ std::string hash_of(const SimulatedSequence& sequence, std::size_t index) {
 
 }  // namespace
 
-TEST_CASE("the same seed gives the same bytes for any threads and any order") {
+TEST_CASE("the same seed gives the same bytes for any threads and any order", "[long]") {
   for (const std::string sensor : {"vlp16", "solid-state", "rosette"}) {
     SimulationOptions options = small_town(8);
     options.sensor = sensor;

@@ -100,7 +100,7 @@ TEST_CASE("no method is changed by a shift of the world, or an exchange of its a
   }
 }
 
-TEST_CASE("counts are the same from every whole kilometre", "[frames]") {
+TEST_CASE("counts are the same from every whole kilometre", "[frames][long]") {
   const MethodRequest method{"raymoval_plus:offline",
                              MethodRegistry::built_in().configure("raymoval_plus:offline")};
   const MovedStreet near(shifted(3000.0, -2000.0, 1000.0));
@@ -114,7 +114,7 @@ TEST_CASE("counts are the same from every whole kilometre", "[frames]") {
   }
 }
 
-TEST_CASE("a cleaned map far from the origin is scored as near it", "[frames]") {
+TEST_CASE("a cleaned map far from the origin is scored as near it", "[frames][long]") {
   const MovedStreet far(shifted(691000.0, 5336000.0, 1000.0));
   const auto counts = [](const Sequence& sequence) {
     ProtocolRequest erasor{"erasor", "erasor", protocol_defaults("erasor")};

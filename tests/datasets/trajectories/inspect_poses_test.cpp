@@ -199,7 +199,7 @@ TEST_CASE("points in the world frame are named, and brought back on request",
   CHECK(found_with(folder, options).empty());
 }
 
-TEST_CASE("skewed scans are no finding any more once they are deskewed", "[inspect]") {
+TEST_CASE("skewed scans are no finding any more once they are deskewed", "[inspect][long]") {
   SimulationOptions simulation = suburb(sparse_hdl64e(), 14);
   simulation.scene = "country";
   simulation.rolling = Rolling::kSkewed;
@@ -214,7 +214,7 @@ TEST_CASE("skewed scans are no finding any more once they are deskewed", "[inspe
   CHECK(found_with(folder, options).empty());
 }
 
-TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspect]") {
+TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspect][long]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, as_seen);
@@ -233,7 +233,8 @@ TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspec
   }
 }
 
-TEST_CASE("clocks that differ are told by how much, and agree once that is said", "[inspect]") {
+TEST_CASE("clocks that differ are told by how much, and agree once that is said",
+          "[inspect][long]") {
   const TemporaryFolder folder;
   const EditedSequence drive = lively_drive("[[0, 3], [1.2, 8], [2.4, 2]]");
   for (const double ahead : {0.12, -0.08}) {

@@ -24,7 +24,8 @@ TEST_CASE("raymoval_plus takes the movers off a street and leaves the rest") {
   CHECK(toy::removed_share(world, masks, 2, 0, 15) < 0.1);
 }
 
-TEST_CASE("raymoval_plus answers alike with and without reasons, for any number of threads") {
+TEST_CASE("raymoval_plus answers alike with and without reasons, for any number of threads",
+          "[long]") {
   struct NoReasons : ReasonSink {
     void explain(const std::vector<std::string>& /*sentences*/) override {}
     void accept(std::size_t /*scan*/, const std::vector<std::uint8_t>& /*codes*/) override {}
