@@ -187,8 +187,8 @@ expect 0 "removed" clean street --frames 0:2 --quiet -o clean.pcd
 expect 0 "the oracle's cloud, scored in the same way: PR" score "${short[@]}" --cloud clean.pcd --protocol erasor --protocol dynamicmap
 expect 0 "precision" score "${short[@]}" --cloud clean.pcd --voxel 0.1
 # The oracle is no upper limit: without a point, every moving one is gone.
-"$raymoval" clean street --method remove-all --quiet -o nothing.bin >/dev/null
-expect 0 "DA above the oracle's: that is no upper limit" score --sequence street --quiet \
+"$raymoval" clean street --frames 0:30 --method remove-all --quiet -o nothing.bin >/dev/null
+expect 0 "DA above the oracle's: that is no upper limit" score --sequence street --frames 0:30 --quiet \
   --cloud nothing.bin --protocol dynamicmap
 printf '\x00\x00\xc0\x7f%.0s' 1 2 3 4 >nan.bin
 expect 0 "no finite number" score "${short[@]}" --cloud nan.bin
@@ -451,10 +451,10 @@ expect 2 "fingerprint" picture kept -o map.png --only '*' --quiet --data seed4
 # --quiet nothing at all. A narrow terminal cuts it.
 live() { script -qec "$*" /dev/null 2>&1 | tr -d '\r'; }
 if command -v script >/dev/null; then
-  live "$raymoval" run --sequence street --frames 0:12 --method raymoval:offline --out live >live.txt
+  live "$raymoval" run --sequence street --frames 0:4 --method raymoval:offline --out live >live.txt
   holds "a live line names cell, stage and scans" \
     grep -qF '[4/4] raymoval:offline on street: raymoval: ' live.txt
-  holds "a live line counts scans" grep -qF ': 0 of 13' live.txt
+  holds "a live line counts scans" grep -qF ': 0 of 5' live.txt
   live "stty cols 30; $raymoval" clean street --method noop --frames 0:3 -o live.pcd >live.txt
   holds "clean has one, without its context where the terminal is narrow" \
     grep -qF 'masks: 0 of 4' live.txt

@@ -124,18 +124,35 @@ std::vector<ParameterValue> far_values(const ParameterSpec& spec, const Paramete
   return values;
 }
 
-/// Points judged otherwise if a parameter is set; nothing if the method refuses the value.
-std::optional<std::size_t> changed_by(ConfiguredMethod method, const std::string& name,
-                                      const ParameterValue& value, const toy::World& scene) {
-  const MaskStore before = toy::masks_of(*method.make(), scene);
-  set_parameter(method.configuration, name, value);
-  try {
-    const MaskStore after = toy::masks_of(*method.make(), scene);
-    return toy::different_verdicts(before, after, scene.size());
-  } catch (const ConfigurationError&) {
-    return std::nullopt;
+/// A variant, and what it answers as it is configured.
+class Variant {
+ public:
+  explicit Variant(ConfiguredMethod configured) : method(std::move(configured)) {}
+
+  /// Points judged otherwise if a parameter is set; nothing if the method refuses the value.
+  std::optional<std::size_t> changed_by(const std::string& name, const ParameterValue& value,
+                                        const toy::World& scene) {
+    ConfiguredMethod other = method;
+    set_parameter(other.configuration, name, value);
+    try {
+      const MaskStore after = toy::masks_of(*other.make(), scene);
+      return toy::different_verdicts(before(scene), after, scene.size());
+    } catch (const ConfigurationError&) {
+      return std::nullopt;
+    }
   }
-}
+
+  const ConfiguredMethod method;
+
+ private:
+  const MaskStore& before(const toy::World& scene) {
+    const auto found = before_.find(&scene);
+    if (found != before_.end()) return found->second;
+    return before_.emplace(&scene, toy::masks_of(*method.make(), scene)).first->second;
+  }
+
+  std::map<const toy::World*, MaskStore> before_;
+};
 
 /// A variant with directions as coarse as the scanner of the scene.
 ConfiguredMethod configured(const std::string& name) {
@@ -156,22 +173,20 @@ ConfiguredMethod configured(const std::string& name) {
   return method;
 }
 
-void check_inert(const ConfiguredMethod& method, const ParameterSpec& spec,
-                 const ParameterValue& present) {
+void check_inert(Variant& variant, const ParameterSpec& spec, const ParameterValue& present) {
   for (const ParameterValue& value : far_values(spec, present)) {
     INFO("said to be without effect, set to " << parameter_text(value));
     // Refused is more than without effect.
-    CHECK(changed_by(method, spec.name, value, scenes().ahead).value_or(0) == 0);
+    CHECK(variant.changed_by(spec.name, value, scenes().ahead).value_or(0) == 0);
   }
 }
 
 /// Whether some value changes what is removed, or is refused.
-bool acts(const ConfiguredMethod& method, const ParameterSpec& spec,
-          const ParameterValue& present) {
+bool acts(Variant& variant, const ParameterSpec& spec, const ParameterValue& present) {
   const std::vector<ParameterValue> values = other_values(spec, present);
   for (const toy::World* scene : {&scenes().ahead, &scenes().around}) {
     for (const ParameterValue& value : values) {
-      if (changed_by(method, spec.name, value, *scene).value_or(1) > 0) return true;
+      if (variant.changed_by(spec.name, value, *scene).value_or(1) > 0) return true;
     }
   }
   return false;
@@ -179,7 +194,8 @@ bool acts(const ConfiguredMethod& method, const ParameterSpec& spec,
 
 /// Variants of a method that have the same parameters acting need only one of them tested.
 void check_variant(const std::string& name, std::set<std::string>& tested) {
-  const ConfiguredMethod method = configured(name);
+  Variant variant(configured(name));
+  const ConfiguredMethod& method = variant.method;
   const auto& specs = method.entry->parameters;
   std::string acting;
   for (const ParameterSpec& spec : specs) {
@@ -190,9 +206,9 @@ void check_variant(const std::string& name, std::set<std::string>& tested) {
     const ParameterValue& present = method.configuration[i].second;
     INFO(name << "." << specs[i].name << " = " << parameter_text(present));
     if (!has_effect(specs[i], method.configuration)) {
-      check_inert(method, specs[i], present);
+      check_inert(variant, specs[i], present);
     } else if (is_new && !needs_other_data(method, specs[i].name)) {
-      CHECK(acts(method, specs[i], present));
+      CHECK(acts(variant, specs[i], present));
     }
   }
 }

@@ -142,7 +142,7 @@ TEST_CASE("findings on poses go away with the option that they name", "[inspect]
 }
 
 TEST_CASE("poses of a camera are no finding once it is said where the sensor is on it",
-          "[inspect]") {
+          "[inspect][long]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, as_seen);
