@@ -35,7 +35,8 @@ run=${1:-out/pictures}
 mkdir -p "$run-plus"
 cat >"$run-plus.json" <<'EOF'
 {
-  "sequences": ["suburb", "crossing", "town"],
+  "sequences": ["suburb", "crossing", "town", "market",
+                {"path": "town:seed=305", "name": "town-305"}],
   "methods": [
     {"method": "raymoval_plus:offline", "as": "evidence",
      "set": {"vote_radius": 0, "objects": false, "tracks": false, "low_points": false}},
@@ -47,19 +48,22 @@ cat >"$run-plus.json" <<'EOF'
 }
 EOF
 "$raymoval" run "$run-plus.json" --keep-removals --out "$run-plus" >/dev/null
-# failure NAME SEQUENCE CROP: a place of a cleaned map.
+# failure NAME SEQUENCE CROP [RESOLUTION]: a place of a cleaned map.
 failure() {
   "$raymoval" picture "$run-plus" -o "$pictures/plus_$1.png" --only "$2/all-steps*" --crop "$3" \
-    --resolution 0.1
+    --resolution "${4:-0.1}"
 }
 "$raymoval" picture "$run-plus" -o $pictures/plus_steps.png --only 'suburb/evidence*' \
   --only 'suburb/with-vote*' --only 'suburb/all-steps*' \
   --crop 10:58:-14:14 --resolution 0.1
 failure follower crossing -12:28:-14:14
 failure gardens suburb -12:28:-14:18
+failure bollards town-305 50:76:-8:6 0.05
+failure market market -24:24:-12:10
 failure last_movers town 88:124:-4:24
 
-for picture in maps overview range_images plus_steps plus_follower plus_gardens plus_last_movers; do
+for picture in maps overview range_images plus_steps plus_follower plus_gardens \
+  plus_bollards plus_market plus_last_movers; do
   bytes=$(stat -c %s "$pictures/$picture.png")
   echo "$pictures/$picture.png: $bytes bytes"
   if ((bytes > 300000)); then
