@@ -132,11 +132,12 @@ class Variant {
   /// Points judged otherwise if a parameter is set; nothing if the method refuses the value.
   std::optional<std::size_t> changed_by(const std::string& name, const ParameterValue& value,
                                         const toy::World& scene) {
+    const MaskStore& before = answer(scene);
     ConfiguredMethod other = method;
     set_parameter(other.configuration, name, value);
     try {
       const MaskStore after = toy::masks_of(*other.make(), scene);
-      return toy::different_verdicts(before(scene), after, scene.size());
+      return toy::different_verdicts(before, after, scene.size());
     } catch (const ConfigurationError&) {
       return std::nullopt;
     }
@@ -145,13 +146,13 @@ class Variant {
   const ConfiguredMethod method;
 
  private:
-  const MaskStore& before(const toy::World& scene) {
-    const auto found = before_.find(&scene);
-    if (found != before_.end()) return found->second;
-    return before_.emplace(&scene, toy::masks_of(*method.make(), scene)).first->second;
+  const MaskStore& answer(const toy::World& scene) {
+    const auto found = answers_.find(&scene);
+    if (found != answers_.end()) return found->second;
+    return answers_.emplace(&scene, toy::masks_of(*method.make(), scene)).first->second;
   }
 
-  std::map<const toy::World*, MaskStore> before_;
+  std::map<const toy::World*, MaskStore> answers_;
 };
 
 /// A variant with directions as coarse as the scanner of the scene.
