@@ -123,6 +123,11 @@ void add_vote(Lines& table) {
                 "after the last one that agrees; 0 for off.");
   table.number("run_range", &P::run_range, "m", 0, 500, "Range up to which those count.",
                "run_scans > 0");
+  table.integer(
+      "height_scans", &P::height_scans, "scans", 0, 10000,
+      "Where so many scans agree, only those that agree, or see through the voxel between "
+      "these, are heard that have a beam at the height of its points, or half a voxel "
+      "above or below; 0 for off.");
   table.flag("ground_evidence", &P::ground_evidence,
              "Ask the scans about ground, too; else it always stays.", kTerrain);
 }

@@ -45,6 +45,7 @@ struct Parameters {
   int static_agree = 2;
   int run_scans = 4;
   double run_range = 20.0;
+  int height_scans = 5;
   bool ground_evidence = true;
   // Vote.
   int vote_radius = 3;

@@ -15,7 +15,8 @@ namespace {
 /// thousands, so that all threads have work. It changes no answer.
 constexpr std::size_t kVoxelsATask = 256;
 
-/// Voxels with more scans that agree are decided on by the formula itself.
+/// Voxels with more scans that agree are decided on by the formula itself, and those that are heard
+/// at their own height.
 constexpr int kTabulatedScans = 256;
 
 /// The tiles that any of the scans may say something of.
@@ -40,6 +41,49 @@ int unheard_scans(const VoxelEvidence& evidence, const Parameters& parameters) {
   return is_settled(evidence, parameters) ? evidence.far.between_agreeing() : 0;
 }
 
+/// The numbers of scans that decide on a voxel.
+struct HeardScans {
+  int free, agree;
+};
+
+/// Where enough scans agree, those beside the voxel's points are left out. Before the first and
+/// after the last that agrees, all are heard that see through it, as of `FarFreeScans`: where beams
+/// are far apart, they may have met a car that came or left, but not this voxel.
+HeardScans heard_scans(const VoxelEvidence& evidence, const Parameters& parameters) {
+  if (!is_heard_at_height(evidence, parameters)) return {evidence.free_scans, evidence.agree_scans};
+  const int free = evidence.free_scans + unheard_scans(evidence, parameters) -
+                   evidence.beside.free_between_agreeing;
+  return {std::min<int>(evidence.free_scans, free), evidence.agree_scans - evidence.beside.agree};
+}
+
+/// Tells whether the beams of a scan pass a voxel at the height of its points.
+class HeightTest {
+ public:
+  /// @param above_sensor height of what places are measured from, metres above the sensor
+  HeightTest(const RangeImage& image, double above_sensor, const Parameters& parameters,
+             const EvidenceMap& map)
+      : image_(image),
+        above_sensor_(static_cast<float>(above_sensor)),
+        reach_(static_cast<float>(0.5 * parameters.voxel_size)),
+        is_asked_(parameters.height_scans > 0 && map.seen_through() == SeenThrough::kInRowOrBelow) {
+  }
+
+  /// Whether none does, where that counts: before any scan agrees, all are heard.
+  /// @param z height of the mean of the voxel's points, metres above what places are measured from
+  [[nodiscard]] bool passes_beside(const ObservedPlace& place, float z, const HeightSpan& span,
+                                   const VoxelEvidence& evidence) const {
+    const bool counts = evidence.agree_scans > 0 || place.observation == Observation::kAgree;
+    const float mean = above_sensor_ + z;
+    return is_asked_ && counts &&
+           !image_.has_beam_between(place, mean + span.low - reach_, mean + span.high + reach_);
+  }
+
+ private:
+  const RangeImage& image_;
+  float above_sensor_, reach_;  ///< Metres.
+  bool is_asked_;
+};
+
 }  // namespace
 
 void add_evidence(std::span<const PosedImage> images, const Parameters& parameters,
@@ -57,15 +101,20 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
       image->observe(tile.places,
                      T_world_sensor.inverse(Eigen::Isometry) * Eigen::Translation3d(tile.origin),
                      map.seen_through(), observed);
+      const HeightTest test(*image, tile.origin.z() - T_world_sensor.translation().z(), parameters,
+                            map);
       for (const ObservedPlace& place : observed) {
         VoxelEvidence& evidence = tile.evidence[place.place];
+        const bool is_beside = test.passes_beside(place, tile.places[3 * place.place + 2],
+                                                  tile.spans[place.place], evidence);
+        const Observed what{place.observation, place.range, scan, is_beside};
         if (when == WhenToDecide::kLater) {
-          add_observation(place.observation, place.range, scan, parameters, evidence);
+          add_observation(what, parameters, evidence);
           continue;
         }
         const bool is_first = is_unseen(evidence);
         const Verdict before = decided(evidence);
-        add_observation(place.observation, place.range, scan, parameters, evidence);
+        add_observation(what, parameters, evidence);
         const Verdict now = decided(evidence);
         // Most observations change no decision, and then the map need not be written.
         if (is_first || now != before) map.set_decision(tile.voxels[place.place], now);
@@ -99,9 +148,14 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
     for (const EarlierScan& scan : kept_) {
       scan.image.observe(places, scan.T_sensor_world * Eigen::Translation3d(center),
                          map.seen_through(), observed);
+      const HeightTest test(scan.image, center.z() - scan.sensor_height, parameters_, map);
       for (const ObservedPlace& place : observed) {
-        add_observation(place.observation, place.range, scan.number, parameters_,
-                        map.evidence(first_voxel + begin + place.place));
+        const std::size_t voxel = first_voxel + begin + place.place;
+        VoxelEvidence& evidence = map.evidence(voxel);
+        const bool is_beside =
+            test.passes_beside(place, places[3 * place.place + 2], map.span(voxel), evidence);
+        add_observation({place.observation, place.range, scan.number, is_beside}, parameters_,
+                        evidence);
       }
     }
   });
@@ -116,61 +170,76 @@ void EarlierScans::keep(RangeImage&& image, const Pose& T_world_sensor, std::siz
   const bool is_kept = scans_++ % static_cast<std::size_t>(parameters_.history_step) == 0;
   if (!is_kept || parameters_.history_scans == 0) return;
   const Pose T_sensor_world = T_world_sensor.inverse(Eigen::Isometry);
+  const double sensor_height = T_world_sensor.translation().z();
   if (kept_.size() < static_cast<std::size_t>(parameters_.history_scans)) {
-    kept_.push_back({std::move(image), T_sensor_world, scan});
+    kept_.push_back({std::move(image), T_sensor_world, sensor_height, scan});
     return;
   }
   // The memory of the oldest image is that of the next one.
   std::rotate(kept_.begin(), kept_.begin() + 1, kept_.end());
   std::swap(kept_.back().image, image);
   kept_.back().T_sensor_world = T_sensor_world;
+  kept_.back().sensor_height = sensor_height;
   kept_.back().number = scan;
 }
 
-void add_observation(Observation observation, float range, std::size_t scan,
-                     const Parameters& parameters, VoxelEvidence& evidence) {
+void add_observation(const Observed& observed, const Parameters& parameters,
+                     VoxelEvidence& evidence) {
+  ScansBeside& beside = evidence.beside;
   const auto count_up = [](std::uint16_t& count) {
     if (count < 0xFFFFU) ++count;
   };
-  if (observation == Observation::kAgree) {
-    evidence.last_agree = static_cast<std::uint32_t>(scan);
+  if (observed.observation == Observation::kAgree) {
+    evidence.last_agree = static_cast<std::uint32_t>(observed.scan);
     if (evidence.agree_scans == 0) evidence.first_agree = evidence.last_agree;
     const int all_free = evidence.free_scans + unheard_scans(evidence, parameters);
-    evidence.far.agree(range);
+    evidence.far.agree(observed.range);
+    if (observed.is_beside && evidence.agree_scans < 0xFFFFU) ++beside.agree;
     count_up(evidence.agree_scans);
     evidence.free_scans = static_cast<std::uint16_t>(
         std::clamp(all_free - unheard_scans(evidence, parameters), 0, 0xFFFF));
     evidence.trailing_free = 0;
-  } else if (observation == Observation::kFree) {
+    beside.free_between_agreeing = static_cast<std::uint16_t>(
+        std::min(beside.free_between_agreeing + beside.free_since, 0xFFFF));
+    beside.free_since = 0;
+  } else if (observed.observation == Observation::kFree) {
     count_up(evidence.free_scans);
-    if (evidence.agree_scans > 0) evidence.far.see_through(range);
-    if (range > static_cast<float>(parameters.run_range)) return;
+    if (evidence.agree_scans > 0) evidence.far.see_through(observed.range);
+    if (evidence.agree_scans > 0 && observed.is_beside) count_up(beside.free_since);
+    if (observed.range > static_cast<float>(parameters.run_range)) return;
     count_up(evidence.trailing_free);
     if (evidence.agree_scans == 0) count_up(evidence.leading_free);
   }
 }
 
 Verdict decide(const VoxelEvidence& evidence, const Parameters& parameters) {
-  const double needed = parameters.free_constant + parameters.free_per_agree * evidence.agree_scans;
+  const HeardScans heard = heard_scans(evidence, parameters);
+  const double needed = parameters.free_constant + parameters.free_per_agree * heard.agree;
   const bool came_or_left =
       parameters.run_scans > 0 && (evidence.leading_free >= parameters.run_scans ||
                                    evidence.trailing_free >= parameters.run_scans);
-  if (came_or_left || evidence.free_scans >= needed) return Verdict::kDynamic;
+  if (came_or_left || heard.free >= needed) return Verdict::kDynamic;
   return evidence.agree_scans >= parameters.static_agree ? Verdict::kStatic : Verdict::kUndecided;
 }
 
 Decisions::Decisions(const Parameters& parameters)
     : parameters_(parameters),
       run_(parameters.run_scans > 0 ? parameters.run_scans : std::numeric_limits<int>::max()),
-      needed_(kTabulatedScans) {
-  for (int agree = 0; agree < kTabulatedScans; ++agree) {
-    const double needed = parameters.free_constant + parameters.free_per_agree * agree;
-    needed_[static_cast<std::size_t>(agree)] = static_cast<int>(std::ceil(needed));
+      needed_(parameters.height_scans > 0 ? std::min(parameters.height_scans, kTabulatedScans)
+                                          : kTabulatedScans) {
+  for (std::size_t agree = 0; agree < needed_.size(); ++agree) {
+    const double needed =
+        parameters.free_constant + parameters.free_per_agree * static_cast<double>(agree);
+    needed_[agree] = static_cast<int>(std::ceil(needed));
   }
 }
 
 bool is_settled(const VoxelEvidence& evidence, const Parameters& parameters) {
   return parameters.settled_scans > 0 && evidence.agree_scans >= parameters.settled_scans;
+}
+
+bool is_heard_at_height(const VoxelEvidence& evidence, const Parameters& parameters) {
+  return parameters.height_scans > 0 && evidence.agree_scans >= parameters.height_scans;
 }
 
 bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters) {

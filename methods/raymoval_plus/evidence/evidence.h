@@ -51,6 +51,7 @@ class EarlierScans {
   struct EarlierScan {
     RangeImage image;
     Pose T_sensor_world;
+    double sensor_height;  ///< Metres, world frame.
     std::size_t number;
   };
   Parameters parameters_;
@@ -58,11 +59,17 @@ class EarlierScans {
   std::vector<EarlierScan> kept_;  ///< The oldest comes first.
 };
 
+/// What one scan says of a voxel.
+struct Observed {
+  Observation observation;
+  float range;       ///< Distance of the voxel from the sensor, metres.
+  std::size_t scan;  ///< The scan's number.
+  /// Whether none of its beams passes at the height of the voxel's points.
+  bool is_beside = false;
+};
 /// Step 3 for one voxel: adds what one scan says. Scans come in order of time.
-/// @param range distance of the voxel from the sensor, metres
-/// @param scan the scan's number
-void add_observation(Observation observation, float range, std::size_t scan,
-                     const Parameters& parameters, VoxelEvidence& evidence);
+void add_observation(const Observed& observed, const Parameters& parameters,
+                     VoxelEvidence& evidence);
 
 /// Step 4 for one voxel: static, dynamic or undecided.
 Verdict decide(const VoxelEvidence& evidence, const Parameters& parameters);
@@ -114,6 +121,9 @@ bool is_settled(const VoxelEvidence& evidence, const Parameters& parameters);
 inline bool is_settled(std::uint32_t voxel, const EvidenceMap& map, const Parameters& parameters) {
   return voxel != EvidenceMap::kNone && is_settled(map.evidence(voxel), parameters);
 }
+/// Whether so many scans agree with a voxel that its points tell at which heights it is seen
+/// through.
+bool is_heard_at_height(const VoxelEvidence& evidence, const Parameters& parameters);
 /// Whether a voxel is settled and no scan saw through it: it was there all the time.
 bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters);
 

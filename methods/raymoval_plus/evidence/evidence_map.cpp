@@ -27,7 +27,10 @@ void EvidenceMap::add_point(std::uint32_t voxel, std::uint32_t parts) {
   if (sums.count == kMostPoints) return;
   sums.x += parts & 0xFFU;
   sums.y += parts >> 8U & 0xFFU;
-  sums.z += upward(parts);
+  const std::uint32_t up = upward(parts);
+  sums.z += up;
+  sums.lowest = static_cast<std::uint8_t>(std::min<std::uint32_t>(sums.lowest, up));
+  sums.highest = static_cast<std::uint8_t>(std::max<std::uint32_t>(sums.highest, up));
   ++sums.count;
 }
 
@@ -42,7 +45,7 @@ std::uint32_t EvidenceMap::add_voxel(const VoxelIndex& index, std::uint32_t slot
   if (fresh) {
     const double side = (1 << kTileShift) * size_;
     // The height of the tile's first voxel keeps the offsets of all others small.
-    tiles_.push_back({{at.x() * side, at.y() * side, index.z() * size_}, {}, {}, {}});
+    tiles_.push_back({{at.x() * side, at.y() * side, index.z() * size_}, {}, {}, {}, {}});
   }
   Tile& tile = tiles_[found->second];
   const auto number = static_cast<std::uint32_t>(voxels_.size());
@@ -51,6 +54,7 @@ std::uint32_t EvidenceMap::add_voxel(const VoxelIndex& index, std::uint32_t slot
   mean_changed_.push_back(0);
   tile.voxels.push_back(number);
   tile.places.resize(tile.places.size() + 3);
+  tile.spans.emplace_back();
   tile.evidence.emplace_back();
   return number;
 }
@@ -62,6 +66,7 @@ void EvidenceMap::update_means() {
     Tile& tile = tiles_[voxel.tile];
     const Eigen::Vector3f offset = (centroid(number) - tile.origin).cast<float>();
     std::copy_n(offset.data(), 3, tile.places.begin() + 3 * std::ptrdiff_t{voxel.place});
+    tile.spans[voxel.place] = span(number);
   }
   changed_.clear();
 }
@@ -71,6 +76,13 @@ Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
   const double scale = 1.0 / (kParts * sums.count), half = 0.5 / kParts;
   const Eigen::Vector3d offset(sums.x * scale + half, sums.y * scale + half, sums.z * scale + half);
   return (index(voxel).cast<double>() + offset) * size_;
+}
+
+HeightSpan EvidenceMap::span(std::size_t voxel) const {
+  const Sums& sums = sums_[voxel];
+  const double mean = static_cast<double>(sums.z) / sums.count, part = size_ / kParts;
+  return {static_cast<float>((sums.lowest - mean) * part),
+          static_cast<float>((sums.highest - mean) * part)};
 }
 
 double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {

@@ -15,6 +15,14 @@ namespace raymoval::raymoval_plus_method {
 /// What a voxel or a point is taken for.
 enum class Verdict : std::uint8_t { kUndecided, kStatic, kDynamic };
 
+/// Of the scans that say something of a voxel, those none of whose beams passed at the height of
+/// its points. A beam above a car's roof, or below a branch, goes through the voxel all the same.
+struct ScansBeside {
+  std::uint16_t agree = 0;
+  /// Between the first and the last scan that agrees, and since the last one.
+  std::uint16_t free_between_agreeing = 0, free_since = 0;
+};
+
 /// The numbers of scans that say something of a voxel.
 struct VoxelEvidence {
   std::uint16_t free_scans = 0;   ///< Scans that saw through the voxel, and are heard.
@@ -24,7 +32,14 @@ struct VoxelEvidence {
   std::uint16_t leading_free = 0, trailing_free = 0;
   /// The numbers of the first and of the last scan that agree, if any does.
   std::uint32_t first_agree = 0, last_agree = 0;
-  FarFreeScans far = {};  ///< Which others saw through it.
+  FarFreeScans far = {};    ///< Which others saw through it.
+  ScansBeside beside = {};  ///< Which of all these passed beside its points.
+};
+
+/// The heights of the lowest and of the highest point of a voxel, metres above the mean of its
+/// points.
+struct HeightSpan {
+  float low = 0.0F, high = 0.0F;
 };
 
 /// Step 2: the occupied voxels. Each has the mean of its points, what the scans say of it (step 3),
@@ -82,6 +97,8 @@ class EvidenceMap {
   [[nodiscard]] const VoxelIndex& index(std::size_t voxel) const { return voxels_[voxel].index; }
   /// The mean of the voxel's points so far, world frame, metres.
   [[nodiscard]] Eigen::Vector3d centroid(std::size_t voxel) const;
+  /// How high the voxel's points so far are.
+  [[nodiscard]] HeightSpan span(std::size_t voxel) const;
   /// How far one of the voxel's points lies above that mean, metres.
   /// @param parts where the point is in its cell, see `ScanCells`
   [[nodiscard]] double above_mean(std::size_t voxel, std::uint32_t parts) const;
@@ -91,9 +108,10 @@ class EvidenceMap {
     Eigen::Vector3d origin;             ///< World frame, metres.
     std::vector<std::uint32_t> voxels;  ///< In order of their first points.
     std::vector<float> places;          ///< x y z of each voxel's mean from the origin, metres.
+    std::vector<HeightSpan> spans;      ///< Of each voxel's points.
     std::vector<VoxelEvidence> evidence;
   };
-  /// Writes the means of the voxels that points were added to into `Tile::places`.
+  /// Writes the means of the voxels that points were added to into `Tile::places`, and the spans.
   void update_means();
   /// The numbers of the tiles of which some part may lie within `range` metres of `center`, seen
   /// from above, ascending.
@@ -142,6 +160,7 @@ class EvidenceMap {
   /// Sums of a voxel's points: offsets from the lower corner, in parts of the edge.
   struct Sums {
     std::uint32_t x = 0, y = 0, z = 0, count = 0;
+    std::uint8_t lowest = 0xFF, highest = 0;  ///< Offsets of points along z.
   };
   struct Voxel {
     VoxelIndex index;

@@ -215,7 +215,7 @@ void RangeImage::observe(const std::vector<float>& places, const Pose& T_sensor_
       if (!sees_at_or_below(in_sensor(), range, column, row, window_at(range))) continue;
     }
     if (observation == Observation::kUnknown) continue;
-    observed.push_back({chosen.place[i], observation, range});
+    observed.push_back({chosen.place[i], observation, range, column, row});
   }
 }
 
@@ -281,6 +281,20 @@ float RangeImage::nearest_in_row(int row, int column, int wide) const {
   float nearest = kInfinite;
   for (int c = 0; c <= 2 * wide; ++c) nearest = std::min(nearest, bins[2 * c]);
   return nearest;
+}
+
+bool RangeImage::has_beam_between(const ObservedPlace& place, float low, float high) const {
+  if (!has_even_beams_) return true;
+  const auto [wide, tall] = window_at(place.range);
+  const float from = low / place.range, to = high / place.range;  // Sines of angles.
+  const int last = std::min(place.row + tall, image_.rows - 1);
+  for (int r = std::max(place.row - tall, 0); r <= last; ++r) {
+    for (int c = place.column - wide; c <= place.column + wide; ++c) {
+      const float beam = lowest_at(r, wrapped(c));
+      if (beam >= from && beam <= to) return true;
+    }
+  }
+  return false;
 }
 
 bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int column, int row,

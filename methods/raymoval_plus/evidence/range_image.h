@@ -21,7 +21,8 @@ enum class Observation : std::uint8_t { kUnknown, kAgree, kOccluded, kFree };
 struct ObservedPlace {
   std::uint32_t place;  ///< Its number among those that were asked about.
   Observation observation;
-  float range;  ///< Metres from the sensor.
+  float range;               ///< Metres from the sensor.
+  std::int32_t column, row;  ///< Of its bin; the row may lie beyond the image.
 };
 
 /// Whether a sensor looks in beams that are about evenly spaced. A rosette, which has neither beams
@@ -56,6 +57,9 @@ class RangeImage {
   /// @param places x y z, x y z, ... of any frame, metres, not far from its origin
   void observe(const std::vector<float>& places, const Pose& T_sensor_places, SeenThrough seen,
                std::vector<ObservedPlace>& observed) const;
+  /// Whether a beam of the window of a place passes it between two heights, metres above the
+  /// sensor. Without even beams one always does, as far as is known.
+  [[nodiscard]] bool has_beam_between(const ObservedPlace& place, float low, float high) const;
 
  private:
   /// The range of a bin that has no return.

@@ -40,6 +40,86 @@ TEST_CASE("scans that see through are weighed against scans that agree") {
   CHECK(decided(6, 100, 3, 3) == Verdict::kStatic);
 }
 
+TEST_CASE("where some scans agree, those beside the voxel's points are not heard between them") {
+  const auto decided = [](std::uint16_t agree, const ScansBeside& beside, int height_scans = 5) {
+    Parameters parameters;
+    parameters.height_scans = height_scans;
+    const VoxelEvidence evidence{10, agree, 0, 3, 0, 0, {}, beside};
+    CHECK(Decisions(parameters)(evidence) == decide(evidence, parameters));
+    return decide(evidence, parameters);
+  };
+  // Needed of the 10 scans that see through it: 1 + 0.3 x 20.
+  CHECK(decided(20, {}) == Verdict::kDynamic);
+  CHECK(decided(20, {0, 3, 0}) == Verdict::kDynamic);
+  CHECK(decided(20, {0, 4, 0}) == Verdict::kStatic);
+  // Since the last one that agrees, they are heard: what left may have been looked at from afar.
+  CHECK(decided(20, {0, 3, 3}) == Verdict::kDynamic);
+  // Nor are those heard that agree beside them.
+  CHECK(decided(20, {7, 4, 0}) == Verdict::kDynamic);
+  CHECK(decided(4, {0, 9, 0}) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided(20, {0, 4, 0}, 0) == Verdict::kDynamic);
+}
+
+TEST_CASE("scans that pass beside a voxel's points are counted by themselves as well") {
+  using enum Observation;
+  const Parameters parameters;
+  VoxelEvidence evidence;
+  const auto add = [&](Observation what, bool is_beside) {
+    add_observation({what, 10.0F, 0, is_beside}, parameters, evidence);
+  };
+  for (const bool is_beside : {true, false, true}) add(kFree, is_beside);
+  for (const bool is_beside : {false, true, true}) add(kAgree, is_beside);
+  CHECK(evidence.beside.agree == 2);
+  CHECK(evidence.beside.free_between_agreeing == 0);
+  for (const bool is_beside : {true, false, true}) add(kFree, is_beside);
+  CHECK(evidence.beside.free_since == 2);
+  CHECK(evidence.beside.free_between_agreeing == 0);
+  add(kAgree, false);
+  add(kFree, true);
+  CHECK(evidence.free_scans == 7);
+  CHECK(evidence.trailing_free == 1);
+  CHECK(evidence.beside.free_between_agreeing == 2);
+  CHECK(evidence.beside.free_since == 1);
+}
+
+TEST_CASE("a beam above or below a roof passes beside its points, one at their height does not") {
+  // A roof 1 m above the sensor and 20 m ahead, whose points are 1 cm above and below their mean,
+  // and a scan that sees farther in some beams: so high above that mean, metres.
+  struct Beams {
+    std::vector<double> above;
+    bool is_beside;
+  };
+  const auto [above, is_beside] =
+      GENERATE(Beams{{-0.13}, true}, Beams{{-0.09}, false}, Beams{{0.0}, false},
+               Beams{{0.09, -0.13}, false}, Beams{{0.13, -0.13}, true});
+  const bool is_tilted = GENERATE(false, true);  // A sensor that looks down a little sees the same.
+  toy::MapPoints points;
+  EvidenceMap& map = points.map;
+  const auto roof = points.add({20.02, 0.02, 1.03});
+  points.add({20.06, 0.06, 1.05});
+  Scan scan;
+  if (is_tilted) {
+    scan.T_world_sensor.linear() =
+        Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  }
+  for (const double high : above) {
+    const Eigen::Vector3d beyond = 2.0 * Eigen::Vector3d(20.04, 0.04, 1.04 + high);
+    scan.points.push_back((scan.T_world_sensor.inverse() * beyond).cast<float>());
+  }
+  SensorModel sensor = toy::Scanner{}.model();
+  // Steps that are the same both ways tell a sensor without even beams, of which nothing is beside.
+  const bool has_beams = GENERATE(true, false);
+  CAPTURE(above, is_tilted, has_beams);
+  if (has_beams) sensor.azimuth_step = 0.25 * kDegree;
+  RangeImage image(sensor, Parameters{});
+  image.fill(scan);
+  const PosedImage posed{&image, scan.T_world_sensor, 0};
+  map.evidence(roof).agree_scans = 1;
+  add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
+  REQUIRE(map.evidence(roof).free_scans == 1);
+  CHECK(map.evidence(roof).beside.free_since == (is_beside && has_beams ? 1 : 0));
+}
+
 TEST_CASE("decisions on many voxels are those of the formula") {
   std::mt19937 random(9);
   const auto count = [&](unsigned most) { return static_cast<std::uint16_t>(random() % most); };
@@ -50,8 +130,9 @@ TEST_CASE("decisions on many voxels are those of the formula") {
       parameters.run_scans = run_scans;
       const Decisions decided(parameters);
       for (int i = 0; i < 3000; ++i) {
-        const VoxelEvidence evidence{count(i % 2 == 0 ? 10 : 200), count(i % 3 == 0 ? 3 : 600),
-                                     count(6), count(6)};
+        VoxelEvidence evidence{count(i % 2 == 0 ? 10 : 200), count(i % 3 == 0 ? 3 : 600), count(6),
+                               count(6)};
+        evidence.beside = {count(evidence.agree_scans + 1U), count(evidence.free_scans + 1U), 0};
         REQUIRE(decided(evidence) == decide(evidence, parameters));
       }
     }
@@ -64,9 +145,10 @@ TEST_CASE("runs of scans that see through are counted at either end of a voxel's
   VoxelEvidence evidence;
   std::size_t scan = 70'000;  // The number of the first one.
   for (const Observation seen : {kFree, kOccluded, kFree, kAgree, kFree, kAgree, kUnknown, kFree}) {
-    add_observation(seen, 10.0F, scan++, parameters, evidence);
+    add_observation({seen, 10.0F, scan++}, parameters, evidence);
   }
-  add_observation(kFree, 30.0F, scan, parameters, evidence);  // Farther than 20 m: not of a run.
+  // Farther than 20 m: not of a run.
+  add_observation({kFree, 30.0F, scan}, parameters, evidence);
   CHECK(evidence.agree_scans == 2);
   CHECK(evidence.free_scans == 5);
   CHECK(evidence.leading_free == 2);

@@ -25,7 +25,7 @@ int free_scans(const std::vector<Said>& story, const Parameters& parameters = {}
   VoxelEvidence evidence;
   std::size_t scan = 0;
   for (const auto& [observation, range] : story) {
-    add_observation(observation, range, scan++, parameters, evidence);
+    add_observation({observation, range, scan++}, parameters, evidence);
   }
   return evidence.free_scans;
 }
