@@ -47,6 +47,7 @@ step() {
 # begin COMMAND...: runs beside what follows, at a lower priority and in a process group of its own,
 # which ends with this script. finish NAME: waits for it, shows what it printed, and counts it.
 beside=
+installs=
 begin() {
   set -m
   (renice -n 10 "$BASHPID" >/dev/null; "$@") >"$logs/beside" 2>&1 </dev/null &
@@ -61,16 +62,22 @@ finish() {
   cat "$logs/beside"
   count "$1" $status "$logs/beside"
 }
-trap '[[ -z $beside ]] || kill -- "-$beside" 2>/dev/null; rm -rf "$logs"' EXIT
+# end_beside: an installation is waited for, for one that is broken off leaves packages half there.
+end_beside() {
+  [[ -n $beside ]] || return 0
+  if [[ -n $installs ]]; then wait "$beside"; else kill -- "-$beside" 2>/dev/null; fi
+}
+trap 'end_beside; rm -rf "$logs"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
-# run_tests PRESET: counts every test of ctest, and each test case where one process runs several.
+# run_tests PRESET [OPTION...]: counts every test of ctest, and each test case where one process runs
+# several.
 run_tests() {
   local build=build/$1 status total=0 bad=0
   title "tests, $1"
   rm -f "$build"/Testing/Temporary/LastTestsFailed.log "$build/junit.xml"
-  ctest --preset "$1" --output-junit "$PWD/$build/junit.xml" 2>&1 | tee "$build/ctest.log"
+  ctest --preset "$1" "${@:2}" --output-junit "$PWD/$build/junit.xml" 2>&1 | tee "$build/ctest.log"
   status=${PIPESTATUS[0]}
   if [[ -e $build/junit.xml ]]; then
     read -r total bad < <(python3 scripts/test_results.py "$build" "$build/junit.xml" "$logs/failures")
@@ -96,20 +103,27 @@ check_format() {
   git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
 }
 
-step "dependencies" scripts/install_dependencies.sh --tests
+step "dependencies of the build" scripts/install_dependencies.sh --python
+# What only tests need is unpacked while the compiler works.
+installs=yes
+begin scripts/install_dependencies.sh --tests
 step "includes" scripts/check_includes.sh
 step "own includes" scripts/check_own_includes.py
 step "tree" scripts/check_tree.sh
 step "format" check_format
 step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_REPORT_3D=ON -DRAYMOVAL_PYTHON=ON \
-  -DRAYMOVAL_CASES_AT_ONCE=24
-# The release tests leave much of the processors idle.
+  -DRAYMOVAL_CASES_AT_ONCE=24 "-DRAYMOVAL_ONLY_SPARED=datasets;simulated;eval;benchmark"
+finish "dependencies of the tests"
+installs=
+step "programs that only tests need are found" cmake build/release
+# The release tests leave much of the processors idle. Cases that both builds would run are left to
+# the sanitizers, but for those of core and methods, whose code is compiled for the processor there is.
 begin build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release"
 run_tests release
 step "reference results" scripts/check_reference.sh
 finish "sanitizer build"
 scripts/coverage.sh --reset
-run_tests asan-ubsan
+run_tests asan-ubsan -E '^cli'  # Those start the program hundreds of times: scripts/coverage.sh --run.
 step "coverage" scripts/coverage.sh
 
 title "end"

@@ -349,7 +349,7 @@ TEST_CASE("a count of labels that does not fit is named", "[inspect]") {
   CHECK_THAT(report.findings[0].where, Catch::Contains("scan 0"));
 }
 
-TEST_CASE("skewed scans are named, corrected ones are not", "[inspect]") {
+TEST_CASE("skewed scans are named, corrected ones are not", "[inspect][long]") {
   SimulationOptions options = suburb(sparse_hdl64e(), 14);
   options.scene = "country";  // At 10 m/s some pairs of scans are 6 m apart.
   options.rolling = Rolling::kSkewed;

@@ -153,7 +153,7 @@ TEST_CASE("a vehicle stands on its road, a kerb lies higher than the carriageway
   CHECK_THROWS_AS(ground.road("q"), ConfigurationError);
 }
 
-TEST_CASE("every built-in world gives a scan with ground, standing things and movers") {
+TEST_CASE("every built-in world gives a scan with ground, standing things and movers", "[long]") {
   for (const std::string& name : simulated_scene_names()) {
     INFO(name);
     SimulationOptions options;
