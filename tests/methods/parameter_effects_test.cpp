@@ -22,6 +22,7 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"raymoval:offline-naive.neighbourhood", "a voxel must be seen through beside a nearer one"},
     {"raymoval:offline-naive.thin_side", "a thin group must be covered to nine tenths"},
     {"raymoval_plus.run_range", "a voxel must be seen through in a row by few scans only"},
+    {"raymoval_plus.height_scans", "beams must be even and far apart (see evidence_test)"},
     {"raymoval_plus.track_slack", "an object must stand still for long and then move"},
     {"raymoval_plus.track_width", "a wide cluster must move"},
     {"raymoval_plus:online.tracks", "the scans are too few to follow anything"},
