@@ -159,7 +159,8 @@ TEST_CASE("a sequence says what is left out of it", "[ego]") {
              {"sequence.json: drop_ego", "'car'", "expected auto"});
 }
 
-TEST_CASE("the vehicle in view is a finding, or a note where its labels say so", "[inspect]") {
+TEST_CASE("the vehicle in view is a finding, or a note where its labels say so",
+          "[inspect][long]") {
   EditedSequence many = with_own_points(good_drive());
   many.range_m.min = 5.0;  // Methods see it whatever is evaluated.
   const InspectionReport noted = many.inspected();

@@ -198,7 +198,7 @@ TEST_CASE("inverted poses are named", "[inspect]") {
   check_finds(drive.inspected(), "poses-inverted", "R^T");
 }
 
-TEST_CASE("camera frames are told from the LiDAR's", "[inspect]") {
+TEST_CASE("camera frames are told from the LiDAR's", "[inspect][long]") {
   const Pose C = to_camera();
   EditedSequence poses = good_drive();
   poses.each_pose([&](const Pose& pose) { return C * pose * C.inverse(); });
@@ -319,7 +319,7 @@ TEST_CASE("scans left out show in the motion", "[inspect][every-finding]") {
   check_finds(drive.inspected(), "jump-in-motion", "missing scans");
 }
 
-TEST_CASE("labels of the next or the last scan are named", "[inspect]") {
+TEST_CASE("labels of the next or the last scan are named", "[inspect][long]") {
   for (const bool next : {true, false}) {
     EditedSequence drive = good_drive();
     const auto good = drive.words;

@@ -82,7 +82,8 @@ void in_killed_process(const std::function<void()>& deed) {
 
 }  // namespace
 
-TEST_CASE("A scene of the cache that is not what was written there is made again, and said") {
+TEST_CASE("A scene of the cache that is not what was written there is made again, and said",
+          "[long]") {
   const TemporaryFolder scratch;
   const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
   const std::string whole = content_of(folder);

@@ -171,7 +171,7 @@ TEST_CASE("a scene's name is told without generating it, and is the one it is op
   unsetenv("RAYMOVAL_CACHE");
 }
 
-TEST_CASE("the cache tells apart whatever changes the bytes") {
+TEST_CASE("the cache tells apart whatever changes the bytes", "[long]") {
   const TemporaryFolder scratch;
   const auto folder = [&](const SimulationOptions& options) {
     return cached_simulation(options, scratch.text(), 2, nullptr);

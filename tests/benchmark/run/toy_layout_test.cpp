@@ -154,7 +154,8 @@ TEST_CASE("A layout of a program's own is inspected like any other") {
   CHECK_FALSE(report.has_findings());
 }
 
-TEST_CASE("A layout of a program's own is run, with the counts of the same data elsewhere") {
+TEST_CASE("A layout of a program's own is run, with the counts of the same data elsewhere",
+          "[long]") {
   const test::TemporaryFolder folder;
   Suite suite;
   suite.sequences = {{"street", first_scans()}, {write_toy(folder), {}}};

@@ -220,7 +220,7 @@ TEST_CASE("a maximum range of zero is refused") {
   CHECK_THROWS_WITH(make_octomap(parameters), Catch::Contains("octomap.maximum_range"));
 }
 
-TEST_CASE("every point is answered as after plain calls of insertPointCloud") {
+TEST_CASE("every point is answered as after plain calls of insertPointCloud", "[long]") {
   const toy::World world = toy::street(8);
   for (const bool discretise : {false, true}) {
     Parameters parameters;
