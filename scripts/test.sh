@@ -44,13 +44,14 @@ step() {
   count "$1" "${PIPESTATUS[0]}" "$logs/step"
 }
 
-# begin COMMAND...: runs beside what follows, at a lower priority and in a process group of its own,
-# which ends with this script. finish NAME: waits for it, shows what it printed, and counts it.
+# begin COMMAND...: runs beside what follows, in a process group of its own, which ends with this
+# script. finish NAME: waits for it, shows what it printed, and counts it. What follows comes first, but
+# for an installation, which would hardly begin beside a compiler.
 beside=
 installs=
 begin() {
   set -m
-  (renice -n 10 "$BASHPID" >/dev/null; "$@") >"$logs/beside" 2>&1 </dev/null &
+  ([[ -n $installs ]] || renice -n 10 "$BASHPID" >/dev/null; "$@") >"$logs/beside" 2>&1 </dev/null &
   beside=$!
   set +m
 }
