@@ -75,8 +75,8 @@ if [[ $(id -u) -ne 0 ]]; then
 fi
 
 # dpkg waits for the disk after each file. On a machine that is thrown away nobody has to.
-in_no_fear=()
-[[ ${CI:-} != true ]] || in_no_fear=(-o Dpkg::Options::=--force-unsafe-io)
+unsafe_io=()
+[[ ${CI:-} != true ]] || unsafe_io=(-o Dpkg::Options::=--force-unsafe-io)
 
 # The package lists are fetched only if apt does not know the packages from earlier.
 if ! apt-cache show "${missing[@]}" >/dev/null 2>&1; then
@@ -106,7 +106,7 @@ if [[ ${#known[@]} -eq 0 ]]; then
 fi
 echo "install_dependencies.sh: installing ${known[*]}"
 install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes
-         --no-install-recommends "${in_no_fear[@]}" "${known[@]}")
+         --no-install-recommends "${unsafe_io[@]}" "${known[@]}")
 # Lists from earlier may name files that are gone.
 if ! "${install[@]}"; then
   echo "install_dependencies.sh: fetching the package lists"

@@ -283,13 +283,11 @@ float RangeImage::nearest_in_row(int row, int column, int wide) const {
   return nearest;
 }
 
-bool RangeImage::has_beam_between(const ObservedPlace& place, float low, float high) const {
-  if (!has_even_beams_) return true;
-  const auto [wide, tall] = window_at(place.range);
-  const float from = low / place.range, to = high / place.range;  // Sines of angles.
-  const int last = std::min(place.row + tall, image_.rows - 1);
-  for (int r = std::max(place.row - tall, 0); r <= last; ++r) {
-    for (int c = place.column - wide; c <= place.column + wide; ++c) {
+bool RangeImage::has_beam_in_window(int column, int row, const Window& window, float from,
+                                    float to) const {
+  const auto [wide, high] = window;
+  for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
+    for (int c = column - wide; c <= column + wide; ++c) {
       const float beam = lowest_at(r, wrapped(c));
       if (beam >= from && beam <= to) return true;
     }
@@ -297,16 +295,14 @@ bool RangeImage::has_beam_between(const ObservedPlace& place, float low, float h
   return false;
 }
 
+bool RangeImage::has_beam_between(const ObservedPlace& place, float low, float high) const {
+  return !has_even_beams_ || has_beam_in_window(place.column, place.row, window_at(place.range),
+                                                low / place.range, high / place.range);
+}
+
 bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int column, int row,
                                   const Window& window) const {
-  const auto [wide, high] = window;
-  const float sine = up_.dot(place) / range;
-  for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
-    for (int c = column - wide; c <= column + wide; ++c) {
-      if (lowest_at(r, wrapped(c)) <= sine) return true;
-    }
-  }
-  return false;
+  return has_beam_in_window(column, row, window, -kInfinite, up_.dot(place) / range);
 }
 
 }  // namespace raymoval::raymoval_plus_method

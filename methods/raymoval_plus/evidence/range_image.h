@@ -150,6 +150,10 @@ class RangeImage {
   [[nodiscard]] bool is_on_slope(float range, int column, int row, int wide, int toward) const;
   /// A quick look at the place's own bin, which is false for most places that are not seen through.
   [[nodiscard]] bool may_be_gap(float range, int column, int row) const;
+  /// Whether a return of a window around a bin is of a beam whose sine of the angle above the
+  /// horizon is within bounds; the upper one is finite.
+  [[nodiscard]] bool has_beam_in_window(int column, int row, const Window& window, float from,
+                                        float to) const;
   /// Whether a return of a window around a place is of a beam that does not pass above it.
   /// @param place metres, sensor frame
   [[nodiscard]] bool sees_at_or_below(const Eigen::Vector3f& place, float range, int column,
