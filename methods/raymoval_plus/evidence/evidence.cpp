@@ -47,40 +47,65 @@ struct HeardScans {
 };
 
 /// Where enough scans agree, those beside the voxel's points are left out. Before the first and
-/// after the last that agrees, all are heard that see through it, as of `FarFreeScans`: where beams
-/// are far apart, they may have met a car that came or left, but not this voxel.
+/// after the last that agrees, these are heard if they see through anything in the voxel's column:
+/// where beams are far apart, they would have met a car that came or left, though not in this
+/// voxel.
 HeardScans heard_scans(const VoxelEvidence& evidence, const Parameters& parameters) {
   if (!is_heard_at_height(evidence, parameters)) return {evidence.free_scans, evidence.agree_scans};
-  const int free = evidence.free_scans + unheard_scans(evidence, parameters) -
-                   evidence.beside.free_between_agreeing;
-  return {std::min<int>(evidence.free_scans, free), evidence.agree_scans - evidence.beside.agree};
+  const ScansBeside& beside = evidence.beside;
+  int free = evidence.free_scans + unheard_scans(evidence, parameters);
+  free -= beside.free_between_agreeing;
+  free = std::min<int>(evidence.free_scans, free);
+  if (is_settled(evidence, parameters)) free -= beside.column_before + beside.column_since;
+  return {free, evidence.agree_scans - beside.agree};
 }
 
-/// Tells whether the beams of a scan pass a voxel at the height of its points.
+/// Tells whether the beams of a scan pass voxels at the height of their points, or of their
+/// columns.
 class HeightTest {
  public:
-  /// @param above_sensor height of what places are measured from, metres above the sensor
-  HeightTest(const RangeImage& image, double above_sensor, const Parameters& parameters,
-             const EvidenceMap& map)
+  /// @param scan its number
+  /// @param origin_z, sensor_z heights of what places are measured from, and of the sensor, metres,
+  ///   world frame
+  HeightTest(const RangeImage& image, std::size_t scan, double origin_z, double sensor_z,
+             const Parameters& parameters, const EvidenceMap& map)
       : image_(image),
-        above_sensor_(static_cast<float>(above_sensor)),
-        reach_(static_cast<float>(0.5 * parameters.voxel_size)),
+        map_(map),
+        scan_(scan),
+        sensor_z_(sensor_z),
+        origin_above_sensor_(static_cast<float>(origin_z - sensor_z)),
+        half_voxel_(static_cast<float>(0.5 * parameters.voxel_size)),
         is_asked_(parameters.height_scans > 0 && map.seen_through() == SeenThrough::kInRowOrBelow) {
   }
 
-  /// Whether none does, where that counts: before any scan agrees, all are heard.
+  /// What the scan says of a voxel.
   /// @param z height of the mean of the voxel's points, metres above what places are measured from
-  [[nodiscard]] bool passes_beside(const ObservedPlace& place, float z, const HeightSpan& span,
-                                   const VoxelEvidence& evidence) const {
-    const bool counts = evidence.agree_scans > 0 || place.observation == Observation::kAgree;
-    const float mean = above_sensor_ + z;
-    return is_asked_ && counts &&
-           !image_.has_beam_between(place, mean + span.low - reach_, mean + span.high + reach_);
+  [[nodiscard]] Observed operator()(std::size_t voxel, const ObservedPlace& place, float z,
+                                    const HeightSpan& span) {
+    Observed observed{place.observation, place.range, scan_};
+    if (!is_asked_) return observed;
+    const float mean = origin_above_sensor_ + z;
+    const bool is_free = place.observation == Observation::kFree;
+    const float beyond = is_free ? span.beyond : half_voxel_;
+    const auto beams = image_.passing(place, mean + span.low - beyond, mean + span.high + beyond);
+    observed.is_beside = !beams.between;
+    observed.is_beside_column = observed.is_beside && is_free && !reaches(voxel, beams.below) &&
+                                !reaches(voxel, beams.above);
+    return observed;
   }
 
  private:
+  /// @param beam height, metres above the sensor
+  [[nodiscard]] bool reaches(std::size_t voxel, float beam) {
+    return std::isfinite(beam) && map_.column_reaches(voxel, sensor_z_ + beam, cursor_);
+  }
+
   const RangeImage& image_;
-  float above_sensor_, reach_;  ///< Metres.
+  const EvidenceMap& map_;
+  EvidenceMap::Blocks::Cursor cursor_;
+  std::size_t scan_;
+  double sensor_z_;                         ///< Metres.
+  float origin_above_sensor_, half_voxel_;  ///< Metres.
   bool is_asked_;
 };
 
@@ -101,13 +126,12 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
       image->observe(tile.places,
                      T_world_sensor.inverse(Eigen::Isometry) * Eigen::Translation3d(tile.origin),
                      map.seen_through(), observed);
-      const HeightTest test(*image, tile.origin.z() - T_world_sensor.translation().z(), parameters,
-                            map);
+      HeightTest test(*image, scan, tile.origin.z(), T_world_sensor.translation().z(), parameters,
+                      map);
       for (const ObservedPlace& place : observed) {
         VoxelEvidence& evidence = tile.evidence[place.place];
-        const bool is_beside = test.passes_beside(place, tile.places[3 * place.place + 2],
-                                                  tile.spans[place.place], evidence);
-        const Observed what{place.observation, place.range, scan, is_beside};
+        const Observed what = test(tile.voxels[place.place], place,
+                                   tile.places[3 * place.place + 2], tile.spans[place.place]);
         if (when == WhenToDecide::kLater) {
           add_observation(what, parameters, evidence);
           continue;
@@ -148,14 +172,11 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
     for (const EarlierScan& scan : kept_) {
       scan.image.observe(places, scan.T_sensor_world * Eigen::Translation3d(center),
                          map.seen_through(), observed);
-      const HeightTest test(scan.image, center.z() - scan.sensor_height, parameters_, map);
+      HeightTest test(scan.image, scan.number, center.z(), scan.sensor_height, parameters_, map);
       for (const ObservedPlace& place : observed) {
         const std::size_t voxel = first_voxel + begin + place.place;
-        VoxelEvidence& evidence = map.evidence(voxel);
-        const bool is_beside =
-            test.passes_beside(place, places[3 * place.place + 2], map.span(voxel), evidence);
-        add_observation({place.observation, place.range, scan.number, is_beside}, parameters_,
-                        evidence);
+        add_observation(test(voxel, place, places[3 * place.place + 2], map.span(voxel)),
+                        parameters_, map.evidence(voxel));
       }
     }
   });
@@ -201,11 +222,15 @@ void add_observation(const Observed& observed, const Parameters& parameters,
     evidence.trailing_free = 0;
     beside.free_between_agreeing = static_cast<std::uint16_t>(
         std::min(beside.free_between_agreeing + beside.free_since, 0xFFFF));
-    beside.free_since = 0;
+    beside.free_since = beside.column_since = 0;
   } else if (observed.observation == Observation::kFree) {
     count_up(evidence.free_scans);
     if (evidence.agree_scans > 0) evidence.far.see_through(observed.range);
     if (evidence.agree_scans > 0 && observed.is_beside) count_up(beside.free_since);
+    if (observed.is_beside_column) {
+      count_up(evidence.agree_scans > 0 ? beside.column_since : beside.column_before);
+      return;
+    }
     if (observed.range > static_cast<float>(parameters.run_range)) return;
     count_up(evidence.trailing_free);
     if (evidence.agree_scans == 0) count_up(evidence.leading_free);

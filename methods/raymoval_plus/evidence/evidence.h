@@ -64,8 +64,9 @@ struct Observed {
   Observation observation;
   float range;       ///< Distance of the voxel from the sensor, metres.
   std::size_t scan;  ///< The scan's number.
-  /// Whether none of its beams passes at the height of the voxel's points.
-  bool is_beside = false;
+  /// Whether none of its beams passes at the height of the voxel's points, and if so, if the scan
+  /// sees through it, at that of anything that stands in its column.
+  bool is_beside = false, is_beside_column = false;
 };
 /// Step 3 for one voxel: adds what one scan says. Scans come in order of time.
 void add_observation(const Observed& observed, const Parameters& parameters,

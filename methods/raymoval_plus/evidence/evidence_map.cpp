@@ -81,8 +81,23 @@ Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
 HeightSpan EvidenceMap::span(std::size_t voxel) const {
   const Sums& sums = sums_[voxel];
   const double mean = static_cast<double>(sums.z) / sums.count, part = size_ / kParts;
+  const double beyond = 0.5 * size_ * std::min(1.0, kSpanPoints / sums.count);
   return {static_cast<float>((sums.lowest - mean) * part),
-          static_cast<float>((sums.highest - mean) * part)};
+          static_cast<float>((sums.highest - mean) * part),
+          static_cast<float>(std::max(beyond, kLeastBeyond))};
+}
+
+bool EvidenceMap::column_reaches(std::size_t voxel, double z, Blocks::Cursor& cursor) const {
+  VoxelIndex cell = index(voxel);
+  const int to = static_cast<int>(std::floor(z * inverse_)), step = to < cell.z() ? -1 : 1;
+  const int most_missing = static_cast<int>(std::lround(kColumnGap * inverse_));
+  for (int missing = 0; missing <= most_missing; ++missing, cell.z() += step) {
+    const std::size_t found = blocks_.slot(cell, cursor);
+    if (found == Blocks::kNoSlot || blocks_.at(found) == kNone) continue;
+    if (step * (cell.z() - to) >= 0) return true;
+    missing = -1;
+  }
+  return false;
 }
 
 double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {

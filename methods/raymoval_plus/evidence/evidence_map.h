@@ -21,14 +21,17 @@ struct ScansBeside {
   std::uint16_t agree = 0;
   /// Between the first and the last scan that agrees, and since the last one.
   std::uint16_t free_between_agreeing = 0, free_since = 0;
+  /// Before the first scan that agrees and since the last one: those none of whose beams passed at
+  /// the height of anything that stands in the voxel's column.
+  std::uint16_t column_before = 0, column_since = 0;
 };
 
 /// The numbers of scans that say something of a voxel.
 struct VoxelEvidence {
   std::uint16_t free_scans = 0;   ///< Scans that saw through the voxel, and are heard.
   std::uint16_t agree_scans = 0;  ///< Scans with a return at the voxel.
-  /// Scans in a row that saw through it from near by, before the first scan that agrees and since
-  /// the last one.
+  /// Scans that saw through it from near by, before the first scan that agrees and since the last
+  /// one, without those beside all of its column.
   std::uint16_t leading_free = 0, trailing_free = 0;
   /// The numbers of the first and of the last scan that agree, if any does.
   std::uint32_t first_agree = 0, last_agree = 0;
@@ -37,9 +40,9 @@ struct VoxelEvidence {
 };
 
 /// The heights of the lowest and of the highest point of a voxel, metres above the mean of its
-/// points.
+/// points, and how far beyond these what is there may go on: the less, the more points there are.
 struct HeightSpan {
-  float low = 0.0F, high = 0.0F;
+  float low = 0.0F, high = 0.0F, beyond = 0.0F;
 };
 
 /// Step 2: the occupied voxels. Each has the mean of its points, what the scans say of it (step 3),
@@ -99,6 +102,10 @@ class EvidenceMap {
   [[nodiscard]] Eigen::Vector3d centroid(std::size_t voxel) const;
   /// How high the voxel's points so far are.
   [[nodiscard]] HeightSpan span(std::size_t voxel) const;
+  /// Whether what stands in a voxel's column goes on from it up or down to a height, with gaps of
+  /// at most `kColumnGap`, which few beams leave on one thing.
+  /// @param z metres, world frame
+  [[nodiscard]] bool column_reaches(std::size_t voxel, double z, Blocks::Cursor& cursor) const;
   /// How far one of the voxel's points lies above that mean, metres.
   /// @param parts where the point is in its cell, see `ScanCells`
   [[nodiscard]] double above_mean(std::size_t voxel, std::uint32_t parts) const;
@@ -156,6 +163,10 @@ class EvidenceMap {
   /// that is asked about, so that few voxels beyond it are asked, and enough for one task of a
   /// thread.
   static constexpr int kTileShift = 6;
+  static constexpr double kColumnGap = 0.8;  ///< Metres. EXPERIMENTS.md says what others do.
+  /// See `HeightSpan::beyond`: half a voxel for so many points, half of that for twice as many, but
+  /// at least so many metres, by which ranges and poses are off.
+  static constexpr double kSpanPoints = 5.0, kLeastBeyond = 0.02;
   std::uint32_t add_voxel(const VoxelIndex& index, std::uint32_t slot);
   /// Sums of a voxel's points: offsets from the lower corner, in parts of the edge.
   struct Sums {

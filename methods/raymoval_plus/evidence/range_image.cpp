@@ -283,26 +283,38 @@ float RangeImage::nearest_in_row(int row, int column, int wide) const {
   return nearest;
 }
 
-bool RangeImage::has_beam_in_window(int column, int row, const Window& window, float from,
-                                    float to) const {
+template <class Stops>
+bool RangeImage::any_beam(int column, int row, const Window& window, Stops&& stops) const {
   const auto [wide, high] = window;
   for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
     for (int c = column - wide; c <= column + wide; ++c) {
-      const float beam = lowest_at(r, wrapped(c));
-      if (beam >= from && beam <= to) return true;
+      if (stops(lowest_at(r, wrapped(c)))) return true;
     }
   }
   return false;
 }
 
-bool RangeImage::has_beam_between(const ObservedPlace& place, float low, float high) const {
-  return !has_even_beams_ || has_beam_in_window(place.column, place.row, window_at(place.range),
-                                                low / place.range, high / place.range);
+RangeImage::Passing RangeImage::passing(const ObservedPlace& place, float low, float high) const {
+  if (!has_even_beams_) return {true, -kInfinite, kInfinite};
+  const float from = low / place.range, to = high / place.range;
+  float below = -kInfinite, above = kInfinite;
+  const bool between = any_beam(place.column, place.row, window_at(place.range), [&](float beam) {
+    if (beam < from) {
+      below = std::max(below, beam);
+    } else if (beam > to) {
+      above = std::min(above, beam);
+    } else {
+      return true;
+    }
+    return false;
+  });
+  return {between, below * place.range, above * place.range};
 }
 
 bool RangeImage::sees_at_or_below(const Eigen::Vector3f& place, float range, int column, int row,
                                   const Window& window) const {
-  return has_beam_in_window(column, row, window, -kInfinite, up_.dot(place) / range);
+  const float most = up_.dot(place) / range;
+  return any_beam(column, row, window, [most](float beam) { return beam <= most; });
 }
 
 }  // namespace raymoval::raymoval_plus_method

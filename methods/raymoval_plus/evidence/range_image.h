@@ -57,9 +57,14 @@ class RangeImage {
   /// @param places x y z, x y z, ... of any frame, metres, not far from its origin
   void observe(const std::vector<float>& places, const Pose& T_sensor_places, SeenThrough seen,
                std::vector<ObservedPlace>& observed) const;
-  /// Whether a beam of the window of a place passes it between two heights, metres above the
-  /// sensor. Without even beams one always does, as far as is known.
-  [[nodiscard]] bool has_beam_between(const ObservedPlace& place, float low, float high) const;
+  /// How the beams of the window of a place pass two heights there.
+  struct Passing {
+    bool between;        ///< Whether any passes between them.
+    float below, above;  ///< If not, the heights of the next ones, or infinite.
+  };
+  /// Heights are metres above the sensor. Without even beams one passes between any, as far as is
+  /// known.
+  [[nodiscard]] Passing passing(const ObservedPlace& place, float low, float high) const;
 
  private:
   /// The range of a bin that has no return.
@@ -150,10 +155,10 @@ class RangeImage {
   [[nodiscard]] bool is_on_slope(float range, int column, int row, int wide, int toward) const;
   /// A quick look at the place's own bin, which is false for most places that are not seen through.
   [[nodiscard]] bool may_be_gap(float range, int column, int row) const;
-  /// Whether a return of a window around a bin is of a beam whose sine of the angle above the
-  /// horizon is within bounds; the upper one is finite.
-  [[nodiscard]] bool has_beam_in_window(int column, int row, const Window& window, float from,
-                                        float to) const;
+  /// Calls `stops` with the sines of the angles above the horizon of the returns in a window around
+  /// a bin (infinite where there is none), until it returns true, and says whether it did.
+  template <class Stops>
+  bool any_beam(int column, int row, const Window& window, Stops&& stops) const;
   /// Whether a return of a window around a place is of a beam that does not pass above it.
   /// @param place metres, sensor frame
   [[nodiscard]] bool sees_at_or_below(const Eigen::Vector3f& place, float range, int column,

@@ -55,3 +55,36 @@ TEST_CASE("a voxel has the mean of its points, and is found within range of it")
   map.set_decision(far, Verdict::kStatic);
   CHECK(map.dynamic_in(map.block_of(far)) == 0);
 }
+
+TEST_CASE("what is in a voxel may go on beyond its points, the less the more there are") {
+  toy::MapPoints points;
+  std::uint32_t voxel = 0;
+  const auto beyond_of = [&](int count) {
+    for (int k = 0; k < count; ++k) voxel = points.add({0.05, 0.05, 0.05});
+    return points.map.span(voxel).beyond;
+  };
+  CHECK(beyond_of(1) == Approx(0.1));   // Half a voxel.
+  CHECK(beyond_of(4) == Approx(0.1));   // 5 points.
+  CHECK(beyond_of(5) == Approx(0.05));  // 10.
+  CHECK(beyond_of(90) == Approx(0.02));
+}
+
+TEST_CASE("a column goes on over gaps, but not over wide ones") {
+  // Voxels of 0.2 m at these heights above the first one, metres, one of which is aside.
+  toy::MapPoints points;
+  const auto at = [](double height) { return Eigen::Vector3d(-3.95, 7.05, -0.55 + height); };
+  const auto first = points.add(at(0.0));
+  for (const double height : {-0.2, 0.6, 1.6, 2.8}) points.add(at(height));
+  points.add(at(2.2) + Eigen::Vector3d(0.2, 0.0, 0.0));
+  EvidenceMap::Blocks::Cursor cursor;
+  const auto reaches = [&](double height) {
+    return points.map.column_reaches(first, at(height).z(), cursor);
+  };
+  CHECK(reaches(0.0));
+  CHECK(reaches(-0.2));
+  CHECK_FALSE(reaches(-0.4));
+  CHECK(reaches(0.4));
+  CHECK(reaches(1.6));  // Over 0.8 m, four cells.
+  CHECK_FALSE(reaches(1.8));
+  CHECK_FALSE(reaches(2.8));  // Over 1 m.
+}

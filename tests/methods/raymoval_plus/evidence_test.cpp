@@ -60,6 +60,43 @@ TEST_CASE("where some scans agree, those beside the voxel's points are not heard
   CHECK(decided(20, {0, 4, 0}, 0) == Verdict::kDynamic);
 }
 
+TEST_CASE("where many scans agree, those beside the whole column are not heard at all") {
+  const auto decided = [](std::uint16_t agree, const ScansBeside& beside, int settled_scans = 10) {
+    Parameters parameters;
+    parameters.settled_scans = settled_scans;
+    const VoxelEvidence evidence{10, agree, 0, 3, 0, 0, {}, beside};
+    CHECK(Decisions(parameters)(evidence) == decide(evidence, parameters));
+    return decide(evidence, parameters);
+  };
+  // Needed of the 10 scans that see through it: 1 + 0.3 x 20.
+  CHECK(decided(20, {0, 0, 0, 2, 1}) == Verdict::kDynamic);
+  CHECK(decided(20, {0, 0, 0, 2, 2}) == Verdict::kStatic);
+  CHECK(decided(20, {0, 2, 0, 1, 1}) == Verdict::kStatic);
+  CHECK(decided(20, {0, 0, 0, 2, 2}, 21) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided(20, {0, 0, 0, 2, 2}, 0) == Verdict::kDynamic);
+}
+
+TEST_CASE("scans beside the whole column count before the first and since the last that agrees") {
+  using enum Observation;
+  const Parameters parameters;
+  VoxelEvidence evidence;
+  const auto add = [&](Observation what, bool is_beside_column) {
+    add_observation({what, 10.0F, 0, is_beside_column, is_beside_column}, parameters, evidence);
+  };
+  for (const bool is_beside_column : {true, false, true}) add(kFree, is_beside_column);
+  CHECK(evidence.beside.column_before == 2);
+  CHECK(evidence.leading_free == 1);  // They are not of a run.
+  add(kAgree, false);
+  for (const bool is_beside_column : {true, false, true, true}) add(kFree, is_beside_column);
+  CHECK(evidence.beside.column_since == 3);
+  CHECK(evidence.trailing_free == 1);
+  add(kAgree, false);
+  CHECK(evidence.beside.column_since == 0);  // All were between scans that agree, ...
+  CHECK(evidence.beside.free_between_agreeing == 3);
+  CHECK(evidence.beside.column_before == 2);  // ... but not these.
+  CHECK(evidence.free_scans == 7);
+}
+
 TEST_CASE("scans that pass beside a voxel's points are counted by themselves as well") {
   using enum Observation;
   const Parameters parameters;
@@ -118,6 +155,50 @@ TEST_CASE("a beam above or below a roof passes beside its points, one at their h
   add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
   REQUIRE(map.evidence(roof).free_scans == 1);
   CHECK(map.evidence(roof).beside.free_since == (is_beside && has_beams ? 1 : 0));
+}
+
+TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands above or below") {
+  // A roof 1 m above the sensor and 18 m ahead. A scan sees farther 0.5 m below it. What is below
+  // the roof, if anything, is so many metres lower.
+  struct Below {
+    std::vector<double> metres;
+    bool is_beside_column;
+  };
+  const auto [below, is_beside_column] =
+      GENERATE(Below{{}, true}, Below{{0.2}, true}, Below{{0.2, 0.6}, false}, Below{{0.6}, false},
+               Below{{0.9}, false}, Below{{1.1}, true}, Below{{-0.2}, true});
+  toy::MapPoints points;
+  EvidenceMap& map = points.map;
+  const Eigen::Vector3d place(18.05, 0.05, 1.05);
+  const auto roof = points.add(place);
+  for (const double metres : below) points.add(place - Eigen::Vector3d(0.0, 0.0, metres));
+  Scan scan;
+  scan.T_world_sensor.translation().z() = GENERATE(0.0, 0.1);
+  const Eigen::Vector3d passed = place - Eigen::Vector3d(0.0, 0.0, 0.5);
+  const Eigen::Vector3d sensor = scan.T_world_sensor.translation();
+  scan.points.push_back((2.0 * (passed - sensor)).cast<float>());
+  SensorModel model = toy::Scanner{}.model();
+  model.azimuth_step = 0.25 * kDegree;
+  model.elevation_step = 1.7 * kDegree;  // 0.5 m at that range.
+  RangeImage image(model, Parameters{});
+  image.fill(scan);
+  CAPTURE(below);
+  const auto check = [&] {
+    REQUIRE(map.evidence(roof).free_scans == 1);
+    CHECK(map.evidence(roof).beside.column_before == (is_beside_column ? 1 : 0));
+    CHECK(map.evidence(roof).leading_free == (is_beside_column ? 0 : 1));
+  };
+  SECTION("by the scans in turn") {
+    const PosedImage posed{&image, scan.T_world_sensor, 0};
+    add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
+    check();
+  }
+  SECTION("by earlier scans, for new voxels") {
+    EarlierScans earlier{Parameters{}};
+    earlier.keep(std::move(image), scan.T_world_sensor, 0);
+    earlier.add_evidence(0, sensor, WhenToDecide::kLater, RunContext{}, map);
+    check();
+  }
 }
 
 TEST_CASE("decisions on many voxels are those of the formula") {
