@@ -127,8 +127,8 @@ void add_vote(Lines& table) {
       "height_scans", &P::height_scans, "scans", 0, 10000,
       "Where so many scans agree, only those that agree, or see through the voxel between "
       "these, are heard that have a beam at the height of its points, or half a voxel "
-      "above or below. Where the voxel is settled, those before and after are heard that have "
-      "one at the height of anything in its column. 0 for off.");
+      "above or below. Where three times as many agree, those before and after are heard that "
+      "have one at the height of anything in its column. 0 for off.");
   table.flag("ground_evidence", &P::ground_evidence,
              "Ask the scans about ground, too; else it always stays.", kTerrain);
 }

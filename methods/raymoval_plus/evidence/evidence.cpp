@@ -46,6 +46,10 @@ struct HeardScans {
   int free, agree;
 };
 
+/// Scans before the first and after the last that agrees are left out only where so many times as
+/// many agree as tell the heights of a voxel's points. EXPERIMENTS.md says what others do.
+constexpr int kColumnTimes = 3;
+
 /// Where enough scans agree, those beside the voxel's points are left out. Before the first and
 /// after the last that agrees, these are heard if they see through anything in the voxel's column:
 /// where beams are far apart, they would have met a car that came or left, though not in this
@@ -56,7 +60,9 @@ HeardScans heard_scans(const VoxelEvidence& evidence, const Parameters& paramete
   int free = evidence.free_scans + unheard_scans(evidence, parameters);
   free -= beside.free_between_agreeing;
   free = std::min<int>(evidence.free_scans, free);
-  if (is_settled(evidence, parameters)) free -= beside.column_before + beside.column_since;
+  if (evidence.agree_scans >= kColumnTimes * parameters.height_scans) {
+    free -= beside.column_before + beside.column_since;
+  }
   return {free, evidence.agree_scans - beside.agree};
 }
 
@@ -74,7 +80,7 @@ class HeightTest {
         scan_(scan),
         sensor_z_(sensor_z),
         origin_above_sensor_(static_cast<float>(origin_z - sensor_z)),
-        half_voxel_(static_cast<float>(0.5 * parameters.voxel_size)),
+        reach_(static_cast<float>(0.5 * parameters.voxel_size)),
         is_asked_(parameters.height_scans > 0 && map.seen_through() == SeenThrough::kInRowOrBelow) {
   }
 
@@ -86,8 +92,7 @@ class HeightTest {
     if (!is_asked_) return observed;
     const float mean = origin_above_sensor_ + z;
     const bool is_free = place.observation == Observation::kFree;
-    const float beyond = is_free ? span.beyond : half_voxel_;
-    const auto beams = image_.passing(place, mean + span.low - beyond, mean + span.high + beyond);
+    const auto beams = image_.passing(place, mean + span.low - reach_, mean + span.high + reach_);
     observed.is_beside = !beams.between;
     observed.is_beside_column = observed.is_beside && is_free && !reaches(voxel, beams.below) &&
                                 !reaches(voxel, beams.above);
@@ -104,8 +109,8 @@ class HeightTest {
   const EvidenceMap& map_;
   EvidenceMap::Blocks::Cursor cursor_;
   std::size_t scan_;
-  double sensor_z_;                         ///< Metres.
-  float origin_above_sensor_, half_voxel_;  ///< Metres.
+  double sensor_z_;                    ///< Metres.
+  float origin_above_sensor_, reach_;  ///< Metres.
   bool is_asked_;
 };
 

@@ -81,10 +81,8 @@ Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
 HeightSpan EvidenceMap::span(std::size_t voxel) const {
   const Sums& sums = sums_[voxel];
   const double mean = static_cast<double>(sums.z) / sums.count, part = size_ / kParts;
-  const double beyond = 0.5 * size_ * std::min(1.0, kSpanPoints / sums.count);
   return {static_cast<float>((sums.lowest - mean) * part),
-          static_cast<float>((sums.highest - mean) * part),
-          static_cast<float>(std::max(beyond, kLeastBeyond))};
+          static_cast<float>((sums.highest - mean) * part)};
 }
 
 bool EvidenceMap::column_reaches(std::size_t voxel, double z, Blocks::Cursor& cursor) const {

@@ -40,9 +40,9 @@ struct VoxelEvidence {
 };
 
 /// The heights of the lowest and of the highest point of a voxel, metres above the mean of its
-/// points, and how far beyond these what is there may go on: the less, the more points there are.
+/// points.
 struct HeightSpan {
-  float low = 0.0F, high = 0.0F, beyond = 0.0F;
+  float low = 0.0F, high = 0.0F;
 };
 
 /// Step 2: the occupied voxels. Each has the mean of its points, what the scans say of it (step 3),
@@ -164,9 +164,6 @@ class EvidenceMap {
   /// thread.
   static constexpr int kTileShift = 6;
   static constexpr double kColumnGap = 0.8;  ///< Metres. EXPERIMENTS.md says what others do.
-  /// See `HeightSpan::beyond`: half a voxel for so many points, half of that for twice as many, but
-  /// at least so many metres, by which ranges and poses are off.
-  static constexpr double kSpanPoints = 5.0, kLeastBeyond = 0.02;
   std::uint32_t add_voxel(const VoxelIndex& index, std::uint32_t slot);
   /// Sums of a voxel's points: offsets from the lower corner, in parts of the edge.
   struct Sums {

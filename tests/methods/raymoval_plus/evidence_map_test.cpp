@@ -56,19 +56,6 @@ TEST_CASE("a voxel has the mean of its points, and is found within range of it")
   CHECK(map.dynamic_in(map.block_of(far)) == 0);
 }
 
-TEST_CASE("what is in a voxel may go on beyond its points, the less the more there are") {
-  toy::MapPoints points;
-  std::uint32_t voxel = 0;
-  const auto beyond_of = [&](int count) {
-    for (int k = 0; k < count; ++k) voxel = points.add({0.05, 0.05, 0.05});
-    return points.map.span(voxel).beyond;
-  };
-  CHECK(beyond_of(1) == Approx(0.1));   // Half a voxel.
-  CHECK(beyond_of(4) == Approx(0.1));   // 5 points.
-  CHECK(beyond_of(5) == Approx(0.05));  // 10.
-  CHECK(beyond_of(90) == Approx(0.02));
-}
-
 TEST_CASE("a column goes on over gaps, but not over wide ones") {
   // Voxels of 0.2 m at these heights above the first one, metres, one of which is aside.
   toy::MapPoints points;

@@ -61,9 +61,9 @@ TEST_CASE("where some scans agree, those beside the voxel's points are not heard
 }
 
 TEST_CASE("where many scans agree, those beside the whole column are not heard at all") {
-  const auto decided = [](std::uint16_t agree, const ScansBeside& beside, int settled_scans = 10) {
+  const auto decided = [](std::uint16_t agree, const ScansBeside& beside, int height_scans = 5) {
     Parameters parameters;
-    parameters.settled_scans = settled_scans;
+    parameters.height_scans = height_scans;
     const VoxelEvidence evidence{10, agree, 0, 3, 0, 0, {}, beside};
     CHECK(Decisions(parameters)(evidence) == decide(evidence, parameters));
     return decide(evidence, parameters);
@@ -72,7 +72,8 @@ TEST_CASE("where many scans agree, those beside the whole column are not heard a
   CHECK(decided(20, {0, 0, 0, 2, 1}) == Verdict::kDynamic);
   CHECK(decided(20, {0, 0, 0, 2, 2}) == Verdict::kStatic);
   CHECK(decided(20, {0, 2, 0, 1, 1}) == Verdict::kStatic);
-  CHECK(decided(20, {0, 0, 0, 2, 2}, 21) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided(20, {0, 0, 0, 2, 2}, 6) == Verdict::kStatic);
+  CHECK(decided(20, {0, 0, 0, 2, 2}, 7) == Verdict::kDynamic);  // Too few agree.
   CHECK(decided(20, {0, 0, 0, 2, 2}, 0) == Verdict::kDynamic);
 }
 
