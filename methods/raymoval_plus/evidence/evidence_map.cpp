@@ -89,11 +89,10 @@ bool EvidenceMap::column_reaches(std::size_t voxel, double z, Blocks::Cursor& cu
   VoxelIndex cell = index(voxel);
   const int to = static_cast<int>(std::floor(z * inverse_)), step = to < cell.z() ? -1 : 1;
   const int most_missing = static_cast<int>(std::lround(kColumnGap * inverse_));
-  for (int missing = 0; missing <= most_missing; ++missing, cell.z() += step) {
-    const std::size_t found = blocks_.slot(cell, cursor);
-    if (found == Blocks::kNoSlot || blocks_.at(found) == kNone) continue;
+  for (int last = cell.z(); step * (cell.z() - last) <= most_missing + 1; cell.z() += step) {
+    if (blocks_.get(cell, cursor) == kNone) continue;
     if (step * (cell.z() - to) >= 0) return true;
-    missing = -1;
+    last = cell.z();
   }
   return false;
 }

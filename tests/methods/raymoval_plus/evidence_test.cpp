@@ -21,6 +21,15 @@ RangeImage image_of_return(float range) {
   return image;
 }
 
+/// Decides on a voxel that 10 scans see through, some of them beside what is there.
+Verdict decided_with(std::uint16_t agree, const ScansBeside& beside, int height_scans = 5) {
+  Parameters parameters;
+  parameters.height_scans = height_scans;
+  const VoxelEvidence evidence{10, agree, 0, 3, 0, 0, {}, beside};
+  CHECK(Decisions(parameters)(evidence) == decide(evidence, parameters));
+  return decide(evidence, parameters);
+}
+
 }  // namespace
 
 TEST_CASE("scans that see through are weighed against scans that agree") {
@@ -41,40 +50,26 @@ TEST_CASE("scans that see through are weighed against scans that agree") {
 }
 
 TEST_CASE("where some scans agree, those beside the voxel's points are not heard between them") {
-  const auto decided = [](std::uint16_t agree, const ScansBeside& beside, int height_scans = 5) {
-    Parameters parameters;
-    parameters.height_scans = height_scans;
-    const VoxelEvidence evidence{10, agree, 0, 3, 0, 0, {}, beside};
-    CHECK(Decisions(parameters)(evidence) == decide(evidence, parameters));
-    return decide(evidence, parameters);
-  };
   // Needed of the 10 scans that see through it: 1 + 0.3 x 20.
-  CHECK(decided(20, {}) == Verdict::kDynamic);
-  CHECK(decided(20, {0, 3, 0}) == Verdict::kDynamic);
-  CHECK(decided(20, {0, 4, 0}) == Verdict::kStatic);
+  CHECK(decided_with(20, {}) == Verdict::kDynamic);
+  CHECK(decided_with(20, {0, 3, 0}) == Verdict::kDynamic);
+  CHECK(decided_with(20, {0, 4, 0}) == Verdict::kStatic);
   // Since the last one that agrees, they are heard: what left may have been looked at from afar.
-  CHECK(decided(20, {0, 3, 3}) == Verdict::kDynamic);
+  CHECK(decided_with(20, {0, 3, 3}) == Verdict::kDynamic);
   // Nor are those heard that agree beside them.
-  CHECK(decided(20, {7, 4, 0}) == Verdict::kDynamic);
-  CHECK(decided(4, {0, 9, 0}) == Verdict::kDynamic);  // Too few agree.
-  CHECK(decided(20, {0, 4, 0}, 0) == Verdict::kDynamic);
+  CHECK(decided_with(20, {7, 4, 0}) == Verdict::kDynamic);
+  CHECK(decided_with(4, {0, 9, 0}) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided_with(20, {0, 4, 0}, 0) == Verdict::kDynamic);
 }
 
 TEST_CASE("where many scans agree, those beside the whole column are not heard at all") {
-  const auto decided = [](std::uint16_t agree, const ScansBeside& beside, int height_scans = 5) {
-    Parameters parameters;
-    parameters.height_scans = height_scans;
-    const VoxelEvidence evidence{10, agree, 0, 3, 0, 0, {}, beside};
-    CHECK(Decisions(parameters)(evidence) == decide(evidence, parameters));
-    return decide(evidence, parameters);
-  };
   // Needed of the 10 scans that see through it: 1 + 0.3 x 20.
-  CHECK(decided(20, {0, 0, 0, 2, 1}) == Verdict::kDynamic);
-  CHECK(decided(20, {0, 0, 0, 2, 2}) == Verdict::kStatic);
-  CHECK(decided(20, {0, 2, 0, 1, 1}) == Verdict::kStatic);
-  CHECK(decided(20, {0, 0, 0, 2, 2}, 6) == Verdict::kStatic);
-  CHECK(decided(20, {0, 0, 0, 2, 2}, 7) == Verdict::kDynamic);  // Too few agree.
-  CHECK(decided(20, {0, 0, 0, 2, 2}, 0) == Verdict::kDynamic);
+  CHECK(decided_with(20, {0, 0, 0, 2, 1}) == Verdict::kDynamic);
+  CHECK(decided_with(20, {0, 0, 0, 2, 2}) == Verdict::kStatic);
+  CHECK(decided_with(20, {0, 2, 0, 1, 1}) == Verdict::kStatic);
+  CHECK(decided_with(20, {0, 0, 0, 2, 2}, 6) == Verdict::kStatic);
+  CHECK(decided_with(20, {0, 0, 0, 2, 2}, 7) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided_with(20, {0, 0, 0, 2, 2}, 0) == Verdict::kDynamic);
 }
 
 TEST_CASE("scans beside the whole column count before the first and since the last that agrees") {
