@@ -81,8 +81,8 @@ class Answers {
       objects_[index] = summarise_objects(segmented, maps_.standing, parameters_, of_scan_);
       runs_[index] = remembered_points(segmented, objects_[index], parameters_);
       Verdicts verdicts =
-          decide_objects(segmented, maps_.standing, {}, parameters_, of_scan_);     // 6
-      decide_low_points(segmented, maps_.ground, parameters_, of_scan_, verdicts);  // 8
+          decide_objects(segmented, maps_.standing, {}, parameters_, of_scan_);  // 6
+      decide_low_points(segmented, maps_, parameters_, of_scan_, verdicts);      // 8
       unmarked_.set(index, removed_points(verdicts));
     });
   }
@@ -92,8 +92,8 @@ class Answers {
     workspaces_.with_one([&](SegmentedScan& segmented) {
       if (!asks_for_more(context_) && all_are_remembered(index)) {
         locate(std::move(scan), segmented);
-        Verdicts verdicts = remembered_verdicts(segmented);                           // 6, 7
-        decide_low_points(segmented, maps_.ground, parameters_, of_scan_, verdicts);  // 8
+        Verdicts verdicts = remembered_verdicts(segmented);                    // 6, 7
+        decide_low_points(segmented, maps_, parameters_, of_scan_, verdicts);  // 8
         sink_.accept(index, removed_points(verdicts));
       } else {
         segment(std::move(scan), segmented);
@@ -155,7 +155,7 @@ void answer(const SegmentedScan& scan, const std::vector<int>& marked, const Evi
   const Verdicts by_objects =
       decide_objects(scan, maps.standing, marked, parameters, context);  // 6, 7
   Verdicts decided = by_objects;
-  decide_low_points(scan, maps.ground, parameters, context, decided);  // 8
+  decide_low_points(scan, maps, parameters, context, decided);  // 8
   sink.accept(scan.scan.index, removed_points(decided));
   if (context.reasons != nullptr) {
     context.reasons->accept(scan.scan.index, reasons_for(scan, maps, by_objects, decided));

@@ -29,7 +29,7 @@ class Run {
         sink_(sink),
         context_(context),
         terrain_(parameters),
-        maps_(parameters),
+        maps_(parameters, scans.sensor()),
         image_(scans.sensor(), parameters),
         earlier_scans_(parameters) {}
 

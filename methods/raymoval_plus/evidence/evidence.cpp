@@ -50,6 +50,11 @@ struct HeardScans {
 /// many agree as tell the heights of a voxel's points. EXPERIMENTS.md says what others do.
 constexpr int kColumnTimes = 3;
 
+/// Below and above a roof that is seen from below, beams pass by so many metres near it before they
+/// meet it: the noise of what is measured, not the half voxel by which points of a thing's side may
+/// lie higher or lower than those that were seen.
+constexpr float kRoofReach = 0.02F;
+
 /// Where enough scans agree, those beside the voxel's points are left out. Before the first and
 /// after the last that agrees, these are heard if they see through anything in the voxel's column:
 /// where beams are far apart, they would have met a car that came or left, though not in this
@@ -92,7 +97,15 @@ class HeightTest {
     if (!is_asked_) return observed;
     const float mean = origin_above_sensor_ + z;
     const bool is_free = place.observation == Observation::kFree;
-    const auto beams = image_.passing(place, mean + span.low - reach_, mean + span.high + reach_);
+    const auto beams_within = [&](float reach) {
+      return image_.passing(place, mean + span.low - reach, mean + span.high + reach);
+    };
+    const auto beams = beams_within(reach_);
+    if (is_free && beams.between && mean > 0.0F && !beams_within(kRoofReach).between &&
+        map_.is_roof(voxel, cursor_)) {
+      observed.is_beside = observed.is_beside_column = true;
+      return observed;
+    }
     observed.is_beside = !beams.between;
     observed.is_beside_column = observed.is_beside && is_free && !reaches(voxel, beams.below) &&
                                 !reaches(voxel, beams.above);

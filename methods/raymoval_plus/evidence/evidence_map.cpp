@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace raymoval::raymoval_plus_method {
@@ -95,6 +96,16 @@ bool EvidenceMap::column_reaches(std::size_t voxel, double z, Blocks::Cursor& cu
     last = cell.z();
   }
   return false;
+}
+
+bool EvidenceMap::is_roof(std::size_t voxel, Blocks::Cursor& cursor) const {
+  const int away = static_cast<int>(std::lround(kRoofAlone * inverse_));
+  int beside = 0;
+  for (VoxelIndex d(0, 0, -away); d.z() <= away; ++d.z()) {
+    if (d.z() == 0 || blocks_.get(index(voxel) + d, cursor) == kNone) continue;
+    if (std::abs(d.z()) > 1 || ++beside > 1) return false;
+  }
+  return true;
 }
 
 double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {

@@ -106,6 +106,9 @@ class EvidenceMap {
   /// at most `kColumnGap`, which few beams leave on one thing.
   /// @param z metres, world frame
   [[nodiscard]] bool column_reaches(std::size_t voxel, double z, Blocks::Cursor& cursor) const;
+  /// Whether a voxel is a part of something flat, a roof or an awning: nothing else stands in its
+  /// column within `kRoofAlone`, but in one of the two voxels beside it.
+  [[nodiscard]] bool is_roof(std::size_t voxel, Blocks::Cursor& cursor) const;
   /// How far one of the voxel's points lies above that mean, metres.
   /// @param parts where the point is in its cell, see `ScanCells`
   [[nodiscard]] double above_mean(std::size_t voxel, std::uint32_t parts) const;
@@ -163,7 +166,8 @@ class EvidenceMap {
   /// that is asked about, so that few voxels beyond it are asked, and enough for one task of a
   /// thread.
   static constexpr int kTileShift = 6;
-  static constexpr double kColumnGap = 0.8;  ///< Metres. EXPERIMENTS.md says what others do.
+  /// Metres. EXPERIMENTS.md says what others do.
+  static constexpr double kColumnGap = 0.8, kRoofAlone = 1.6;
   std::uint32_t add_voxel(const VoxelIndex& index, std::uint32_t slot);
   /// Sums of a voxel's points: offsets from the lower corner, in parts of the edge.
   struct Sums {

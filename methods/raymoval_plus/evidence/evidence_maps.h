@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/scan/sensor_model.h"
 #include "methods/raymoval_plus/common/parameters.h"
 #include "methods/raymoval_plus/evidence/evidence_map.h"
 
@@ -18,9 +19,11 @@ struct EvidenceMaps {
   /// coarser places.
   static constexpr int kGroundEdges = 2;
 
-  explicit EvidenceMaps(const Parameters& parameters)
+  /// @param sensor whose scans the maps are made of
+  explicit EvidenceMaps(const Parameters& parameters, const SensorModel& sensor = {})
       : standing(parameters.voxel_size),
-        ground(kGroundEdges * parameters.voxel_size, SeenThrough::kAtOrBelow) {}
+        ground(kGroundEdges * parameters.voxel_size, SeenThrough::kAtOrBelow),
+        beams_apart(static_cast<float>(sensor.elevation_step)) {}
 
   [[nodiscard]] std::array<EvidenceMap*, 2> both() { return {&standing, &ground}; }
   /// The numbers of their voxels.
@@ -29,6 +32,7 @@ struct EvidenceMaps {
   }
 
   EvidenceMap standing, ground;
+  float beams_apart;  ///< Angle between the sensor's beams or directions, radians; 0 = unknown.
 };
 
 /// The cell of a ground voxel that a cell of the others lies in.

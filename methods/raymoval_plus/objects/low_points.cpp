@@ -10,8 +10,12 @@ namespace {
 
 // Numbers of step 8; EXPERIMENTS.md has each at half and at double its value.
 /// What is higher than so many metres does not stand on the points near the ground: legs and wheels
-/// end below, tree tops and awnings do not.
-constexpr float kHighest = 1.0F;
+/// end below, tree tops and awnings do not. Far away the next beam above a wheel meets its car
+/// higher up: so many metres more for each metre of range.
+constexpr float kHighest = 1.0F, kHigherByRange = 0.03F;
+/// Where beams are far apart, the next one above a bumper meets the bonnet behind it: what stands
+/// is looked for so much farther aside, as a share of how far apart beams are at the point's range.
+constexpr float kWiderByBeams = 0.6F;
 /// Points near the ground follow the dynamic points above them if these are so many times the
 /// others, and the other way round. Between, they stay what their voxels are.
 constexpr int kMajority = 2;
@@ -32,11 +36,13 @@ struct Standing {
 /// only the columns are counted on which the verdict of a low point can depend.
 class LowPoints {
  public:
-  LowPoints(const LocatedScan& scan, const EvidenceMap& ground, const Parameters& parameters,
+  LowPoints(const LocatedScan& scan, const EvidenceMaps& maps, const Parameters& parameters,
             Verdicts& verdict)
       : scan_(scan),
-        ground_(ground),
+        ground_(maps.ground),
         low_(static_cast<float>(parameters.object_height)),
+        columns_wider_by_range_(kWiderByBeams * maps.beams_apart /
+                                static_cast<float>(parameters.voxel_size)),
         asks_ground_(parameters.ground_evidence),
         verdict_(verdict) {}
 
@@ -50,7 +56,9 @@ class LowPoints {
 
  private:
   [[nodiscard]] bool is_standing(std::size_t k) const {
-    return scan_.height[k] >= low_ && scan_.height[k] < kHighest;
+    const float height = scan_.height[k];
+    if (height < low_) return false;
+    return height < kHighest || height < kHighest + kHigherByRange * range(k);
   }
   [[nodiscard]] bool is_ground(std::size_t k) const { return scan_.voxel[k] == EvidenceMap::kNone; }
   /// Whether a point is so low that what stands above it may have a say in its verdict.
@@ -69,11 +77,16 @@ class LowPoints {
   [[nodiscard]] VoxelIndex column_of(std::size_t k) const {
     return {scan_.in_map.x[k], scan_.in_map.y[k], 0};
   }
-  /// Calls `visit(standing)` with the column of a point and the eight around it.
+  [[nodiscard]] float range(std::size_t k) const { return scan_.scan.points[k].norm(); }
+  /// Calls `visit(standing)` with the column of a point and those around it: eight near by, and
+  /// more where beams are farther apart.
   template <class Visit>
   void for_columns_around(std::size_t k, Visit&& visit) {
-    for (int n = 0; n < 9; ++n) {
-      visit(columns_.make(column_of(k) + VoxelIndex(n % 3 - 1, n / 3 - 1, 0), cursor_));
+    const int reach = 1 + static_cast<int>(columns_wider_by_range_ * range(k));
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        visit(columns_.make(column_of(k) + VoxelIndex(x, y, 0), cursor_));
+      }
     }
   }
 
@@ -117,7 +130,8 @@ class LowPoints {
   using Columns = DenseBlocks<Standing, 4, 0>;
   const LocatedScan& scan_;
   const EvidenceMap& ground_;
-  float low_;
+  float low_;                     ///< Metres.
+  float columns_wider_by_range_;  ///< 1 / m.
   bool asks_ground_;
   Verdicts& verdict_;
   Columns columns_{Standing{}};
@@ -127,11 +141,11 @@ class LowPoints {
 
 }  // namespace
 
-void decide_low_points(const LocatedScan& scan, const EvidenceMap& ground,
+void decide_low_points(const LocatedScan& scan, const EvidenceMaps& maps,
                        const Parameters& parameters, const RunContext& context, Verdicts& verdict) {
   if (!parameters.low_points || !parameters.terrain) return;
   const StageScope timed(context.times, "low points");
-  LowPoints(scan, ground, parameters, verdict).decide();
+  LowPoints(scan, maps, parameters, verdict).decide();
 }
 
 }  // namespace raymoval::raymoval_plus_method

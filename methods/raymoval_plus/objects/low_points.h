@@ -7,9 +7,9 @@ namespace raymoval::raymoval_plus_method {
 
 /// Step 8: lets the points near the ground follow what stands above them. Only what is dynamic
 /// matters from here on: what is not may be static or undecided.
-/// @param ground voxels of the ground, in which the scan's points were looked up
+/// @param maps in which the scan's points were looked up
 /// @param verdict of each point, from the steps before
-void decide_low_points(const LocatedScan& scan, const EvidenceMap& ground,
+void decide_low_points(const LocatedScan& scan, const EvidenceMaps& maps,
                        const Parameters& parameters, const RunContext& context, Verdicts& verdict);
 
 }  // namespace raymoval::raymoval_plus_method

@@ -56,6 +56,25 @@ TEST_CASE("a voxel has the mean of its points, and is found within range of it")
   CHECK(map.dynamic_in(map.block_of(far)) == 0);
 }
 
+TEST_CASE("a roof stands alone in its column, one voxel high or two") {
+  // Other voxels so many metres above it.
+  struct Others {
+    std::vector<double> above;
+    bool is_roof;
+  };
+  const auto [above, is_roof] = GENERATE(
+      Others{{}, true}, Others{{0.2}, true}, Others{{-0.2}, true}, Others{{-0.2, 0.2}, false},
+      Others{{0.4}, false}, Others{{-1.6}, false}, Others{{1.6}, false}, Others{{-1.8, 1.8}, true});
+  toy::MapPoints points;
+  const Eigen::Vector3d at(-3.95, 7.05, -0.55);
+  const auto roof = points.add(at);
+  for (const double metres : above) points.add(at + Eigen::Vector3d(0.0, 0.0, metres));
+  points.add(at + Eigen::Vector3d(0.2, 0.0, -0.4));  // Beside it.
+  CAPTURE(above);
+  EvidenceMap::Blocks::Cursor cursor;
+  CHECK(points.map.is_roof(roof, cursor) == is_roof);
+}
+
 TEST_CASE("a column goes on over gaps, but not over wide ones") {
   // Voxels of 0.2 m at these heights above the first one, metres, one of which is aside.
   toy::MapPoints points;

@@ -197,6 +197,37 @@ TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands 
   }
 }
 
+TEST_CASE("a beam just below a roof that is seen from below is not heard") {
+  // A roof, 18 m ahead and as high above the sensor as `up`, and below it, if anything, what is
+  // so many metres lower. A scan sees farther, and passes the roof so much below it.
+  struct Roof {
+    double passed_below, up, below;
+    bool is_heard;
+  };
+  const auto [passed_below, up, below, is_heard] = GENERATE(
+      Roof{0.05, 1.05, 0.0, false}, Roof{-0.05, 1.05, 0.0, false}, Roof{0.01, 1.05, 0.0, true},
+      Roof{-0.01, 1.05, 0.0, true}, Roof{0.05, -0.55, 0.0, true}, Roof{0.05, 1.05, 0.2, false},
+      Roof{0.05, 1.05, 0.4, true}, Roof{0.05, 1.05, 1.6, true}, Roof{0.05, 1.05, 1.8, false});
+  toy::MapPoints points;
+  EvidenceMap& map = points.map;
+  const Eigen::Vector3d place(18.05, 0.05, up), upward = Eigen::Vector3d::UnitZ();
+  const auto roof = points.add(place);
+  if (below > 0.0) points.add(place - below * upward);
+  Scan scan;
+  scan.points.push_back((2.0 * (place - passed_below * upward)).cast<float>());
+  SensorModel model = toy::Scanner{}.model();
+  model.azimuth_step = 0.25 * kDegree;
+  model.elevation_step = 1.7 * kDegree;
+  RangeImage image(model, Parameters{});
+  image.fill(scan);
+  const PosedImage posed{&image, scan.T_world_sensor, 0};
+  add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
+  CAPTURE(passed_below, up, below);
+  REQUIRE(map.evidence(roof).free_scans == 1);
+  CHECK(map.evidence(roof).beside.column_before == (is_heard ? 0 : 1));
+  CHECK(map.evidence(roof).leading_free == (is_heard ? 1 : 0));
+}
+
 TEST_CASE("decisions on many voxels are those of the formula") {
   std::mt19937 random(9);
   const auto count = [&](unsigned most) { return static_cast<std::uint16_t>(random() % most); };

@@ -25,7 +25,7 @@ class Scene {
   Parameters parameters;
   toy::MapPoints in_map;
   EvidenceMap& map = in_map.map;
-  EvidenceMap ground{EvidenceMaps::kGroundEdges * 0.2};
+  EvidenceMaps maps{Parameters{}};  ///< Only of the ground.
   LocatedScan scan;
 
   void add(const Eigen::Vector3d& point, Verdict verdict, int agree_scans = 3) {
@@ -49,7 +49,7 @@ class Scene {
   std::uint32_t see_ground(const Eigen::Vector3d& point) {
     const toy::MapPoint at(point);
     EvidenceMap::Blocks::Cursor cursor;
-    return ground.add(ground_cell(at.cell), ground_parts(at.cell, at.parts), cursor);
+    return maps.ground.add(ground_cell(at.cell), ground_parts(at.cell, at.parts), cursor);
   }
   /// Adds a point that was taken for ground.
   void add_ground(const Eigen::Vector3d& point, Verdict verdict) {
@@ -332,18 +332,44 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
       verdicts.push_back(k < dynamic ? Verdict::kDynamic : Verdict::kStatic);
       scene.add({5.05, 0.25, 0.3 + 0.06 * k}, verdicts.back());  // In the column beside.
     }
-    // What is higher than 1 m does not stand on these points.
+    // What is higher than 1 m and 0.03 of its range, 0.16 m, does not stand on these points.
     for (int k = 0; k < 100; ++k) {
       verdicts.push_back(Verdict::kDynamic);
-      scene.add({5.05, 0.05, 1.0 + 0.01 * k}, Verdict::kDynamic);
+      scene.add({5.05, 0.05, 1.17 + 0.01 * k}, Verdict::kDynamic);
     }
     Verdicts decided = verdicts;
-    decide_low_points(scene.scan, scene.ground, scene.parameters, RunContext{}, decided);
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, decided);
     const auto feet = std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic);
     CHECK(feet == (dynamic == 3   ? 0
                    : dynamic == 5 ? 2
                                   : 3));  // With half of it they are as they were.
     CHECK(std::equal(decided.begin() + 3, decided.end(), verdicts.begin() + 3));
+  }
+}
+
+TEST_CASE("far away, low points follow what stands higher up and farther aside") {
+  // 30 m away, 1.9 m are 1 m and 0.03 times the range. Beams 2 degrees apart are 1.05 m apart
+  // there, and 0.6 of that are three columns more than the one beside.
+  struct Standing {
+    double high, aside;
+    bool is_followed;
+  };
+  const float beams_apart = GENERATE(0.0349F, 0.0F);
+  for (const double range : {30.05, 5.05}) {
+    for (const auto& [high, aside, is_followed] :
+         {Standing{1.85, 0.0, true}, {1.95, 0.0, false}, {0.5, 0.8, true}, {0.5, 1.0, false}}) {
+      for (const double side : {-1.0, 1.0}) {
+        Scene scene;
+        scene.maps.beams_apart = beams_apart;
+        scene.add({range, 0.05, 0.1}, Verdict::kStatic);
+        scene.add({range, 0.05 + side * aside, high}, Verdict::kDynamic);
+        Verdicts verdicts = scene.scan.verdict;
+        decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
+        CAPTURE(range, high, aside, side, beams_apart);
+        const bool is_near = aside == 0.0 || beams_apart > 0.0F;
+        CHECK((verdicts[0] == Verdict::kDynamic) == (is_followed && is_near && range > 30.0));
+      }
+    }
   }
 }
 
@@ -368,7 +394,7 @@ TEST_CASE("what is taken for ground follows what moves above it, if the ground i
         // The mean stays where it was, within 1 mm. What scans saw through stays dynamic, whatever
         // stands above it.
         if (leg == Verdict::kDynamic) expected[3] = Verdict::kDynamic;
-        decide_low_points(scene.scan, scene.ground, scene.parameters, RunContext{}, verdicts);
+        decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
         CHECK(verdicts == expected);
       }
     }
@@ -383,7 +409,7 @@ TEST_CASE("what was no ground when it was seen follows what moves above it") {
     scene.scan.voxel.back() = EvidenceMap::kNone;  // Nor has it a voxel of the ground.
     scene.add_column(5.05, 0.05, 0.35, 6, Verdict::kDynamic);
     Verdicts verdicts = scene.scan.verdict;
-    decide_low_points(scene.scan, scene.ground, scene.parameters, RunContext{}, verdicts);
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
     CHECK(verdicts[0] == (ground_evidence ? Verdict::kDynamic : Verdict::kStatic));
   }
 }
@@ -414,10 +440,12 @@ std::vector<double> slow_above_ground(const LocatedScan& scan) {
 }
 
 /// Step 8 with every column counted. 1 for each point that is dynamic afterwards.
-std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before, float low) {
+std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before, float low,
+                                 float beams_apart) {
   std::map<std::pair<int, int>, std::array<int, 2>> standing;  // Fixed and dynamic points.
   for (std::size_t k = 0; k < before.size(); ++k) {
-    if (scan.height[k] < low || scan.height[k] >= 1.0F) continue;
+    const float range = scan.scan.points[k].norm();
+    if (scan.height[k] < low || scan.height[k] >= 1.0F + 0.03F * range) continue;
     ++standing[{scan.in_map.x[k], scan.in_map.y[k]}][before[k] == Verdict::kDynamic ? 1 : 0];
   }
   const std::vector<double> above_ground = slow_above_ground(scan);
@@ -426,10 +454,11 @@ std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before
     dynamic[k] = before[k] == Verdict::kDynamic ? 1 : 0;
     const bool is_ground = scan.voxel[k] == EvidenceMap::kNone;
     if (is_ground ? above_ground[k] < 0.01 : scan.height[k] >= low) continue;
+    const int reach = 1 + static_cast<int>(scan.scan.points[k].norm() * 0.6F * beams_apart / 0.2F);
     std::array<int, 2> sum{};
     for (const auto& [at, points] : standing) {
-      if (std::abs(at.first - scan.in_map.x[k]) > 1) continue;
-      if (std::abs(at.second - scan.in_map.y[k]) > 1) continue;
+      if (std::abs(at.first - scan.in_map.x[k]) > reach) continue;
+      if (std::abs(at.second - scan.in_map.y[k]) > reach) continue;
       for (std::size_t i = 0; i < 2; ++i) sum[i] += points[i];
     }
     if (sum[1] > 0 && sum[1] >= 2 * sum[0]) {
@@ -445,26 +474,30 @@ std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before
 
 TEST_CASE("low points are those of a count over all columns") {
   std::mt19937 random(21);
-  std::uniform_real_distribution<double> place(-1.5, 1.5), height(0.07, 1.3), low(0.0, 0.07);
+  std::uniform_real_distribution<double> place(-1.5, 1.5), height(0.07, 2.3), low(0.0, 0.07);
   int changed = 0, changed_ground = 0;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 12; ++round) {
+    const double away = 10.0 * (round % 3);
     Scene scene;
+    scene.maps.beams_apart = 0.035F;
     Verdicts before;
     for (int i = 0; i < 1200; ++i) {
       const bool is_ground = random() % 3 == 0;
       const double z = is_ground ? low(random) : height(random);
-      const Eigen::Vector3d at(place(random), place(random), z);
+      const Eigen::Vector3d at(away + place(random), place(random), z);
       // Dynamic ones gather on one side, of the ground fewer.
-      const bool dynamic = at.x() > 1.0 ? random() % 4 > (is_ground ? 2U : 0U) : random() % 20 == 0;
+      const bool dynamic =
+          at.x() - away > 1.0 ? random() % 4 > (is_ground ? 2U : 0U) : random() % 20 == 0;
       before.push_back(dynamic             ? Verdict::kDynamic
                        : random() % 5 == 0 ? Verdict::kUndecided
                                            : Verdict::kStatic);
       is_ground ? scene.add_ground(at, before.back()) : scene.add(at, before.back());
     }
     Verdicts decided = before;
-    decide_low_points(scene.scan, scene.ground, scene.parameters, RunContext{}, decided);
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, decided);
     const std::vector<int> expected =
-        slow_low_points(scene.scan, before, static_cast<float>(scene.parameters.object_height));
+        slow_low_points(scene.scan, before, static_cast<float>(scene.parameters.object_height),
+                        scene.maps.beams_apart);
     for (std::size_t k = 0; k < decided.size(); ++k) {
       REQUIRE((decided[k] == Verdict::kDynamic) == (expected[k] == 1));
       if ((before[k] == Verdict::kDynamic) == (expected[k] == 1)) continue;
