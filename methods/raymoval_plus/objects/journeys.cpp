@@ -169,10 +169,8 @@ bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey&
   const bool was_before = before > parameters.settled_scans;
   const bool is_after = after > parameters.settled_scans;
   const double long_time = parameters.settled_scans * (journey.motion ? 1.0 : kLongerStay);
-  // What moved has come only if its track leads here from elsewhere, and not if it begins here.
-  const std::size_t elsewhere = journey.motion ? 1 : 0;
-  const bool came = journey.dynamic.first + elsewhere <= stay.first && before > long_time;
-  const bool left = journey.dynamic.last >= stay.last + elsewhere && after > long_time;
+  const bool came = journey.dynamic.first <= stay.first && before > long_time;
+  const bool left = journey.dynamic.last >= stay.last && after > long_time;
   return came || left || (was_before && is_after);
 }
 

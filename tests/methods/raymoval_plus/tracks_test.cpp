@@ -145,22 +145,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("who walks on goes where his track begins, though scans agreed there before") {
-  // He stands for forty scans, in the first of which something is dynamic, and walks for ten. The
-  // track that ends twenty scans before may have been his. The same in the other order of time.
-  for (const bool comes : {false, true}) {
-    Scans scans;
-    for (int i = 0; i < 50; ++i) {
-      const int time = comes ? 49 - i : i;
-      scans.push_back(
-          {walker(time < 40 ? 0 : time - 39, time % 40 == 0 || time > 40 ? 18 : 0, 60)});
-      scans.back()[0].first_agree = comes ? 10.0 : -20.0;
-      scans.back()[0].last_agree = comes ? 69.0 : 39.0;
-    }
-    CHECK(marked_by_tracks(scans)[25] == std::vector{0});
-  }
-}
-
 TEST_CASE("a pole stays before which somebody came or left for some scans") {
   // Nothing moves: it is dynamic in four of ten scans. Scans agree some scans before or after, or
   // both. If it is dynamic until the last scan of its track, none should agree long after that; if
