@@ -50,9 +50,10 @@ struct HeardScans {
 /// many agree as tell the heights of a voxel's points. EXPERIMENTS.md says what others do.
 constexpr int kColumnTimes = 3;
 
-/// Below and above a roof that is seen from below, beams pass by so many metres near it before they
-/// meet it: the noise of what is measured, not the half voxel by which points of a thing's side may
-/// lie higher or lower than those that were seen.
+/// A beam sees through a roof that is seen from below if it passes at most so many metres below or
+/// above its points: the noise of what is measured. With anything else it is half a voxel, for a
+/// thing's side goes on below and above the points that were seen; a roof does not, and a beam
+/// passes closer than that just before it meets it.
 constexpr float kRoofReach = 0.02F;
 
 /// Where enough scans agree, those beside the voxel's points are left out. Before the first and

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/objects/low_points.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "methods/common/dense_blocks.h"
@@ -8,14 +9,17 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of step 8; EXPERIMENTS.md has each at half and at double its value.
+// Numbers of step 8; EXPERIMENTS.md says what others do.
 /// What is higher than so many metres does not stand on the points near the ground: legs and wheels
 /// end below, tree tops and awnings do not. Far away the next beam above a wheel meets its car
 /// higher up: so many metres more for each metre of range.
 constexpr float kHighest = 1.0F, kHigherByRange = 0.03F;
 /// Where beams are far apart, the next one above a bumper meets the bonnet behind it: what stands
 /// is looked for so much farther aside, as a share of how far apart beams are at the point's range.
+/// No more than so many columns to either side: a bonnet is not longer, and beams far apart must
+/// not cost more.
 constexpr float kWiderByBeams = 0.6F;
+constexpr int kMostColumns = 20;
 /// Points near the ground follow the dynamic points above them if these are so many times the
 /// others, and the other way round. Between, they stay what their voxels are.
 constexpr int kMajority = 2;
@@ -82,7 +86,8 @@ class LowPoints {
   /// more where beams are farther apart.
   template <class Visit>
   void for_columns_around(std::size_t k, Visit&& visit) {
-    const int reach = 1 + static_cast<int>(columns_wider_by_range_ * range(k));
+    const float wider = std::min<float>(columns_wider_by_range_ * range(k), kMostColumns - 1);
+    const int reach = 1 + static_cast<int>(wider);
     for (int y = -reach; y <= reach; ++y) {
       for (int x = -reach; x <= reach; ++x) {
         visit(columns_.make(column_of(k) + VoxelIndex(x, y, 0), cursor_));

@@ -115,9 +115,10 @@ TEST_CASE("scans that pass beside a voxel's points are counted by themselves as 
   CHECK(evidence.beside.free_since == 1);
 }
 
-TEST_CASE("a beam above or below a roof passes beside its points, one at their height does not") {
-  // A roof 1 m above the sensor and 20 m ahead, whose points are 1 cm above and below their mean,
-  // and a scan that sees farther in some beams: so high above that mean, metres.
+TEST_CASE("a beam above or below points passes beside them, one at their height does not") {
+  // The top of a van, 1 m above the sensor and 20 m ahead, whose points are 1 cm above and below
+  // their mean, and its side; and a scan that sees farther in some beams: so high above that mean,
+  // metres.
   struct Beams {
     std::vector<double> above;
     bool is_beside;
@@ -130,6 +131,7 @@ TEST_CASE("a beam above or below a roof passes beside its points, one at their h
   EvidenceMap& map = points.map;
   const auto roof = points.add({20.02, 0.02, 1.03});
   points.add({20.06, 0.06, 1.05});
+  points.add({20.04, 0.04, 0.25});
   Scan scan;
   if (is_tilted) {
     scan.T_world_sensor.linear() =

@@ -373,6 +373,18 @@ TEST_CASE("far away, low points follow what stands higher up and farther aside")
   }
 }
 
+TEST_CASE("however far apart beams are, low points look no more than twenty columns aside") {
+  for (const double aside : {4.0, 4.2}) {
+    Scene scene;
+    scene.maps.beams_apart = 0.5F;  // 15 m apart at that range.
+    scene.add({30.05, 0.05, 0.1}, Verdict::kStatic);
+    scene.add({30.05, 0.05 + aside, 0.5}, Verdict::kDynamic);
+    Verdicts verdicts = scene.scan.verdict;
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
+    CHECK((verdicts[0] == Verdict::kDynamic) == (aside < 4.1));
+  }
+}
+
 TEST_CASE("what is taken for ground follows what moves above it, if the ground is lower there") {
   // A foot whose points are taken for ground, and a leg above it. A hundred points of earlier scans
   // say that the ground is at `base`, which the terrain says is 0: a road, or a pavement beside it.
