@@ -45,9 +45,10 @@ if(RAYMOVAL_PCH)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/no_code.cpp CONTENT "")
   add_library(raymoval_headers OBJECT ${PROJECT_BINARY_DIR}/generated/no_code.cpp)
   target_link_libraries(raymoval_headers PRIVATE raymoval_options Eigen3::Eigen)
-  target_precompile_headers(raymoval_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <cstdio>
-    <filesystem> <functional> <limits> <map> <memory> <optional> <set> <string> <string_view>
-    <utility> <variant> <vector> <Eigen/Geometry>)
+  set(raymoval_common_headers <algorithm> <array> <cmath> <cstdint> <cstdio> <filesystem> <functional>
+    <limits> <map> <memory> <optional> <set> <string> <string_view> <utility> <variant> <vector>
+    <Eigen/Geometry>)
+  target_precompile_headers(raymoval_headers PRIVATE ${raymoval_common_headers})
   # GCC 12 does not take what is inlined of these headers for a system's, and warns wrongly on it
   # (the kin of GCC bug 105651). A build without them has these warnings.
   target_compile_options(raymoval_options INTERFACE
@@ -56,11 +57,23 @@ if(RAYMOVAL_PCH)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-error=invalid-pch>)
 endif()
 
-# raymoval_precompile(TARGET): for a library.
+# raymoval_precompile(TARGET [HEADER...]): for a library. With more headers, or options of its own, it
+# has precompiled headers of its own, for those of others would not fit.
 function(raymoval_precompile target)
-  if(RAYMOVAL_PCH)
+  if(NOT RAYMOVAL_PCH)
+    return()
+  endif()
+  if(ARGN)
+    target_precompile_headers(${target} PRIVATE ${raymoval_common_headers} ${ARGN})
+  else()
     target_precompile_headers(${target} REUSE_FROM raymoval_headers)
   endif()
+endfunction()
+
+# raymoval_optimise_little(TARGET): for a library of which nothing runs for long. More takes half as
+# long again to compile.
+function(raymoval_optimise_little target)
+  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
 endfunction()
 
 # A room is a folder of the house and one static library, raymoval::<name>. Every source file below
