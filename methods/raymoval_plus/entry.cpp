@@ -28,18 +28,14 @@ MethodEntry raymoval_plus_entry() {
        {0.9458F, 0.9839F},
        {0.9694F, 0.9940F},
        {0.9844F, 0.9989F}}};
-  // Who is to answer soon has not yet seen what comes after. So more scans from before are kept,
-  // and fewer scans, or voxels around, have to say that something moves; EXPERIMENTS.md.
+  // Who answers soon has not seen yet what comes after: more scans from before are kept, and fewer
+  // voxels around have to be dynamic. EXPERIMENTS.md.
   entry.variants = {
       {"offline", "Every point answered from all scans.", false, {}},
       {"online",
        "Each scan answered when it comes.",
        true,
-       {{"at_once", true},
-        {"history_scans", 40},
-        {"history_step", 1},
-        {"vote_share", 0.4},
-        {"free_per_agree", 0.25}}},
+       {{"at_once", true}, {"history_scans", 40}, {"history_step", 1}, {"vote_share", 0.4}}},
       {"online-lag",
        "Each scan answered once, a second after it came (delay), from the scans up to then.",
        true,
