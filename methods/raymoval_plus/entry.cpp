@@ -9,7 +9,7 @@ MethodEntry raymoval_plus_entry() {
   entry.sentence =
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
   entry.source = "this project";
-  entry.version = "27";
+  entry.version = "28";
   entry.confidence = {
       "What was decided on a point, the evidence of its voxel, and the dynamic share of its "
       "object.",
@@ -30,20 +30,16 @@ MethodEntry raymoval_plus_entry() {
        {0.9844F, 0.9989F}}};
   // Who answers soon has not seen yet what comes after: more scans from before are kept, and fewer
   // voxels around have to be dynamic. EXPERIMENTS.md.
+  const Configuration at_once = {
+      {"at_once", true}, {"history_scans", 40}, {"history_step", 1}, {"vote_share", 0.4}};
+  Configuration a_second_later = at_once;
+  a_second_later.emplace_back("delay", 1.0);
   entry.variants = {
       {"offline", "Every point answered from all scans.", false, {}},
-      {"online",
-       "Each scan answered when it comes.",
-       true,
-       {{"at_once", true}, {"history_scans", 40}, {"history_step", 1}, {"vote_share", 0.4}}},
+      {"online", "Each scan answered when it comes.", true, at_once},
       {"online-lag",
-       "Each scan answered once, a second after it came (delay), from the scans up to then.",
-       true,
-       {{"at_once", true},
-        {"delay", 1.0},
-        {"history_scans", 40},
-        {"history_step", 1},
-        {"vote_share", 0.4}}},
+       "Each scan answered once, a second after it came (delay), from the scans up to then.", true,
+       a_second_later},
       {"online-map",
        "One pass as the scans come, every point answered by the map as it is in the end.",
        false,

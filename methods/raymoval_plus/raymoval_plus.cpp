@@ -56,7 +56,7 @@ class Run {
   /// One pass, in which each scan is answered from those up to a fixed time after it.
   void online() {
     WaitingScans waiting(parameters_.delay);
-    RecentObjects recent(parameters_);
+    RecentObjects recent(parameters_, maps_.steps);
     const auto answer_first = [&] {
       answer_by_now(waiting.first(), recent);
       waiting.remove_first();

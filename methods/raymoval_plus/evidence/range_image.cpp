@@ -68,6 +68,11 @@ bool is_met(Observation observation) {
   return observation == Observation::kAgree || observation == Observation::kOccluded;
 }
 
+/// The `n`th of 0, -1, 1, -2, 2, ...: the middle of a window tells the most.
+int from_the_middle(int n) {
+  return n % 2 == 0 ? n / 2 : -(n + 1) / 2;
+}
+
 kernels::Sighted sighted_at(const kernels::ChosenSights& chosen, std::size_t i) {
   return static_cast<kernels::Sighted>(chosen.sighted[i]);
 }
@@ -285,10 +290,11 @@ float RangeImage::nearest_in_row(int row, int column, int wide) const {
 
 template <class Stops>
 bool RangeImage::any_beam(int column, int row, const Window& window, Stops&& stops) const {
-  const auto [wide, high] = window;
-  for (int r = std::max(row - high, 0); r <= std::min(row + high, image_.rows - 1); ++r) {
-    for (int c = column - wide; c <= column + wide; ++c) {
-      if (stops(lowest_at(r, wrapped(c)))) return true;
+  for (int i = 0; i <= 2 * window.high; ++i) {
+    const int r = row + from_the_middle(i);
+    if (r < 0 || r >= image_.rows) continue;
+    for (int k = 0; k <= 2 * window.wide; ++k) {
+      if (stops(lowest_at(r, wrapped(column + from_the_middle(k))))) return true;
     }
   }
   return false;

@@ -360,7 +360,7 @@ TEST_CASE("far away, low points follow what stands higher up and farther aside")
          {Standing{1.85, 0.0, true}, {1.95, 0.0, false}, {0.5, 0.8, true}, {0.5, 1.0, false}}) {
       for (const double side : {-1.0, 1.0}) {
         Scene scene;
-        scene.maps.beams_apart = beams_apart;
+        scene.maps.steps.elevation = beams_apart;
         scene.add({range, 0.05, 0.1}, Verdict::kStatic);
         scene.add({range, 0.05 + side * aside, high}, Verdict::kDynamic);
         Verdicts verdicts = scene.scan.verdict;
@@ -373,10 +373,50 @@ TEST_CASE("far away, low points follow what stands higher up and farther aside")
   }
 }
 
+TEST_CASE("a drop of rain near by takes no low points along, and what has two points does") {
+  // Two columns 0.0035 apart fit into 10 cm up to 14.3 m.
+  struct Above {
+    double range;
+    int points;
+    float step;
+    bool is_followed;
+  };
+  for (const auto& [range, points, step, is_followed] : {Above{5.05, 1, 0.0035F, false},
+                                                         {5.05, 2, 0.0035F, true},
+                                                         {14.05, 1, 0.0035F, false},
+                                                         {14.65, 1, 0.0035F, true},
+                                                         {5.05, 1, 0.0F, true},
+                                                         {5.05, 1, 0.02F, true}}) {
+    Scene scene;
+    scene.maps.steps.azimuth = step;
+    scene.add({range, 0.05, 0.1}, Verdict::kStatic);
+    for (int k = 0; k < points; ++k) {
+      scene.add({range, 0.05, 0.5 + 0.1 * k}, k == 0 ? Verdict::kDynamic : Verdict::kUndecided);
+    }
+    Verdicts verdicts = scene.scan.verdict;
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
+    CAPTURE(range, points, step);
+    CHECK((verdicts[0] == Verdict::kDynamic) == is_followed);
+  }
+}
+
+TEST_CASE("two drops are two lone points, unless they are as near as points of one thing") {
+  // A third of 0.3 m and of 0.01 of their range, 5.08 m, is 0.117 m.
+  for (const double apart : {0.11, 0.12}) {
+    Scene scene;
+    scene.maps.steps.azimuth = 0.0035F;
+    scene.add({5.05, 0.05, 0.1}, Verdict::kStatic);
+    for (const double z : {0.5, 0.5 + apart}) scene.add({5.05, 0.05, z}, Verdict::kDynamic);
+    Verdicts verdicts = scene.scan.verdict;
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
+    CHECK((verdicts[0] == Verdict::kDynamic) == (apart < 0.115));
+  }
+}
+
 TEST_CASE("however far apart beams are, low points look no more than twenty columns aside") {
   for (const double aside : {4.0, 4.2}) {
     Scene scene;
-    scene.maps.beams_apart = 0.5F;  // 15 m apart at that range.
+    scene.maps.steps.elevation = 0.5F;  // 15 m apart at that range.
     scene.add({30.05, 0.05, 0.1}, Verdict::kStatic);
     scene.add({30.05, 0.05 + aside, 0.5}, Verdict::kDynamic);
     Verdicts verdicts = scene.scan.verdict;
@@ -451,13 +491,34 @@ std::vector<double> slow_above_ground(const LocatedScan& scan) {
   return above;
 }
 
+/// The points that no other one above the ground is near.
+std::vector<bool> slow_lone_points(const LocatedScan& scan, float steps) {
+  std::vector<bool> is_alone(scan.voxel.size(), false);
+  for (std::size_t k = 0; k < is_alone.size(); ++k) {
+    if (scan.voxel[k] == EvidenceMap::kNone) continue;
+    is_alone[k] = scan.scan.points[k].norm() <= 0.05F / steps;
+    for (std::size_t other = 0; other < is_alone.size(); ++other) {
+      if (other == k || scan.voxel[other] == EvidenceMap::kNone) continue;
+      const Eigen::Vector3f &a = scan.scan.points[k], &b = scan.scan.points[other];
+      const float reach = (0.3F + 0.01F * std::min(a.norm(), b.norm())) / 3.0F;
+      if ((a - b).norm() <= reach) is_alone[k] = false;
+    }
+  }
+  return is_alone;
+}
+
 /// Step 8 with every column counted. 1 for each point that is dynamic afterwards.
 std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before, float low,
-                                 float beams_apart) {
-  std::map<std::pair<int, int>, std::array<int, 2>> standing;  // Fixed and dynamic points.
+                                 const DirectionSteps& steps) {
+  std::vector<bool> is_standing(before.size());
   for (std::size_t k = 0; k < before.size(); ++k) {
     const float range = scan.scan.points[k].norm();
-    if (scan.height[k] < low || scan.height[k] >= 1.0F + 0.03F * range) continue;
+    is_standing[k] = scan.height[k] >= low && scan.height[k] < 1.0F + 0.03F * range;
+  }
+  std::map<std::pair<int, int>, std::array<int, 2>> standing;  // Fixed and dynamic points.
+  const std::vector<bool> is_alone = slow_lone_points(scan, steps.azimuth);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (!is_standing[k] || (is_alone[k] && before[k] == Verdict::kDynamic)) continue;
     ++standing[{scan.in_map.x[k], scan.in_map.y[k]}][before[k] == Verdict::kDynamic ? 1 : 0];
   }
   const std::vector<double> above_ground = slow_above_ground(scan);
@@ -466,7 +527,8 @@ std::vector<int> slow_low_points(const LocatedScan& scan, const Verdicts& before
     dynamic[k] = before[k] == Verdict::kDynamic ? 1 : 0;
     const bool is_ground = scan.voxel[k] == EvidenceMap::kNone;
     if (is_ground ? above_ground[k] < 0.01 : scan.height[k] >= low) continue;
-    const int reach = 1 + static_cast<int>(scan.scan.points[k].norm() * 0.6F * beams_apart / 0.2F);
+    const int reach =
+        1 + static_cast<int>(scan.scan.points[k].norm() * 0.6F * steps.elevation / 0.2F);
     std::array<int, 2> sum{};
     for (const auto& [at, points] : standing) {
       if (std::abs(at.first - scan.in_map.x[k]) > reach) continue;
@@ -488,10 +550,10 @@ TEST_CASE("low points are those of a count over all columns") {
   std::mt19937 random(21);
   std::uniform_real_distribution<double> place(-1.5, 1.5), height(0.07, 2.3), low(0.0, 0.07);
   int changed = 0, changed_ground = 0;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < 24; ++round) {
     const double away = 10.0 * (round % 3);
     Scene scene;
-    scene.maps.beams_apart = 0.035F;
+    scene.maps.steps = {0.0035F, 0.035F};
     Verdicts before;
     for (int i = 0; i < 1200; ++i) {
       const bool is_ground = random() % 3 == 0;
@@ -507,9 +569,8 @@ TEST_CASE("low points are those of a count over all columns") {
     }
     Verdicts decided = before;
     decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, decided);
-    const std::vector<int> expected =
-        slow_low_points(scene.scan, before, static_cast<float>(scene.parameters.object_height),
-                        scene.maps.beams_apart);
+    const std::vector<int> expected = slow_low_points(
+        scene.scan, before, static_cast<float>(scene.parameters.object_height), scene.maps.steps);
     for (std::size_t k = 0; k < decided.size(); ++k) {
       REQUIRE((decided[k] == Verdict::kDynamic) == (expected[k] == 1));
       if ((before[k] == Verdict::kDynamic) == (expected[k] == 1)) continue;

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "methods/raymoval_plus/evidence/evidence_maps.h"
+#include "methods/raymoval_plus/objects/object_summary.h"
+
+namespace raymoval::raymoval_plus_method {
+
+/// Whether an object has far fewer points than a surface as large as its box would have: what hangs
+/// together by chance, as drops, flakes or spray, is no thing that can be followed. False where the
+/// steps are unknown.
+bool is_sparse(const ObjectSummary& object, const DirectionSteps& steps);
+
+/// Leaves out what is sparse.
+void erase_sparse(const DirectionSteps& steps, std::vector<ObjectSummary>& objects);
+
+}  // namespace raymoval::raymoval_plus_method
