@@ -390,13 +390,24 @@ TEST_CASE("a drop of rain near by takes no low points along, and what has two po
     Scene scene;
     scene.maps.steps.azimuth = step;
     scene.add({range, 0.05, 0.1}, Verdict::kStatic);
-    for (int k = 0; k < points; ++k) {
-      scene.add({range, 0.05, 0.5 + 0.1 * k}, k == 0 ? Verdict::kDynamic : Verdict::kUndecided);
-    }
+    for (int k = 0; k < points; ++k) scene.add({range, 0.05, 0.5 + 0.1 * k}, Verdict::kDynamic);
     Verdicts verdicts = scene.scan.verdict;
     decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
     CAPTURE(range, points, step);
     CHECK((verdicts[0] == Verdict::kDynamic) == is_followed);
+  }
+}
+
+TEST_CASE("a point above those of a foot is no drop") {
+  // 5 m away a point has to be within 0.117 m.
+  for (const double foot : {0.25, 0.2}) {
+    Scene scene;
+    scene.maps.steps.azimuth = 0.0035F;
+    scene.add({5.05, 0.05, foot}, Verdict::kStatic);
+    scene.add({5.05, 0.05, 0.34}, Verdict::kDynamic);
+    Verdicts verdicts = scene.scan.verdict;
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
+    CHECK((verdicts[0] == Verdict::kDynamic) == (foot > 0.22));
   }
 }
 
