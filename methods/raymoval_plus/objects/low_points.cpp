@@ -59,7 +59,7 @@ class LowPoints {
                                 static_cast<float>(parameters.voxel_size)),
         lone_gap_(kLoneReach * static_cast<float>(parameters.cluster_gap)),
         lone_growth_(kLoneReach * static_cast<float>(parameters.cluster_growth)),
-        lone_range_(maps.steps.azimuth > 0.0F ? 0.5F * kLoneWidth / maps.steps.azimuth : 0.0F),
+        lone_range_(lone_range_of(maps.steps, parameters)),
         lone_columns_(static_cast<int>(
             std::ceil((lone_gap_ + lone_growth_ * lone_range_) / parameters.voxel_size))),
         asks_ground_(parameters.ground_evidence),
@@ -74,6 +74,12 @@ class LowPoints {
   }
 
  private:
+  /// A step that no sensor has must not make it larger than what is looked at.
+  static float lone_range_of(const DirectionSteps& steps, const Parameters& parameters) {
+    if (steps.azimuth <= 0.0F) return 0.0F;
+    return std::min(0.5F * kLoneWidth / steps.azimuth,
+                    static_cast<float>(parameters.evidence_range_max));
+  }
   [[nodiscard]] bool is_standing(std::size_t k) const {
     const float height = scan_.height[k];
     if (height < low_) return false;

@@ -374,14 +374,17 @@ TEST_CASE("far away, low points follow what stands higher up and farther aside")
 }
 
 TEST_CASE("a drop of rain near by takes no low points along, and what has two points does") {
-  // Two columns 0.0035 apart fit into 10 cm up to 14.3 m.
+  // Two columns 0.0035 apart fit into 10 cm up to 14.3 m. Nothing is asked of what is farther than
+  // 80 m.
   struct Above {
     double range;
     int points;
     float step;
     bool is_followed;
   };
-  for (const auto& [range, points, step, is_followed] : {Above{5.05, 1, 0.0035F, false},
+  for (const auto& [range, points, step, is_followed] : {Above{70.05, 1, 1e-6F, false},
+                                                         {90.05, 1, 1e-6F, true},
+                                                         {5.05, 1, 0.0035F, false},
                                                          {5.05, 2, 0.0035F, true},
                                                          {14.05, 1, 0.0035F, false},
                                                          {14.65, 1, 0.0035F, true},
