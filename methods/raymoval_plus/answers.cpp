@@ -11,7 +11,6 @@
 #include "methods/raymoval_plus/objects/point_evidence.h"
 #include "methods/raymoval_plus/objects/point_runs.h"
 #include "methods/raymoval_plus/objects/reasons.h"
-#include "methods/raymoval_plus/objects/sparse_objects.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -79,8 +78,8 @@ class Answers {
     const std::size_t index = scan.index;
     workspaces_.with_one([&](SegmentedScan& segmented) {
       segment(std::move(scan), segmented);
-      objects_[index] = summarise_objects(segmented, maps_.standing, parameters_, of_scan_);
-      erase_sparse(maps_.steps, objects_[index]);
+      objects_[index] =
+          summarise_objects(segmented, maps_.standing, maps_.steps, parameters_, of_scan_);
       runs_[index] = remembered_points(segmented, objects_[index], parameters_);
       Verdicts verdicts =
           decide_objects(segmented, maps_.standing, {}, parameters_, of_scan_);  // 6

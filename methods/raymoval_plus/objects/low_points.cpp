@@ -103,12 +103,15 @@ class LowPoints {
     return {scan_.in_map.x[k], scan_.in_map.y[k], 0};
   }
   [[nodiscard]] float range(std::size_t k) const { return scan_.scan.points[k].norm(); }
-  /// Calls `visit(standing)` with the column of a point and those around it: eight near by, and
-  /// more where beams are farther apart.
-  template <class Visit>
-  void for_columns_around(std::size_t k, Visit&& visit) {
+  /// How many columns to either side may belong to what stands at a point: one near by, and more
+  /// where beams are farther apart.
+  [[nodiscard]] int reach(std::size_t k) const {
     const float wider = std::min<float>(columns_wider_by_range_ * range(k), kMostColumns - 1);
-    const int reach = 1 + static_cast<int>(wider);
+    return 1 + static_cast<int>(wider);
+  }
+  /// Calls `visit(standing)` with the column of a point and those around it.
+  template <class Visit>
+  void for_columns_around(std::size_t k, int reach, Visit&& visit) {
     for (int y = -reach; y <= reach; ++y) {
       for (int x = -reach; x <= reach; ++x) {
         visit(columns_.make(column_of(k) + VoxelIndex(x, y, 0), cursor_));
@@ -120,11 +123,8 @@ class LowPoints {
   [[nodiscard]] std::vector<std::size_t> points_beside(const std::vector<std::size_t>& dynamic) {
     for (const std::size_t k : dynamic) {
       if (range(k) > lone_range_) continue;
-      for (int y = -lone_columns_; y <= lone_columns_; ++y) {
-        for (int x = -lone_columns_; x <= lone_columns_; ++x) {
-          columns_.make(column_of(k) + VoxelIndex(x, y, 0), cursor_).is_beside_dynamic = true;
-        }
-      }
+      for_columns_around(k, lone_columns_,
+                         [](Standing& standing) { standing.is_beside_dynamic = true; });
     }
     std::vector<std::size_t> beside;
     for (std::size_t k = 0; k < verdict_.size(); ++k) {
@@ -163,7 +163,7 @@ class LowPoints {
   void count_dynamic() {
     for (const std::size_t k : things()) {
       if (columns_.make(column_of(k), cursor_).dynamic++ > 0) continue;
-      for_columns_around(k, [](Standing& standing) { standing.is_near_dynamic = true; });
+      for_columns_around(k, reach(k), [](Standing& standing) { standing.is_near_dynamic = true; });
     }
   }
   /// Finds the low points whose verdict what stands above them may change.
@@ -173,7 +173,7 @@ class LowPoints {
       if (!is_dynamic(k) && !columns_.get(column_of(k), cursor_).is_near_dynamic) continue;
       if (is_ground(k) && !is_above_ground(k)) continue;
       undecided_.push_back(k);
-      for_columns_around(k, [](Standing& standing) { standing.is_asked = true; });
+      for_columns_around(k, reach(k), [](Standing& standing) { standing.is_asked = true; });
     }
   }
   void count_fixed() {
@@ -185,7 +185,7 @@ class LowPoints {
   }
   void decide(std::size_t k) {
     std::uint32_t dynamic = 0, fixed = 0;
-    for_columns_around(k, [&](const Standing& standing) {
+    for_columns_around(k, reach(k), [&](const Standing& standing) {
       dynamic += standing.dynamic;
       fixed += standing.fixed;
     });

@@ -9,6 +9,7 @@
 #include "methods/raymoval_plus/evidence/evidence.h"
 #include "methods/raymoval_plus/objects/fragments.h"
 #include "methods/raymoval_plus/objects/lasting_points.h"
+#include "methods/raymoval_plus/objects/sparse_objects.h"
 #include "methods/raymoval_plus/objects/whole_things.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -260,6 +261,7 @@ void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
 }
 
 std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const EvidenceMap& map,
+                                             const DirectionSteps& steps,
                                              const Parameters& parameters,
                                              const RunContext& context) {
   if (!parameters.objects || !parameters.tracks) return {};
@@ -289,6 +291,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     object.center /= object.points;
     object.time_s = scan.scan.time_s;
     object.range = static_cast<float>((object.center - sensor).norm());
+    if (is_sparse(object, steps)) continue;
     divide_evidence(std::max(object.points - object.dynamic, 1), object);
     object.cluster = static_cast<int>(c);
     followed.push_back(object);

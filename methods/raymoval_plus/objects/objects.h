@@ -55,8 +55,11 @@ void count_points(SegmentedScan& scan);
 void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
                      const RunContext& context, SegmentedScan& scan);
 
-/// What step 7 needs of the clusters. Those too small or too wide to be followed are left out.
+/// What step 7 needs of the clusters. Those too small, too wide or too sparse to be followed are
+/// left out.
+/// @param steps of the sensor
 std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const EvidenceMap& map,
+                                             const DirectionSteps& steps,
                                              const Parameters& parameters,
                                              const RunContext& context);
 

@@ -17,8 +17,4 @@ bool is_sparse(const ObjectSummary& object, const DirectionSteps& steps) {
   return area_of_each > 0.0 && object.points * area_of_each < kLeastDense * area;
 }
 
-void erase_sparse(const DirectionSteps& steps, std::vector<ObjectSummary>& objects) {
-  std::erase_if(objects, [&](const ObjectSummary& object) { return is_sparse(object, steps); });
-}
-
 }  // namespace raymoval::raymoval_plus_method

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include "methods/raymoval_plus/evidence/evidence_maps.h"
 #include "methods/raymoval_plus/objects/object_summary.h"
 
@@ -12,8 +10,5 @@ namespace raymoval::raymoval_plus_method {
 /// together by chance, as drops, flakes or spray, is no thing that can be followed. False where the
 /// steps are unknown.
 bool is_sparse(const ObjectSummary& object, const DirectionSteps& steps);
-
-/// Leaves out what is sparse.
-void erase_sparse(const DirectionSteps& steps, std::vector<ObjectSummary>& objects);
 
 }  // namespace raymoval::raymoval_plus_method

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "methods/raymoval_plus/objects/journeys.h"
-#include "methods/raymoval_plus/objects/sparse_objects.h"
 
 namespace raymoval::raymoval_plus_method {
 
@@ -14,10 +13,9 @@ RecentObjects::RecentObjects(const Parameters& parameters, const DirectionSteps&
 
 void RecentObjects::take(const SegmentedScan& scan, const EvidenceMap& map,
                          const RunContext& context) {
-  std::vector<ObjectSummary> objects = summarise_objects(scan, map, parameters_, context);
+  std::vector<ObjectSummary> objects = summarise_objects(scan, map, steps_, parameters_, context);
   // No point's own cluster is one, so that none of their pieces would be known.
   std::erase_if(objects, [](const ObjectSummary& object) { return object.is_undivided; });
-  erase_sparse(steps_, objects);
   Pieces pieces = pieces_of(scan, map, objects);
   const std::size_t index = scan.scan.index;
   if (objects_.empty()) first_ = index;

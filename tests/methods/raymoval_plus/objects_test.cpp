@@ -164,7 +164,7 @@ TEST_CASE("tracks may follow what was divided as it was before, unless hardly an
       scene.add({3.3, 0.1 * (k % 10), 0.4 + 0.1 * (k / 10 % 4)}, Verdict::kStatic, 30);
     }
     const auto objects =
-        summarise_objects(scene.segmented(), scene.map, scene.parameters, RunContext{});
+        summarise_objects(scene.segmented(), scene.map, {}, scene.parameters, RunContext{});
     const auto undivided = std::find_if(objects.begin(), objects.end(),
                                         [](const auto& object) { return object.is_undivided; });
     CHECK(scene.dynamic(0, 25 + settled) == 25);
@@ -195,7 +195,7 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
                                                     : VoxelEvidence{0, 3, 0, 0, 75'004, 75'010};
   }
   const auto objects =
-      summarise_objects(scene.segmented(), scene.map, scene.parameters, RunContext{});
+      summarise_objects(scene.segmented(), scene.map, {}, scene.parameters, RunContext{});
   REQUIRE(objects.size() == 1);
   CHECK(objects[0].cluster == 0);
   CHECK(objects[0].points == 8);
@@ -274,6 +274,24 @@ TEST_CASE("points that nobody has seen before are of their own scan's time") {
   CHECK(gone_of_pole(person, {0, 20, 0, 0, 40, 60}) == 12);
 }
 
+TEST_CASE("what is too sparse for the sensor that saw it is not followed, all else is") {
+  // Six points 0.28 m apart, in a box of 1.0 x 0.2 m 5 m away, and a column.
+  Scene scene;
+  for (int i = 0; i < 6; ++i) scene.add({5.05, 0.2 * i, 0.4 + 0.2 * (i % 2)}, Verdict::kDynamic);
+  scene.add_column(9.05, 3.05, 0.4, 6, Verdict::kDynamic);
+  const auto followed = [&](const DirectionSteps& steps) {
+    std::vector<int> clusters;
+    for (const ObjectSummary& object :
+         summarise_objects(scene.segmented(), scene.map, steps, scene.parameters, RunContext{})) {
+      clusters.push_back(object.cluster);
+    }
+    return clusters;
+  };
+  CHECK(followed({}) == std::vector<int>{0, 1});
+  CHECK(followed({0.02F, 0.02F}) == std::vector<int>{0, 1});  // Of 20 directions into the box.
+  CHECK(followed({0.002F, 0.002F}) == std::vector<int>{1});   // Of 2,000.
+}
+
 TEST_CASE("a fragment goes with what goes beside it") {
   // An object of 6 points at x = 5.05 m, y = 0.05 m, and beside it 3 points that no scan saw
   // through. The reach is 2.5 x (0.3 m + 0.01 x their range), 0.881 m at 5.22 m.
@@ -293,7 +311,7 @@ TEST_CASE("a fragment goes with what goes beside it") {
         const SegmentedScan scan = scene.segmented();
         const int marked = scan.cluster_of[0];
         CHECK(scene.dynamic(6, 6 + points, {marked}) == (is_fragment ? 3 : 0));
-        const auto objects = summarise_objects(scan, scene.map, scene.parameters, RunContext{});
+        const auto objects = summarise_objects(scan, scene.map, {}, scene.parameters, RunContext{});
         std::size_t remembered = 0;
         for (const PointRun& run : remembered_points(scan, objects, scene.parameters)) {
           if (objects[run.object].cluster == marked) remembered += run.count;
@@ -604,7 +622,7 @@ TEST_CASE("the points of what a track may mark are remembered") {
   scene.add_column(4.25, 3.05, 0.4, 4, Verdict::kStatic);   // points 17 to 20, of the first
   for (int k = 0; k < 6; ++k) scene.add({19.05, 3.05, 0.4 + 0.1 * k}, Verdict::kStatic, 500);
   const SegmentedScan scan = scene.segmented();
-  const auto objects = summarise_objects(scan, scene.map, scene.parameters, RunContext{});
+  const auto objects = summarise_objects(scan, scene.map, {}, scene.parameters, RunContext{});
   REQUIRE(objects.size() == 4);
   std::map<int, std::vector<std::uint32_t>> points;  // By cluster.
   for (const PointRun& run : remembered_points(scan, objects, scene.parameters)) {

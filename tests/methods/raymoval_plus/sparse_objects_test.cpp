@@ -45,11 +45,3 @@ TEST_CASE("a post, which is as wide as its points, is not sparse") {
   CHECK_FALSE(is_sparse(post, {0.01F, 0.01F}));
 }
 
-TEST_CASE("what is sparse is left out, and all else stays in its order") {
-  std::vector<ObjectSummary> objects{object_of(400, 5.0F), object_of(4, 5.0F),
-                                     object_of(200, 5.0F)};
-  erase_sparse({0.01F, 0.01F}, objects);
-  REQUIRE(objects.size() == 2);
-  CHECK(objects[0].points == 400);
-  CHECK(objects[1].points == 200);
-}
