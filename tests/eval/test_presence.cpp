@@ -51,7 +51,8 @@ Counted count(const EvaluationInput& input, const MaskStore& masks, const Option
 
 }  // namespace
 
-TEST_CASE("with little room the search takes more passes and finds the same", "[dynamicmap]") {
+TEST_CASE("with little room the search takes more passes and finds the same",
+          "[dynamicmap][long]") {
   for (unsigned seed = 0; seed < 6; ++seed) {
     CloudShape shape;
     shape.seed = seed;

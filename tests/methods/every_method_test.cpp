@@ -117,7 +117,7 @@ TEST_CASE("evidence changes no mask, and is the same for any number of threads",
 }
 
 // What the sanitizers see of threads.
-TEST_CASE("a second thread changes nothing on a short street", "[threads]") {
+TEST_CASE("a second thread changes nothing on a short street", "[threads][long]") {
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 2);
   const toy::World world = toy::street(4);
   for (const ConfiguredMethod& method : all_methods()) {

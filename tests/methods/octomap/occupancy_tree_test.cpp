@@ -59,7 +59,7 @@ void compare_with_library(const Parameters& parameters, int threads, int scans =
 
 }  // namespace
 
-TEST_CASE("the tree is node for node that of insertPointCloud") {
+TEST_CASE("the tree is node for node that of insertPointCloud", "[long]") {
   Parameters parameters;
   SECTION("0.2 m") {}
   SECTION("0.05 m") {

@@ -45,14 +45,14 @@ TEST_CASE("raymoval_plus answers alike with and without reasons, for any number 
   }
 }
 
-TEST_CASE("raymoval_plus online knows nothing of later scans") {
+TEST_CASE("raymoval_plus online knows nothing of later scans", "[long]") {
   const ConfiguredMethod method = variant("online");
   const MaskStore all = toy::masks_of(*method.make(), toy::street(12));
   const MaskStore some = toy::masks_of(*method.make(), toy::street(7));
   CHECK(toy::different_verdicts(some, all, 7) == 0);
 }
 
-TEST_CASE("raymoval_plus online-lag knows the scans up to its delay, and none after") {
+TEST_CASE("raymoval_plus online-lag knows the scans up to its delay, and none after", "[long]") {
   ConfiguredMethod method = variant("online-lag");
   set_parameter(method.configuration, "delay", 0.3);  // Three scans.
   const toy::World world = toy::street(14);

@@ -188,7 +188,7 @@ TEST_CASE("removert: on a street the movers go, the wall stays, and revert mends
   CHECK(share(reverted, kCar) < share(removed, kCar));
 }
 
-TEST_CASE("removert: motions off the lattice change few verdicts") {
+TEST_CASE("removert: motions off the lattice change few verdicts", "[long]") {
   const toy::World world = toy::street(8);
   std::size_t points = 0;
   for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
