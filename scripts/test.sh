@@ -101,7 +101,7 @@ check_format() {
     echo "clang-format is not there; formatting is not checked."
     return 0
   fi
-  git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+  git ls-files '*.h' '*.cpp' | xargs -P 2 -n 100 clang-format --dry-run --Werror
 }
 
 step "dependencies of the build" scripts/install_dependencies.sh --python
