@@ -2,7 +2,6 @@
 #include "methods/raymoval_plus/objects/sparse_objects.h"
 
 #include <catch2/catch.hpp>
-#include <vector>
 
 using namespace raymoval;
 using namespace raymoval::raymoval_plus_method;
@@ -44,4 +43,3 @@ TEST_CASE("a post, which is as wide as its points, is not sparse") {
   post.high.head<2>() = post.low.head<2>();
   CHECK_FALSE(is_sparse(post, {0.01F, 0.01F}));
 }
-
