@@ -113,12 +113,12 @@ step "own includes" scripts/check_own_includes.py
 step "tree" scripts/check_tree.sh
 step "format" check_format
 step "release build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_REPORT_3D=ON -DRAYMOVAL_PYTHON=ON \
-  -DRAYMOVAL_CASES_AT_ONCE=24 "-DRAYMOVAL_ONLY_SPARED=datasets;simulated;eval;benchmark"
+  -DRAYMOVAL_CASES_AT_ONCE=24 "-DRAYMOVAL_ONLY_SPARED=datasets;simulated;methods;eval;benchmark"
 finish "dependencies of the tests"
 installs=
 step "programs that only tests need are found" cmake build/release
 # The release tests leave much of the processors idle. Cases that both builds would run are left to
-# the sanitizers, but for those of core and methods, whose code is compiled for the processor there is.
+# the sanitizers, but for those of core, which time processes, and of code for several instruction sets.
 # That each parameter acts is the same whatever it is compiled for, and takes long.
 begin build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release"
 run_tests release -E 'parameters act when they are said to$'

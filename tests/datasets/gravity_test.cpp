@@ -129,7 +129,7 @@ TEST_CASE("a slope is not mistaken for a tilted world", "[gravity]") {
   }
 }
 
-TEST_CASE("houses say how a world is tilted, on the level and on a slope", "[gravity]") {
+TEST_CASE("houses say how a world is tilted, on the level and on a slope", "[gravity][long]") {
   for (const double percent : {0.0, 12.0}) {
     const FlatWorld upright = road(percent, Houses::kBlocks);
     for (const double degrees : {12.0, 20.0, 35.0, 60.0, 130.0}) {

@@ -192,7 +192,7 @@ TEST_CASE("a gap between frames is named, and so is a time that stands",
   check_silent(inspect_path(drive, options));
 }
 
-TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect]") {
+TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect][long]") {
   const TemporaryFolder folder;
   write_simulated(suburb("vlp16", 12), folder / "drive", 2, nullptr);
   fs::remove_all(folder / "drive/labels");

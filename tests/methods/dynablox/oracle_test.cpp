@@ -114,7 +114,7 @@ TEST_CASE("dynablox: the fast way gives what the description says") {
   }
 }
 
-TEST_CASE("dynablox: all instruction sets give the same") {
+TEST_CASE("dynablox: all instruction sets give the same", "[simd]") {
   const toy::World scans = room(8, 5);
   Parameters parameters = coarse();
   parameters.offline = true;

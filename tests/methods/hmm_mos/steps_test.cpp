@@ -103,7 +103,7 @@ TEST_CASE("a bound too far for the distances is refused", "[hmm_mos]") {
 }
 
 TEST_CASE("distances to the nearest occupied voxel of two scans, over the borders of blocks",
-          "[hmm_mos]") {
+          "[hmm_mos][simd]") {
   std::mt19937 random(5);
   for (const int far : {1, 2, 20, 96, 254}) {
     for (const InstructionSet set : supported_instruction_sets()) {

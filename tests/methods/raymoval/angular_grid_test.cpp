@@ -82,7 +82,8 @@ TEST_CASE("eq. 10: a bin keeps its nearest range, the ego vehicle is in no bin")
   CHECK(projected.minimum_range[5] == kNoRange);
 }
 
-TEST_CASE("points on borders of bins and elsewhere go where the formulas say, on any processor") {
+TEST_CASE("points on borders of bins and elsewhere go where the formulas say, on any processor",
+          "[simd]") {
   // Every point of a lattice with the axes, the diagonals and the origin on it, and loose ones.
   Scan scan;
   scan.T_world_sensor.translation() = Eigen::Vector3d(1234.5, -77.25, 3.125);

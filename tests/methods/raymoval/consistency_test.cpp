@@ -30,7 +30,7 @@ TEST_CASE("eq. 11 is strict: a difference equal to the margin is static") {
   CHECK(check_consistency(scan, {10.0F}, {1.999, 0.0}) == Mask{1});
 }
 
-TEST_CASE("eq. 11 gives the same for every instruction set") {
+TEST_CASE("eq. 11 gives the same for every instruction set", "[simd]") {
   std::mt19937 random(8);
   const auto pick = [&](int most) {
     return static_cast<int>(random() % static_cast<unsigned>(most));

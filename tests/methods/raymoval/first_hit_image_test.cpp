@@ -26,7 +26,7 @@ AngularGrid random_grid(Random& random) {
 
 }  // namespace
 
-TEST_CASE("images equal rays one by one, from any pose, on every instruction set") {
+TEST_CASE("images equal rays one by one, from any pose, on every instruction set", "[simd]") {
   Random random(11);
   random_map::Comparison total;
   for (int round = 0; round < 60; ++round) {
@@ -60,7 +60,7 @@ TEST_CASE("images equal rays one by one, from any pose, on every instruction set
   CHECK(total.ties <= total.bins / 100000 + 1);
 }
 
-TEST_CASE("directions along the lattice meet what is straight ahead") {
+TEST_CASE("directions along the lattice meet what is straight ahead", "[simd]") {
   // A box of walls around a sensor in the middle of a voxel: the columns' centres are at multiples
   // of 45 degrees, the first one at -180, and the rows at -45, 0 and 45 degrees.
   OccupancyMap map(1.0);

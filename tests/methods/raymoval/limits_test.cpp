@@ -40,7 +40,8 @@ Parameters give_nothing_back() {
 
 }  // namespace
 
-TEST_CASE("eqs 2-3: points just outside the rows are in no bin, on any processor", "[raymoval]") {
+TEST_CASE("eqs 2-3: points just outside the rows are in no bin, on any processor",
+          "[raymoval][simd]") {
   // Rows of one degree from -45 to 45; the points look 45.5 and -45.5 degrees up, and 44.5.
   const double degree = std::acos(-1.0) / 180.0;
   const AngularGrid grid{360, 90, -45 * degree, 45 * degree};
@@ -104,7 +105,8 @@ TEST_CASE("eqs 8-9: both percentiles have the window's radius", "[raymoval]") {
   }
 }
 
-TEST_CASE("eq. 11 at its bound, in the first bin and in none, on any processor", "[raymoval]") {
+TEST_CASE("eq. 11 at its bound, in the first bin and in none, on any processor",
+          "[raymoval][simd]") {
   // 4 m: the margin is 0.5 + 0.25 * 4 = 1.5 m, and the maps are 1.5 m and a little more behind.
   ProjectedScan scan;
   Mask expected;
@@ -120,7 +122,7 @@ TEST_CASE("eq. 11 at its bound, in the first bin and in none, on any processor",
   }
 }
 
-TEST_CASE("a bin is seen through beyond the margins and not at them", "[raymoval]") {
+TEST_CASE("a bin is seen through beyond the margins and not at them", "[raymoval][simd]") {
   // Margins 1 + 0.5 * 10 = 6 m at the map reference and 1 m at the own first hit. The last three
   // are past a bound by less than the rounding that the quick test allows for.
   struct Case {

@@ -97,7 +97,8 @@ std::vector<float> window_of(const std::vector<float>& values, const AngularGrid
 
 }  // namespace
 
-TEST_CASE("window percentiles and minima equal those of each window, on every instruction set") {
+TEST_CASE("window percentiles and minima equal those of each window, on every instruction set",
+          "[simd]") {
   for (const int columns : {3, 5, 7, 15, 16, 17, 23, 64, 101}) {
     for (const int rows : {1, 2, 3, 20}) {
       const AngularGrid grid{columns, rows, 0.0, 0.3};

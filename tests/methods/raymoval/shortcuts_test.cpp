@@ -45,7 +45,7 @@ std::vector<float> values_around(const std::vector<float>& values, const BinWind
 
 }  // namespace
 
-TEST_CASE("bins seen through are those whose whole neighbourhood lies behind", "[raymoval]") {
+TEST_CASE("bins seen through are those whose whole neighbourhood lies behind", "[raymoval][simd]") {
   Random random(41);
   std::size_t total = 0;
   for (int round = 0; round < 30; ++round) {
@@ -88,7 +88,7 @@ TEST_CASE("bins seen through are those whose whole neighbourhood lies behind", "
   CHECK(total > 100);
 }
 
-TEST_CASE("percentiles of full windows equal those of each window", "[raymoval]") {
+TEST_CASE("percentiles of full windows equal those of each window", "[raymoval][simd]") {
   Random random(43);
   for (int round = 0; round < 20; ++round) {
     const BinWindow window{{random.integer(16, 70), random.integer(3, 12), 0.0, 0.3}, 1, 1};

@@ -53,7 +53,7 @@ TEST_CASE("a square of bits is turned about its diagonal") {
   }
 }
 
-TEST_CASE("bins are wanted around every value, and nowhere else") {
+TEST_CASE("bins are wanted around every value, and nowhere else", "[simd]") {
   Random random(23);
   for (int round = 0; round < 60; ++round) {
     // Whole and broken words, one column, one row, and a row after the last at a word's border.
@@ -79,7 +79,7 @@ TEST_CASE("bins are wanted around every value, and nowhere else") {
   }
 }
 
-TEST_CASE("first hits that are asked for do not depend on which others are") {
+TEST_CASE("first hits that are asked for do not depend on which others are", "[simd]") {
   Random random(29);
   for (int round = 0; round < 20; ++round) {
     OccupancyMap map(0.2);

@@ -284,7 +284,8 @@ TEST_CASE("a place above the highest beam is not seen through") {
   CHECK(observed.empty());
 }
 
-TEST_CASE("places are observed alike one by one, all at once, and by every instruction set") {
+TEST_CASE("places are observed alike one by one, all at once, and by every instruction set",
+          "[simd]") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.4F, 0.3F), range(1.0F, 90.0F);
   const auto somewhere = [&](float steeper) {
@@ -436,7 +437,8 @@ TEST_CASE("a sensor has even beams if they are known, or its steps differ") {
   CHECK_FALSE(has_even_beams(SensorModel{}));  // Nothing is known of it.
 }
 
-TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders") {
+TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders",
+          "[simd]") {
   std::mt19937 random(4);
   std::normal_distribution<float> place(0.0F, 20.0F);
   const float columns = 1440.0F, full = 2.0F * std::numbers::pi_v<float>;

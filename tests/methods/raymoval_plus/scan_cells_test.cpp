@@ -31,7 +31,8 @@ bool is_on_border(double number) {
 
 }  // namespace
 
-TEST_CASE("cells are those of the pose's product, by every instruction set and for any count") {
+TEST_CASE("cells are those of the pose's product, by every instruction set and for any count",
+          "[simd]") {
   const Eigen::Vector3d scale(2.5, 2.5, 20.0);
   for (const InstructionSet set : supported_instruction_sets()) {
     const InstructionSetScope scope(set);
