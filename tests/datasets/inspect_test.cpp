@@ -192,7 +192,7 @@ TEST_CASE("up that the scans contradict is named", "[inspect][every-finding]") {
   check_finds(drive.inspected(), "up-contradicted", "--up");
 }
 
-TEST_CASE("inverted poses are named", "[inspect][long]") {
+TEST_CASE("inverted poses are named", "[inspect]") {
   EditedSequence drive = good_drive();
   drive.each_pose([](const Pose& pose) { return pose.inverse(); });
   check_finds(drive.inspected(), "poses-inverted", "R^T");
@@ -267,7 +267,7 @@ TEST_CASE("a quaternion's order is named", "[inspect][every-finding]") {
   check_finds(drive.inspected(), "quaternion-order", "columns");
 }
 
-TEST_CASE("points in the world frame are named", "[inspect][long]") {
+TEST_CASE("points in the world frame are named", "[inspect]") {
   EditedSequence drive = good_drive();
   drive.each_point(
       [](const Scan& scan, const Eigen::Vector3d& p) { return scan.T_world_sensor * p; });
