@@ -118,7 +118,7 @@ finish "dependencies of the tests"
 installs=
 step "programs that only tests need are found" cmake build/release
 # The release tests leave much of the processors idle. Cases that both builds would run are left to
-# the sanitizers, but for those of core, which time processes, and of code for several instruction sets.
+# the sanitizers, but for those of core, which are soon done, and of code for several instruction sets.
 # That each parameter acts is the same whatever it is compiled for, and takes long.
 begin build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release"
 run_tests release -E 'parameters act when they are said to$'
