@@ -115,7 +115,7 @@ Vector3d up_of(const ScanSource& scans) {
 
 }  // namespace
 
-TEST_CASE("a slope is not mistaken for a tilted world", "[gravity]") {
+TEST_CASE("a slope is not mistaken for a tilted world", "[gravity][long]") {
   for (const double percent : {0.0, 6.0, 18.0, 30.0, 50.0}) {
     for (const Houses houses : {Houses::kNone, Houses::kRows, Houses::kBlocks}) {
       INFO(percent << " %, houses " << static_cast<int>(houses));

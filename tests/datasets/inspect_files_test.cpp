@@ -144,7 +144,8 @@ TEST_CASE("labels in the intensity are named, by value and by bits", "[inspect][
   check_finds(inspect_dynamicmap(bits), "labels-in-intensity-by-bits", "uint32");
 }
 
-TEST_CASE("a good folder of scans is silent; labels where methods look are named", "[inspect]") {
+TEST_CASE("a good folder of scans is silent; labels where methods look are named",
+          "[inspect][long]") {
   EditedSequence drive = good_drive();
   const TemporaryFolder good, leaking;
   write_files(good, drive);

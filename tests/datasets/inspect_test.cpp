@@ -267,7 +267,7 @@ TEST_CASE("a quaternion's order is named", "[inspect][every-finding]") {
   check_finds(drive.inspected(), "quaternion-order", "columns");
 }
 
-TEST_CASE("points in the world frame are named", "[inspect]") {
+TEST_CASE("points in the world frame are named", "[inspect][long]") {
   EditedSequence drive = good_drive();
   drive.each_point(
       [](const Scan& scan, const Eigen::Vector3d& p) { return scan.T_world_sensor * p; });

@@ -279,7 +279,7 @@ TEST_CASE("a world with other axes shows the sensor the same") {
   CHECK_THROWS_AS(make_simulated(options), UsageError);
 }
 
-TEST_CASE("a sequence longer than its route is refused, one on a closed route is not") {
+TEST_CASE("a sequence longer than its route is refused, one on a closed route is not", "[long]") {
   SimulationOptions options = small_town(5000);  // town: 380 m at 5 to 7 m/s are some 600 scans
   CHECK_THROWS_AS(make_simulated(options), UsageError);
   options.scene = "long";

@@ -47,7 +47,7 @@ bool is_moving(std::uint32_t word) {
 
 }  // namespace
 
-TEST_CASE("every point labelled moving lies on a part of that mover") {
+TEST_CASE("every point labelled moving lies on a part of that mover", "[long]") {
   for (const std::string scene : {"crossing", "suburb", "excavator"}) {
     SimulationOptions options;
     options.scene = scene;

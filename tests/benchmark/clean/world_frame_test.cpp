@@ -24,9 +24,9 @@ struct MovedStreet {
   Sequence street, moved;
   std::shared_ptr<const LocalFrameSource> scans;
 
-  explicit MovedStreet(const Pose& motion) {
+  explicit MovedStreet(const Pose& motion, long step = 3) {
     SequenceOptions options;
-    options.frames = FrameRange{0, 27, 3};
+    options.frames = FrameRange{0, 27, step};
     street = moved = open_sequence("street", options);
     scans = std::make_shared<const LocalFrameSource>(*street.scans, motion);
     moved.opened = moved.scans = scans;
@@ -82,12 +82,12 @@ ProtocolResult scored(const Sequence& sequence, const std::string& protocol,
 TEST_CASE("no method is changed by a shift of the world, or an exchange of its axes",
           "[frames][every-method]") {
   // A shift that double precision holds exactly beside the street's poses, and one it does not.
-  const MovedStreet utm(shifted(691000.25, 5336000.5, 512.0));
+  const MovedStreet utm(shifted(691000.25, 5336000.5, 512.0), 6);
   const MovedStreet odd(
-      shifted(1e5 * std::sqrt(47.0), 1e6 * std::acos(-1.0), -100.0 * std::sqrt(2.0)));
+      shifted(1e5 * std::sqrt(47.0), 1e6 * std::acos(-1.0), -100.0 * std::sqrt(2.0)), 6);
   Pose y_down = Pose::Identity();
   y_down.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  const MovedStreet turned(y_down);
+  const MovedStreet turned(y_down, 6);
   REQUIRE(up_text(turned.moved.up().direction) == "-y");
   for (const MethodRequest& request : all_methods()) {
     INFO(request.name);

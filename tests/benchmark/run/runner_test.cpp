@@ -120,7 +120,7 @@ TEST_CASE("A method that fails is a cell with a reason, and the rest goes on") {
   CHECK_THAT(csv, Contains("street,throws,v,erasor,failed,,,,,,,,,,,,,throws:v"));
 }
 
-TEST_CASE("A cell that is there, right and whole is not run again; anything else is") {
+TEST_CASE("A cell that is there, right and whole is not run again; anything else is", "[long]") {
   const test::TemporaryFolder folder;
   const auto out = folder.path() / "run";
   Suite suite = two_scans_with({"good"});
@@ -248,7 +248,8 @@ TEST_CASE("A suite of another name is refused, and replaces what is there if tha
   CHECK_THROWS_AS(run_suite(one, {.out = out}), UsageError);
 }
 
-TEST_CASE("Other data or protocols are refused where the folder has results of the same name") {
+TEST_CASE("Other data or protocols are refused where the folder has results of the same name",
+          "[long]") {
   const test::TemporaryFolder folder;
   const auto& out = folder.path();
   const Suite suite = two_scans_called("a", "good");
@@ -310,7 +311,7 @@ TEST_CASE("Names that would share a folder, and a record that is damaged, are re
   CHECK(read_text(out / "run.json") == record);
 }
 
-TEST_CASE("Two runs give the same bytes but for what is measured, whatever the threads") {
+TEST_CASE("Two runs give the same bytes but for what is measured, whatever the threads", "[long]") {
   const auto cell_with = [](int threads) {
     const test::TemporaryFolder folder;
     Suite suite = two_scans_with({"good"});

@@ -185,7 +185,7 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
 }
 
 TEST_CASE("points in the world frame are named, and brought back on request",
-          "[inspect][every-finding]") {
+          "[inspect][every-finding][long]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, [](const Scan& scan, const Eigen::Vector3d& point) {
@@ -257,7 +257,7 @@ TEST_CASE("clocks that differ are told by how much, and agree once that is said"
   CHECK(found_with(folder, {}).empty());
 }
 
-TEST_CASE("at a steady speed nobody can tell that clocks differ", "[inspect]") {
+TEST_CASE("at a steady speed nobody can tell that clocks differ", "[inspect][long]") {
   SimulationOptions options = suburb(sparse_vlp16(), 14);
   options.scene = "highway";
   const EditedSequence drive(options);

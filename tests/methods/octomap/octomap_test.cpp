@@ -254,7 +254,7 @@ TEST_CASE("every point is answered as after plain calls of insertPointCloud", "[
   }
 }
 
-TEST_CASE("the lattice's place changes a bounded share of the verdicts") {
+TEST_CASE("the lattice's place changes a bounded share of the verdicts", "[long]") {
   // The tree's centre is rounded to whole cells, so a move by part of a cell moves the lattice
   // under the world. Measured: sideways 0.4 and 0.6 % of the points change; upwards by half a cell
   // 18 %, for what part of the road goes depends on how high it lies in its layer of cells.

@@ -107,14 +107,14 @@ TEST_CASE("what was taken for ground goes if scans see through it, and the road 
   }
 }
 
-TEST_CASE("one pass removes nearly what four do") {
+TEST_CASE("one pass removes nearly what four do", "[long]") {
   const toy::World world = toy::street(16);
   const MaskStore masks = toy::masks_of(*variant("online-map").make(), world);
   CHECK(toy::removed_share(world, masks, 4, 0, 15) > 0.9);
   for (const int fixed : {0, 1}) CHECK(toy::removed_share(world, masks, fixed, 0, 15) < 0.005);
 }
 
-TEST_CASE("raymoval_plus depends on the lattice of its voxels within bounds") {
+TEST_CASE("raymoval_plus depends on the lattice of its voxels within bounds", "[long]") {
   const toy::World world = toy::street(10);
   std::size_t points = 0;
   for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();

@@ -169,7 +169,8 @@ TEST_CASE("removert: settings that contradict each other are refused") {
                   ConfigurationError);
 }
 
-TEST_CASE("removert: on a street the movers go, the wall stays, and revert mends the road") {
+TEST_CASE("removert: on a street the movers go, the wall stays, and revert mends the road",
+          "[long]") {
   const toy::World world = toy::street(16);
   const MaskStore removed = toy::masks_of(*removert("rm3").make(), world);
   const MaskStore reverted = toy::masks_of(*removert("rm3-rv1").make(), world);
