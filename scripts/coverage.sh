@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Which share of each room's lines and branches the tests run, as gcov counted it while the tests of
 # build/asan-ubsan ran (branches of thrown exceptions are left out). The exit code is 1 if core,
-# datasets, eval or the stores are below 90 % of lines.
+# datasets, eval or the stores are below 90 % of lines. After scripts/test.sh little more of benchmark is
+# counted than the stores.
 #
 #   scripts/coverage.sh [FILE...]      also tells which lines of these files did not run
 #   scripts/coverage.sh --run          first builds everything with the sanitizers, and runs all tests

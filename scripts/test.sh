@@ -121,7 +121,8 @@ step "programs that only tests need are found" cmake build/release
 # The release tests leave much of the processors idle. Cases that both builds would run are left to
 # the sanitizers, but for those of core, which are soon done, and of code for several instruction sets.
 # That each parameter acts is the same whatever it is compiled for, and takes long.
-begin build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release"
+begin build asan-ubsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release" \
+  -DRAYMOVAL_HARNESS_OBJECTS="$PWD/build/release"
 run_tests release -E 'parameters act when they are said to$'
 step "reference results" scripts/check_reference.sh
 finish "sanitizer build"
