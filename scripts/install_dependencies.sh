@@ -75,7 +75,13 @@ if [[ $(id -u) -ne 0 ]]; then
 fi
 
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+manual_index=/var/lib/man-db/auto-update  # Says that new packages are indexed; empty.
+index_is_off=
+clean_up() {
+  [[ -z $index_is_off ]] || "${as_root[@]}" touch "$manual_index"
+  rm -rf "$scratch"
+}
+trap clean_up EXIT
 
 # stand_in PACKAGE...: makes an empty package in place of these. It is left in $scratch/stand_in.deb.
 stand_in() {
@@ -94,7 +100,10 @@ stand_in() {
 extra=()
 if [[ ${CI:-} == true ]]; then
   extra+=(-o Dpkg::Options::=--force-unsafe-io)
-  "${as_root[@]}" rm -f /var/lib/man-db/auto-update
+  if [[ -e $manual_index ]]; then
+    index_is_off=yes
+    "${as_root[@]}" rm -f "$manual_index"
+  fi
   if [[ " ${missing[*]} " == *" snakemake "* ]]; then
     stand_in python3-azure python3-azure-storage python3-boto3
     extra+=("$scratch/stand_in.deb")
