@@ -185,7 +185,7 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
 }
 
 TEST_CASE("points in the world frame are named, and brought back on request",
-          "[inspect][every-finding][long]") {
+          "[inspect][every-finding]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, [](const Scan& scan, const Eigen::Vector3d& point) {
