@@ -83,15 +83,15 @@ clean_up() {
 }
 trap clean_up EXIT
 
-# stand_in PACKAGE...: makes an empty package in place of these. It is left in $scratch/stand_in.deb.
-stand_in() {
-  local provides=$*
+# make_stand_in: an empty package in place of clients of clouds, $scratch/stand_in.deb.
+make_stand_in() {
   mkdir -p "$scratch/package/DEBIAN"
   printf '%s\n' "Package: raymoval-without-clouds" "Version: 1" "Architecture: all" \
-    "Maintainer: raymoval <raymoval@localhost>" "Provides: ${provides// /, }" \
+    "Maintainer: raymoval <raymoval@localhost>" \
+    "Provides: python3-azure, python3-azure-storage, python3-boto3" \
     "Description: stands for clients of clouds that no test needs" >"$scratch/package/DEBIAN/control"
   dpkg-deb --build --root-owner-group "$scratch/package" "$scratch/stand_in.deb" >/dev/null
-  chmod -R a+rX "$scratch"
+  chmod -R a+rX "$scratch"  # apt reads it as a user of its own.
 }
 
 # On a machine that is thrown away nobody waits for the disk after each file, as dpkg does, nor needs an
@@ -105,7 +105,7 @@ if [[ ${CI:-} == true ]]; then
     "${as_root[@]}" rm -f "$manual_index"
   fi
   if [[ " ${missing[*]} " == *" snakemake "* ]]; then
-    stand_in python3-azure python3-azure-storage python3-boto3
+    make_stand_in
     extra+=("$scratch/stand_in.deb")
   fi
 fi

@@ -81,13 +81,14 @@ ProtocolResult scored(const Sequence& sequence, const std::string& protocol,
 
 TEST_CASE("no method is changed by a shift of the world, or an exchange of its axes",
           "[frames][every-method]") {
+  constexpr long kStep = 6;  // Each of all methods runs four times.
   // A shift that double precision holds exactly beside the street's poses, and one it does not.
-  const MovedStreet utm(shifted(691000.25, 5336000.5, 512.0), 6);
+  const MovedStreet utm(shifted(691000.25, 5336000.5, 512.0), kStep);
   const MovedStreet odd(
-      shifted(1e5 * std::sqrt(47.0), 1e6 * std::acos(-1.0), -100.0 * std::sqrt(2.0)), 6);
+      shifted(1e5 * std::sqrt(47.0), 1e6 * std::acos(-1.0), -100.0 * std::sqrt(2.0)), kStep);
   Pose y_down = Pose::Identity();
   y_down.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  const MovedStreet turned(y_down, 6);
+  const MovedStreet turned(y_down, kStep);
   REQUIRE(up_text(turned.moved.up().direction) == "-y");
   for (const MethodRequest& request : all_methods()) {
     INFO(request.name);
