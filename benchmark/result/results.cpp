@@ -57,7 +57,7 @@ Item& item_of(std::vector<Item>& list, const std::string& cell) {
 }
 
 void add_columns(const Cell& cell, RunResults& results) {
-  if (!cell.columns) return;
+  if (!cell.ok() || !cell.columns) return;
   MethodColumns& method = item_of(results.columns, cell.name);
   method.control = cell.method.control;
   ++method.sequences;
@@ -71,7 +71,7 @@ void add_columns(const Cell& cell, RunResults& results) {
 }
 
 void add_reliability(const Cell& cell, RunResults& results) {
-  if (!cell.reliability) return;
+  if (!cell.ok() || !cell.reliability) return;
   MethodReliability& method = item_of(results.reliability, cell.name);
   ++method.sequences;
   method.all += *cell.reliability;

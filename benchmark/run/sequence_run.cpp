@@ -104,14 +104,9 @@ void SequenceRuns::run(std::size_t sequence) {
 }
 
 bool SequenceRuns::read_data(ScoredSequence& scored, std::size_t sequence) {
+  std::string fingerprint;
   try {
-    const std::string& fingerprint = scored.data_fingerprint();
-    const std::lock_guard lock(mutex_);
-    const bool changed = set_fingerprint(folder_.record, scored.sequence().name, fingerprint);
-    if (changed && !suite_.is_alone()) {
-      write_run_record(suite_.options().out / "run.json", folder_.record);
-    }
-    return true;
+    fingerprint = scored.data_fingerprint();
   } catch (const DataError& error) {
     {
       const std::lock_guard lock(mutex_);
@@ -120,14 +115,25 @@ bool SequenceRuns::read_data(ScoredSequence& scored, std::size_t sequence) {
     fail_all(sequence, error.what());
     return false;
   }
+  const std::lock_guard lock(mutex_);
+  const bool changed = set_fingerprint(folder_.record, scored.sequence().name, fingerprint);
+  if (changed && !suite_.is_alone()) {
+    write_run_record(suite_.options().out / "run.json", folder_.record);
+  }
+  return true;
 }
 
 void SequenceRuns::fail_all(std::size_t sequence, const std::string& reason) {
   for (std::size_t method = 0; method < suite_.suite().methods.size(); ++method) {
     const CellIndex index{sequence, method};
     if (!suite_.is_selected(index)) continue;
-    Cell cell = unreadable_cell(suite_.name(index).sequence, suite_.method(index), reason);
-    suite_.store().keep(cell);
+    const CellName& name = suite_.name(index);
+    Cell cell = unreadable_cell(name.sequence, suite_.method(index), reason);
+    if (suite_.store().has_result(name)) {
+      suite_.say(name.title() + ": its stored result stays as it is.");
+    } else if (may_run(index)) {
+      suite_.store().keep(cell);
+    }
     finish(index, std::move(cell), false);
   }
 }
@@ -141,6 +147,10 @@ void SequenceRuns::describe(std::size_t number) const {
   const std::string turned = up_line(sequence.up());
   if (!turned.empty()) suite_.say(sequence.name + ": " + turned);
   for (const std::string& line : left_out_lines(sequence)) suite_.say(sequence.name + ": " + line);
+}
+
+bool SequenceRuns::may_run(CellIndex index) const {
+  return suite_.is_selected(index) && !suite_.options().collect;
 }
 
 CellTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const {
@@ -158,11 +168,10 @@ CellTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const {
 
 void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
   check_cancelled(suite_.options());
-  const bool selected = suite_.is_selected(index);
-  if (suite_.is_alone() && !selected) return;
+  if (suite_.is_alone() && !suite_.is_selected(index)) return;
   const MethodRequest& method = suite_.method(index);
   StoredCell stored = suite_.stored_cell(scored, index);
-  const bool to_run = selected && !suite_.options().collect;
+  const bool to_run = may_run(index);
   if (stored.state == StoredCell::State::kFresh ||
       (!to_run && stored.state == StoredCell::State::kFailed)) {
     finish(index, std::move(*stored.cell), true);
@@ -186,8 +195,11 @@ void SequenceRuns::repeat(ScoredSequence& scored, CellIndex index, int round) {
   const bool has_result = finished.cell && finished.cell->ok() && finished.cell->masks;
   if (!has_result || finished.cell->method.control) return;
   auto repeat = suite_.store().find_repeat(suite_.name(index), round, finished.cell->key);
-  if (!repeat && suite_.is_selected(index) && !suite_.options().collect) {
+  const bool is_usual = repeat && repeat->digest == finished.cell->masks->digest;
+  if (!is_usual && may_run(index)) {
     repeat = run_again(scored, index, round);
+    const std::lock_guard lock(mutex_);
+    show_stopped(index);
   }
   if (!repeat) return;
   if (repeat->digest != finished.cell->masks->digest) {
@@ -210,17 +222,18 @@ std::optional<RepeatRecord> SequenceRuns::run_again(ScoredSequence& scored, Cell
   }
   const std::string& key = finished_[suite_.place(index)].cell->key;
   const RepeatRecord repeat{key, round, mask_digest(answer.masks), *measured};
-  suite_.store().keep_repeat(suite_.name(index), repeat);
+  // One that removed other points fails its cell now, and not again when the next run does well.
+  if (repeat.digest == finished_[suite_.place(index)].cell->masks->digest) {
+    suite_.store().keep_repeat(suite_.name(index), repeat);
+  }
   return repeat;
 }
 
 void SequenceRuns::fail_repeat(CellIndex index, int round, CellStatus status,
                                const std::string& reason) {
   Cell& cell = *finished_[suite_.place(index)].cell;
-  cell.status = status;
-  cell.reason = fmt::format("repeat {}: {}", round, reason);
-  cell.scores.clear();
-  suite_.store().keep(cell);
+  cell.fail(status, fmt::format("repeat {}: {}", round, reason));
+  if (may_run(index)) suite_.store().keep(cell);
   const std::lock_guard lock(mutex_);
   summary_.failures.push_back(cell.title() + ": " + cell.reason);
 }
@@ -239,6 +252,14 @@ void SequenceRuns::show_running(CellIndex index, const std::string& round) {
                                     finished_.size(), cell.name, cell.sequence, round));
 }
 
+/// Takes from the live line of cells that run at once what runs no more. The caller has the lock.
+void SequenceRuns::show_stopped(CellIndex index) {
+  Progress* progress = suite_.options().progress;
+  if (progress == nullptr || !is_side_by_side()) return;
+  running_.erase(suite_.name(index).title());
+  progress->set_context(join({running_.begin(), running_.end()}));
+}
+
 void SequenceRuns::finish(CellIndex index, Cell cell, bool was_there) {
   const std::lock_guard lock(mutex_);
   ++summary_.cells;
@@ -251,10 +272,8 @@ void SequenceRuns::finish(CellIndex index, Cell cell, bool was_there) {
   finished_[suite_.place(index)].cell = std::move(cell);
   Progress* progress = suite_.options().progress;
   if (progress == nullptr) return;
-  if (is_side_by_side()) {
-    running_.erase(suite_.name(index).title());
-    progress->set_context(join({running_.begin(), running_.end()}));
-  } else {
+  show_stopped(index);
+  if (!is_side_by_side()) {
     progress->end();
     progress->set_context("");
   }

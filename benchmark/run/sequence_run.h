@@ -57,8 +57,11 @@ class SequenceRuns {
   std::shared_ptr<ScoredSequence> open_shared(SharedSequence& shared, std::size_t sequence);
   /// Puts the fingerprint into run.json. @return false if the data cannot be read
   bool read_data(ScoredSequence& scored, std::size_t sequence);
+  /// Its cells fail, in the tables at least: results that were stored before stay.
   void fail_all(std::size_t sequence, const std::string& reason);
   void describe(std::size_t sequence) const;
+  /// Whether the method may run, and what is stored of it may be replaced.
+  [[nodiscard]] bool may_run(CellIndex index) const;
   void run_cell(ScoredSequence& scored, CellIndex index);
   /// Marks times that were taken while other cells ran.
   void mark_times(std::optional<Measurement>& measured) const;
@@ -67,6 +70,7 @@ class SequenceRuns {
   void fail_repeat(CellIndex index, int round, CellStatus status, const std::string& reason);
   [[nodiscard]] CellTask task_for(ScoredSequence& scored, CellIndex index) const;
   void show_running(CellIndex index, const std::string& round);
+  void show_stopped(CellIndex index);
   void finish(CellIndex index, Cell cell, bool was_there);
 
   OpenedSuite& suite_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/result/removals/removal_files.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <vector>
@@ -70,16 +71,29 @@ void write_removals(const std::filesystem::path& folder, const ScanSource& scans
   }
 }
 
+namespace {
+
+/// Whether a run writes files of this name into a folder of removals.
+bool is_removals_file(const std::filesystem::path& entry) {
+  const std::filesystem::path name = is_part_name(entry) ? name_of_part(entry) : entry.filename();
+  return name.extension() == ".label" || is_reason_file(name);
+}
+
+/// What has to go before the folder can; a link goes alone.
+std::vector<std::filesystem::path> content_of(const std::filesystem::path& folder) {
+  if (is_link(folder) || !has_folder(folder)) return {};
+  return entries_of(folder);
+}
+
+}  // namespace
+
+bool can_remove_removals(const std::filesystem::path& folder) {
+  return std::ranges::all_of(content_of(folder), is_removals_file);
+}
+
 bool remove_removals(const std::filesystem::path& folder) {
-  if (!is_link(folder) && has_folder(folder)) {
-    for (const std::filesystem::path& entry : entries_of(folder)) {
-      const std::filesystem::path name =
-          is_part_name(entry) ? name_of_part(entry) : entry.filename();
-      const bool ours = name.extension() == ".label" || is_reason_file(name);
-      if (ours) remove_if_there(entry);
-    }
-    if (!entries_of(folder).empty()) return false;
-  }
+  if (!can_remove_removals(folder)) return false;
+  for (const std::filesystem::path& entry : content_of(folder)) remove_if_there(entry);
   remove_if_there(folder);
   return true;
 }

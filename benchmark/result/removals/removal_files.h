@@ -33,8 +33,12 @@ void write_removals(const std::filesystem::path& folder, const ScanSource& scans
 /// Removes a folder of removals (and of reasons, see benchmark/result/removals/reasons.h) with all
 /// files that a run writes there. A link to such a folder goes alone; one that is not there is no
 /// error.
-/// @return false if it holds anything else, which stays
+/// @return false if it holds anything else; then all of it stays
 bool remove_removals(const std::filesystem::path& folder);
+
+/// Whether `remove_removals` can remove all of the folder, or there is nothing to remove.
+/// @throws DataError if it cannot be looked at
+bool can_remove_removals(const std::filesystem::path& folder);
 
 /// Reads what `write_removals` or another program wrote: 251 to 259 = removed.
 /// @throws DataError naming the file that is missing or has another count than its scan

@@ -35,6 +35,13 @@ std::string damage(const path& file) {
   return file.filename().string() + " is damaged or was changed by hand";
 }
 
+/// @throws DataError if a folder of removals holds anything that no run writes
+void check_replaceable(const path& removals) {
+  if (can_remove_removals(removals)) return;
+  throw DataError(removals.string() +
+                  ": holds files that no run writes, so it is not replaced. Move them away.");
+}
+
 /// Whether a run writes files of this name into a cell's folder.
 bool is_cell_file(const path& name) {
   return name == "cell.json" ||
@@ -106,8 +113,14 @@ std::optional<RepeatRecord> CellStore::find_repeat(const CellName& cell, int num
   return repeat && repeat->key == key ? std::move(repeat) : std::nullopt;
 }
 
+bool CellStore::has_result(const CellName& cell) const {
+  const auto stored = if_whole([&] { return read_cell(folder(cell) / "cell.json"); });
+  return stored && stored->ok();
+}
+
 void CellStore::prepare(const CellName& cell) const {
   make_folder(folder(cell));
+  check_replaceable(folder(cell) / kRemovals);
   sweep_cell(folder(cell));
 }
 
@@ -117,11 +130,11 @@ void CellStore::keep(const Cell& cell, const path& removals) const {
   make_folder(cell_folder);
   const bool has = !removals.empty() && has_folder(removals);
   if (has || is_there(place)) {
+    check_replaceable(place);
     // A cell never stands beside removals of another one.
     remove_if_there(cell_folder / "cell.json");
     if (!remove_removals(place)) {
-      throw DataError(place.string() +
-                      ": holds files that no run writes, so it is not replaced. Move them away.");
+      throw DataError(place.string() + ": something was put into it meanwhile. Move it away.");
     }
   }
   if (has) {

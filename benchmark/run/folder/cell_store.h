@@ -25,7 +25,8 @@ struct StoredCell {
 };
 
 /// The folder cells/ of a run. A process that is ended at any moment leaves either the old cell or
-/// the new one.
+/// the new one, or none where removals are kept: these are many files, and no cell may stand beside
+/// those of another one.
 class CellStore {
  public:
   explicit CellStore(std::filesystem::path out) : out_(std::move(out)) {}
@@ -42,11 +43,17 @@ class CellStore {
   [[nodiscard]] std::optional<RepeatRecord> find_repeat(const CellName& cell, int number,
                                                         const std::string& key) const;
 
-  /// Makes the cell's folder and removes what a killed run left there. @throws DataError
+  /// Whether there is a whole cell with a result, of whatever run. @throws UnreadableError
+  [[nodiscard]] bool has_result(const CellName& cell) const;
+
+  /// Makes the cell's folder and removes what a killed run left there. It is called before the
+  /// method runs, so that nothing is computed for a place where it cannot be kept.
+  /// @throws DataError, also if `keep` would have to remove what no run made
   void prepare(const CellName& cell) const;
   /// Puts a cell, and new removals if there are any, in the place of what was there.
   /// @param removals the folder of `new_removals`; none were kept if it is empty or not there
-  /// @throws DataError if something cannot be written, or would be lost that no run made
+  /// @throws DataError if something cannot be written, or would be lost that no run made: then all
+  /// that was there is there still
   void keep(const Cell& cell, const std::filesystem::path& removals = {}) const;
   void keep_repeat(const CellName& cell, const RepeatRecord& repeat) const;
 

@@ -145,6 +145,37 @@ TEST_CASE("A cell without removals does not stand beside those of an earlier one
   CHECK(fs::exists(store.folder(kName) / "cell.json"));
 }
 
+TEST_CASE("A place where a cell could not be kept is refused before it is needed, and left whole") {
+  const test::TemporaryFolder folder;
+  const CellStore store(folder.path());
+  const MaskStore masks = masks_of_two_scans();
+  const Cell cell = cell_of(identity(), masks);
+  store.keep(cell, written_removals(store, masks));
+  const fs::path removals = written_removals(store, masks);
+  const fs::path place = store.folder(kName);
+  write_atomically(place / "removals/notes.txt", "mine");
+  CHECK_THROWS_WITH(store.prepare(kName), Contains("removals: holds files that no run writes"));
+  CHECK_THROWS_WITH(store.keep(cell, removals),
+                    Contains("removals: holds files that no run writes"));
+  CHECK(store.has_result(kName));
+  const test::TwoScans scans;
+  CHECK(store.find(kName, identity(), &scans).state == StoredCell::State::kFresh);
+}
+
+TEST_CASE("A stored result is a whole cell that did not fail") {
+  const test::TemporaryFolder folder;
+  const CellStore store(folder.path());
+  CHECK_FALSE(store.has_result(kName));
+  Cell cell = cell_of(identity(), masks_of_two_scans());
+  store.keep(cell);
+  CHECK(store.has_result(kName));
+  write_atomically(store.folder(kName) / "cell.json", "{}");
+  CHECK_FALSE(store.has_result(kName));
+  cell.fail(CellStatus::kFailed, "no idea");
+  store.keep(cell);
+  CHECK_FALSE(store.has_result(kName));
+}
+
 TEST_CASE("Removals that were not written in the end leave a cell without any") {
   const test::TemporaryFolder folder;
   const CellStore store(folder.path());

@@ -113,10 +113,13 @@ TEST_CASE("Removals are not replaced where that would lose a file that no run ma
   const fs::path cell = folder.path() / "cells/street/noop-default";
   REQUIRE(run_suite(one_scan(), {.out = folder.path(), .keep_removals = true}).good());
   write(cell / "removals/notes.txt", "mine");
-  fs::remove(cell / "cell.json");
+  write_atomically(cell / "cell.json", "damaged, so it is run again");
   CHECK_THROWS_WITH(run_suite(one_scan(), {.out = folder.path(), .keep_removals = true}),
                     Contains("removals: holds files that no run writes"));
+  // What was there is there still, the run's own files as well.
   CHECK(read_text(cell / "removals/notes.txt") == "mine");
+  CHECK(fs::exists(cell / "removals/000000.label"));
+  CHECK(read_text(cell / "cell.json") == "damaged, so it is run again");
   fs::remove(cell / "removals/notes.txt");
   CHECK(run_suite(one_scan(), {.out = folder.path(), .keep_removals = true}).good());
 }

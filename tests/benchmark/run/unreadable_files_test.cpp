@@ -84,6 +84,8 @@ TEST_CASE("A cell that cannot be read is no missing one, and none to run again",
   CHECK(stored.store.find(kTown, stored.identity, nullptr).state == StoredCell::State::kFresh);
   make_unreadable(stored.store.folder(kTown) / "timing-2.json");
   CHECK_THROWS_AS(stored.store.find_repeat(kTown, 2, "key"), UnreadableError);
+  make_unreadable(stored.store.folder(kTown) / "cell.json");
+  CHECK_THROWS_AS(stored.store.has_result(kTown), UnreadableError);
 }
 
 TEST_CASE("Removals that cannot be put in their place are told, and there is no cell without") {
