@@ -37,12 +37,21 @@ ResultsRecord collected_results(const OpenedSuite& suite, const JoinedFolder& fo
   return results;
 }
 
+/// A file system without locks is used all the same; then the user has to see to it.
+void say_if_unlocked(const OpenedSuite& suite, const FolderLock& lock) {
+  if (lock.is_held()) return;
+  suite.say("warning: the file system of " + suite.options().out.string() +
+            " has no locks, so that nothing keeps another run from writing there. Start none "
+            "before this one has ended.");
+}
+
 }  // namespace
 
 RunSummary run_suite(const Suite& suite, const RunOptions& options) {
   OpenedSuite opened(suite, options);
   prepare_run_folder(options.out);
   const FolderLock lock(options.out / kLockFile, FolderLock::Mode::kExclusive);
+  say_if_unlocked(opened, lock);
   sweep_run_folder(options.out);
   JoinedFolder folder = join_folder(opened);
   opened.store().sweep();
@@ -70,6 +79,7 @@ RunSummary run_one_cell(const Suite& suite, const RunOptions& options, const std
   JoinedFolder joined = join_folder(opened);
   make_folder(folder);
   const FolderLock cell_lock(folder / kLockFile, FolderLock::Mode::kExclusive);
+  say_if_unlocked(opened, cell_lock);
   SequenceRuns runs(opened, joined);
   runs.run(index.sequence);
   return runs.summary();

@@ -86,6 +86,16 @@ std::string distance_text(const Entry& first, const Entry& entry, const RateSpec
   return interval_text(interval, rate) + (is_beyond(interval) ? "" : ": not told apart");
 }
 
+/// Those of `rates` that any of the entries has.
+std::vector<RateSpec> rates_in(const std::vector<Entry>& entries, std::vector<RateSpec> rates) {
+  std::erase_if(rates, [&](const RateSpec& rate) {
+    return std::none_of(entries.begin(), entries.end(), [&](const Entry& entry) {
+      return entry.result->rate(rate.name).has_value();
+    });
+  });
+  return rates;
+}
+
 TableRow row_of(const std::vector<Entry>& entries, std::size_t place,
                 const std::vector<RateSpec>& rates, const RateSpec& headline) {
   const Entry& entry = entries[place];
@@ -148,12 +158,8 @@ std::vector<TextTable> leaderboard(const std::vector<Verification>& verified) {
       const std::vector<RateSpec> all = shown_rates(cell.scores[i].protocol.protocol);
       const RateSpec* headline = headline_of(all);
       if (headline == nullptr) continue;
-      std::vector<RateSpec> rates;  // Those that this protocol's results have.
-      for (const RateSpec& rate : all) {
-        if (cell.scores[i].rate(rate.name)) rates.push_back(rate);
-      }
-      tables.push_back(
-          table_of(entries_like(verified, one, i, *headline), cell.scores[i], rates, *headline));
+      const std::vector<Entry> entries = entries_like(verified, one, i, *headline);
+      tables.push_back(table_of(entries, cell.scores[i], rates_in(entries, all), *headline));
     }
   }
   return tables;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -17,23 +18,48 @@ namespace {
 
 using Differences = std::vector<std::string>;
 
-void compare_counts(const Score& said, const ProtocolResult& found, Differences& differences) {
-  const std::string& name = said.protocol.name;
-  for (const auto& [count, value] : said.counts) {
-    bool known = false;
-    for (const auto& [other, counted] : found.counts) {
-      if (other != count) continue;
-      known = true;
-      if (counted == value) continue;
-      differences.push_back(
-          fmt::format("{}: {} is {}, the submission says {}", name, count, counted, value));
+const std::string& key_of(const std::pair<std::string, std::int64_t>& count) {
+  return count.first;
+}
+
+template <class Named>
+const std::string& key_of(const Named& named) {
+  return named.name;
+}
+
+/// Compares two lists by name: `compare` gets what both have, and what only one has is told.
+/// @param where stands before each line, "erasor"
+/// @param what the items are, "count"
+template <class Item, class Compare>
+void compare_lists(const std::string& where, const std::string& what, const std::vector<Item>& said,
+                   const std::vector<Item>& found, Differences& differences, Compare compare) {
+  const auto called = [](const std::vector<Item>& items, const std::string& name) {
+    return std::find_if(items.begin(), items.end(),
+                        [&](const Item& item) { return key_of(item) == name; });
+  };
+  for (const Item& theirs : said) {
+    const auto ours = called(found, key_of(theirs));
+    if (ours != found.end()) {
+      compare(theirs, *ours);
+    } else {
+      differences.push_back(fmt::format("{}: there is no {} {}", where, what, key_of(theirs)));
     }
-    if (!known) differences.push_back(fmt::format("{}: there is no count {}", name, count));
   }
-  if (said.counts.size() < found.counts.size()) {
-    differences.push_back(fmt::format("{}: the submission lacks counts ({} of {})", name,
-                                      said.counts.size(), found.counts.size()));
+  for (const Item& ours : found) {
+    if (called(said, key_of(ours)) != said.end()) continue;
+    differences.push_back(
+        fmt::format("{}: the submission lacks the {} {}", where, what, key_of(ours)));
   }
+}
+
+void compare_counts(const Score& said, const ProtocolResult& found, Differences& differences) {
+  const std::string& where = said.protocol.name;
+  compare_lists(where, "count", said.counts, found.counts, differences,
+                [&](const auto& theirs, const auto& ours) {
+                  if (theirs.second == ours.second) return;
+                  differences.push_back(fmt::format("{}: {} is {}, the submission says {}", where,
+                                                    ours.first, ours.second, theirs.second));
+                });
 }
 
 std::string number_or_none(const std::optional<double>& value) {
@@ -47,44 +73,59 @@ bool agree(const std::optional<double>& a, const std::optional<double>& b) {
 }
 
 void compare_rates(const Score& said, const ProtocolResult& found, Differences& differences) {
-  const std::string& name = said.protocol.name;
-  for (const Rate& rate : found.rates) {
-    const auto other = said.rate(rate.name);
-    if (agree(other, rate.value)) continue;
-    differences.push_back(fmt::format("{}: {} is {}, the submission says {}", name, rate.name,
-                                      number_or_none(rate.value), number_or_none(other)));
-  }
+  const std::string& where = said.protocol.name;
+  compare_lists(where, "rate", said.rates, found.rates, differences,
+                [&](const Rate& theirs, const Rate& ours) {
+                  if (agree(theirs.value, ours.value)) return;
+                  differences.push_back(fmt::format("{}: {} is {}, the submission says {}", where,
+                                                    ours.name, number_or_none(ours.value),
+                                                    number_or_none(theirs.value)));
+                });
+}
+
+/// How intervals were drawn: "level 0.95, 1000 replicates, seed 20260101, blocks of 8 scans".
+std::string drawing_of(const Intervals& intervals) {
+  const BootstrapOptions& options = intervals.options;
+  return fmt::format("level {}, {} replicates, seed {}, blocks of {} scans",
+                     number_text(options.level), options.replicates, options.seed,
+                     intervals.block_scans);
+}
+
+std::string ends_text(const Interval& interval) {
+  return number_or_none(interval.low) + " to " + number_or_none(interval.high);
 }
 
 void compare_intervals(const Score& said, const ProtocolResult& found, Differences& differences) {
-  const std::string& name = said.protocol.name;
+  const std::string& where = said.protocol.name;
   if (!said.intervals || !found.intervals) {
     if (said.intervals.has_value() == found.intervals.has_value()) return;
-    differences.push_back(name + ": intervals are there in one of both only");
+    differences.push_back(where + ": intervals are there in one of both only");
     return;
   }
-  const auto& theirs = said.intervals->rates;
-  const auto& ours = found.intervals->rates;
-  bool same = theirs.size() == ours.size();
-  for (std::size_t i = 0; same && i < ours.size(); ++i) {
-    same = theirs[i].name == ours[i].name && agree(theirs[i].low, ours[i].low) &&
-           agree(theirs[i].high, ours[i].high);
+  const std::string drawn = drawing_of(*found.intervals), said_drawn = drawing_of(*said.intervals);
+  if (drawn != said_drawn) {
+    differences.push_back(fmt::format("{}: intervals are drawn with {}, the submission says {}",
+                                      where, drawn, said_drawn));
   }
-  if (!same) differences.push_back(name + ": the intervals are others");
+  compare_lists(
+      where, "interval of", said.intervals->rates, found.intervals->rates, differences,
+      [&](const Interval& theirs, const Interval& ours) {
+        if (agree(theirs.low, ours.low) && agree(theirs.high, ours.high)) return;
+        differences.push_back(fmt::format("{}: the interval of {} is {}, the submission says {}",
+                                          where, ours.name, ends_text(ours), ends_text(theirs)));
+      });
 }
 
-void compare_columns(const Cell& cell, const std::vector<ColumnValue>& found,
+void compare_columns(const std::vector<ColumnValue>& said, const std::vector<ColumnValue>& found,
                      Differences& differences) {
-  if (!cell.columns || cell.columns->version != kColumnsVersion) return;
-  for (const ColumnValue& said : cell.columns->values) {
-    for (const ColumnValue& column : found) {
-      if (column.name != said.name) continue;
-      if (column.share.part == said.share.part && column.share.whole == said.share.whole) continue;
-      differences.push_back(fmt::format("points: {} is {} of {}, the submission says {} of {}",
-                                        column.name, column.share.part, column.share.whole,
-                                        said.share.part, said.share.whole));
-    }
-  }
+  compare_lists(
+      "points", "column", said, found, differences,
+      [&](const ColumnValue& theirs, const ColumnValue& ours) {
+        const Share &a = theirs.share, &b = ours.share;
+        if (a.part == b.part && a.whole == b.whole) return;
+        differences.push_back(fmt::format("points: {} is {} of {}, the submission says {} of {}",
+                                          ours.name, b.part, b.whole, a.part, a.whole));
+      });
 }
 
 CellIdentity identity_of(const Cell& cell) {
@@ -93,13 +134,25 @@ CellIdentity identity_of(const Cell& cell) {
   return identity;
 }
 
-/// Why there is nothing to verify; else empty.
+/// Why nothing can be verified if this program scores by another version.
+std::string other_version(const std::string& what, const std::string& said,
+                          const std::string& here) {
+  return fmt::format(
+      "it was scored by {} version {}, this program has {}; verify it with a version of raymoval "
+      "that has this one.",
+      what, said, here);
+}
+
+/// Why there is nothing to verify, or no way to do it here; else empty.
 std::string lack_of(const Cell& cell) {
   if (!cell.ok()) return std::string("the cell has no result: ") + status_name(cell.status);
   if (!cell.data || cell.data->fingerprint.empty()) return "it does not say its data's fingerprint";
   if (!cell.masks) return "it does not say the digest of its masks";
   if (cell.scores.empty()) return "it has no score";
-  return "";
+  if (!cell.columns) return "it has no points by class, range and height";
+  // The key holds the version, too, so it could not be checked either.
+  if (cell.columns->version == kColumnsVersion) return "";
+  return other_version("columns", cell.columns->version, kColumnsVersion);
 }
 
 /// What of the data is said otherwise, as "frames 0:49:1, the submission has 0:99:1".
@@ -159,7 +212,7 @@ void check_scores(const Cell& cell, const SequenceScores& scores, Differences& d
       differences.push_back(cell.scores[i].protocol.name + ": the counts of scans are others");
     }
   }
-  compare_columns(cell, scores.columns, differences);
+  compare_columns(cell.columns->values, scores.columns, differences);
 }
 
 }  // namespace
@@ -176,10 +229,7 @@ std::vector<ProtocolRequest> requested_protocols_of(const Cell& cell) {
     const ProtocolEntry* entry = find_protocol(said.protocol);
     const std::string here = entry == nullptr ? "none" : entry->version;
     if (here != said.version) {
-      throw DataError(fmt::format(
-          "it was scored by protocol {} version {}, this program has {}; verify it with a version "
-          "of raymoval that has this one.",
-          said.protocol, said.version, here));
+      throw DataError(other_version("protocol " + said.protocol, said.version, here));
     }
     requests.push_back({said.name, said.protocol, said.options});
   }

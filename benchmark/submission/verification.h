@@ -40,7 +40,9 @@ bool comparable(const Cell& a, const Cell& b);
 /// - its key with its method, parameters, data and protocols, from which it follows;
 /// - its data's fingerprint with that of the sequence;
 /// - the digest and the number of removed points with those of the masks;
-/// - counts, rates, intervals and shares of points with those of the masks.
+/// - counts, rates, intervals with how they were drawn, and shares of points with those of the
+///   masks: nothing may be missing, and nothing may be there that the masks do not score.
+/// A cell whose shares of points are of another `kColumnsVersion` cannot be checked.
 /// It cannot see whether the masks are those of the method: only running the method tells.
 /// @param scored the sequence with `requested_protocols_of(cell)`
 /// @throws Cancelled

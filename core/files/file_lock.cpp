@@ -20,6 +20,12 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 ? name : "an unknown host";
 }
 
+/// Whether the system's error number means that a file system has no locks at all. ENOLCK does not:
+/// a lock server that cannot be asked now may have given the lock to somebody before.
+bool means_no_locks(int reason) {
+  return reason == ENOSYS || reason == ENOTSUP || reason == EINVAL;
+}
+
 }  // namespace
 
 FileLock::~FileLock() {
@@ -35,9 +41,16 @@ FileLock::State FileLock::take(Mode mode) {
     if (::flock(file_.get(), kind | LOCK_NB) == 0) {
       if (is_still_there()) break;
       file_.close();  // Between open and flock the holder before has removed the file.
-    } else if (errno != EINTR) {
-      return errno == EWOULDBLOCK ? State::kBusy : State::kNoLocks;
+      continue;
     }
+    const int reason = errno;
+    if (reason == EINTR) continue;
+    if (reason == EWOULDBLOCK) return State::kBusy;
+    if (means_no_locks(reason)) return State::kNoLocks;
+    throw DataError(path_.string() + ": cannot be locked (" +
+                    std::generic_category().message(reason) +
+                    "), so that nobody knows whether another process works there. Check that the "
+                    "file is yours, and that its disk or share answers and gives locks.");
   }
   write_holder();
   return State::kHeld;

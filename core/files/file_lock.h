@@ -28,7 +28,8 @@ class FileLock {
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
 
-  /// Takes the lock if it is free; does not wait. @throws DataError if the file cannot be made
+  /// Takes the lock if it is free; does not wait.
+  /// @throws DataError if the file cannot be made, or the system cannot say whether it is free
   State take(Mode mode);
 
   /// "process 123 on somewhere", as the holder wrote it.

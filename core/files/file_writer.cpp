@@ -135,4 +135,21 @@ void sync_folder(const std::filesystem::path& folder) {
   sync_names(opened_folder(folder), folder);
 }
 
+std::error_code make_folders(const std::filesystem::path& folder) {
+  using std::filesystem::file_type;
+  std::error_code error;
+  const file_type type = std::filesystem::status(folder, error).type();
+  if (type == file_type::directory) return {};
+  if (type == file_type::none) return error;
+  if (type != file_type::not_found) return std::make_error_code(std::errc::not_a_directory);
+  const std::filesystem::path place = without_slash(folder), above = folder_of(place);
+  if (above != place) {
+    error = make_folders(above);
+    if (error) return error;
+  }
+  // It may be there by now: another process made it, which puts its name on the disk.
+  if (std::filesystem::create_directory(place, error)) sync_folder(above);
+  return error;
+}
+
 }  // namespace raymoval

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "core/files/descriptor.h"
 #include "core/files/part_name.h"
@@ -52,5 +53,11 @@ std::filesystem::path output_target(const std::filesystem::path& named);
 /// Puts the names in `folder` on the disk, where its file system can do that. @throws DataError if
 /// the disk fails
 void sync_folder(const std::filesystem::path& folder);
+
+/// Makes `folder`, and those above it, where they are not there yet, and puts the names of those
+/// that were made on the disk, so that what is written in them later can be found again.
+/// @return why one of them cannot be made; no error if all are there
+/// @throws DataError as `sync_folder`
+std::error_code make_folders(const std::filesystem::path& folder);
 
 }  // namespace raymoval

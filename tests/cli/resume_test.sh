@@ -112,6 +112,11 @@ holds "every key was found" test "$(find single -name cell.json | wc -l)" -eq 10
 expect 0 "" "${run[@]}" --collect --out single
 holds "cells that were run alone are those of a whole run" same_but_times whole single
 expect 0 '"to_run":false,"why":""' plan suite.json --quiet --out single
+sed 's/"erasor"/{"protocol": "erasor", "set": {"voxel_size": 0.3}}/' suite.json >changed.json
+expect 0 '"cell":"a/noop:default"' plan changed.json --quiet
+expect 2 "would refuse this folder: --out single: " plan changed.json --quiet --out single
+cp out.txt planned.txt
+holds "nothing is planned for a folder that a run refuses" test ! -s planned.txt
 expect 2 "has no such cell" "${run[@]}" --out single --cell 0123456789abcdef0123456789abcdef
 expect 2 "Did you mean 'a/comb:default'" "${run[@]}" --out single --cell a/comb:defalt
 

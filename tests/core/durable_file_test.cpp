@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 #include <cerrno>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "core/error.h"
@@ -208,6 +209,33 @@ TEST_CASE(
   CHECK_THROWS_WITH(sync_folder(folder.path() / "none"),
                     Contains("none: cannot be opened (No such file or directory), so that nothing "
                              "can be put on the disk there."));
+}
+
+TEST_CASE(
+    "Folders that are made have their names on the disk, and none that is there is put anew") {
+  const TemporaryFolder folder;
+  const std::filesystem::path place = std::filesystem::canonical(folder.path());
+  const Recording begun;
+  CHECK_FALSE(make_folders(place / "a/b/c/"));
+  CHECK(std::filesystem::is_directory(place / "a/b/c"));
+  REQUIRE(requests.size() == 3);
+  CHECK(requests[0].path == place);
+  CHECK(requests[1].path == place / "a");
+  CHECK(requests[2].path == place / "a/b");
+  CHECK_FALSE(make_folders(place / "a/b"));
+  CHECK_FALSE(make_folders(place / "a/b/c/../d"));
+  REQUIRE(requests.size() == 4);
+}
+
+TEST_CASE("A folder that cannot be made is told with the system's reason") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("file", "x");
+  CHECK(make_folders(file) == std::errc::not_a_directory);
+  CHECK(make_folders(file / "below/it") == std::errc::not_a_directory);
+  CHECK(make_folders(folder.path() / std::string(300, 'n')) == std::errc::filename_too_long);
+  const Refusing names({.sync_folder = EIO});
+  CHECK_THROWS_WITH(make_folders(folder.path() / "new"),
+                    Contains(folder.text() + ": the names in it cannot be put on the disk"));
 }
 
 TEST_CASE("A file whose owner or group cannot be kept gives nobody more than before") {

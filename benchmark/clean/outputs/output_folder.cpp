@@ -33,8 +33,7 @@ void keep_rights(const fs::path& made, const fs::path& before) {
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& path) : path_(without_slash(fs::absolute(path))) {
-  std::error_code above;  // Shows when the folder is made.
-  fs::create_directories(folder_of(path_), above);
+  (void)make_folders(folder_of(path_));  // An error shows when the folder is made.
   part_ = new_part_folder(path_);
   if (part_.held.valid()) return;
   throw DataError(path_.string() + ": cannot be made (" + std::generic_category().message(errno) +

@@ -5,10 +5,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <system_error>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/clouds/file_source.h"
@@ -138,8 +138,7 @@ ScanFolder::ScanFolder(const fs::path& path, const Sequence& sequence, ScanFolde
 }
 
 void ScanFolder::put(const fs::path& file, std::string_view content) {
-  std::error_code shows_later;
-  fs::create_directories((folder_.place() / file).parent_path(), shows_later);
+  (void)make_folders((folder_.place() / file).parent_path());  // An error shows when it is written.
   write_atomically(folder_.place() / file, content);
   files_.push_back(file.string());
 }

@@ -313,64 +313,74 @@ ExitCode clean(const CleanFlags& flags) {
   }
 }
 
+/// What is written, and how.
+void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
+  options.add("-o,--output,--static", "FILE", flags.output,
+              "The cleaned map in the world frame, with all fields of the scans: a file that ends "
+              "in " +
+                  join(written_extensions(), ", "));
+  options.add("--dynamic", "FILE", flags.dynamic, "Also write what was removed, as a map");
+  options.add("--labelled", "FILE", flags.labelled,
+              "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
+  options.add_flag("--confidence", flags.confidence,
+                   "Give maps a field `confidence`: how sure the method is that a point moves, "
+                   "from 0 to 1");
+  options.add(
+      "--labels", "DIR", flags.labels,
+      "Also write a label file for each scan into this folder (251 = removed, 9 = kept, 0 = left "
+      "out)");
+  options.add("--scans", "DIR", flags.scans,
+              "Also write the scans without the removed points, one by one in their own format, "
+              "into a folder that opens as the sequence does; of a recording, another recording");
+  options.add("--tiles", "METRES", flags.tiles,
+              "Cut maps into square tiles of this size: -o, --dynamic and --labelled then name "
+              "folders");
+  options.add("--tile-format", "FORMAT", flags.tile_format,
+              "The format of the tiles, such as ply (default: pcd)");
+  options.add("--crs", "CRS", flags.crs,
+              "Coordinate reference system that LAS files say: EPSG:CODE (UTM zones), WKT, or a "
+              "file with WKT");
+  options.add("--intensity-scale", "FACTOR", flags.intensity_scale,
+              "What a real intensity is multiplied by where LAS files show it as a whole number up "
+              "to 65535, such as 65535 for intensities from 0 to 1 (default: 1); the exact values "
+              "stand beside it");
+  options.add("--html", "FILE", flags.page,
+              "Also write a page with a 3-D view of what was kept and removed (.html)");
+  options.add("--picture", "FILE", flags.picture, "Also write the map from above (.png)");
+  options.add("--voxel", "METRES", flags.voxel,
+              "Write one point for each cell of this size: the mean of its points and of their "
+              "intensity, with the other fields of the point nearest to the middle of the cell");
+}
+
+/// How the sequence is read and cleaned.
+void add_clean_work(CommandOptions& options, CleanFlags& flags) {
+  options.add("--method", "NAME", flags.method,
+              "The method (default: raymoval_plus:offline, which is the best)");
+  options.add("--set", "SETTING", flags.settings, "A parameter: METHOD.key=value");
+  flags.reading.add_to(options);
+  options.set_sentence("--range",
+                       "Distance from the sensor in metres. Points outside it are in no output, "
+                       "but the method sees them");
+  options.add(
+      "--memory-limit", "SIZE", flags.memory_limit,
+      "The memory it may use, in MiB or with a unit such as 2GB (default: nine tenths of the "
+      "machine's)");
+  options.add_flag("--force", flags.force,
+                   "Clean even if the data has mistakes that make the map wrong");
+  options.add_flag("--in-process", flags.in_process,
+                   "Work in this process, for a debugger; there is then no limit on memory");
+  options.add_flag("--overwrite", flags.overwrite, "Replace outputs that exist already");
+  flags.work.add_to(options);
+}
+
 }  // namespace
 
 Command add_clean_command(CommandParser& program) {
   auto flags = std::make_shared<CleanFlags>();
   CommandOptions options = program.add_command("clean", "Writes a map without moving objects");
   SequenceFlags::add_place_to(options, flags->path);
-  options.add("-o,--output,--static", "FILE", flags->output,
-              "The cleaned map in the world frame, with all fields of the scans: a file that ends "
-              "in " +
-                  join(written_extensions(), ", "));
-  options.add("--dynamic", "FILE", flags->dynamic, "Also write what was removed, as a map");
-  options.add("--labelled", "FILE", flags->labelled,
-              "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
-  options.add_flag("--confidence", flags->confidence,
-                   "Give maps a field `confidence`: how sure the method is that a point moves, "
-                   "from 0 to 1");
-  options.add(
-      "--labels", "DIR", flags->labels,
-      "Also write a label file for each scan into this folder (251 = removed, 9 = kept, 0 = left "
-      "out)");
-  options.add("--scans", "DIR", flags->scans,
-              "Also write the scans without the removed points, one by one in their own format, "
-              "into a folder that opens as the sequence does; of a recording, another recording");
-  options.add("--tiles", "METRES", flags->tiles,
-              "Cut maps into square tiles of this size: -o, --dynamic and --labelled then name "
-              "folders");
-  options.add("--tile-format", "FORMAT", flags->tile_format,
-              "The format of the tiles, such as ply (default: pcd)");
-  options.add("--crs", "CRS", flags->crs,
-              "Coordinate reference system that LAS files say: EPSG:CODE (UTM zones), WKT, or a "
-              "file with WKT");
-  options.add("--intensity-scale", "FACTOR", flags->intensity_scale,
-              "What a real intensity is multiplied by where LAS files show it as a whole number up "
-              "to 65535, such as 65535 for intensities from 0 to 1 (default: 1); the exact values "
-              "stand beside it");
-  options.add("--html", "FILE", flags->page,
-              "Also write a page with a 3-D view of what was kept and removed (.html)");
-  options.add("--picture", "FILE", flags->picture, "Also write the map from above (.png)");
-  options.add("--voxel", "METRES", flags->voxel,
-              "Write one point for each cell of this size: the mean of its points and of their "
-              "intensity, with the other fields of the point nearest to the middle of the cell");
-  options.add("--method", "NAME", flags->method,
-              "The method (default: raymoval_plus:offline, which is the best)");
-  options.add("--set", "SETTING", flags->settings, "A parameter: METHOD.key=value");
-  flags->reading.add_to(options);
-  options.set_sentence("--range",
-                       "Distance from the sensor in metres. Points outside it are in no output, "
-                       "but the method sees them");
-  options.add(
-      "--memory-limit", "SIZE", flags->memory_limit,
-      "The memory it may use, in MiB or with a unit such as 2GB (default: nine tenths of the "
-      "machine's)");
-  options.add_flag("--force", flags->force,
-                   "Clean even if the data has mistakes that make the map wrong");
-  options.add_flag("--in-process", flags->in_process,
-                   "Work in this process, for a debugger; there is then no limit on memory");
-  options.add_flag("--overwrite", flags->overwrite, "Replace outputs that exist already");
-  flags->work.add_to(options);
+  add_clean_outputs(options, *flags);
+  add_clean_work(options, *flags);
   options.set_footer(
       "Examples:\n"
       "  raymoval clean data/05 -o static.pcd\n"

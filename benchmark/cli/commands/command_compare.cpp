@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
+#include <system_error>
 
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
@@ -68,8 +69,7 @@ std::filesystem::path reference_file(const std::string& reference) {
   const std::filesystem::path given(reference);
   const std::filesystem::path file = given.extension() == ".json" ? given : given / "results.json";
   if (!file.has_parent_path()) return file;
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
+  const std::error_code error = make_folders(file.parent_path());
   if (error) {
     throw DataError(file.parent_path().string() + ": cannot be made (" + error.message() + ").");
   }
@@ -171,37 +171,41 @@ ExitCode compare(const CompareFlags& flags) {
   return judged(comparison, subject.options);
 }
 
+void add_compare_options(CommandOptions& options, CompareFlags& flags) {
+  options.add("run", "RUN", flags.run, "Run folder, or its results.json");
+  options.add("reference", "REFERENCE", flags.reference,
+              "The run folder, or results.json, to compare with");
+  options.add(
+      "--tolerance", "TOLERANCE", flags.tolerances,
+      "METRIC=NUMBER: this rate may get worse by at most NUMBER, in its own unit, and counts "
+      "may differ; F1=0.01 allows F1 to fall by at most 0.01");
+  options.add(
+      "--across", "WHAT", flags.across,
+      "What may differ: parameters or version of methods, or both (parameters,version). Cells "
+      "that differ in it are compared by their rates");
+  options.add(
+      "--time-band", "FACTOR", flags.time_band,
+      "A method that is slower than the reference by more than this factor is worse (default: "
+      "times are shown and not compared; with --speed 1.3)");
+  options.add_flag(
+      "--speed", flags.speed,
+      "Compare two speed.json of scripts/benchmark.sh, or their folders: times of whole "
+      "cells, relative to a fixed kernel of the same run");
+  options.add("--format", "FORMAT", flags.format, "text, md, junit or json (default: text)");
+  options.add("-o,--output", "FILE", flags.output,
+              "Write the comparison to this file, and print it as text");
+  options.add_flag("--update", flags.update,
+                   "Make RUN the new REFERENCE, without times and machine; compare nothing");
+  options.add_flag("--with-times", flags.with_times,
+                   "With --update: keep times and machine, for --time-band");
+}
+
 }  // namespace
 
 Command add_compare_command(CommandParser& program) {
   auto flags = std::make_shared<CompareFlags>();
   CommandOptions options = program.add_command("compare", "Says whether a run got worse");
-  options.add("run", "RUN", flags->run, "Run folder, or its results.json");
-  options.add("reference", "REFERENCE", flags->reference,
-              "The run folder, or results.json, to compare with");
-  options.add(
-      "--tolerance", "TOLERANCE", flags->tolerances,
-      "METRIC=NUMBER: this rate may get worse by at most NUMBER, in its own unit, and counts "
-      "may differ; F1=0.01 allows F1 to fall by at most 0.01");
-  options.add(
-      "--across", "WHAT", flags->across,
-      "What may differ: parameters or version of methods, or both (parameters,version). Cells "
-      "that differ in it are compared by their rates");
-  options.add(
-      "--time-band", "FACTOR", flags->time_band,
-      "A method that is slower than the reference by more than this factor is worse (default: "
-      "times are shown and not compared; with --speed 1.3)");
-  options.add_flag(
-      "--speed", flags->speed,
-      "Compare two speed.json of scripts/benchmark.sh, or their folders: times of whole "
-      "cells, relative to a fixed kernel of the same run");
-  options.add("--format", "FORMAT", flags->format, "text, md, junit or json (default: text)");
-  options.add("-o,--output", "FILE", flags->output,
-              "Write the comparison to this file, and print it as text");
-  options.add_flag("--update", flags->update,
-                   "Make RUN the new REFERENCE, without times and machine; compare nothing");
-  options.add_flag("--with-times", flags->with_times,
-                   "With --update: keep times and machine, for --time-band");
+  add_compare_options(options, *flags);
   options.set_footer(
       "Counts must be equal. Runs with other data, protocols or parameters cannot be compared. "
       "With\n"

@@ -28,10 +28,13 @@ ExitCode plan(const PlanFlags& flags) {
   options.out = flags.out;
   options.progress = &progress;
   options.cancel = &interrupt_flag();
-  const std::vector<PlannedCell> cells = plan_suite(suite, options).cells;
+  const SuitePlan planned = plan_suite(suite, options);
   progress.end();
+  if (!planned.refused.empty()) {
+    throw UsageError("`raymoval run` would refuse this folder: " + planned.refused);
+  }
   std::string text;
-  for (const PlannedCell& cell : cells) text += line_of(to_json(cell, !flags.out.empty()));
+  for (const PlannedCell& cell : planned.cells) text += line_of(to_json(cell, !flags.out.empty()));
   print(text);
   return ExitCode::kDone;
 }
@@ -44,7 +47,8 @@ Command add_plan_command(CommandParser& program) {
       program.add_command("plan", "Prints a line of JSON for each cell of a suite");
   flags->what.add_to(options);
   options.add("--out", "DIR", flags->out,
-              "The run folder: also say which cells have to be run, and why");
+              "The run folder: also say which cells have to be run, and why. A folder that a run "
+              "would refuse is refused here, too");
   options.add_flag("--quiet", flags->quiet, "Show no progress");
   options.set_footer(
       "Each cell may be run on a machine of its own: raymoval run SUITE --out DIR --cell KEY.\n"

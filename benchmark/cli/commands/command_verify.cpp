@@ -158,11 +158,14 @@ Command add_verify_command(CommandParser& program) {
   flags->work.add_to(options);
   options.set_footer(
       "Compared are: the key with method, version, parameters, data and protocols; the data's\n"
-      "fingerprint; the hash of the masks; every count, rate and interval that the masks score.\n"
+      "fingerprint; the hash of the masks; every count, rate, interval and share of points that "
+      "the\n"
+      "masks score; none may be missing or added.\n"
       "Frames, range and own vehicle are read as the submission says. Whether masks come from the\n"
       "method they are said to come from is seen by running it only.\n"
-      "Exit codes: 0 holds, 1 does not hold, 2 cannot be checked (data or masks are absent, or a\n"
-      "file is damaged).\nExamples:\n"
+      "Exit codes: 0 holds, 1 does not hold, 2 cannot be checked (data or masks are absent, a "
+      "file\n"
+      "is damaged, or it was scored by another version).\nExamples:\n"
       "  raymoval run --sequence street --method raymoval:online --keep-removals --out out/street\n"
       "  raymoval verify out/street\n"
       "  raymoval verify results/submissions/voxel_counts --masks out/masks\n"

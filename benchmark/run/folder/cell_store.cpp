@@ -9,6 +9,7 @@
 #include "benchmark/result/removals/removal_files.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
 
@@ -62,8 +63,7 @@ void sweep_cell(const path& folder) {
 }  // namespace
 
 void make_folder(const path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  const std::error_code error = make_folders(folder);
   if (error) {
     throw DataError(folder.string() + ": cannot be made (" + error.message() +
                     "). Choose another --out.");

@@ -65,6 +65,7 @@ class CellStore {
   std::filesystem::path out_;
 };
 
+/// Makes a folder and those above it, with their names on the disk (see `make_folders`).
 /// @throws DataError pointing to --out
 void make_folder(const std::filesystem::path& folder);
 

@@ -16,9 +16,9 @@ FileLock::State taken(FileLock& lock, FileLock::Mode mode) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& file, Mode mode) : lock_(file) {
-  // A file system without locks is used all the same.
-  if (taken(lock_, mode) != FileLock::State::kBusy) return;
+FolderLock::FolderLock(const std::filesystem::path& file, Mode mode)
+    : lock_(file), state_(taken(lock_, mode)) {
+  if (state_ != FileLock::State::kBusy) return;
   throw UsageError(file.parent_path().string() + ": another run is writing there (" +
                    lock_.holder() + "). Wait for its end, or choose another --out.");
 }

@@ -13,11 +13,15 @@ class FolderLock {
   using Mode = FileLock::Mode;
 
   /// @throws UsageError naming process and host if somebody holds it; DataError if the file cannot
-  /// be written
+  /// be written or locked
   FolderLock(const std::filesystem::path& file, Mode mode);
+
+  /// False on a file system without locks, where nobody is kept away.
+  [[nodiscard]] bool is_held() const { return state_ == FileLock::State::kHeld; }
 
  private:
   FileLock lock_;
+  FileLock::State state_;
 };
 
 }  // namespace raymoval

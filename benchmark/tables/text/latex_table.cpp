@@ -35,48 +35,44 @@ std::string known_character(const std::string& text, std::size_t& at) {
   return "?";
 }
 
+/// A character as LaTeX shows it.
+std::string escaped_character(const std::string& character) {
+  switch (character.front()) {
+    case '\\':
+      return "\\textbackslash{}";
+    case '~':
+      return "\\textasciitilde{}";
+    case '^':
+      return "\\textasciicircum{}";
+    case '`':
+      return "\\`{}";
+    case '<':
+      return "\\textless{}";
+    case '>':
+      return "\\textgreater{}";
+    case '|':
+      return "\\textbar{}";
+    case '&':
+    case '%':
+    case '$':
+    case '#':
+    case '_':
+    case '{':
+    case '}':
+      return "\\" + character;
+    default:
+      return character;
+  }
+}
+
 std::string latex_escaped(const std::string& any_text) {
   const std::string text = printable_text(any_text);
   std::string escaped;
   for (std::size_t at = 0; at < text.size();) {
     const std::string character = known_character(text, at);
-    switch (character.front()) {
-      case '\\':
-        escaped += "\\textbackslash{}";
-        break;
-      case '~':
-        escaped += "\\textasciitilde{}";
-        break;
-      case '^':
-        escaped += "\\textasciicircum{}";
-        break;
-      case '`':
-        escaped += "\\`{}";
-        break;
-      case '<':
-        escaped += "\\textless{}";
-        break;
-      case '>':
-        escaped += "\\textgreater{}";
-        break;
-      case '|':
-        escaped += "\\textbar{}";
-        break;
-      case '-':  // Two of them would become a dash.
-        escaped += escaped.ends_with('-') ? "{}-" : "-";
-        break;
-      case '&':
-      case '%':
-      case '$':
-      case '#':
-      case '_':
-      case '{':
-      case '}':
-        escaped += "\\" + character;
-        break;
-      default:
-        escaped += character;
-    }
+    // Two of them would become a dash.
+    if (character == "-" && escaped.ends_with('-')) escaped += "{}";
+    escaped += escaped_character(character);
   }
   // Behind the end of a row these would belong to it, however many blanks are between.
   const std::size_t first = std::min(escaped.find_first_not_of(' '), escaped.size());

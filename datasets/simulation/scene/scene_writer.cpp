@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
 #include "core/parallel.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
@@ -169,10 +169,7 @@ void write_simulated(const SimulationOptions& options, const fs::path& folder, i
         folder.string() +
         ": exists already and is not an empty folder; remove it or choose another one.");
   }
-  if (folder.has_parent_path()) {
-    std::error_code error;  // Shows when the place is made.
-    fs::create_directories(folder.parent_path(), error);
-  }
+  (void)make_folders(folder_of(folder));  // An error shows when the place is made.
   simulated::MakingPlace place(folder);
   simulated::write_scene({options, "", threads, progress, cancel}, place.folder());
   if (!place.take_place()) {

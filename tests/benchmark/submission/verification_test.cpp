@@ -101,6 +101,38 @@ TEST_CASE("A submission as it was run holds, and one that was changed does not",
   }) == 1);
 }
 
+TEST_CASE("A submission with figures that its masks do not score, or without some, does not hold") {
+  const CombRun run;
+  REQUIRE(run.verify_changed([](Cell&) {}) == 0);
+  CHECK(run.verify_changed([](Cell& cell) {
+    ColumnValue& recall = cell.columns->values.at(1);
+    recall.name += "_";
+    ++recall.share.part;
+  }) == 1);
+  CHECK(run.verify_changed([](Cell& cell) {
+    cell.columns->values.push_back({"more", {1, 2}, ""});
+  }) == 1);
+  CHECK(run.verify_changed([](Cell& cell) { cell.columns->values.pop_back(); }) == 1);
+  CHECK(run.verify_changed([](Cell& cell) {
+    cell.scores[0].rates.push_back({"F1_no_truck", 0.99});
+  }) == 1);
+  CHECK(run.verify_changed([](Cell& cell) { cell.scores[0].rates.pop_back(); }) == 1);
+  CHECK(run.verify_changed([](Cell& cell) { cell.scores[0].counts.emplace_back("more", 1); }) == 1);
+}
+
+TEST_CASE("A submission whose intervals were drawn otherwise does not hold") {
+  const CombRun run;
+  const auto drawn = [&](const std::function<void(Intervals&)>& change) {
+    return run.verify_changed([&](Cell& cell) { change(*cell.scores[0].intervals); });
+  };
+  REQUIRE(drawn([](Intervals&) {}) == 0);
+  CHECK(drawn([](Intervals& intervals) { intervals.options.level = 0.5; }) == 1);
+  CHECK(drawn([](Intervals& intervals) { intervals.options.replicates = 999999; }) == 1);
+  CHECK(drawn([](Intervals& intervals) { ++intervals.options.seed; }) == 1);
+  CHECK(drawn([](Intervals& intervals) { ++intervals.block_scans; }) == 1);
+  CHECK(drawn([](Intervals& intervals) { intervals.rates.pop_back(); }) == 1);
+}
+
 TEST_CASE("A submission whose masks were changed does not hold") {
   const CombRun run;
   const std::filesystem::path masks = run.cell_folder() / "removals";
@@ -119,6 +151,16 @@ TEST_CASE("A submission without data, masks, result or whole file cannot be chec
   CHECK(run.verify_changed([](Cell& cell) {
     cell.scores[0].protocol.version = "0";
     renew_key(cell);
+  }) == 2);
+  CHECK(run.verify_changed([](Cell& cell) { cell.columns.reset(); }) == 2);
+  CHECK(run.verify_changed([](Cell& cell) {
+    cell.columns->version = "0";
+    cell.columns->values.at(1).share.part = 4000;
+  }) == 2);
+  // The key of such a cell holds that version, so that it does not follow here.
+  CHECK(run.verify_changed([](Cell& cell) {
+    cell.columns->version = "0";
+    cell.key[0] = cell.key[0] == '0' ? '1' : '0';
   }) == 2);
   CHECK(run.verify({run.path("nothing")}) == 2);
   CHECK(run.verify({run.path("theirs")}) == 2);  // No masks beside it.
