@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -22,14 +23,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+[[noreturn]] void throw_unreadable(const fs::path& path, const std::error_code& reason) {
+  throw UnreadableError(path.string() + ": cannot be looked at (" + reason.message() +
+                        "). Check the rights of the folders above it, and that its disk or share "
+                        "answers.");
+}
+
 /// The one way to write a path, so that two can be compared.
 fs::path plain(const fs::path& path) {
   std::error_code error;
   fs::path whole = fs::absolute(path, error);
   if (!error) whole = fs::weakly_canonical(whole, error);
-  if (error) {
-    throw UnreadableError(path.string() + ": cannot be looked at (" + error.message() + ").");
-  }
+  if (error) throw_unreadable(path, error);
   return without_slash(whole);
 }
 
@@ -159,7 +164,10 @@ void check_inputs_stay(const std::vector<fs::path>& inputs,
 
 std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  if (::stat(path.c_str(), &status) != 0) {
+    if (!means_absent(errno)) throw_unreadable(path, {errno, std::generic_category()});
+    return std::nullopt;
+  }
   return std::pair{status.st_dev, status.st_ino};
 }
 

@@ -54,7 +54,7 @@ struct CleanPaths {
 };
 
 /// What tells the file or folder at `path` from all others, whatever its names; nothing if there is
-/// none.
+/// none. @throws UnreadableError (see core/files/file_kind.h)
 std::optional<std::pair<dev_t, ino_t>> identity_of(const std::filesystem::path& path);
 
 /// The record that stands in a folder of tiles or of scans and lists its files; else empty. Only

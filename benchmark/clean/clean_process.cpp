@@ -14,6 +14,7 @@
 #include "core/files/part_name.h"
 #include "core/process/child_process.h"
 #include "core/progress.h"
+#include "datasets/bags/chunks/private_folder.h"
 #include "methods/external/external.h"
 
 namespace raymoval {
@@ -48,13 +49,14 @@ class LeftOvers {
 
  private:
   void remove() const {
+    remove_abandoned_private_folders();
+    remove_abandoned_working_folders();
     // The child was ended between two renames: what was there has another name and is the user's.
     if (present() != had_) return;
     std::error_code ignored;
     for (const fs::path& path : unfinished(paths_)) {
       if (before_.count(path) == 0) fs::remove_all(path, ignored);
     }
-    remove_abandoned_working_folders();
   }
   /// The outputs that are there, for a folder may be away under another name.
   [[nodiscard]] std::vector<fs::path> present() const {

@@ -13,6 +13,7 @@
 #include "core/files/descriptor_io.h"
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
+#include "datasets/bags/chunks/private_folder.h"
 #include "datasets/open_sequence.h"
 #include "datasets/world_axes/gravity.h"
 #include "methods/external/external.h"
@@ -80,10 +81,12 @@ MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
   return answer;
 }
 
-/// Removes the working folder of an external method whose process was ended and could not do it.
+/// Removes what a process that was ended could not: a recording that it unpacked, and the working
+/// folder of an external method.
 struct Tidy {
   const MethodEntry& entry;
   ~Tidy() {
+    remove_abandoned_private_folders();
     if (!entry.manifest.empty()) remove_abandoned_working_folders();
   }
 };

@@ -6,6 +6,7 @@
 #include "benchmark/process/method_run.h"
 #include "benchmark/run/cell_run.h"
 #include "benchmark/run/folder/run_folder.h"
+#include "benchmark/suite/suite_json.h"
 #include "core/files/file_kind.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -85,6 +86,7 @@ OpenedSuite::OpenedSuite(const Suite& suite, const RunOptions& options)
         open_sequence(request.path, request.options, {threads_, options.progress, options.cancel}));
     check_has_labels(sequences_.back());
   }
+  check_paths_fit_json(suite);
   scored_sequences_.resize(sequences_.size());
 }
 

@@ -242,6 +242,18 @@ void read_protocol(const json& item, const std::string& where, Suite& suite) {
                added.options);
 }
 
+/// @param what such as "path of a sequence"
+void check_is_utf8(const std::string& text, const std::string& what) {
+  try {
+    (void)json(text).dump();
+  } catch (const json::type_error&) {
+    throw UsageError(fmt::format(
+        "{} '{}': is not UTF-8, as run.json and the processes of methods need it. Rename the "
+        "folder or file, or make a link to it (ln -s) and give the whole path of the link.",
+        what, text));
+  }
+}
+
 /// A suite on the user's own data needs its place, and no other suite wants one.
 void check_data_given(const Places& places, const std::string& where) {
   if (places.data_used == !places.data.empty()) return;
@@ -344,6 +356,18 @@ SequenceRequest place_from(const ordered_json& json) {
     (key == "range_min" ? options.range_m->min : options.range_m->max) = metres;
   }
   return place;
+}
+
+void check_paths_fit_json(const Suite& suite) {
+  for (const SequenceRequest& request : suite.sequences) {
+    const ordered_json place = to_json(absolute_place(request));
+    for (const auto& [key, text] : place.items()) {
+      check_is_utf8(text.get<std::string>(), key + " of a sequence");
+    }
+  }
+  for (const MethodRequest& request : suite.methods) {
+    check_is_utf8(request.method.address(), "method");
+  }
 }
 
 }  // namespace raymoval

@@ -99,6 +99,12 @@ bool is_since_1970(Nanoseconds stamp) {
   return stamp > 100'000'000'000'000'000 && stamp < kMostStamp;
 }
 
+/// A time as a double: 0 for what is no time, and for one that is nearer to 0 than any double, such
+/// as 1e-400.
+double rough_number(std::string_view word) {
+  return parse_number<double>(word).value_or(0.0);
+}
+
 [[noreturn]] void throw_no_stamp(std::string_view word, TimeUnit unit, const std::string& where) {
   const auto number = parse_number<double>(word);
   const std::string what = !number                   ? "is not a number"
@@ -205,7 +211,7 @@ StampColumn parse_stamps(const std::vector<std::string_view>& words, std::option
   constexpr std::size_t kEnough = 1000;  // To see the usual spacing.
   std::vector<double> rough, steps;
   for (std::size_t i = 0; i < std::min(words.size(), kEnough); ++i) {
-    rough.push_back(parse_number<double>(words[i]).value_or(0.0));
+    rough.push_back(rough_number(words[i]));
     if (i > 0) steps.push_back(std::abs(rough[i] - rough[i - 1]));
   }
   StampColumn column;
@@ -258,8 +264,7 @@ StampColumn read_stamp_file(const std::filesystem::path& path) {
   }
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const bool seconds = numbers && column.unit == TimeUnit::kSeconds;
-    column.since_first.push_back(seconds ? *parse_number<double>(lines[i]) -
-                                               *parse_number<double>(lines.front())
+    column.since_first.push_back(seconds ? rough_number(lines[i]) - rough_number(lines.front())
                                          : to_seconds(column.stamps[i] - column.stamps.front()));
   }
   return column;

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import copy
-import hashlib
 import inspect
-import pickle
 import re
 from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 from raymoval import _raymoval
+from raymoval._versions import content_version
 
 Value = Union[bool, int, float, str]
 
@@ -36,8 +35,10 @@ class Remover:
 
     #: Name in tables; that of the class, in small letters, without.
     name: Optional[str] = None
-    #: Raise it whenever answers may change. Without, it is made of the source of the class, so that
-    #: a changed method is run again.
+    #: Raise it whenever answers may change. Without, it is made of the code of the class and of
+    #: those that it derives from, and of what they and the object hold, so that a changed method is
+    #: run again. Functions, classes and numbers elsewhere that this code uses do not count, and
+    #: another version of Python makes another one.
     version: Optional[str] = None
     #: Whether the answer for a scan comes from it and earlier ones only.
     online: bool = False
@@ -72,20 +73,10 @@ def _parameters(method: Remover) -> dict[str, Value]:
 
 
 def _version(method: Remover) -> str:
-    """The method's own, or a hash of its source and of what it holds beside its parameters."""
+    """The method's own, or a hash of its code and of what it holds beside its parameters."""
     if method.version is not None:
         return str(method.version)
-    try:
-        text = inspect.getsource(type(method))
-    except (OSError, TypeError):  # Typed in where nobody keeps it.
-        text = repr(sorted((name, getattr(value, "__code__", None) and value.__code__.co_code)
-                           for name, value in vars(type(method)).items()))
-    held = {name: value for name, value in vars(method).items() if name not in _parameters(method)}
-    try:
-        state = pickle.dumps(sorted(held.items()))
-    except Exception:  # What cannot be stored cannot be compared.
-        state = b""
-    return "python-" + hashlib.sha256(text.encode() + state).hexdigest()[:16]
+    return content_version(method, remover_name(method), Remover, _parameters(method))
 
 
 def entry(method: Union[Remover, type[Remover]]) -> dict[str, Any]:

@@ -32,4 +32,12 @@ class TwoScans : public ScanSource {
   SensorModel sensor_;
 };
 
+/// A sequence of one scan with a static and a moving point, in the folder's layout of KITTI.
+inline void write_drive(const TemporaryFolder& folder, const std::string& place) {
+  (void)folder.write(place + "/velodyne/000000.bin", floats({5, 0, 0, 0, 5, 10, 0, 0}));
+  (void)folder.write(place + "/labels/000000.label", words({40, 252}));
+  (void)folder.write(place + "/poses.txt", kIdentityRow);
+  (void)folder.write(place + "/calib.txt", "Tr: " + kIdentityRow);
+}
+
 }  // namespace raymoval::test

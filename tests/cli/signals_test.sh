@@ -127,6 +127,16 @@ holds "unfinished outputs are left" compgen -G '*.part'
 expect 0 "" clean street --frames 0:2 --method noop --quiet -o map.pcd --dynamic removed.pcd \
   --labels labels
 nothing_left "the next clean"
+# abandoned_recording: what a killed reader of a packed recording leaves in TMPDIR.
+abandoned_recording() {
+  mkdir "temporary/raymoval-recording.raymoval-$(head -c 8 /proc/sys/kernel/random/boot_id)0123456789abcdef.part"
+}
+abandoned_recording
+expect 0 "" clean street --frames 0:2 --method noop --quiet -o after.pcd
+nothing_left "clean after a killed reader of a recording"
+abandoned_recording
+expect 0 "" run --sequence street --frames 0:2 --method comb --quiet --only '*/comb*' --out after
+nothing_left "a run after a killed reader of a recording"
 begin simulate town -o drive --quiet
 wait_for_name 'drive.*.part'
 kill -KILL $process

@@ -22,6 +22,7 @@
 #include "datasets/simulation/scene/scene_folder.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/unreadable.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;
@@ -104,10 +105,12 @@ TEST_CASE("A scene of the cache that is not what was written there is made again
          fs::resize_file(folder / "manifest.json", 0);
          std::ofstream(folder / "manifest.json") << "{}";
        }},
-      {"cannot be listed",
+      {"velodyne/ is missing",
        [&] {
          fs::remove_all(folder / "velodyne");
-         std::ofstream(folder / "manifest.json") << "{\"identity\": \"\"}";
+         auto manifest = read_json(folder / "manifest.json");
+         manifest["files"] = nlohmann::json::object();
+         std::ofstream(folder / "manifest.json") << manifest;
        }},
       {"is a pipe",
        [&] {
@@ -124,7 +127,7 @@ TEST_CASE("A scene of the cache that is not what was written there is made again
     harm();
     Log log;
     CHECK(cached_simulation(small_town(), scratch.text(), 2, log.progress()) == folder);
-    if (problem != "cannot be listed") CHECK_THAT(log.text(), Contains(problem));
+    CHECK_THAT(log.text(), Contains(problem));
     CHECK_THAT(log.text(), Contains("it is made again"));
     CHECK(content_of(folder) == whole);
     CHECK(entries_of(folder.parent_path()).size() == 1);  // Neither the old nor a lock is left.
@@ -132,6 +135,24 @@ TEST_CASE("A scene of the cache that is not what was written there is made again
   Log log;
   CHECK(cached_simulation(small_town(), scratch.text(), 2, log.progress()) == folder);
   CHECK(log.text().empty());
+}
+
+TEST_CASE("A scene of the cache that cannot be read is not damaged, and stays", "[no-files]") {
+  const TemporaryFolder scratch;
+  const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
+  const auto refuse = [&] {
+    CHECK_THROWS_AS(cached_simulation(small_town(), scratch.text(), 1, nullptr), UnreadableError);
+    CHECK_THROWS_AS(is_cached(small_town(), scratch.text()), UnreadableError);
+  };
+  {
+    const test::NothingOpens full;
+    refuse();
+  }
+  CHECK(is_cached(small_town(), scratch.text()));
+  const fs::path scan = folder / "velodyne/000001.bin";
+  test::make_unreadable(scan);
+  refuse();
+  CHECK(fs::is_symlink(scan));
 }
 
 TEST_CASE("The folder of another scene under a scene's name does not count") {

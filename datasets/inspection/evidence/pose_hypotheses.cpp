@@ -9,6 +9,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/clouds/poses.h"
 #include "datasets/trajectories/pose_file.h"
@@ -102,6 +103,8 @@ Pose camera_of(const Samples& samples) {
   try {
     const Pose Tr = read_calibration(calibration, "Tr");
     return Eigen::AngleAxisd(Tr.linear()).angle() > 0.5 ? Tr : camera_axes();
+  } catch (const UnreadableError&) {
+    throw;
   } catch (const Error&) {
     return camera_axes();  // The row is not used where the poses are said to be the LiDAR's.
   }

@@ -21,6 +21,7 @@ struct PoseHypothesis {
 };
 
 /// All that are worth trying for these poses; refers to `samples.poses()`.
+/// @throws DataError as file_kind.h says if the calibration or the poses cannot be read
 std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples);
 
 /// Rotations whose angles were degrees where radians belong. The heading of the first pose is known

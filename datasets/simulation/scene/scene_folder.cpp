@@ -71,6 +71,7 @@ std::string size_problem(const fs::path& folder, const std::vector<ListedFile>& 
     }
     scans += file.name.starts_with("velodyne/") ? 1 : 0;
   }
+  if (!has_folder(folder / "velodyne")) return "velodyne/ is missing";
   const std::vector<fs::path> there = entries_of(folder / "velodyne");
   const auto found = static_cast<std::size_t>(std::count_if(
       there.begin(), there.end(), [](const fs::path& path) { return path.extension() == ".bin"; }));
@@ -144,6 +145,8 @@ std::string scene_folder_problem(const fs::path& folder, const std::string& iden
     return problem.empty() && with_content ? content_problem(folder, files, threads) : problem;
   } catch (const nlohmann::json::exception&) {
     return std::string(kManifestName) + " is damaged";
+  } catch (const UnreadableError&) {
+    throw;  // Nobody can say that something is wrong with it.
   } catch (const Error& error) {
     return error.what();
   }

@@ -45,6 +45,7 @@ class SceneFolder {
 /// reads as part of the sequence do not count.
 /// @param with_content whether the files' hashes are compared too
 /// @param threads used for reading
+/// @throws UnreadableError (see core/files/file_kind.h)
 std::string scene_folder_problem(const std::filesystem::path& folder, const std::string& identity,
                                  bool with_content, int threads);
 

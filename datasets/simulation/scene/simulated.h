@@ -98,7 +98,8 @@ std::filesystem::path default_cache_root();
 /// takes its place). A folder of the cache counts only if it fits its manifest.json: every file is
 /// there with its size and, if `check_content`, its hash, and there is no scan too many. Otherwise
 /// it is made again, which is said.
-/// @throws as write_simulated; DataError if the cache cannot be written
+/// @throws as write_simulated; DataError if the cache cannot be written; UnreadableError if it
+/// cannot be read, for then nothing is known to be wrong with what is there
 std::filesystem::path cached_simulation(const SimulationOptions& options,
                                         const std::filesystem::path& cache_root, int threads,
                                         Progress* progress,

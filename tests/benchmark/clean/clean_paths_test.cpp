@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "datasets/clouds/file_source.h"
 #include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/unreadable.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
@@ -71,6 +73,17 @@ TEST_CASE("A folder around an input is never replaced") {
   CleanPaths beside;
   beside.scans = data.folder.path() / "cleaned";
   check_apart_from(data.sequence, beside);
+}
+
+TEST_CASE("What the system cannot look at is not taken for absent") {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.write("map.pcd", "points");
+  CHECK(identity_of(file) == identity_of(folder.path() / "." / "map.pcd"));
+  CHECK_FALSE(identity_of(folder.path() / "none"));
+  CHECK_FALSE(identity_of(file / "below a file"));
+  test::make_unreadable(file);
+  CHECK_THROWS_AS(identity_of(file), UnreadableError);
+  CHECK_THROWS_WITH(identity_of(file), Contains("map.pcd: cannot be looked at ("));
 }
 
 TEST_CASE("Outputs do not stand in each other's place") {

@@ -15,17 +15,10 @@
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
+using raymoval::test::write_drive;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A sequence of one scan with a static and a moving point, in the folder's layout of KITTI.
-void write_drive(const test::TemporaryFolder& folder, const std::string& place) {
-  (void)folder.write(place + "/velodyne/000000.bin", test::floats({5, 0, 0, 0, 5, 10, 0, 0}));
-  (void)folder.write(place + "/labels/000000.label", test::words({40, 252}));
-  (void)folder.write(place + "/poses.txt", test::kIdentityRow);
-  (void)folder.write(place + "/calib.txt", "Tr: " + test::kIdentityRow);
-}
 
 /// A run of noop, which keeps all points, on sequences `drive` and ROOT:05.
 struct TwoSequences {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is there and cannot be read is never taken for absent or damaged, which would have it made
 // anew: the error of the system is told.
-#include <sys/resource.h>
-
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -14,36 +12,17 @@
 #include "benchmark/run/folder/run_folder.h"
 #include "core/files/file_kind.h"
 #include "tests/benchmark/small_world.h"
+#include "tests/datasets/unreadable.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
+using raymoval::test::make_unreadable;
+using raymoval::test::NothingOpens;
 namespace fs = std::filesystem;
 
 namespace {
 
 const CellName kTown{"town", "comb"};
-
-/// As long as it lives, this process may look at files and cannot open any.
-class NothingOpens {
- public:
-  NothingOpens() {
-    ::getrlimit(RLIMIT_NOFILE, &before_);
-    const rlimit none{0, before_.rlim_max};
-    ::setrlimit(RLIMIT_NOFILE, &none);
-  }
-  ~NothingOpens() { ::setrlimit(RLIMIT_NOFILE, &before_); }
-  NothingOpens(const NothingOpens&) = delete;
-  NothingOpens& operator=(const NothingOpens&) = delete;
-
- private:
-  rlimit before_{};
-};
-
-/// Puts a link to itself in the place of a file, which the system refuses to follow.
-void make_unreadable(const fs::path& file) {
-  fs::remove(file);
-  fs::create_symlink(file.filename(), file);
-}
 
 /// A folder with the cell `kTown` and its removals.
 struct Stored {

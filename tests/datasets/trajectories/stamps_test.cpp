@@ -94,3 +94,11 @@ TEST_CASE("files of times hold numbers or the dates of KITTI's raw data", "[traj
   const auto bad = folder.write("bad.txt", "2011-13-26 13:02:25.9\n");
   check_says(message_of<DataError>([&] { read_stamp_file(bad); }), {"bad.txt: line 1"});
 }
+
+TEST_CASE("a time that is nearer to 0 than any double is 0", "[trajectories]") {
+  const TemporaryFolder folder;
+  const auto times = folder.write("times.txt", "1e-400\n7.5\n-1e-999\n1e-400\n9\n");
+  const StampColumn column = read_stamp_file(times);
+  CHECK(column.stamps == std::vector<Nanoseconds>{0, 7500000000, 0, 0, 9000000000});
+  CHECK(column.since_first == std::vector<double>{0.0, 7.5, 0.0, 0.0, 9.0});
+}
