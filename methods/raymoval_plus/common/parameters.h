@@ -15,7 +15,7 @@ struct Parameters {
   int recent_scans = 30;
   int history_scans = 20;
   int history_step = 2;
-  int terrain_period = 5;
+  int terrain_period = 1;
   // Terrain.
   bool terrain = true;
   double terrain_cell = 0.4;

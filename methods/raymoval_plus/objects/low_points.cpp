@@ -41,9 +41,10 @@ constexpr float kLoneReach = 1.0F / 3.0F, kLoneWidth = 0.1F;
 /// What stands in a column of voxels.
 struct Standing {
   std::uint32_t dynamic = 0, fixed = 0;  ///< Numbers of points.
-  bool is_near_dynamic = false;          ///< Something dynamic stands here or beside it.
-  bool is_asked = false;                 ///< A low point here or beside it wants to know.
-  bool is_beside_dynamic = false;        ///< So near that a point here may belong to it.
+  int marked = 0;  ///< So many columns to either side are marked, for what is dynamic here.
+  bool is_near_dynamic = false;    ///< Something dynamic stands here or beside it.
+  bool is_asked = false;           ///< A low point here or beside it wants to know.
+  bool is_beside_dynamic = false;  ///< So near that a point here may belong to it.
 };
 
 /// The low points of one scan and what stands on them. Hardly anything in a scan is dynamic, so
@@ -57,6 +58,8 @@ class LowPoints {
         low_(static_cast<float>(parameters.object_height)),
         columns_wider_by_range_(kWiderByBeams * maps.steps.elevation /
                                 static_cast<float>(parameters.voxel_size)),
+        farthest_aside_(std::sqrt(2.0F) * (kMostColumns + 1) *
+                        static_cast<float>(parameters.voxel_size)),
         lone_gap_(kLoneReach * static_cast<float>(parameters.cluster_gap)),
         lone_growth_(kLoneReach * static_cast<float>(parameters.cluster_growth)),
         lone_range_(lone_range_of(maps.steps, parameters)),
@@ -105,8 +108,9 @@ class LowPoints {
   [[nodiscard]] float range(std::size_t k) const { return scan_.scan.points[k].norm(); }
   /// How many columns to either side may belong to what stands at a point: one near by, and more
   /// where beams are farther apart.
-  [[nodiscard]] int reach(std::size_t k) const {
-    const float wider = std::min<float>(columns_wider_by_range_ * range(k), kMostColumns - 1);
+  [[nodiscard]] int reach(std::size_t k) const { return reach_at(range(k)); }
+  [[nodiscard]] int reach_at(float range) const {
+    const float wider = std::min<float>(columns_wider_by_range_ * range, kMostColumns - 1);
     return 1 + static_cast<int>(wider);
   }
   /// Calls `visit(standing)` with the column of a point and those around it.
@@ -160,10 +164,20 @@ class LowPoints {
                         std::back_inserter(things));
     return things;
   }
+  /// The range of the farthest low point that may reach up to a point.
+  [[nodiscard]] float farthest_below(std::size_t k) const {
+    return range(k) + farthest_aside_ + kHighest + kHigherByRange * range(k);
+  }
+  /// Counts the dynamic points of each column, and marks the columns from which one may be reached.
   void count_dynamic() {
     for (const std::size_t k : things()) {
-      if (columns_.make(column_of(k), cursor_).dynamic++ > 0) continue;
-      for_columns_around(k, reach(k), [](Standing& standing) { standing.is_near_dynamic = true; });
+      Standing& column = columns_.make(column_of(k), cursor_);
+      ++column.dynamic;
+      const int reach = reach_at(farthest_below(k));
+      // The farthest point of a column counts, whichever comes first.
+      if (column.marked >= reach) continue;
+      column.marked = reach;
+      for_columns_around(k, reach, [](Standing& standing) { standing.is_near_dynamic = true; });
     }
   }
   /// Finds the low points whose verdict what stands above them may change.
@@ -201,6 +215,7 @@ class LowPoints {
   const EvidenceMap& ground_;
   float low_;                     ///< Metres.
   float columns_wider_by_range_;  ///< 1 / m.
+  float farthest_aside_;          ///< How far aside a point that is reached can be, metres.
   float lone_gap_, lone_growth_;  ///< How far apart lone points are, as `cluster_gap`.
   float lone_range_;              ///< Up to which a point can be told to be alone, metres.
   int lone_columns_;              ///< Voxels that this distance reaches at most.

@@ -23,6 +23,7 @@ std::vector<float> land_rise(const std::vector<float>& ground, int side, int axi
 struct GroundPlane {
   float middle;                        ///< Height in the middle of the column, metres.
   float rise_x = 0.0F, rise_y = 0.0F;  ///< From there to the middle of the next column, metres.
+  bool operator==(const GroundPlane&) const = default;
 };
 
 /// The part of the land's rise that tilts the ground of a column: what is above a tenth. So much

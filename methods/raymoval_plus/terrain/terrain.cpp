@@ -33,20 +33,41 @@ bool looks_far(const Parameters& parameters) {
   return parameters.terrain_far_slope > 0.0;
 }
 
-/// Writes what is found of each of some tiles.
+/// Adds a box around the columns of a tile whose values differ, if any do.
+template <class Value>
+void add_changes(const VoxelIndex& tile, const std::vector<Value>& found, const Value* before,
+                 std::vector<ColumnBox>& changes) {
+  ColumnBox box{VoxelIndex(kTile, kTile, 0), VoxelIndex(-1, -1, 0)};
+  for (int y = 0; y < kTile; ++y) {
+    for (int x = 0; x < kTile; ++x) {
+      const auto i = static_cast<std::size_t>(y * kTile + x);
+      if (found[i] == before[i]) continue;
+      box.low = box.low.cwiseMin(VoxelIndex(x, y, 0));
+      box.high = box.high.cwiseMax(VoxelIndex(x, y, 0));
+    }
+  }
+  if (box.high.x() >= 0) changes.push_back({box.low + tile * kTile, box.high + tile * kTile});
+}
+
+/// Writes what is found of each of some tiles. @return where it is other than before
 /// @param find gives the values of a tile's columns, row by row
 template <class Value, class Find>
-void fill_tiles(const VoxelSet& tiles, const RunContext& context,
-                DenseBlocks<Value, kTileBits, 0>& values, Find&& find) {
+std::vector<ColumnBox> fill_tiles(const VoxelSet& tiles, const RunContext& context,
+                                  DenseBlocks<Value, kTileBits, 0>& values, Find&& find) {
   std::vector<VoxelKey> keys(tiles.begin(), tiles.end());
   std::sort(keys.begin(), keys.end());
   std::vector<std::vector<Value>> found(keys.size());
   parallel_for(context.threads, keys.size(), 1,
                [&](std::size_t i) { found[i] = find(voxel_index(keys[i])); });
   typename DenseBlocks<Value, kTileBits, 0>::Cursor cursor;
+  std::vector<ColumnBox> changes;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    std::copy(found[i].begin(), found[i].end(), &values.make(voxel_index(keys[i]) * kTile, cursor));
+    const VoxelIndex tile = voxel_index(keys[i]);
+    Value* const kept = &values.make(tile * kTile, cursor);
+    add_changes(tile, found[i], kept, changes);
+    std::copy(found[i].begin(), found[i].end(), kept);
   }
+  return changes;
 }
 
 /// Where in its column, of 256 parts, a point is: columns from the middle.
@@ -239,26 +260,36 @@ void Terrain::update_low_quantiles(const RunContext& context) {
   stale_.clear();
 }
 
-VoxelSet Terrain::known_around(const VoxelSet& tiles, int margin) const {
-  VoxelSet known;
-  for (const VoxelKey tile : with_tiles_around(tiles, margin)) {
-    if (tiles_.contains(tile)) known.insert(tile);
+VoxelSet Terrain::tiles_to_find(const std::vector<ColumnBox>& changes, int margin,
+                                const VoxelSet& fresh) const {
+  VoxelSet found = fresh;
+  for (const VoxelKey tile : tiles_near(changes, margin)) {
+    if (tiles_.contains(tile)) found.insert(tile);
   }
-  return known;
+  return found;
 }
 
 void Terrain::update(const RunContext& context) {
   const StageScope timed(context.times, "terrain");
   update_low_quantiles(context);
   std::fill(has_news_.begin(), has_news_.end(), std::uint8_t{0});
-  VoxelSet tiles = std::exchange(changed_, {});
-  tiles_.insert(tiles.begin(), tiles.end());
-  fill_tiles(tiles, context, own_ground_,
-             [this](const VoxelIndex& tile) { return without_pits_in(tile); });
-  tiles = known_around(tiles, kLandMargin);
-  fill_tiles(tiles, context, land_x_, [this](const VoxelIndex& tile) { return land_in(tile, 0); });
-  fill_tiles(tiles, context, land_y_, [this](const VoxelIndex& tile) { return land_in(tile, 1); });
-  fill_tiles(known_around(tiles, bound_margin()), context, ground_,
+  const VoxelSet tiles = std::exchange(changed_, {});
+  VoxelSet fresh;
+  for (const VoxelKey tile : tiles) {
+    if (tiles_.insert(tile).second) fresh.insert(tile);
+  }
+  // What has not changed changes nothing around it.
+  std::vector<ColumnBox> changes =
+      fill_tiles(tiles, context, own_ground_,
+                 [this](const VoxelIndex& tile) { return without_pits_in(tile); });
+  const VoxelSet of_land = tiles_to_find(changes, kLandMargin, fresh);
+  for (const auto& [land, axis] : {std::pair(&land_x_, 0), std::pair(&land_y_, 1)}) {
+    const std::vector<ColumnBox> more =
+        fill_tiles(of_land, context, *land,
+                   [this, axis = axis](const VoxelIndex& tile) { return land_in(tile, axis); });
+    changes.insert(changes.end(), more.begin(), more.end());
+  }
+  fill_tiles(tiles_to_find(changes, bound_margin(), fresh), context, ground_,
              [this](const VoxelIndex& tile) { return ground_in(tile); });
 }
 

@@ -74,8 +74,10 @@ class Terrain {
   /// allows.
   void bound_by_slope(const Window& ground, int margin, std::vector<GroundPlane>& planes) const;
   void update_low_quantiles(const RunContext& context);
-  /// Those tiles that ever had points in them or near them, of some tiles and all around these.
-  [[nodiscard]] VoxelSet known_around(const VoxelSet& tiles, int margin) const;
+  /// Those tiles to find anew that have columns at most `margin` columns from what has changed: of
+  /// those that ever had points in them or near them, and `fresh` ones, of which nothing was found.
+  [[nodiscard]] VoxelSet tiles_to_find(const std::vector<ColumnBox>& changes, int margin,
+                                       const VoxelSet& fresh) const;
 
   Parameters parameters_;
   double inverse_cell_;

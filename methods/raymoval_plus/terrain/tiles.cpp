@@ -15,16 +15,17 @@ int tiles_within(int margin) {
 
 }  // namespace
 
-VoxelSet with_tiles_around(const VoxelSet& tiles, int margin) {
-  const int reach = tiles_within(margin);
-  VoxelSet around;
-  for (const VoxelKey key : tiles) {
-    const VoxelIndex tile = voxel_index(key);
-    for (int y = tile.y() - reach; y <= tile.y() + reach; ++y) {
-      for (int x = tile.x() - reach; x <= tile.x() + reach; ++x) around.insert(voxel_key(x, y, 0));
+VoxelSet tiles_near(const std::vector<ColumnBox>& boxes, int margin) {
+  VoxelSet near;
+  const VoxelIndex wider(margin, margin, 0);
+  for (const ColumnBox& box : boxes) {
+    const VoxelIndex low = TileHeights::block_of(box.low - wider);
+    const VoxelIndex high = TileHeights::block_of(box.high + wider);
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) near.insert(voxel_key(x, y, 0));
     }
   }
-  return around;
+  return near;
 }
 
 std::vector<float> around_tile(const TileHeights& heights, const VoxelIndex& tile, int margin) {

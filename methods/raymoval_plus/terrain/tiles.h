@@ -18,8 +18,13 @@ inline constexpr int kTile = TileHeights::kSideXY;
 /// The height of the ground where none is known.
 inline constexpr float kNoGround = std::numeric_limits<float>::infinity();
 
-/// The tiles, and those that have columns at most `margin` columns from one of them.
-VoxelSet with_tiles_around(const VoxelSet& tiles, int margin);
+/// A rectangle of columns, its corners included.
+struct ColumnBox {
+  VoxelIndex low, high;
+};
+
+/// The tiles that have columns at most `margin` columns from one of the boxes.
+VoxelSet tiles_near(const std::vector<ColumnBox>& boxes, int margin);
 
 /// The heights of a tile's columns and of `margin` columns to either side, row by row. Where there
 /// is no tile they are `kNoGround`.

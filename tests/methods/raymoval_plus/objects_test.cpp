@@ -614,6 +614,21 @@ TEST_CASE("low points are those of a count over all columns") {
   CHECK(changed_ground > 20);
 }
 
+TEST_CASE("low points follow whatever they reach, whichever of it comes first") {
+  // 16 beams: points up to 9.55 m away reach one column aside, those beyond reach two.
+  const Eigen::Vector3d low(9.59, 0.45, 0.1), near(9.42, 0.05, 0.5), far(9.59, 0.05, 0.5);
+  const std::vector<std::vector<Eigen::Vector3d>> all_above = {{near, far}, {far, near}, {near}};
+  for (const std::vector<Eigen::Vector3d>& above : all_above) {
+    Scene scene;
+    scene.maps.steps.elevation = 0.0349F;
+    scene.add(low, Verdict::kStatic);
+    for (const Eigen::Vector3d& at : above) scene.add(at, Verdict::kDynamic);
+    Verdicts decided = scene.scan.verdict;
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, decided);
+    CHECK(decided[0] == Verdict::kDynamic);
+  }
+}
+
 TEST_CASE("the points of what a track may mark are remembered") {
   Scene scene;
   scene.add_column(4.05, 3.05, 0.4, 6, Verdict::kStatic);   // points 0 to 5, few scans agree

@@ -133,6 +133,9 @@ TEST_CASE(
 }
 
 TEST_CASE("ground found scan by scan is the ground found at once") {
+  // Each scan sees all of it, or a strip of which the next one sees a part.
+  const double width = GENERATE(120.0, 24.0);
+  const double step = (120.0 - width) / 4.0;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-60.0, 60.0), rough(0.0, 0.3);
   Terrain at_once{Parameters{}}, in_parts{Parameters{}};
@@ -140,7 +143,8 @@ TEST_CASE("ground found scan by scan is the ground found at once") {
   for (int scan = 0; scan < 5; ++scan) {
     std::vector<Eigen::Vector3d> points;
     for (int i = 0; i < 40000; ++i) {
-      const double x = place(random), y = place(random);
+      const double x = -60.0 + scan * step + width / 120.0 * (place(random) + 60.0);
+      const double y = place(random);
       points.emplace_back(x, y, (x < 0.0 ? 0.1 : 0.4) * x + rough(random));
     }
     in_parts.add(cells_of(in_parts, points), RunContext{});
