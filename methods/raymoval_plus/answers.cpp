@@ -109,9 +109,11 @@ class Answers {
   }
   /// Whether the points of all objects that tracks marked in a scan are remembered.
   [[nodiscard]] bool all_are_remembered(std::size_t scan) const {
-    return std::all_of(objects_[scan].begin(), objects_[scan].end(), [&](const auto& object) {
-      return !is_marked(scan, object) || is_remembered(object, parameters_);
-    });
+    const std::vector<ObjectSummary>& objects = objects_[scan];
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+      if (is_marked(scan, objects[k]) && !is_remembered(objects, k, parameters_)) return false;
+    }
+    return true;
   }
   /// The verdicts on a scan's points before step 8: low points are what their voxels are, and the
   /// others what the answer without tracks says, but for those that tracks mark.

@@ -38,7 +38,7 @@ class Run {
     if (parameters_.terrain) find_terrain();                                 // 1
     find_voxels();                                                           // 2
     find_evidence();                                                         // 3
-    decide_and_vote(false);                                                  // 4, 5
+    decide_and_vote();                                                       // 4, 5
     answer_from_map(terrain_, maps_, parameters_, scans_, sink_, context_);  // 6 to 8
   }
 
@@ -49,7 +49,7 @@ class Run {
       arrive(std::move(scan), located);            // 1
       add_arrived(located, WhenToDecide::kLater);  // 2, 3
     });
-    decide_and_vote(true);                                                   // 4, 5
+    decide_and_vote();                                                       // 4, 5
     answer_from_map(terrain_, maps_, parameters_, scans_, sink_, context_);  // 6 to 8
   }
 
@@ -122,9 +122,9 @@ class Run {
     });
   }
 
-  void decide_and_vote(bool also_unseen) {
+  void decide_and_vote() {
     for (EvidenceMap* const map : maps_.both()) {
-      decide_all(also_unseen, parameters_, context_, *map);
+      decide_all(parameters_, context_, *map);
       vote(parameters_, context_, *map);
     }
   }

@@ -222,7 +222,74 @@ void check_method(const std::string& name) {
   }
 }
 
+/// A parameter that conditions name, and a value with which what they say may no longer hold.
+struct TurnedOff {
+  std::string name;
+  ParameterValue value;
+};
+std::vector<TurnedOff> ways_to_turn_off(const ConfiguredMethod& method) {
+  const auto& specs = method.entry->parameters;
+  std::vector<TurnedOff> ways;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const bool is_named = std::any_of(specs.begin(), specs.end(), [&](const ParameterSpec& spec) {
+      return (" " + spec.notes.acts_when).find(" " + specs[i].name + " ") != std::string::npos;
+    });
+    if (!is_named) continue;
+    const ParameterValue& present = method.configuration[i].second;
+    if (const bool* flag = std::get_if<bool>(&present)) {
+      ways.push_back({specs[i].name, !*flag});
+    } else if (std::holds_alternative<std::int64_t>(present)) {
+      ways.push_back({specs[i].name, static_cast<std::int64_t>(clamped(specs[i], 0.0))});
+    }
+  }
+  return ways;
+}
+
+/// Turns off what conditions name, one parameter or two at a time, and checks that what is then
+/// said to be without effect is so.
+/// @param tested what was tested with another variant, which is not tested again
+void check_turned_off(const std::string& name, std::set<std::string>& tested) {
+  const ConfiguredMethod method = configured(name);
+  const std::vector<TurnedOff> ways = ways_to_turn_off(method);
+  const auto without = [&](const TurnedOff& a, const TurnedOff& b) {
+    ConfiguredMethod other = method;
+    for (const TurnedOff* const way : {&a, &b}) {
+      set_parameter(other.configuration, way->name, way->value);
+    }
+    return other;
+  };
+  const auto& specs = method.entry->parameters;
+  for (std::size_t a = 0; a < ways.size(); ++a) {
+    for (std::size_t b = a; b < ways.size(); ++b) {
+      Variant variant(without(ways[a], ways[b]));
+      const auto acts_with = [&](const ParameterSpec& spec, const TurnedOff& way) {
+        return has_effect(spec, without(way, way).configuration);
+      };
+      for (std::size_t i = 0; i < specs.size(); ++i) {
+        if (!has_effect(specs[i], method.configuration)) continue;
+        if (has_effect(specs[i], variant.method.configuration)) continue;
+        // One of the two suffices, and was tested alone.
+        if (a != b && !(acts_with(specs[i], ways[a]) && acts_with(specs[i], ways[b]))) continue;
+        if (!tested.insert(specs[i].name + " " + ways[a].name + " " + ways[b].name).second)
+          continue;
+        INFO(name << "." << specs[i].name << " without " << ways[a].name << ", " << ways[b].name);
+        check_inert(variant, specs[i], variant.method.configuration[i].second);
+      }
+    }
+  }
+}
+
 }  // namespace
+
+TEST_CASE("raymoval_plus's parameters are without effect where their conditions do not hold",
+          "[effects]") {
+  std::set<std::string> tested;
+  for (const char* const variant : {"offline", "online"}) {
+    check_turned_off(std::string("raymoval_plus:") + variant, tested);
+  }
+  CHECK(tested.count("track_slack tracks tracks") == 1);
+  CHECK(tested.count("cluster_gap objects low_points") == 1);
+}
 
 TEST_CASE("raymoval's parameters act when they are said to", "[effects]") {
   check_method("raymoval");

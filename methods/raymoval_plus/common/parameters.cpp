@@ -10,6 +10,10 @@ constexpr const char* kSource = "this project";
 constexpr const char* kTerrain = "terrain is true";
 constexpr const char* kObjects = "objects is true";
 constexpr const char* kTracks = "objects is true and tracks is true";
+constexpr const char* kGaps = "objects is true or terrain is true and low_points is true";
+// The least value of what must be more than 0. With 0, voxels would be dynamic that no scan saw
+// through (free_constant), or that have no dynamic one around them (vote_share).
+constexpr double kMoreThanNone = 0.001;
 
 /// The table, line by line.
 struct Lines {
@@ -71,12 +75,15 @@ void add_terrain(Lines& table) {
 
 void add_evidence(Lines& table) {
   table.number("voxel_size", &P::voxel_size, "m", 0.02, 2, "Edge of a voxel.");
-  table.number("minimum_range", &P::minimum_range, "m", 0, 20,
-               "Nearer returns are the vehicle itself.");
+  table.number(
+      "minimum_range", &P::minimum_range, "m", 0, 20,
+      "Nearer returns are the vehicle itself: no range image has them. Terrain, voxels and "
+      "clusters do.");
   table.number("evidence_range_min", &P::evidence_range_min, "m", 0, 50,
                "Nearer voxels are not tested.");
   table.number("evidence_range_max", &P::evidence_range_max, "m", 1, 500,
-               "Farther voxels are not tested.");
+               "Farther voxels are not tested, and farther points are in no cluster and are no "
+               "lone drops.");
   table.number("azimuth_bin", &P::azimuth_bin, "deg", 0, 5,
                "Width of a bin of the range image; 0 takes 1.45 beams.");
   table.number("elevation_bin", &P::elevation_bin, "deg", 0, 5,
@@ -85,8 +92,10 @@ void add_evidence(Lines& table) {
                 "Least half width of the window around a voxel.");
   table.integer("window_rows", &P::window_rows, "bins", 0, 60,
                 "Least half height of the window around a voxel.");
-  table.number("agree_constant", &P::agree_constant, "m", 0, 5,
-               "A return this near to the voxel's range agrees with it.");
+  table.number(
+      "agree_constant", &P::agree_constant, "m", 0, 5,
+      "A return this near to the voxel's range agrees with it. Tracks therefore allow scans "
+      "to agree with what passes as if it were longer by twice this.");
   table.number("agree_slope", &P::agree_slope, "", 0, 1,
                "agree_constant grows by this much with each metre of range.");
   table.number("occluded_constant", &P::occluded_constant, "m", 0, 5,
@@ -98,7 +107,7 @@ void add_evidence(Lines& table) {
   table.number("gap_margin", &P::gap_margin, "m", 0, 100,
                "All returns of that column must be farther by this than those that occlude.",
                "gaps is true");
-  table.number("free_constant", &P::free_constant, "scans", 0, 1000,
+  table.number("free_constant", &P::free_constant, "scans", kMoreThanNone, 1000,
                "Scans that must see through a voxel to make it dynamic.");
   table.number("free_per_agree", &P::free_per_agree, "", 0, 10,
                "And this many more for each scan that agrees with it.");
@@ -109,7 +118,7 @@ void add_evidence(Lines& table) {
 void add_vote(Lines& table) {
   table.integer("vote_radius", &P::vote_radius, "voxels", 0, 8,
                 "Half width of the cube of voxels that vote; 0 for no vote.");
-  table.number("vote_share", &P::vote_share, "", 0, 1,
+  table.number("vote_share", &P::vote_share, "", kMoreThanNone, 1,
                "Share of dynamic voxels that makes a voxel dynamic.");
   table.number("vote_keep", &P::vote_keep, "", 0, 1,
                "Share of dynamic voxels below which a dynamic voxel is not.");
@@ -139,19 +148,24 @@ void add_objects(Lines& table) {
                "Clusters consist of points at least this high.",
                "terrain is true and objects is true or terrain is true and low_points is true");
   table.number("cluster_gap", &P::cluster_gap, "m", 0.05, 5,
-               "Points this near to each other are one cluster.", kObjects);
+               "Points this near to each other are one cluster; one without another within a third "
+               "of this is a lone drop.",
+               kGaps);
   table.number("cluster_growth", &P::cluster_growth, "", 0, 1,
-               "cluster_gap grows by this much with each metre of range.", kObjects);
+               "cluster_gap grows by this much with each metre of range.", kGaps);
   table.number("object_dynamic_share", &P::object_dynamic_share, "", 0, 1,
                "Share of dynamic points that makes a cluster dynamic.", kObjects);
   table.number("object_static_share", &P::object_static_share, "", 0, 1,
                "Share of dynamic points up to which a cluster is static.", kObjects);
   table.integer("object_points", &P::object_points, "points", 1, 1000,
-                "Smallest cluster that is removed as a whole. One that is no larger also goes with "
-                "a larger one beside it.",
+                "So many dynamic points a cluster needs to be removed as a whole, or to count as "
+                "dynamic for its track. One of no more points goes with a larger one beside it.",
                 kObjects);
   table.integer("group_points", &P::group_points, "points", 1, 1000000,
-                "A group of dynamic points this large stays dynamic in a static cluster.",
+                "A group of so many dynamic points stays dynamic in a static cluster. A cluster "
+                "with so many of them that does not go is divided, and a part of it needs as many "
+                "to be removed as a whole; one with fewer, but object_points of them, counts as "
+                "dynamic for its track, which then does not mark it.",
                 kObjects);
   table.integer("settled_scans", &P::settled_scans, "scans", 0, 10000,
                 "A voxel that so many scans agree with is not outvoted if none saw through it, its "

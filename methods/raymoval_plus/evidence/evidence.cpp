@@ -32,10 +32,6 @@ std::vector<std::uint32_t> tiles_near(std::span<const PosedImage> images, double
   return tiles;
 }
 
-bool is_unseen(const VoxelEvidence& evidence) {
-  return evidence.free_scans == 0 && evidence.agree_scans == 0;
-}
-
 /// How many scans that saw through a voxel are not heard.
 int unheard_scans(const VoxelEvidence& evidence, const Parameters& parameters) {
   return is_settled(evidence, parameters) ? evidence.far.between_agreeing() : 0;
@@ -155,24 +151,21 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
           add_observation(what, parameters, evidence);
           continue;
         }
-        const bool is_first = is_unseen(evidence);
         const Verdict before = decided(evidence);
         add_observation(what, parameters, evidence);
         const Verdict now = decided(evidence);
         // Most observations change no decision, and then the map need not be written.
-        if (is_first || now != before) map.set_decision(tile.voxels[place.place], now);
+        if (now != before) map.set_decision(tile.voxels[place.place], now);
       }
     }
   });
 }
 
-void decide_all(bool also_unseen, const Parameters& parameters, const RunContext& context,
-                EvidenceMap& map) {
+void decide_all(const Parameters& parameters, const RunContext& context, EvidenceMap& map) {
   const StageScope timed(context.times, "evidence");
   const Decisions decided(parameters);
   for (std::size_t voxel = 0; voxel < map.size(); ++voxel) {
-    const VoxelEvidence& evidence = map.evidence(voxel);
-    if (also_unseen || !is_unseen(evidence)) map.set_decision(voxel, decided(evidence));
+    map.set_decision(voxel, decided(map.evidence(voxel)));
   }
 }
 

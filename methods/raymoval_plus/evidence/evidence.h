@@ -28,9 +28,8 @@ enum class WhenToDecide : std::uint8_t { kNow, kLater };
 /// @param images in order of time
 void add_evidence(std::span<const PosedImage> images, const Parameters& parameters,
                   WhenToDecide when, const RunContext& context, EvidenceMap& map);
-/// Step 4 for all voxels of which a scan said something, and if `also_unseen` for the others.
-void decide_all(bool also_unseen, const Parameters& parameters, const RunContext& context,
-                EvidenceMap& map);
+/// Step 4 for all voxels.
+void decide_all(const Parameters& parameters, const RunContext& context, EvidenceMap& map);
 
 /// The range images of some earlier scans. Where scans are read only once, a new voxel gets its
 /// evidence from these, from the scan that found it, and from those that follow.

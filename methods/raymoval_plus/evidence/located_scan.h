@@ -18,14 +18,20 @@ struct LocatedScan {
   Scan scan;
   ScanCells in_terrain, in_map;
   std::vector<float> height;  ///< Of each point above the ground, metres, or +infinity.
-  /// Number among the voxels of what stands, or `EvidenceMap::kNone` for ground.
+  /// Number among the voxels of what stands, or `EvidenceMap::kNone`, see `has_standing_voxel`.
   std::vector<std::uint32_t> voxel;
-  /// Number among the voxels of the ground, or `EvidenceMap::kNone` for what stands.
+  /// Number among the voxels of the ground, or `EvidenceMap::kNone` for what stands, and where no
+  /// scan is asked about the ground.
   std::vector<std::uint32_t> ground_voxel;
   std::vector<Verdict> verdict;  ///< Of each point's voxel (steps 4 and 5).
 
   [[nodiscard]] Eigen::Vector3d world(std::size_t point) const {
     return scan.T_world_sensor * scan.points[point].cast<double>();
+  }
+  /// Whether a point is in a voxel of what stands. Ground is not, nor is what changed sides, see
+  /// `look_up`: it may be high above the ground.
+  [[nodiscard]] bool has_standing_voxel(std::size_t point) const {
+    return voxel[point] != EvidenceMap::kNone;
   }
 };
 

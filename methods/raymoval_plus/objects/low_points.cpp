@@ -88,10 +88,10 @@ class LowPoints {
     if (height < low_) return false;
     return height < kHighest || height < kHighest + kHigherByRange * range(k);
   }
-  [[nodiscard]] bool is_ground(std::size_t k) const { return scan_.voxel[k] == EvidenceMap::kNone; }
   /// Whether a point is so low that what stands above it may have a say in its verdict.
   [[nodiscard]] bool may_follow(std::size_t k) const {
-    return is_ground(k) ? asks_ground_ && !is_dynamic(k) : scan_.height[k] < low_;
+    if (scan_.height[k] >= low_) return false;
+    return scan_.has_standing_voxel(k) || (asks_ground_ && !is_dynamic(k));
   }
   /// Whether a point of the ground lies above what was seen of the ground there, or was no ground
   /// itself when it was seen.
@@ -132,8 +132,8 @@ class LowPoints {
     }
     std::vector<std::size_t> beside;
     for (std::size_t k = 0; k < verdict_.size(); ++k) {
-      if (is_ground(k) || !columns_.get(column_of(k), cursor_).is_beside_dynamic) continue;
-      beside.push_back(k);
+      if (!scan_.has_standing_voxel(k)) continue;
+      if (columns_.get(column_of(k), cursor_).is_beside_dynamic) beside.push_back(k);
     }
     return beside;
   }
@@ -185,7 +185,7 @@ class LowPoints {
     for (std::size_t k = 0; k < verdict_.size(); ++k) {
       if (!may_follow(k)) continue;
       if (!is_dynamic(k) && !columns_.get(column_of(k), cursor_).is_near_dynamic) continue;
-      if (is_ground(k) && !is_above_ground(k)) continue;
+      if (!scan_.has_standing_voxel(k) && !is_above_ground(k)) continue;
       undecided_.push_back(k);
       for_columns_around(k, reach(k), [](Standing& standing) { standing.is_asked = true; });
     }
@@ -205,7 +205,7 @@ class LowPoints {
     });
     if (dynamic > 0 && dynamic >= kMajority * fixed) {
       verdict_[k] = Verdict::kDynamic;
-    } else if (!is_ground(k) && fixed > 0 && fixed >= kMajority * dynamic) {
+    } else if (scan_.has_standing_voxel(k) && fixed > 0 && fixed >= kMajority * dynamic) {
       verdict_[k] = Verdict::kStatic;
     }
   }

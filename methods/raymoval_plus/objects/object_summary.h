@@ -38,7 +38,11 @@ bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
   return thing.is_whole || thing.dynamic >= parameters.object_dynamic_share * thing.points;
 }
 
-/// Whether an object is one dynamic thing and has enough dynamic points.
+/// Whether an object is one dynamic thing and has enough dynamic points for its track to take it
+/// for one, which then has no need to mark it.
+/// @note A part of a divided cluster goes by itself only with `group_points` dynamic points. One
+/// with fewer, but `object_points` of them, neither goes as a whole nor is marked by itself; a
+/// track may still mark the cluster that it was divided from.
 inline bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
   return object.dynamic >= parameters.object_points && is_one_dynamic_thing(object, parameters);
 }

@@ -185,7 +185,8 @@ std::vector<std::uint8_t> marked_clusters(const SegmentedScan& scan,
   return is_marked;
 }
 
-/// The clusters that go by themselves: 1 for each that is one dynamic thing, and not marked.
+/// The clusters that go by themselves: 1 for each that is one dynamic thing, and not marked. Parts
+/// need more dynamic points, see `is_dynamic` of `ObjectSummary`.
 std::vector<std::uint8_t> dynamic_clusters(const SegmentedScan& scan,
                                            const std::vector<std::uint8_t>& is_marked,
                                            const Parameters& parameters) {

@@ -24,7 +24,7 @@ std::vector<float> object_shares(const SegmentedScan& scan) {
 /// The `free_share` of a point's voxel, but 0 for ground that stays.
 float own_share(const LocatedScan& scan, std::size_t k, const EvidenceMaps& maps,
                 const Parameters& parameters) {
-  if (scan.voxel[k] != EvidenceMap::kNone) {
+  if (scan.has_standing_voxel(k)) {
     return free_share(maps.standing.evidence(scan.voxel[k]), parameters);
   }
   if (scan.verdict[k] != Verdict::kDynamic) return 0.0F;

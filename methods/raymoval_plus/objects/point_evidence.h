@@ -7,8 +7,10 @@
 
 namespace raymoval::raymoval_plus_method {
 
-/// From 0 to 1, and one half where step 4 begins to call a voxel dynamic: the scans that saw
-/// through it against those that would be needed, or those in a row before or after all that agree.
+/// From 0 to 1: the scans that saw through a voxel against those that its number of agreeing scans
+/// asks for, or those in a row before or after all that agree, if that is more. One half is where
+/// step 4 would begin to call the voxel dynamic if it heard all of these scans. It does not hear
+/// those that pass beside the voxel's points, which count here all the same.
 float free_share(const VoxelEvidence& evidence, const Parameters& parameters);
 
 /// What speaks for it that each point of a scan moves, from 0 to 1: half of it is what was decided,

@@ -11,11 +11,15 @@ namespace {
 /// What more scans than this agree with, on average over its points, is not remembered. It changes
 /// no answer, only how it is found.
 constexpr float kMostAgreeing = 20.0F;
+/// Objects of a scan that can be numbered in a `PointRun`.
 constexpr std::size_t kMostObjects = std::numeric_limits<std::uint16_t>::max();
 
 }  // namespace
 
-bool is_remembered(const ObjectSummary& object, const Parameters& parameters) {
+bool is_remembered(const std::vector<ObjectSummary>& objects, std::size_t number,
+                   const Parameters& parameters) {
+  if (number >= kMostObjects) return false;
+  const ObjectSummary& object = objects[number];
   return !is_dynamic(object, parameters) && object.agree_scans <= kMostAgreeing;
 }
 
@@ -24,8 +28,8 @@ std::vector<PointRun> remembered_points(const SegmentedScan& scan,
                                         const Parameters& parameters) {
   constexpr int kNotRemembered = -1;
   std::vector<int> object_of(scan.clusters.size(), kNotRemembered);
-  for (std::size_t k = 0; k < objects.size() && k < kMostObjects; ++k) {
-    if (!is_remembered(objects[k], parameters)) continue;
+  for (std::size_t k = 0; k < objects.size(); ++k) {
+    if (!is_remembered(objects, k, parameters)) continue;
     object_of[static_cast<std::size_t>(objects[k].cluster)] = static_cast<int>(k);
   }
   std::vector<PointRun> runs;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,8 +18,10 @@ struct PointRun {
 
 /// Whether the points of an object are remembered, for the case that a track marks it. It is not
 /// worth it for what is dynamic by itself, nor for what scans agree with for long, which few tracks
-/// pass through.
-bool is_remembered(const ObjectSummary& object, const Parameters& parameters);
+/// pass through, nor for more objects than a scan has numbers for.
+/// @param objects of a scan, of which this is the one with the given number
+bool is_remembered(const std::vector<ObjectSummary>& objects, std::size_t number,
+                   const Parameters& parameters);
 
 /// The points of the objects that are remembered, and those of the fragments beside them.
 /// @param objects of the scan, from `summarise_objects`

@@ -7,7 +7,7 @@ namespace {
 /// In the order of `reason_sentences`.
 enum class Reason : std::uint8_t {
   kNothingSeen,
-  kGround,
+  kGroundOrWas,
   kSeenThrough,
   kNeighboursRemove,
   kNeighboursKeep,
@@ -26,17 +26,18 @@ Reason reason_of_voxel(const EvidenceMap& map, std::uint32_t voxel, bool is_remo
 /// The reason for what the maps say of a point.
 Reason reason_of_maps(const EvidenceMaps& maps, const LocatedScan& scan, std::size_t k) {
   const bool is_removed = scan.verdict[k] == Verdict::kDynamic;
-  if (scan.voxel[k] != EvidenceMap::kNone) {
+  if (scan.has_standing_voxel(k)) {
     return reason_of_voxel(maps.standing, scan.voxel[k], is_removed);
   }
-  return is_removed ? reason_of_voxel(maps.ground, scan.ground_voxel[k], true) : Reason::kGround;
+  return is_removed ? reason_of_voxel(maps.ground, scan.ground_voxel[k], true)
+                    : Reason::kGroundOrWas;
 }
 
 }  // namespace
 
 std::vector<std::string> reason_sentences() {
   return {"no scan, or too few, saw through its voxel",
-          "it is ground",
+          "it is ground, or was when its scan came",
           "scans saw through its voxel, more than agree with it allow",
           "most of the decided voxels around its own were seen through",
           "its voxel was seen through, but few of the voxels around it were",

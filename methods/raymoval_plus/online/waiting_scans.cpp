@@ -13,7 +13,7 @@ namespace {
 
 /// Times are read from decimal numbers: a tenth of a second ten times over is to be a second.
 constexpr double kTimeRounding = 1e-6;
-/// With more scans the memory would fill, and no sensor turns so fast.
+/// With more scans the memory would fill: large ones take some 10 MB each.
 constexpr std::size_t kMostWaiting = 256;
 
 }  // namespace
@@ -26,8 +26,10 @@ void WaitingScans::tick(double time_s) {
 SegmentedScan& WaitingScans::add() {
   if (waiting_.size() >= kMostWaiting) {
     throw DataError(fmt::format(
-        "{} scans came within the delay of {} s, the last at {} s. Their times must go on by some "
-        "milliseconds from scan to scan: check times.txt or \"scan_period_s\", or set delay to 0.",
+        "{} scans came within the delay of {} s, the last at {} s, and no more can wait for their "
+        "answers. If the sensor is so fast, set a shorter delay. If it is not, the times are "
+        "wrong: check that they go on from scan to scan in times.txt, or \"scan_period_s\", or set "
+        "delay to 0.",
         kMostWaiting, delay_, clock_));
   }
   std::unique_ptr<SegmentedScan> scan = std::make_unique<SegmentedScan>();

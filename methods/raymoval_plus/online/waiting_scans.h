@@ -21,7 +21,8 @@ class WaitingScans {
   /// The clock shows at least this time.
   void tick(double time_s);
   /// A scan to be filled, which comes now and waits behind the others. Its memory was another's.
-  /// @throws DataError if so many scans wait that their times cannot be right
+  /// @throws DataError if too many scans wait: their times are wrong, or the delay is too long for
+  ///   so fast a sensor
   SegmentedScan& add();
   /// Whether the time of the first scan's answer has come.
   [[nodiscard]] bool is_due() const;

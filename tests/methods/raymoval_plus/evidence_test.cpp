@@ -233,7 +233,7 @@ TEST_CASE("a beam just below a roof that is seen from below is not heard") {
 TEST_CASE("decisions on many voxels are those of the formula") {
   std::mt19937 random(9);
   const auto count = [&](unsigned most) { return static_cast<std::uint16_t>(random() % most); };
-  for (const double constant : {0.0, 1.0, 2.5}) {
+  for (const double constant : {0.001, 1.0, 2.5}) {
     for (const int run_scans : {0, 4}) {
       Parameters parameters;
       parameters.free_constant = constant;
@@ -247,6 +247,16 @@ TEST_CASE("decisions on many voxels are those of the formula") {
       }
     }
   }
+}
+
+TEST_CASE(
+    "however few scans must see through, a voxel of which no scan says anything is undecided") {
+  Parameters parameters;
+  parameters.free_constant =
+      find_parameter("raymoval_plus", parameter_table().specs(), "free_constant").notes.minimum;
+  CHECK(decide({}, parameters) == Verdict::kUndecided);
+  CHECK(Decisions(parameters)({}) == Verdict::kUndecided);
+  CHECK(decide({.free_scans = 1}, parameters) == Verdict::kDynamic);
 }
 
 TEST_CASE("runs of scans that see through are counted at either end of a voxel's story") {
@@ -281,7 +291,7 @@ TEST_CASE("every voxel in range is asked of a scan, and decided on") {
   }
   if (when == WhenToDecide::kLater) {
     CHECK(map.decision(front) == Verdict::kUndecided);
-    decide_all(false, Parameters{}, RunContext{}, map);
+    decide_all(Parameters{}, RunContext{}, map);
   }
   CHECK(map.evidence(front).free_scans == 2);
   CHECK(map.decision(front) == Verdict::kDynamic);

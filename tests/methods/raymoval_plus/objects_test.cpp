@@ -8,6 +8,7 @@
 #include <map>
 #include <random>
 
+#include "core/parameter_condition.h"
 #include "methods/raymoval_plus/objects/low_points.h"
 #include "methods/raymoval_plus/objects/point_runs.h"
 #include "methods/raymoval_plus/objects/reasons.h"
@@ -445,6 +446,38 @@ TEST_CASE("two drops are two lone points, unless they are as near as points of o
   }
 }
 
+TEST_CASE("what is told to be a drop depends on the gap of clusters, with and without objects") {
+  // The two points are 0.11 m apart. A third of 0.25 m and of 0.01 of their range is 0.1 m, and of
+  // 0.3 m and 0.005 of it 0.108 m.
+  const auto is_followed = [](Parameters parameters) {
+    Scene scene;
+    scene.parameters = parameters;
+    scene.maps.steps.azimuth = 0.0035F;
+    scene.add({5.05, 0.05, 0.1}, Verdict::kStatic);
+    for (const double z : {0.5, 0.61}) scene.add({5.05, 0.05, z}, Verdict::kDynamic);
+    Verdicts verdicts = scene.scan.verdict;
+    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
+    return verdicts[0] == Verdict::kDynamic;
+  };
+  for (const bool objects : {true, false}) {
+    for (const bool low_points : {true, false}) {
+      Parameters usual, nearer, slower;
+      usual.objects = nearer.objects = slower.objects = objects;
+      usual.low_points = nearer.low_points = slower.low_points = low_points;
+      nearer.cluster_gap = 0.25;
+      slower.cluster_growth = 0.005;
+      CHECK(is_followed(usual) == low_points);
+      CHECK_FALSE(is_followed(nearer));
+      CHECK_FALSE(is_followed(slower));
+      for (const char* const name : {"cluster_gap", "cluster_growth"}) {
+        const ParameterSpec& spec =
+            find_parameter("raymoval_plus", parameter_table().specs(), name);
+        CHECK(has_effect(spec, parameter_table().write(usual)) == (objects || low_points));
+      }
+    }
+  }
+}
+
 TEST_CASE("however far apart beams are, low points look no more than twenty columns aside") {
   for (const double aside : {4.0, 4.2}) {
     Scene scene;
@@ -650,6 +683,51 @@ TEST_CASE("the points of what a track may mark are remembered") {
   CHECK(points == expected);
 }
 
+TEST_CASE("nothing is remembered that has no number") {
+  ObjectSummary object;
+  object.points = 6;
+  const std::vector<ObjectSummary> objects(65'537, object);
+  CHECK(is_remembered(objects, 65'534, Parameters{}));
+  CHECK_FALSE(is_remembered(objects, 65'535, Parameters{}));
+  CHECK_FALSE(is_remembered(objects, 65'536, Parameters{}));
+}
+
+TEST_CASE("what is wider than track_width is not followed") {
+  Scene scene;  // 2 m wide.
+  for (int n = 0; n < 11; ++n) scene.add_column(5.05, 0.2 * n + 0.05, 0.4, 4, Verdict::kDynamic);
+  for (const double width : {1.9, 2.1}) {
+    scene.parameters.track_width = width;
+    const auto objects =
+        summarise_objects(scene.segmented(), scene.map, {}, scene.parameters, RunContext{});
+    CHECK(objects.size() == (width > 2.0 ? 1 : 0));
+  }
+}
+
+TEST_CASE("a part with few dynamic points neither goes as a whole nor is marked for its track") {
+  // A wall of 400 points that 50 scans agree with. Before it are 29 or 30 points, of which 19 or 20
+  // are dynamic, and aside so many dynamic ones that more than a tenth of all are, but not half.
+  for (const int dynamic : {19, 20}) {
+    Scene scene;
+    for (int y = -10; y < 10; ++y) {
+      for (int k = 0; k < 20; ++k)
+        scene.add({5.3, 0.2 * y + 0.05, 0.4 + 0.1 * k}, Verdict::kStatic, 50);
+    }
+    scene.add_column(5.05, -1.55, 0.4, dynamic, Verdict::kDynamic);
+    scene.add_column(5.05, -1.35, 0.4, 10, Verdict::kUndecided);
+    scene.add_column(5.05, 1.45, 0.4, 30, Verdict::kDynamic);
+    const SegmentedScan scan = scene.segmented();
+    const int part = scan.cluster_of[400];
+    REQUIRE(scan.clusters[static_cast<std::size_t>(part)].is_part);
+    CHECK(scene.dynamic(400, 400 + dynamic + 10) == (dynamic == 20 ? 30 : 19));
+    // For its track it is dynamic either way, and tracks mark only what is not.
+    const auto objects = summarise_objects(scan, scene.map, {}, scene.parameters, RunContext{});
+    const auto found = std::find_if(objects.begin(), objects.end(),
+                                    [&](const auto& object) { return object.cluster == part; });
+    REQUIRE(found != objects.end());
+    CHECK(is_dynamic(*found, scene.parameters));
+  }
+}
+
 TEST_CASE("the reason for a verdict is the step that made it") {
   // Eight voxels, and three of the ground: whether it was seen through, what the vote, then the
   // objects, then the low points made of it.
@@ -668,8 +746,8 @@ TEST_CASE("the reason for a verdict is the step that made it") {
       {true, true, false, false, "it belongs to an object that hardly anything was seen through"},
       {false, false, false, true, "what stands above it moved"},
       {true, true, true, false, "what stands above it stays"},
-      {false, false, false, false, "it is ground"},
-      {true, false, false, false, "it is ground"},
+      {false, false, false, false, "it is ground, or was when its scan came"},
+      {true, false, false, false, "it is ground, or was when its scan came"},
       {true, true, true, true, "scans saw through its voxel, more than agree with it allow"}};
   const auto verdict = [](bool dynamic) { return dynamic ? Verdict::kDynamic : Verdict::kStatic; };
   Scene scene;

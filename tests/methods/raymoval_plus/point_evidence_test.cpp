@@ -6,7 +6,7 @@
 using namespace raymoval;
 using namespace raymoval::raymoval_plus_method;
 
-TEST_CASE("free scans against those that are needed make one half where step 4 decides") {
+TEST_CASE("free scans make one half where they are as many as are needed, or as a run needs") {
   Parameters parameters;  // 1 + 0.3 x agreeing scans have to be free, or four in a row.
   parameters.free_constant = 1.0;
   parameters.free_per_agree = 0.3;

@@ -72,6 +72,21 @@ TEST_CASE("an object is followed past its last evidence, a standing one is not")
   CHECK(marked_by_tracks(scans)[9].empty());
 }
 
+TEST_CASE("track_slack says how long scans may agree with what moves on") {
+  // 0.71 m of length, twice 0.25 m within which returns agree, and a voxel of 0.2 m pass in 7.04
+  // scans at 0.2 m each. 2.2 times as many and two are 17.5 scans, 2.3 times as many 18.2.
+  for (const double slack : {2.2, 2.3}) {
+    Parameters parameters;
+    parameters.track_slack = slack;
+    ObjectTracker tracker(parameters);
+    for (int i = 0; i < 8; ++i) {
+      tracker.follow(static_cast<std::size_t>(i), {walker(i, i < 7 ? 18 : 0, 18.0F)});
+    }
+    CHECK(marked_in(7, tracker.finish(), parameters) ==
+          (slack > 2.25 ? std::vector{0} : std::vector<int>{}));
+  }
+}
+
 TEST_CASE("an object is followed backward in time to before its first evidence") {
   Scans scans;
   for (int i = 0; i < 10; ++i) scans.push_back({walker(i, i < 3 ? 0 : 18, 4.0)});

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/answers.h"
+
+#include <catch2/catch.hpp>
+#include <span>
+#include <vector>
+
+#include "core/scan/mask_store.h"
+#include "methods/raymoval_plus/evidence/located_scan.h"
+#include "tests/methods/toy_world.h"
+
+using namespace raymoval;
+using namespace raymoval::raymoval_plus_method;
+
+namespace {
+
+constexpr int kScans = 10;
+/// The points of a scan of `Street`: those of the walker, of the thing that is dynamic in part, the
+/// two points of ground at its foot, and the ground below these.
+constexpr std::size_t kWalker = 0, kFoot = 38, kBeside = 39, kPoints = 42;
+
+/// A scan's points; those that are dynamic come first in either thing. The ground is at z = 0.
+std::vector<Eigen::Vector3d> points_of(int scan) {
+  std::vector<Eigen::Vector3d> points;
+  const double x = 10.1 + 0.4 * scan;  // The walker goes on by two voxels a scan.
+  for (int k = 0; k < 20; ++k) points.emplace_back(x, -15.1, 0.7 + 0.1 * k);
+  for (const double z : {0.7, 0.75, 0.9, 1.1}) points.emplace_back(10.1, 0.1, z);
+  for (const double z : {0.7, 0.9}) points.emplace_back(10.3, 0.1, z);
+  for (int k = 0; k < 12; ++k) points.emplace_back(10.3, 0.45, 0.9 + 0.1 * k);
+  points.emplace_back(10.3, 0.1, 0.35);
+  points.emplace_back(10.5, 0.1, 0.35);
+  points.emplace_back(10.3, 0.1, 0.02);
+  points.emplace_back(10.5, 0.1, 0.02);
+  return points;
+}
+
+/// Whether scans saw through a point's voxel. Nothing is known of where the walker is in the last
+/// three scans.
+bool is_seen_through(int scan, std::size_t point) {
+  return point < 20 ? scan < 7 : point < 26;
+}
+
+/// A terrain, a map whose verdicts are as the scene wants them, and the scans.
+struct Street {
+  explicit Street(const Parameters& some)
+      : parameters(some), terrain(parameters), maps(parameters) {
+    add_ground();
+    for (int i = 0; i < kScans; ++i) {
+      scans.add_world(Pose::Identity(), points_of(i));
+      add_to_map(i);
+    }
+  }
+  void add_ground() {
+    LocatedScan plane;
+    for (int x = 0; x < 200; ++x) {
+      for (int y = -200; y < 50; ++y) {
+        plane.scan.points.emplace_back(0.1F * static_cast<float>(x) + 0.05F,
+                                       0.1F * static_cast<float>(y) + 0.05F, 0.02F);
+      }
+    }
+    find_terrain_cells(terrain, parameters, RunContext{}, plane);
+    terrain.add(plane.in_terrain, RunContext{});
+    terrain.update(RunContext{});
+  }
+  void add_to_map(int scan) {
+    LocatedScan located;
+    located.scan = scans.load(static_cast<std::size_t>(scan));
+    find_terrain_cells(terrain, parameters, RunContext{}, located);
+    find_heights_and_cells(terrain, maps, parameters, RunContext{}, located);
+    add_to_maps(parameters, RunContext{}, located, maps);
+    EvidenceMap& map = maps.standing;
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      if (!located.has_standing_voxel(k)) continue;
+      const std::uint32_t voxel = located.voxel[k];
+      map.evidence(voxel).agree_scans = 1;
+      EvidenceMap::Blocks::Cursor cursor;
+      map.set_verdict_in(map.find_slot(map.index(voxel), cursor),
+                         is_seen_through(scan, k) ? Verdict::kDynamic : Verdict::kStatic);
+    }
+  }
+  [[nodiscard]] MaskStore masks(EvidenceSink* evidence) const {
+    toy::Masks masks(scans.size());
+    RunContext context;
+    context.evidence = evidence;
+    answer_from_map(terrain, maps, parameters, scans, masks, context);
+    return masks.store;
+  }
+
+  Parameters parameters;
+  Terrain terrain;
+  EvidenceMaps maps;
+  toy::HeldScans scans;
+};
+
+struct NoEvidence : EvidenceSink {
+  void accept(std::size_t /*scan*/, std::span<const float> /*evidence*/) override {}
+};
+
+}  // namespace
+
+TEST_CASE("who asks for confidence gets the same masks, also where clusters have ground in them") {
+  // What is lower than 0.5 m is ground, and what is higher than 0.2 m is clustered. Of the thing, 6
+  // of 20 points are dynamic, so that it stays as its voxels are. The points of ground at its foot
+  // are as high as what is clustered, and do not follow what stands above them. If they did, the
+  // first would have these 6 and 2 others around it, itself included, and go, and then the other
+  // one as well, but only where step 8 runs twice.
+  Parameters parameters;
+  parameters.object_height = 0.2;
+  parameters.ground_height = 0.5;
+  const Street street(parameters);
+  NoEvidence evidence;
+  const MaskStore plain = street.masks(nullptr), asked = street.masks(&evidence);
+  for (std::size_t i = 0; i < street.scans.size(); ++i) {
+    CAPTURE(i);
+    const Mask mask = plain.get(i);
+    CHECK(mask == asked.get(i));
+    CHECK(mask[kWalker] == 1);  // In the last three scans a track marks it.
+    CHECK(mask[kFoot] == 0);
+    CHECK(mask[kBeside] == 0);
+  }
+}
