@@ -49,6 +49,8 @@ struct Layout {
   bool points_in_world = false;      ///< Whether stored points stand in the world frame.
   bool labels_in_intensity = false;  ///< Whether labels are the intensity of the stored points.
   ClassNames class_names;            ///< Of the semantic ids in its labels.
+  /// What makes a sequence one with labels, for messages.
+  std::string expected_labels = "a folder labels/ beside the scans";
 
   /// Whether `path`, as a user gives it, is of this layout. @throws DataError if it cannot be
   /// looked at

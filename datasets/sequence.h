@@ -69,9 +69,13 @@ struct Sequence {
   std::shared_ptr<const LabelSource> labels;  ///< Null if the data has none.
   /// What is stored of the scans, with all fields. Null for scenes that are made in memory.
   std::shared_ptr<const RecordSource> records = nullptr;
-  /// What a user should know of how it was opened, in whole sentences: the topic that was chosen,
-  /// that a bag is cut, how many scans have no pose.
+  /// What a user should know of how it was opened, in whole sentences: the topic that was chosen.
   std::vector<std::string> notes = {};
+  /// Which scans of the data are not among `scans`, though they were asked for, in whole sentences:
+  /// how many have no pose or no point.
+  std::vector<std::string> losses = {};
+  /// What of a recording cannot be read, in whole sentences: that it is cut.
+  std::vector<std::string> damage = {};
   /// What else was read besides the scans and their labels: pose files, times, T_sensor, settings.
   std::vector<std::filesystem::path> input_files = {};
   /// Where the sensor was over time, for the motion within a scan. Null if the times are unknown.

@@ -13,6 +13,7 @@
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
 #include "datasets/clouds/format/point_layout.h"
+#include "datasets/deskew/point_times.h"
 #include "datasets/trajectories/body_sensor.h"
 
 namespace raymoval {
@@ -51,13 +52,26 @@ std::optional<std::string> text_value(const Fields& file, const std::string& key
   return file.has(key) ? std::optional(file.text(key)) : std::nullopt;
 }
 
+/// A text that `parse_time_unit` can read.
+std::string time_unit_value(const std::string& text, const std::string& where) {
+  try {
+    (void)parse_time_unit(text);
+  } catch (const UsageError& error) {
+    throw ConfigurationError(where + ": " + error.what());
+  }
+  return text;
+}
+
 /// What a file says of poses and of the motion within scans.
 void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
   settings.poses_are_lidar = file.flag("poses_are_lidar", settings.poses_are_lidar);
   if (file.has("poses")) settings.poses = file.text("poses", "");
   settings.pose_format = text_value(file, "pose_format");
   settings.T_sensor = text_value(file, "T_sensor");
-  settings.point_time_unit = text_value(file, "point_time_unit");
+  if (file.has("point_time_unit")) {
+    settings.point_time_unit =
+        time_unit_value(file.text("point_time_unit"), file.place("point_time_unit"));
+  }
   settings.deskew = file.flag("deskew", settings.deskew);
   if (file.has("time_offset_s")) settings.time_offset_s = file.number("time_offset_s", 0.0);
   if (file.has("max_gap_s")) settings.max_gap_s = file.positive("max_gap_s", 1.0);
@@ -169,7 +183,9 @@ void apply_pose_options(const SequenceOptions& options, SequenceSettings& settin
   if (options.max_gap_s) settings.max_gap_s = options.max_gap_s;
   if (options.points) settings.points = options.points;
   if (options.deskew) settings.deskew = *options.deskew;
-  if (options.point_time_unit) settings.point_time_unit = options.point_time_unit;
+  if (!options.point_time_unit) return;
+  (void)parse_time_unit(*options.point_time_unit);  // It is wrong even where nothing needs it.
+  settings.point_time_unit = options.point_time_unit;
 }
 
 }  // namespace

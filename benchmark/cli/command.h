@@ -82,6 +82,10 @@ struct WorkFlags {
   [[nodiscard]] ProgressStyle style() const { return progress_style(quiet); }
 };
 
+/// Says how a sequence was opened, unless progress is quiet, and always warns of scans that are
+/// lost.
+void tell_opening(const Sequence& sequence, Progress& progress);
+
 /// @param option for the message
 /// @throws UsageError unless `text` is a decimal number greater than 0
 double parse_positive(const std::string& option, const std::string& text);

@@ -4,7 +4,9 @@
 #include "benchmark/cli/command.h"
 #include "benchmark/suite/amounts.h"
 #include "core/parallel.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
+#include "datasets/reading/left_out.h"
 #include "datasets/settings.h"
 
 namespace raymoval {
@@ -53,6 +55,14 @@ void WorkFlags::add_to(CommandOptions& options) {
 int WorkFlags::thread_count() const {
   const int given = parse_threads(threads);
   return given > 0 ? given : hardware_threads();
+}
+
+void tell_opening(const Sequence& sequence, Progress& progress) {
+  progress.end();  // The messages get lines of their own.
+  for (const std::string& line : sequence.notes) progress.say(sequence.name + ": " + line);
+  for (const std::string& line : lost_scan_lines(sequence)) {
+    print_error("raymoval: warning: " + sequence.name + ": " + line);
+  }
 }
 
 void SequenceFlags::add_place_to(CommandOptions& options, std::string& place) {

@@ -14,6 +14,7 @@
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "datasets/bags/chunks/private_folder.h"
+#include "core/text.h"
 #include "datasets/open_sequence.h"
 #include "datasets/world_axes/gravity.h"
 #include "methods/external/external.h"
@@ -51,8 +52,8 @@ MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
       throw DataError(not_started_text(end.code));
     case ChildEnd::Kind::kTimeout:
       answer.status = CellStatus::kTimeout;
-      answer.reason = fmt::format("did not finish within {:.0f} s (see --time-limit) and was ended",
-                                  limits.seconds);
+      answer.reason = fmt::format("did not finish within {} s (see --time-limit) and was ended",
+                                  number_text(limits.seconds));
       break;
     case ChildEnd::Kind::kOutOfMemory:
       answer.status = CellStatus::kOutOfMemory;

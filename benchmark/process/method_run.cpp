@@ -14,6 +14,7 @@
 #include "benchmark/process/machine.h"
 #include "core/parallel.h"
 #include "core/scan/local_frame.h"
+#include "datasets/layouts.h"
 #include "datasets/reading/loading_ahead.h"
 #include "methods/controls/controls.h"
 
@@ -130,9 +131,9 @@ MethodAnswer run_method(const MethodTask& task) {
 void check_has_labels(const Sequence& sequence) {
   if (sequence.labels != nullptr) return;
   throw DataError(
-      fmt::format("sequence '{}' has no labels, so nothing can be scored on it; expected a folder "
-                  "labels/ beside the scans. To clean a map without labels use `raymoval clean`.",
-                  sequence.name));
+      fmt::format("sequence '{}' has no labels, so nothing can be scored on it; expected {}. To "
+                  "clean a map without labels use `raymoval clean`.",
+                  sequence.name, layout_of(sequence).expected_labels));
 }
 
 std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence) {

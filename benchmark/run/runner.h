@@ -16,6 +16,7 @@ struct RunSummary {
   std::size_t earlier = 0;               ///< Cells of earlier runs, besides these, in the tables.
   std::vector<std::string> failures;     ///< "sequence / method: reason", one for each failed cell.
   std::vector<std::string> controls;     ///< What is wrong with the controls; empty if all is well.
+  std::vector<std::string> lost_scans;   ///< "sequence: sentence" on scans that were not read.
   std::vector<std::string> flat_sweeps;  ///< Sentences on swept parameters without effect.
   std::vector<std::string> missing;      ///< "sequence / method" of cells that were not run.
   [[nodiscard]] bool good() const { return failures.empty() && controls.empty(); }

@@ -138,10 +138,18 @@ void SequenceRuns::fail_all(std::size_t sequence, const std::string& reason) {
   }
 }
 
-/// Says what a reader has to know of the data: methods take their bins from an estimated sensor, up
-/// is not z, and which points no method sees.
-void SequenceRuns::describe(std::size_t number) const {
+/// Says what a reader has to know of the data: how it was opened, which scans are lost, that
+/// methods take their bins from an estimated sensor, that up is not z, and which points no method
+/// sees.
+void SequenceRuns::describe(std::size_t number) {
   const Sequence& sequence = suite_.sequences()[number];
+  for (const std::string& line : opening_lines(sequence)) suite_.say(sequence.name + ": " + line);
+  {
+    const std::lock_guard lock(mutex_);
+    for (const std::string& line : lost_scan_lines(sequence)) {
+      summary_.lost_scans.push_back(sequence.name + ": " + line);
+    }
+  }
   const SensorModel& sensor = sequence.scans->sensor();
   if (sensor.is_estimated()) suite_.say(sequence.name + ": sensor estimated: " + sensor.basis);
   const std::string turned = up_line(sequence.up());

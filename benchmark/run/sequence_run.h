@@ -59,7 +59,7 @@ class SequenceRuns {
   bool read_data(ScoredSequence& scored, std::size_t sequence);
   /// Its cells fail, in the tables at least: results that were stored before stay.
   void fail_all(std::size_t sequence, const std::string& reason);
-  void describe(std::size_t sequence) const;
+  void describe(std::size_t sequence);
   /// Whether the method may run, and what is stored of it may be replaced.
   [[nodiscard]] bool may_run(CellIndex index) const;
   void run_cell(ScoredSequence& scored, CellIndex index);

@@ -112,7 +112,7 @@ FoundScanPoses poses_of_bag(const Bag& bag, const ScanHeads& heads, std::uint64_
   found.poses.stamps = heads.stamps;
   found.poses.motion = motion.motion;
   found.poses.notes = std::move(motion.notes);
-  for (std::string& note : looked_up.notes) found.poses.notes.push_back(std::move(note));
+  found.poses.losses = std::move(looked_up.losses);
   return found;
 }
 
@@ -157,12 +157,13 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   }
   sequence.poses_file = found.name;
   sequence.motion = found.poses.motion;
-  take(sequence.notes, bag->damage());
+  sequence.damage = bag->damage();
   sequence.notes.push_back(path.filename().string() + ": the scans are those of " +
                            topic_text(bag->topics()[topic]) + ", the poses those of " + found.name +
                            ".");
-  take(sequence.notes, heads.notes);
   take(sequence.notes, std::move(found.poses.notes));
+  sequence.losses = heads.losses;
+  take(sequence.losses, std::move(found.poses.losses));
   find_labels(folder, settings, stamps, sequence);
   const auto source = std::make_shared<BagScanSource>(bag, topic, std::move(scans),
                                                       found.point_frame, settings.sensor);
@@ -179,7 +180,10 @@ Layout bags_layout() {
   layout.expected = "a recording of ROS messages (.bag, .mcap, .db3, or the folder of ROS 2)";
   layout.forms = {{"FILE.bag", "a ROS 1 bag with clouds and poses (see --topic, --pose-topic)"},
                   {"FILE.mcap", "the same as MCAP, of ROS 1 or ROS 2"},
+                  {"FILE.db3", "the same as a database of ROS 2"},
                   {"FOLDER", "a recording of ROS 2 with its metadata.yaml"}};
+  layout.expected_labels = std::string("a file ") + kIndexedLabelsFile +
+                           " beside the recording with lines of these scans";
   layout.recognise = [](Layout::Path path) { return is_bag(path); };
   layout.open = open_bag_sequence;
   return layout;

@@ -99,10 +99,10 @@ ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& r
                                  : std::make_shared<const RecordLayout>(head->layout));
   }
   if (left_out.all() > 0) {
-    heads.notes.push_back(bag_name(bag) + ": " + bag.topics()[topic].name + ": " +
-                          counted_text(left_out.all(), "message") + " of " +
-                          grouped_text(chosen.files.size()) + " left out: " + left_out.text());
-    if (2 * left_out.all() >= chosen.files.size()) throw DataError(heads.notes.back());
+    heads.losses.push_back(bag_name(bag) + ": " + bag.topics()[topic].name + ": " +
+                           counted_text(left_out.all(), "message") + " of " +
+                           grouped_text(chosen.files.size()) + " left out: " + left_out.text());
+    if (2 * left_out.all() >= chosen.files.size()) throw DataError(heads.losses.back());
   }
   LeftOut ignored;
   heads.first_stamp = heads.stamps.front();

@@ -20,10 +20,10 @@ struct ScanHeads {
   std::vector<Nanoseconds> stamps;    ///< Of each of these.
   /// The layout of the points of each of these; equal ones are one.
   std::vector<std::shared_ptr<const RecordLayout>> layouts;
-  Nanoseconds first_stamp = 0;     ///< Of the topic's first message that can be used.
-  std::string frame;               ///< That all points are in.
-  FrameRange range;                ///< As used, with both ends.
-  std::vector<std::string> notes;  ///< Whole sentences on messages that are left out.
+  Nanoseconds first_stamp = 0;      ///< Of the topic's first message that can be used.
+  std::string frame;                ///< That all points are in.
+  FrameRange range;                 ///< As used, with both ends.
+  std::vector<std::string> losses;  ///< Whole sentences on messages that are left out.
 };
 
 /// Reads the heads of the messages that `range` chooses. Messages without a point, or that cannot

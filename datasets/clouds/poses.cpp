@@ -94,7 +94,8 @@ Pose rigid_pose(const Eigen::Vector3d& position, const Eigen::Vector4d& wxyz,
   }
   if (!(std::abs(length - 1.0) <= kTolerance)) {
     throw DataError(where + ": the quaternion has length " + number_text(length) +
-                    ", expected 1. Check the order of the columns.");
+                    ", expected 1 within " + number_text(kTolerance) +
+                    ". Check the order of the columns, or write it with more digits.");
   }
   Pose pose = Pose::Identity();
   pose.linear() =

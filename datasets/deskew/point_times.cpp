@@ -53,18 +53,6 @@ Extent extent_of(const TimedScan& timed, const PointField& field) {
   return extent;
 }
 
-double parse_unit(const std::string& text) {
-  const std::pair<const char*, double> units[] = {
-      {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
-  for (const auto& [name, seconds] : units) {
-    if (text == name) return seconds;
-  }
-  const auto number = parse_number<double>(text);
-  if (number && *number > 0.0 && *number <= 1.0) return *number;
-  throw UsageError("--point-time-unit " + text +
-                   ": expected s, ms, us, ns, or a number of seconds above 0 and up to 1.");
-}
-
 /// The unit under which the longest scan takes a time that scans take.
 double usual_unit(double span, const PointClock& clock, const std::string& place) {
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
@@ -127,6 +115,18 @@ std::string zero_text(PointClock::Zero zero) {
 
 }  // namespace
 
+double parse_time_unit(const std::string& text) {
+  const std::pair<const char*, double> units[] = {
+      {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+  for (const auto& [name, seconds] : units) {
+    if (text == name) return seconds;
+  }
+  const auto number = parse_number<double>(text);
+  if (number && *number > 0.0 && *number <= 1.0) return *number;
+  throw UsageError("--point-time-unit " + text +
+                   ": expected s, ms, us, ns, or a number of seconds above 0 and up to 1.");
+}
+
 PointClock find_point_clock(const std::vector<TimedScan>& scans,
                             const std::optional<std::string>& unit) {
   PointClock clock;
@@ -143,7 +143,7 @@ PointClock find_point_clock(const std::vector<TimedScan>& scans,
     throw DataError(place + ": all points of a scan have the same time ('" + clock.field +
                     "'), so there is no motion to take out. Leave --deskew out.");
   }
-  clock.unit_s = unit ? parse_unit(*unit) : usual_unit(span, clock, place);
+  clock.unit_s = unit ? parse_time_unit(*unit) : usual_unit(span, clock, place);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     check_digits(field, extents[i], clock.unit_s, scans[i].place);
   }

@@ -35,6 +35,10 @@ struct TimedScan {
   std::string place;  ///< For messages.
 };
 
+/// The seconds of a unit of time: s, ms, us, ns, or a number of seconds above 0 and up to 1.
+/// @throws UsageError saying that
+double parse_time_unit(const std::string& text);
+
 /// Finds out how points are timed, from some scans of a sequence. The unit is that under which the
 /// points of a scan were taken within 2 ms to 1.9 s, unless a user says it.
 /// @param unit s, ms, us, ns, or a number of seconds

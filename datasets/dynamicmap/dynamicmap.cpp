@@ -76,6 +76,9 @@ Layout dynamicmap_layout() {
   layout.pose_place = PosePlace::kScanFile;
   layout.points_in_world = layout.labels_in_intensity = true;
   layout.class_names = class_names();
+  layout.expected_labels =
+      "--label-rule FILE, because labels are the intensity of the points in this layout: a JSON "
+      "file with those that move, such as {\"moving\": [1]}";
   layout.recognise = [](Layout::Path path) {
     return is_folder(path) && has_folder(std::filesystem::path(path) / "pcd");
   };

@@ -129,6 +129,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
   }
   sequence.motion = poses.motion;
   sequence.notes = poses.notes;
+  sequence.losses = poses.losses;
   sequence.input_files.insert(sequence.input_files.end(), input_files.begin(), input_files.end());
   sequence.poses_file = file ? file->path.filename().string() : kStandingSensor;
   if (find_label_files(folder / "labels", entries)) {
@@ -149,8 +150,8 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
 Layout files_layout() {
   Layout layout;
   layout.name = "files";
-  layout.expected = "a folder of .pcd, .ply, .bin, .las or .npy scans with poses.txt";
-  layout.forms = {{"FOLDER", "a folder of .pcd, .ply, .bin, .las or .npy scans with poses.txt"}};
+  layout.expected = "a folder of .pcd, .ply, .bin, .las, .npy or .npz scans with poses.txt";
+  layout.forms = {{"FOLDER", layout.expected}};
   layout.pose_place = PosePlace::kRowOfScan;
   layout.class_names = semantickitti_class_names();
   layout.recognise = [](Layout::Path path) {

@@ -32,8 +32,8 @@ const std::vector<InspectionCheck>& inspection_checks() {
   static const std::vector<Check> checks = [] {
     std::vector<Check> all;
     for (const auto& part :
-         {reach_checks(), point_checks(), pose_checks(), time_checks(), label_checks(),
-          ego_checks(), sensor_model_checks(), skew_checks(), world_checks()}) {
+         {recording_checks(), reach_checks(), point_checks(), pose_checks(), time_checks(),
+          label_checks(), ego_checks(), sensor_model_checks(), skew_checks(), world_checks()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
@@ -54,7 +54,8 @@ InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* canc
       report.findings.push_back(completed(std::move(finding), check, samples));
     }
   }
-  report.notes = sequence.notes;
+  report.notes = sequence.notes;  // The checks tell its damage.
+  report.notes.insert(report.notes.end(), sequence.losses.begin(), sequence.losses.end());
   if (const auto* scans = dynamic_cast<const BagScanSource*>(&stored_source(sequence))) {
     report.notes.push_back(bag_name(scans->bag()) + ": " + topics_sentence(scans->bag()));
   }

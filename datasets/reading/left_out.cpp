@@ -60,4 +60,18 @@ std::vector<std::string> left_out_lines(const Sequence& sequence) {
   return lines;
 }
 
+std::vector<std::string> lost_scan_lines(const Sequence& sequence) {
+  std::vector<std::string> lines = sequence.damage;
+  lines.insert(lines.end(), sequence.losses.begin(), sequence.losses.end());
+  return lines;
+}
+
+std::vector<std::string> opening_lines(const Sequence& sequence) {
+  std::vector<std::string> lines = sequence.damage;
+  for (const auto* more : {&sequence.notes, &sequence.losses}) {
+    lines.insert(lines.end(), more->begin(), more->end());
+  }
+  return lines;
+}
+
 }  // namespace raymoval

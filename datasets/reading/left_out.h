@@ -26,4 +26,11 @@ LeftOutPoints left_out_points(const Sequence& sequence);
 /// @throws DataError if a region had to be found first and a scan cannot be read
 std::vector<std::string> left_out_lines(const Sequence& sequence);
 
+/// What of the data is not among the scans of `sequence`, though it was asked for: its damage and
+/// losses. Without these scans a score is that of the rest, so a user is warned.
+std::vector<std::string> lost_scan_lines(const Sequence& sequence);
+
+/// All that was said when `sequence` was opened: its damage, notes and losses.
+std::vector<std::string> opening_lines(const Sequence& sequence);
+
 }  // namespace raymoval

@@ -174,6 +174,7 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   }
   sequence.motion = poses.motion;
   sequence.notes = poses.notes;
+  sequence.losses = poses.losses;
   if (find_label_files(folder / "labels", entries)) {
     sequence.labels = std::make_shared<LabelFileSource>(entries);
   }

@@ -87,7 +87,7 @@ FoundPoses look_up_poses(const std::vector<Nanoseconds>& stamps, const SensorMot
                     (motion.time_offset() == 0 ? "" : " on the clock of the scans") + ". " +
                     remedy(stamps, motion, missing));
   }
-  found.notes.push_back(where + ": " + share + ". They are left out.");
+  found.losses.push_back(where + ": " + share + ". They are left out.");
   return found;
 }
 

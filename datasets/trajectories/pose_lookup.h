@@ -56,7 +56,7 @@ class TrajectoryMotion : public SensorMotion {
 struct FoundPoses {
   std::vector<std::optional<Pose>> poses;  ///< T_world_sensor of each scan; nothing if unknown.
   std::size_t missing = 0;                 ///< Scans without a pose.
-  std::vector<std::string> notes;          ///< Whole sentences; none if every scan has its pose.
+  std::vector<std::string> losses;         ///< Whole sentences; none if every scan has its pose.
 };
 
 /// Looks up the pose of each scan. Scans that have none are to be left out, as long as they are

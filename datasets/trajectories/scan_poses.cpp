@@ -59,7 +59,7 @@ ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSetting
   result.motion = std::make_shared<TrajectoryMotion>(std::move(body));
   FoundPoses found = look_up_poses(scans.stamps, *result.motion, file.path.string());
   result.poses = std::move(found.poses);
-  result.notes = std::move(found.notes);
+  result.losses = std::move(found.losses);
   return result;
 }
 

@@ -42,7 +42,8 @@ struct ScanPoses {
   std::vector<Nanoseconds> stamps;         ///< Of each scan, on the clock of `motion`.
   std::vector<double> times_s;             ///< Seconds since the first scan of the data set.
   std::shared_ptr<const SensorMotion> motion;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;   ///< How the file was read.
+  std::vector<std::string> losses;  ///< How many scans have no pose.
 };
 
 /// Whether the rows of `file` fit scans by their order.

@@ -82,6 +82,11 @@ bool online_of(const Fields& file) {
 }
 
 std::filesystem::path absolute_file(const std::filesystem::path& path) {
+  if (path.empty()) {
+    throw ConfigurationError(
+        "external: names no manifest. Expected external:PATH of a JSON file, such as "
+        "external:method/manifest.json.");
+  }
   std::error_code error;
   const auto found = std::filesystem::canonical(path, error);
   if (error) {

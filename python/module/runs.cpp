@@ -74,7 +74,9 @@ py::dict dict_of(const RunSummary& summary, const std::vector<std::string>& with
   answer["failures"] = py::cast(summary.failures);
   answer["control_problems"] = py::cast(summary.controls);
   std::vector<std::string> warnings = without_effect;
-  warnings.insert(warnings.end(), summary.flat_sweeps.begin(), summary.flat_sweeps.end());
+  for (const auto* lines : {&summary.lost_scans, &summary.flat_sweeps}) {
+    warnings.insert(warnings.end(), lines->begin(), lines->end());
+  }
   answer["warnings"] = py::cast(warnings);
   return answer;
 }

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
+#include "datasets/reading/left_out.h"
 #include "datasets/settings.h"
 #include "datasets/world_axes/gravity.h"
 #include "python/module/bindings.h"
@@ -239,7 +240,7 @@ void bind_facts(py::class_<HeldSequence>& sequence) {
           "has_labels", [](const HeldSequence& held) { return held.sequence->labels != nullptr; },
           "Whether methods can be scored on it.")
       .def_property_readonly(
-          "notes", [](const HeldSequence& held) { return held.sequence->notes; },
+          "notes", [](const HeldSequence& held) { return opening_lines(*held.sequence); },
           "What a user should know of how it was opened, in sentences.")
       .def_property_readonly(
           "path",

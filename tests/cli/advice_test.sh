@@ -61,6 +61,13 @@ for place in data/05 town unlabelled:05; do
 done
 expect 0 "All controls are as they must be" run data/05 --method noop --quiet --out by_place
 expect 2 "has no labels" run unlabelled:05 --method noop --out o
+mkdir -p intensity/pcd
+printf '%s\n' "VERSION 0.7" "FIELDS x y z intensity" "SIZE 4 4 4 4" "TYPE F F F F" "COUNT 1 1 1 1" \
+  "WIDTH 1" "HEIGHT 1" "VIEWPOINT 0 0 0 1 0 0 0" "POINTS 1" "DATA ascii" "5 0 0 1" \
+  >intensity/pcd/000000.pcd
+expect 2 "expected --label-rule FILE, because labels are the intensity of the points in this layout" \
+  run intensity --method noop --out o
+expect 2 "expected a folder labels/ beside the scans" run unlabelled:05 --method noop --out o
 expect 2 "nowhere: no such folder" run nowhere --method noop --out o
 expect 2 "nowhere: no such suite file" run nowhere --out o
 expect 2 "Name it with --sequence one." run data/05 one --method noop --out o

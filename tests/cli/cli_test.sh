@@ -11,10 +11,14 @@ short=(--sequence street --frames 0:2 --quiet)
 # Help and listings.
 expect 0 "Examples" --help
 for command in run plan table compare list describe score clean simulate inspect report picture; do expect 0 "Examples" "$command" --help; done
+expect 0 "Scenes that are not in the cache are simulated for it" run --help
+expect 0 "into \$RAYMOVAL_CACHE" plan --help
 expect 0 "raymoval 1." --version
 expect 0 "oracle" list
 for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
   suites; do expect 0 "" list "$what"; done
+expect 0 "FILE.db3 " list sequences
+expect 0 "a folder of .pcd, .ply, .bin, .las, .npy or .npz scans with poses.txt" list sequences
 for name in raymoval raymoval:online noop erasor dynamicmap protocol:erasor; do
   for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
 done
@@ -52,6 +56,8 @@ expect 2 "--out" run "${short[@]}" --method noop
 expect 2 "--method" run "${short[@]}" --out o
 expect 2 "--sequence" run --method noop --out o
 expect 2 "Did you mean 'raymoval'" run "${short[@]}" --method raymovl --out o
+expect 2 "external: names no manifest. Expected external:PATH" \
+  run "${short[@]}" --method external: --out o
 expect 2 "two methods" run "${short[@]}" --method noop --method noop:default --out o
 expect 2 "METHOD.key=value" run "${short[@]}" --method raymoval --set tau0=1 --out o
 expect 2 "write protocol:erasor.key=value" run "${short[@]}" --method noop --set erasor.lift=0 --out o
@@ -396,6 +402,7 @@ holds "an inspection with findings exits with 1" test $? -eq 1
 holds "a finding is named" grep -q '^finding poses-of-another-sequence: poses.txt: .* Take the' found.txt
 expect 2 "no such folder" inspect nowhere
 expect 2 "inspect what" inspect
+expect 2 "--point-time-unit min: expected s, ms, us, ns" inspect sim/town --point-time-unit min
 expect 2 "sim/town." inspect sim/town/velodyne
 expect 2 "is a scan" inspect sim/town/velodyne/000000.bin
 expect 2 "Did you mean '--json'" inspect sim/town --jason
@@ -431,6 +438,8 @@ expect 2 "--scan goes with --kind range" picture shown -o map.png --scan 1
 expect 2 "frames are 0:2" picture shown -o range.png --kind range --scan 9 --quiet
 expect 2 "expected the number of a frame" picture shown -o range.png --kind range --scan x --quiet
 expect 2 "XMIN:XMAX:YMIN:YMAX" picture shown -o map.png --crop 5:1:0:1 --quiet
+expect 2 "--crop 1000:2000:1000:2000: no point lies there" \
+  picture shown -o map.png --crop 1000:2000:1000:2000 --quiet
 expect 2 "--size" picture shown -o map.png --size 7 --quiet
 expect 2 "coarser --resolution" picture shown -o map.png --resolution 0.0001 --quiet
 expect 2 "fits no cell" picture shown -o map.png --only nothing --quiet

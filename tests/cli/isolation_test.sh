@@ -45,6 +45,10 @@ holds "nothing that was started is left" test -z "$(pgrep -f "^raymoval run-meth
 holds "no lock is left" test ! -e run/run.lock
 holds "no core file is left" test -z "$(find . -name 'core*')"
 
+# A limit below a second is told as it was given.
+expect 1 "hang:default: did not finish within 0.2 s" run "${short[@]}" --method hang \
+  --time-limit 0.2 --out limited
+
 # Means say over how many sequences they are.
 cat >two.json <<'JSON'
 { "sequences": [{"path": "street", "name": "a", "frames": "0:0"},

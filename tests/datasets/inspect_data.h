@@ -24,6 +24,7 @@ struct EditedSequence : ScanSource, LabelSource {
   RangeLimits range_m;
   bool labelled = true;
   std::optional<Eigen::Vector3d> up;  ///< What a user says.
+  std::vector<std::string> damage, losses;
 
   explicit EditedSequence(const SimulationOptions& options) {
     const auto simulated = make_simulated(options, 2);
@@ -79,6 +80,8 @@ struct EditedSequence : ScanSource, LabelSource {
     if (labelled) sequence.labels = self;
     sequence.label_rule.ignored = {0, 1};
     sequence.range_m = range_m;
+    sequence.damage = damage;
+    sequence.losses = losses;
     sequence.up_choice = std::make_shared<UpChoice>(up);
     return inspect(sequence);
   }

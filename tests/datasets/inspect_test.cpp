@@ -92,6 +92,25 @@ TEST_CASE("a good drive is silent", "[inspect]") {
   check_silent(turned.inspected());
 }
 
+TEST_CASE("a recording that is cut is a finding, and scans without a pose are a note",
+          "[inspect]") {
+  EditedSequence drive = good_drive();
+  drive.losses = {"poses.txt: 3 of 19 scans have no pose: 3 after the last pose."};
+  CHECK_FALSE(drive.inspected().has_findings());
+  CHECK(drive.inspected().notes == drive.losses);
+  drive.damage = {"drive.bag: byte 77: a chunk is cut; 2 messages of it can be read.",
+                  "Further damage was found in 9 places, not listed here."};
+  const InspectionReport report = drive.inspected();
+  CHECK(report.notes == drive.losses);
+  CHECK(found(report) == std::set<std::string>{"recording-damaged"});
+  REQUIRE(report.findings.size() >= 2);
+  CHECK(report.findings[0].consequence == Consequence::kWarned);
+  CHECK(report.findings[0].sentence().starts_with(
+      "recording-damaged: drive.bag: byte 77: a chunk is cut; 2 messages of it can be read; "
+      "expected a whole recording"));
+  CHECK(report.findings[1].where == "the recording");
+}
+
 TEST_CASE("the scenes are silent", "[inspect][every-finding]") {
   for (const char* scene : {"town", "country", "crossing", "highway", "excavator"}) {
     SimulationOptions options;

@@ -21,6 +21,7 @@
 #include "datasets/bags/rewriting/rewrite_bag.h"
 #include "datasets/clouds/record_file.h"
 #include "datasets/open_sequence.h"
+#include "datasets/reading/left_out.h"
 
 namespace {
 
@@ -97,7 +98,8 @@ void sequence(const std::string& path, const std::map<std::string, std::string>&
     one["pose"] = std::move(pose);
     scans.push_back(std::move(one));
   }
-  const ordered_json all = {{"notes", sequence.notes}, {"scans", std::move(scans)}};
+  const ordered_json all = {{"notes", raymoval::opening_lines(sequence)},
+                            {"scans", std::move(scans)}};
   std::printf("%s\n", all.dump().c_str());
 }
 

@@ -145,6 +145,21 @@ class Runs(unittest.TestCase):
         del run
         self.assertFalse(os.path.exists(folder))
 
+    def test_a_run_warns_of_scans_without_a_pose(self):
+        drive = Path(self.folder, "drive")
+        program("simulate", "town", "-o", drive, "--scans", "5", "--sensor", "vlp16")
+        times = (drive / "times.txt").read_text().split()
+        poses = (drive / "poses.txt").read_text().splitlines()
+        rows = [f"{time} {pose}\n" for time, pose in zip(times, poses)]
+        (drive / "early.txt").write_text("".join(rows[:4]))
+        early = raymoval.open(drive, poses="early.txt", **QUIET)
+        lost = "early.txt: 1 of 5 scans have no pose: 1 after the last pose. They are left out."
+        self.assertEqual(early.notes, [f"{drive}/{lost}"])
+        run = raymoval.run(early, "noop", controls=False, **QUIET)
+        self.assertEqual(run.warnings, [f"town: {drive}/{lost}"])
+        whole = raymoval.run(drive, "noop", controls=False, **QUIET)
+        self.assertEqual(whole.warnings, [])
+
     def test_compare_says_what_is_worse(self):
         class Answer(KeepAll):
             version = "1"

@@ -53,6 +53,9 @@ Command add_plan_command(CommandParser& program) {
   options.set_footer(
       "Each cell may be run on a machine of its own: raymoval run SUITE --out DIR --cell KEY.\n"
       "Then raymoval run SUITE --out DIR --collect makes the tables.\n"
+      "A key depends on all of the data. Scenes that are not in the cache are therefore simulated "
+      "first,\ninto $RAYMOVAL_CACHE, else ~/.cache/raymoval: some 100 MB for each, and several GB "
+      "for a large suite.\n"
       "Examples:\n"
       "  raymoval plan simulated-quick\n"
       "  raymoval plan suite.json --out out/suite");

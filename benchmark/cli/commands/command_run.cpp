@@ -38,8 +38,8 @@ void tell_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
     print_error(red("raymoval: cell failed:") + " " + failure);
   }
-  for (const std::string& line : summary.flat_sweeps) {
-    print_error("raymoval: warning: " + line);
+  for (const auto* lines : {&summary.lost_scans, &summary.flat_sweeps}) {
+    for (const std::string& line : *lines) print_error("raymoval: warning: " + line);
   }
   for (const std::string& problem : summary.controls) {
     print_error(red("raymoval: controls are off:") + " " + problem);
@@ -175,8 +175,10 @@ void add_options(CommandOptions& options, RunFlags& flags) {
               "times are marked, since each is slower than alone");
   options.add_flag("--collect", flags.collect,
                    "Run nothing; make the tables of the cells that are there");
-  options.add_flag("--explain", flags.explain,
-                   "Run nothing; say which cells would be run, and why");
+  options.add_flag(
+      "--explain", flags.explain,
+      "Run no method; say which cells would be run, and why. Scenes that are not in the "
+      "cache are simulated for it");
   options.add_flag("--keep-removals", flags.keep_removals,
                    "Keep what each method removed from each scan");
   options.add_flag("--confidence", flags.confidence,

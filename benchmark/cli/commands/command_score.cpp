@@ -11,6 +11,7 @@
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/scan/local_frame.h"
+#include "core/terminal_colour.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
 #include "eval/protocol_registry.h"
@@ -35,15 +36,29 @@ std::vector<ProtocolRecord> protocol_records(const ScoredSequence& scored) {
   return records;
 }
 
+/// Masks of another kind, such as those of 0 and 1, would be taken for an answer that removes
+/// nothing.
+void warn_of_labels(const LabelIds& found, const std::string& folder) {
+  if (has_removed_label(found)) return;
+  print_error("raymoval: warning: " + folder +
+              ": no point has a label from 251 to 259, so none counts as removed; found " +
+              label_ids_text(found) +
+              ". If some are to be removed, write 251 for those and 9 for the others.");
+}
+
 void score_predictions(ScoredSequence& scored, const std::string& folder, Progress& progress,
                        ScoreRecord& record) {
   const ScanSource& scans = *scored.sequence().scans;
   progress.begin("reading predictions", scans.size());
   const std::atomic<bool>& cancelled = interrupt_flag();
-  const MaskStore masks = read_removals(folder, scans, [&] {
+  LabelIds found;
+  const auto after_scan = [&] {
     progress.advance();
     if (cancelled) throw Cancelled();
-  });
+  };
+  const MaskStore masks = read_removals(folder, scans, after_scan, &found);
+  progress.end();
+  warn_of_labels(found, folder);
   SequenceScores scores = scored.score(masks, &cancelled);
   const std::vector<ProtocolRecord> protocols = protocol_records(scored);
   for (std::size_t i = 0; i < protocols.size(); ++i) {
@@ -120,9 +135,10 @@ ExitCode score(const ScoreFlags& flags) {
   const std::vector<ProtocolRequest> protocols = requested_protocols(flags);
   const int threads = flags.work.thread_count();
   Progress progress(flags.work.style());
-  ScoredSequence scored(open_sequence(flags.sequence, flags.reading.options(),
-                                      {threads, &progress, &interrupt_flag()}),
-                        protocols, threads, &progress);
+  Sequence sequence = open_sequence(flags.sequence, flags.reading.options(),
+                                    {threads, &progress, &interrupt_flag()});
+  tell_opening(sequence, progress);
+  ScoredSequence scored(std::move(sequence), protocols, threads, &progress);
   ScoreRecord record;
   record.data = scored.sequence().record();
   if (flags.cloud.empty()) {

@@ -76,6 +76,7 @@ class Verifier {
     const std::vector<ProtocolRequest> protocols = requested_protocols_of(cell);
     Sequence sequence = open_sequence(place, reading_of(cell, flags_.reading.options()),
                                       {threads_, &progress_, &interrupt_flag()});
+    tell_opening(sequence, progress_);
     opened_.push_back(
         {cell, place,
          std::make_unique<ScoredSequence>(std::move(sequence), protocols, threads_, &progress_)});

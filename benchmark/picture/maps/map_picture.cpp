@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "benchmark/suite/cell_selection.h"
 #include "core/error.h"
@@ -32,6 +33,8 @@ struct MapRow {
   std::vector<MapPanel> panels;  ///< One for each column.
   double resolution = 1.0;
   int width = 0, height = 0;  ///< Of a panel.
+  bool has_points = false;    ///< Whether one of its points lies within the panels.
+  std::optional<WorldWindow> around = std::nullopt;  ///< Of the way of the sensor, if it was read.
 };
 
 /// The cells that the picture shows.
@@ -111,7 +114,8 @@ void fill_row(const KeptRun& run, const std::vector<const KeptCell*>& cells,
   }
   const Sequence sequence = run.open(row.sequence, context);
   const LocalFrameSource upright(*sequence.scans, sequence.upright_frame());
-  const WorldWindow window = options.crop ? *options.crop : window_around_way(upright);
+  row.around = window_around_way(upright);
+  const WorldWindow window = options.crop.value_or(*row.around);
   set_scale(options, window, row);
   std::vector<MaskStore> masks;
   std::vector<TopDownRaster*> rasters;
@@ -124,6 +128,7 @@ void fill_row(const KeptRun& run, const std::vector<const KeptCell*>& cells,
   for_each_shown_point(sequence, upright, masks, "drawing " + sequence.name, context,
                        [&](std::size_t mask, const PointOutcome& point) {
                          rasters[mask]->add(point.world, point.outcome);
+                         row.has_points = row.has_points || window.contains(point.world);
                        });
 }
 
@@ -150,6 +155,16 @@ void draw_row(Canvas& canvas, const MapRow& row, int column_width, int top) {
     canvas.text(left + row.width / 2, y + row.height + 16,
                 canvas.fitted(panel.caption, 12, column_width), 12, kSoftInk, Align::kCentre);
   }
+}
+
+/// @throws UsageError if no point of the rows that were read lies within `crop`
+void check_crop(const WorldWindow& crop, const std::vector<MapRow>& rows) {
+  std::optional<WorldWindow> around;
+  for (const MapRow& row : rows) {
+    if (row.has_points) return;
+    if (!around) around = row.around;
+  }
+  if (around) throw_empty_crop(crop, *around);
 }
 
 Canvas drawn(const std::vector<MapRow>& rows, const std::vector<std::string>& methods) {
@@ -191,6 +206,16 @@ WorldWindow window_around_way(const ScanSource& scans) {
   return scans.size() > 0 ? window : WorldWindow{-kAround, kAround, -kAround, kAround};
 }
 
+void throw_empty_crop(const WorldWindow& crop, const WorldWindow& around) {
+  const auto text = [](const WorldWindow& window) {
+    return fixed_text(window.x_min, 0) + ":" + fixed_text(window.x_max, 0) + ":" +
+           fixed_text(window.y_min, 0) + ":" + fixed_text(window.y_max, 0);
+  };
+  throw UsageError("--crop " + text(crop) +
+                   ": no point lies there. The sensor and 30 m around it are within " +
+                   text(around) + " (metres of the world frame).");
+}
+
 Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
                    const OpenContext& context) {
   const std::vector<const KeptCell*> chosen = chosen_cells(run, options);
@@ -220,6 +245,7 @@ Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
     fill_row(run, cells, options, context, row);
     rows.push_back(std::move(row));
   }
+  if (options.crop) check_crop(*options.crop, rows);
   return drawn(rows, methods);
 }
 

@@ -22,12 +22,16 @@ struct MapPictureOptions {
 /// Draws maps seen from above: a row for each sequence and a column for each method, in the colours
 /// of `outcome_colour`. If a cell has no result or no kept removals, its panel is hatched and says
 /// why.
-/// @throws UsageError if a pattern matches no cell, or if no chosen cell has kept removals;
-///   DataError if data or removals have changed since the run; Cancelled
+/// @throws UsageError if a pattern matches no cell, if no chosen cell has kept removals, or if no
+///   point lies within the crop; DataError if data or removals have changed since the run;
+///   Cancelled
 Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
                    const OpenContext& context);
 
 /// What the sensor has seen well: its path and 30 m around it.
 WorldWindow window_around_way(const ScanSource& scans);
+
+/// Refuses a crop without a point. @param around the way of the sensor, to choose another
+[[noreturn]] void throw_empty_crop(const WorldWindow& crop, const WorldWindow& around);
 
 }  // namespace raymoval

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "benchmark/picture/canvas/colour_maps.h"
+#include "benchmark/picture/maps/map_picture.h"
 #include "benchmark/picture/maps/oblique_view.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
@@ -86,11 +87,7 @@ WorldWindow busiest_place(const Sequence& sequence, const ScanSource& scans,
   for_each_point(sequence, scans, masks, "looking for what was removed", context,
                  [&](const PointOutcome& point) {
                    const Eigen::Vector3d at = camera.to_view(point.world);
-                   const WorldWindow& window = camera.window;
-                   if (at.x() < window.x_min || at.x() > window.x_max || at.y() < window.y_min ||
-                       at.y() > window.y_max) {
-                     return;
-                   }
+                   if (!camera.window.contains(at)) return;
                    double& cell = cells[{cell_of(at.x()), cell_of(at.y())}];
                    if (point.outcome == Outcome::kTruePositive) cell += 1.0;
                    if (point.outcome == Outcome::kFalseNegative) cell += 1e-6;
@@ -129,7 +126,7 @@ Colour static_colour(double above_sensor) {
 /// The three views.
 struct Views {
   ObliqueRaster raw, cleaned, zoom;
-  std::uint64_t points = 0, moving = 0, removed = 0, wrong = 0, left = 0;
+  std::uint64_t points = 0, within = 0, moving = 0, removed = 0, wrong = 0, left = 0;
 
   void add(const PointOutcome& point) {
     const bool moves =
@@ -142,6 +139,7 @@ struct Views {
     wrong += point.outcome == Outcome::kFalsePositive ? 1 : 0;
     left += point.outcome == Outcome::kFalseNegative ? 1 : 0;
     const Eigen::Vector3d at = raw.camera().to_view(point.world);
+    within += raw.camera().window.contains(at) ? 1 : 0;
     const Colour still = static_colour(point.above_sensor);
     raw.add(at, moves ? verdict_colours::kFalseNegative : still, moves ? 2 : 1);
     if (!gone) cleaned.add(at, moves ? verdict_colours::kFalseNegative : still, moves ? 2 : 1);
@@ -219,6 +217,9 @@ Canvas overview_picture(const KeptRun& run, const KeptCell& cell, const Overview
   Views views{ObliqueRaster(camera), ObliqueRaster(camera), ObliqueRaster(close)};
   for_each_point(sequence, scans, masks, "drawing", context,
                  [&](const PointOutcome& point) { views.add(point); });
+  if (options.crop && views.within == 0) {
+    throw_empty_crop(*options.crop, window_around_way(scans));
+  }
   return drawn(cell, sequence.scans->size(), views, close.window);
 }
 

@@ -17,7 +17,8 @@ struct OverviewOptions {
 /// the trails of what moved, the map that a method left, and, at a larger scale, the place where it
 /// removed most. Points more than 4 m above the sensor are left out, so that trees do not hide the
 /// street.
-/// @throws DataError if removals or data are missing or have changed since the run; Cancelled
+/// @throws UsageError if no point lies within the crop; DataError if removals or data are missing
+/// or have changed since the run; Cancelled
 Canvas overview_picture(const KeptRun& run, const KeptCell& cell, const OverviewOptions& options,
                         const OpenContext& context);
 

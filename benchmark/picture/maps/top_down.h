@@ -16,6 +16,9 @@ struct WorldWindow {
 
   [[nodiscard]] double width() const { return x_max - x_min; }
   [[nodiscard]] double height() const { return y_max - y_min; }
+  [[nodiscard]] bool contains(const Eigen::Vector3d& at) const {
+    return at.x() >= x_min && at.x() <= x_max && at.y() >= y_min && at.y() <= y_max;
+  }
 };
 
 /// Points seen from above. It counts for each pixel how many points of each outcome lie in it.

@@ -22,7 +22,7 @@ std::filesystem::path label_file(const std::filesystem::path& folder, const Scan
   return folder / (scan.name + ".label");
 }
 
-Mask read_mask(const std::filesystem::path& path, const Scan& scan) {
+Mask read_mask(const std::filesystem::path& path, const Scan& scan, LabelIds* found) {
   if (!has_file(path)) {
     throw DataError(path.string() +
                     ": missing; expected a label file for each of the sequence's "
@@ -41,6 +41,7 @@ Mask read_mask(const std::filesystem::path& path, const Scan& scan) {
     std::memcpy(&word, bytes.data() + scan.stored_position(point) * sizeof word, sizeof word);
     const std::uint16_t id = semantic_id(word);
     mask[point] = id >= kRemovedLabel && id <= kLastRemovedLabel ? 1 : 0;
+    if (found != nullptr) found->set(id);
   }
   return mask;
 }
@@ -113,7 +114,7 @@ void check_level(const std::filesystem::path& folder, const Scan& scan) {
 }  // namespace
 
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
-                        const std::function<void()>& after_scan) {
+                        const std::function<void()>& after_scan, LabelIds* found) {
   if (!is_folder(folder)) {
     throw DataError(folder.string() + (is_there(folder) ? ": is no folder" : ": no such folder") +
                     "; expected one with a NNNNNN.label file for each scan.");
@@ -122,10 +123,27 @@ MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& s
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
     if (i == 0) check_level(folder, scan);
-    masks.set(i, read_mask(label_file(folder, scan), scan));
+    masks.set(i, read_mask(label_file(folder, scan), scan, found));
     after_scan();
   }
   return masks;
+}
+
+bool has_removed_label(const LabelIds& ids) {
+  for (std::size_t id = kRemovedLabel; id <= kLastRemovedLabel; ++id) {
+    if (ids.test(id)) return true;
+  }
+  return false;
+}
+
+std::string label_ids_text(const LabelIds& ids) {
+  constexpr std::size_t kMost = 8;
+  std::vector<std::string> texts;
+  for (std::size_t id = 0; id < ids.size() && texts.size() < kMost; ++id) {
+    if (ids.test(id)) texts.push_back(std::to_string(id));
+  }
+  const std::size_t more = ids.count() - texts.size();
+  return join(texts) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
 }
 
 }  // namespace raymoval

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bitset>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -40,9 +41,19 @@ bool remove_removals(const std::filesystem::path& folder);
 /// @throws DataError if it cannot be looked at
 bool can_remove_removals(const std::filesystem::path& folder);
 
+/// Which semantic ids occur.
+using LabelIds = std::bitset<65536>;
+
 /// Reads what `write_removals` or another program wrote: 251 to 259 = removed.
+/// @param found gets the semantic ids of all points of the scans; null: nobody asks
 /// @throws DataError naming the file that is missing or has another count than its scan
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
-                        const std::function<void()>& after_scan);
+                        const std::function<void()>& after_scan, LabelIds* found = nullptr);
+
+/// Whether one of `ids` means removed.
+bool has_removed_label(const LabelIds& ids);
+
+/// "0, 1", the smallest of `ids`, and how many more there are.
+std::string label_ids_text(const LabelIds& ids);
 
 }  // namespace raymoval

@@ -33,6 +33,7 @@ std::vector<Check> sensor_model_checks();
 std::vector<Check> skew_checks();
 std::vector<Check> world_checks();
 std::vector<Check> reach_checks();
+std::vector<Check> recording_checks();
 
 /// "hdl64e; the scans show 64 beams, 0.173 deg by 0.427 deg, ..."; "estimated: 64 beams, ...".
 std::string sensor_text(const Samples& samples);

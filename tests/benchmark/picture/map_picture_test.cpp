@@ -140,6 +140,27 @@ TEST_CASE("A cropped map shows its window only") {
   CHECK(cropped.at(20 + 10, 70 + 80) == verdict_colours::kTruePositive);
 }
 
+TEST_CASE("A crop in which no point lies is refused with the place where the sensor was") {
+  const TwoPointRun two;
+  const KeptRun run = two.kept();
+  const auto says = Contains("--crop 1000:2000:1000:2000: no point lies there") &&
+                    Contains("within -30:30:-30:30");
+  MapPictureOptions map = half_metre("remove-all:default");
+  map.crop = WorldWindow{1000, 2000, 1000, 2000};
+  CHECK_THROWS_WITH(map_picture(run, map, {}), says);
+  OverviewOptions overview;
+  overview.crop = map.crop;
+  CHECK_THROWS_WITH(overview_picture(run, run.cell("two", "oracle:default"), overview, {}), says);
+  // One of the two points is enough.
+  overview.crop = map.crop = WorldWindow{4, 9, 9, 14};
+  CHECK_NOTHROW(map_picture(run, map, {}));
+  CHECK_NOTHROW(overview_picture(run, run.cell("two", "oracle:default"), overview, {}));
+  // Where no cell has a result, no point is looked for.
+  MapPictureOptions failed = half_metre("broken:default");
+  failed.crop = WorldWindow{1000, 2000, 1000, 2000};
+  CHECK_NOTHROW(map_picture(run, failed, {}));
+}
+
 TEST_CASE("What is written as PNG is read again") {
   const TwoPointRun two;
   const Canvas drawn = map_picture(two.kept(), half_metre("remove-all:default"), {});

@@ -61,6 +61,29 @@ TEST_CASE("Ids 251 to 259 mean removed whatever the instance; their neighbours d
   CHECK(masks.get(1) == Mask{1});
 }
 
+TEST_CASE("The labels of predictions are told, so that masks of 0 and 1 can be noticed") {
+  const test::TwoScans scans;
+  const test::TemporaryFolder folder;
+  const auto found_with = [&](std::uint32_t last) {
+    // The scan's points stand at positions 0, 2 and 4; the upper half of a word is an instance.
+    const std::vector<std::uint32_t> words = {1, 77, 7U << 16, 251, last};
+    write_atomically(folder.path() / "000007.label",
+                     {reinterpret_cast<const char*>(words.data()), words.size() * 4});
+    write_atomically(folder.path() / "000008.label", std::string(4, '\0'));
+    LabelIds found;
+    (void)read_removals(
+        folder.path(), scans, [] {}, &found);
+    return found;
+  };
+  CHECK(label_ids_text(found_with(1)) == "0, 1");
+  CHECK_FALSE(has_removed_label(found_with(1)));
+  for (const std::uint32_t removed : {251U, 259U}) CHECK(has_removed_label(found_with(removed)));
+  for (const std::uint32_t other : {250U, 260U}) CHECK_FALSE(has_removed_label(found_with(other)));
+  LabelIds many;
+  for (std::size_t id = 10; id < 20; ++id) many.set(id);
+  CHECK(label_ids_text(many) == "10, 11, 12, 13, 14, 15, 16, 17 and 2 more");
+}
+
 TEST_CASE("A missing or cut-off label file is named") {
   const test::TwoScans scans;
   const test::TemporaryFolder folder;

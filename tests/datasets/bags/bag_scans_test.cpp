@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "datasets/bags/ros1/ros1_writer.h"
 #include "datasets/open_sequence.h"
+#include "datasets/reading/left_out.h"
 #include "tests/datasets/bags/message_bytes.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -372,9 +373,9 @@ TEST_CASE("Scans without a pose, and messages without a point, are left out and 
   REQUIRE(sequence.scans->size() == 4);
   CHECK(sequence.scans->load(0).name == "000001");
   CHECK(sequence.scans->load(3).name == "000006");
-  check_says(notes_of(sequence), {"2 messages of 7 left out", "1 without a point",
-                                  "1 that cannot be read, the first:", "message 5",
-                                  "1 of 5 scans have no pose: 1 before the first pose"});
+  check_says(join(sequence.losses, "\n"), {"2 messages of 7 left out", "1 without a point",
+                                           "1 that cannot be read, the first:", "message 5",
+                                           "1 of 5 scans have no pose: 1 before the first pose"});
 }
 
 TEST_CASE("Points in the frame that the poses are told in stand in the world", "[bags]") {
@@ -400,7 +401,14 @@ TEST_CASE("A bag that was cut opens with what is there, and says so", "[bags]") 
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 300);
   const Sequence sequence = open_sequence(path, {});
   CHECK(sequence.scans->size() == 4);
-  check_says(sequence.notes.at(0), {"drive.bag", "cut"});
+  REQUIRE_FALSE(sequence.damage.empty());
+  check_says(sequence.damage[0], {"drive.bag", "cut"});
+  CHECK(lost_scan_lines(sequence) == sequence.damage);
+  // What is damaged is said first.
+  const std::vector<std::string> lines = opening_lines(sequence);
+  CHECK(lines.size() == sequence.damage.size() + sequence.notes.size());
+  CHECK(lines.at(0) == sequence.damage[0]);
+  CHECK(lines.back() == sequence.notes.back());
 }
 
 }  // namespace

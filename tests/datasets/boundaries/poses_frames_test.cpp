@@ -35,7 +35,8 @@ TEST_CASE("a quaternion may be a thousandth too long or too short", "[poses]") {
     CHECK(turn(length).matrix() == Eigen::Matrix4d::Identity());
   }
   for (const double length : {1.0015, 0.9985}) {
-    check_says(message_of<DataError>([&] { turn(length); }), {"here: the quaternion has length"});
+    check_says(message_of<DataError>([&] { turn(length); }),
+               {"here: the quaternion has length", "order of the columns", "with more digits"});
   }
 }
 

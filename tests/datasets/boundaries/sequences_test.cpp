@@ -271,6 +271,13 @@ TEST_CASE("each layout says where its scans, poses and labels are", "[layouts]")
   CHECK(files.pose_place == PosePlace::kRowOfScan);
   CHECK(files.class_names == kitti.class_names);
   CHECK(layout_named("unheard of").name.empty());
+  // Where labels are expected.
+  CHECK(files.expected_labels == "a folder labels/ beside the scans");
+  CHECK(kitti.expected_labels == files.expected_labels);
+  CHECK_THAT(world.expected_labels, Catch::Contains("--label-rule FILE") &&
+                                        Catch::Contains("intensity") &&
+                                        Catch::Contains(R"({"moving": [1]})"));
+  CHECK_THAT(layout_named("bags").expected_labels, Catch::Contains("indices.csv"));
   for (const Layout& layout : layouts()) {
     CAPTURE(layout.name);
     CHECK_FALSE(layout.expected.empty());

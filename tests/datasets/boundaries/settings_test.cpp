@@ -44,6 +44,23 @@ TEST_CASE("settings of a wrong kind are told", "[settings]") {
   check_says(settings_error(R"({"drop_ego": true})"), {"drop_ego", "expected a text in quotes"});
 }
 
+TEST_CASE("a unit of time that does not exist is refused also where nothing is deskewed",
+          "[settings]") {
+  check_says(settings_error(R"({"point_time_unit": "min"})"),
+             {"sequence.json", "point_time_unit", "s, ms, us, ns"});
+  const TemporaryFolder folder;
+  write_two(folder, R"({"point_time_unit": "us"})");
+  SequenceOptions options;
+  options.point_time_unit = "min";
+  check_says(message_of<UsageError>([&] { open_sequence(folder.text(), options); }),
+             {"--point-time-unit min", "s, ms, us, ns"});
+  CHECK(open_sequence(folder.text(), {}).point_time_unit == "us");
+  for (const char* unit : {"s", "ms", "ns", "1e-5"}) {
+    options.point_time_unit = unit;
+    CHECK(open_sequence(folder.text(), options).point_time_unit == unit);
+  }
+}
+
 TEST_CASE("frames of a sequence begin at its first scan and turn up to z", "[layouts]") {
   const TemporaryFolder folder;
   write_two(folder);

@@ -62,10 +62,10 @@ TEST_CASE("scans without a pose are counted, never guessed", "[trajectories]") {
   CHECK_FALSE(found.poses[0]);
   CHECK(found.poses[1]);
   CHECK_FALSE(found.poses[3]);
-  REQUIRE(found.notes.size() == 1);
-  check_says(found.notes[0], {"traj.txt: 2 of 5 scans have no pose", "1 before the first pose",
-                              "1 between poses that are too far apart", "left out"});
-  CHECK(look_up_poses({100 * kSecond}, motion, "traj.txt").notes.empty());
+  REQUIRE(found.losses.size() == 1);
+  check_says(found.losses[0], {"traj.txt: 2 of 5 scans have no pose", "1 before the first pose",
+                               "1 between poses that are too far apart", "left out"});
+  CHECK(look_up_poses({100 * kSecond}, motion, "traj.txt").losses.empty());
 }
 
 TEST_CASE("half of the scans without a pose is an error that says what would help",

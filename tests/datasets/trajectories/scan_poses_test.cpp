@@ -53,6 +53,7 @@ TEST_CASE("stamped poses of another number than the scans go by time", "[traject
   CHECK(sequence.stamps.at(2) == 1003250000000);
   CHECK(sequence.motion->at(1002000000000)->translation().x() == 20.0);
   CHECK(sequence.notes.empty());
+  CHECK(sequence.losses.empty());
   CHECK(sequence.input_files ==
         std::vector<std::filesystem::path>{folder / "poses.txt", folder / "times.txt"});
   // Frames are chosen before poses are looked up.
@@ -83,8 +84,9 @@ TEST_CASE("a clock is shifted, and what lies outside is left out and said", "[tr
   CHECK(positions(some) == std::vector<double>{5, 15});
   CHECK(some.scans->load(0).name == "1");
   CHECK(some.stamps.size() == 2);
-  REQUIRE(some.notes.size() == 1);
-  check_says(some.notes[0], {"1 of 3 scans have no pose: 1 before the first pose", "left out"});
+  CHECK(some.notes.empty());
+  REQUIRE(some.losses.size() == 1);
+  check_says(some.losses[0], {"1 of 3 scans have no pose: 1 before the first pose", "left out"});
   options.max_gap_s = 0.5;
   check_says(open_error(folder, options), {"too far apart", "--max-gap"});
 }

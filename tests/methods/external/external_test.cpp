@@ -306,5 +306,7 @@ TEST_CASE("a manifest that is not right is refused with the remedy") {
   test::check_says(parameter(fine + ", " + fine), {"parameters[1]", "two parameters"});
   test::check_says(message_of<ConfigurationError>([] { (void)Fixture::configured("/none.json"); }),
                    {"/none.json", "no such manifest"});
+  test::check_says(message_of<ConfigurationError>([] { (void)Fixture::configured(""); }),
+                   {"external: names no manifest", "external:PATH"});
   CHECK_THROWS_AS(Fixture::configured(f.manifest("true", R"(, "files": ["none"])")), DataError);
 }
