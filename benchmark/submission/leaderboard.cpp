@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/parameters.h"
 #include "core/text.h"
 #include "eval/protocol_registry.h"
 
@@ -46,16 +47,43 @@ bool is_beyond(const Interval& interval) {
   return interval.low && *interval.low > 0.0;
 }
 
-/// The entries of protocol number `i` on the data of `first`, the best first.
+/// What stands in tables: what holds and is no control.
+bool is_ranked(const Verification& verification) {
+  return verification.verdict() == SubmissionVerdict::kHolds &&
+         !verification.submitted.cell.method.control;
+}
+
+/// What `verification` scores by `protocol`, whichever of its protocols that is; null if it was not
+/// scored by it.
+const ProtocolResult* result_by(const Verification& verification, const ProtocolRecord& protocol) {
+  const std::vector<Score>& scores = verification.submitted.cell.scores;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (same_scoring(scores[i].protocol, protocol)) return &verification.scores.protocols[i];
+  }
+  return nullptr;
+}
+
+/// Whether a table of one before `one`, or of its protocol before number `i`, has protocol number
+/// `i` on the same data.
+bool is_told(const std::vector<Verification>& verified, const Verification& one, std::size_t i) {
+  const ProtocolRecord& protocol = one.submitted.cell.scores[i].protocol;
+  for (const Verification& before : verified) {
+    if (&before == &one) break;
+    if (!is_ranked(before) || !same_data(before.submitted.cell, one.submitted.cell)) continue;
+    if (result_by(before, protocol) != nullptr) return true;
+  }
+  return result_by(one, protocol) != &one.scores.protocols[i];
+}
+
+/// The entries on the data of `first` by `protocol`, the best first.
 std::vector<Entry> entries_like(const std::vector<Verification>& verified,
-                                const Verification& first, std::size_t i, const RateSpec& rate) {
+                                const Verification& first, const ProtocolRecord& protocol,
+                                const RateSpec& rate) {
   std::vector<Entry> entries;
   for (const Verification& one : verified) {
-    const Cell& cell = one.submitted.cell;
-    if (one.verdict() != SubmissionVerdict::kHolds || cell.method.control) continue;
-    if (!comparable(cell, first.submitted.cell)) continue;
-    const ProtocolResult& result = one.scores.protocols[i];
-    entries.push_back({&one, &result, result.rate(rate.name)});
+    if (!is_ranked(one) || !same_data(one.submitted.cell, first.submitted.cell)) continue;
+    const ProtocolResult* result = result_by(one, protocol);
+    if (result != nullptr) entries.push_back({&one, result, result->rate(rate.name)});
   }
   std::stable_sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
     if (!a.headline || !b.headline) return a.headline.has_value() && !b.headline;
@@ -115,14 +143,22 @@ TableRow row_of(const std::vector<Entry>& entries, std::size_t place,
   return row;
 }
 
-TextTable table_of(const std::vector<Entry>& entries, const Score& score,
+/// "05 by protocol erasor", with the options that are not at their defaults.
+std::string title_of(const Cell& cell, const ProtocolRecord& protocol) {
+  std::string title = fmt::format("{} by protocol {}", cell.sequence, protocol.name);
+  const Configuration defaults = protocol_defaults(protocol.protocol);
+  for (const auto& option : protocol.options) {
+    if (std::find(defaults.begin(), defaults.end(), option) != defaults.end()) continue;
+    title += fmt::format(", {} = {}", option.first, parameter_text(option.second));
+  }
+  return title;
+}
+
+TextTable table_of(const std::vector<Entry>& entries, const ProtocolRecord& protocol,
                    const std::vector<RateSpec>& rates, const RateSpec& headline) {
   const Cell& cell = entries.front().verification->submitted.cell;
-  TextTable table{fmt::format("{} by protocol {}", cell.sequence, score.protocol.name),
-                  "method",
-                  {{"", {"version", "submission", "rank"}}},
-                  {},
-                  {}};
+  TextTable table{
+      title_of(cell, protocol), "method", {{"", {"version", "submission", "rank"}}}, {}, {}};
   std::vector<std::string>& columns = table.groups[0].columns;
   for (const RateSpec& rate : rates) columns.push_back(rate.name);
   columns.push_back(headline.name + ", 95 %");
@@ -132,7 +168,7 @@ TextTable table_of(const std::vector<Entry>& entries, const Score& score,
   }
   table.notes.push_back(fmt::format(
       "{} scans, data {}, protocol {} version {}. Masks were scored again for every row.",
-      cell.data->scans, cell.data->fingerprint, score.protocol.protocol, score.protocol.version));
+      cell.data->scans, cell.data->fingerprint, protocol.protocol, protocol.version));
   table.notes.push_back(fmt::format(
       "A rank is one more than the number of methods whose {} is better beyond the interval of the "
       "difference, by block bootstrap over the same scans. Methods that are not told apart may "
@@ -145,21 +181,16 @@ TextTable table_of(const std::vector<Entry>& entries, const Score& score,
 
 std::vector<TextTable> leaderboard(const std::vector<Verification>& verified) {
   std::vector<TextTable> tables;
-  std::vector<const Verification*> leaders;
   for (const Verification& one : verified) {
-    const Cell& cell = one.submitted.cell;
-    if (one.verdict() != SubmissionVerdict::kHolds || cell.method.control) continue;
-    const bool known = std::any_of(leaders.begin(), leaders.end(), [&](const Verification* leader) {
-      return comparable(leader->submitted.cell, cell);
-    });
-    if (known) continue;
-    leaders.push_back(&one);
-    for (std::size_t i = 0; i < cell.scores.size(); ++i) {
-      const std::vector<RateSpec> all = shown_rates(cell.scores[i].protocol.protocol);
+    if (!is_ranked(one)) continue;
+    const std::vector<Score>& scores = one.submitted.cell.scores;
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      const ProtocolRecord& protocol = scores[i].protocol;
+      const std::vector<RateSpec> all = shown_rates(protocol.protocol);
       const RateSpec* headline = headline_of(all);
-      if (headline == nullptr) continue;
-      const std::vector<Entry> entries = entries_like(verified, one, i, *headline);
-      tables.push_back(table_of(entries, cell.scores[i], rates_in(entries, all), *headline));
+      if (headline == nullptr || is_told(verified, one, i)) continue;
+      const std::vector<Entry> entries = entries_like(verified, one, protocol, *headline);
+      tables.push_back(table_of(entries, protocol, rates_in(entries, all), *headline));
     }
   }
   return tables;

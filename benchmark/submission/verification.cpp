@@ -246,13 +246,20 @@ SequenceOptions reading_of(const Cell& cell, SequenceOptions given) {
   return given;
 }
 
-bool comparable(const Cell& a, const Cell& b) {
-  if (!a.data || !b.data || a.data->fingerprint != b.data->fingerprint) return false;
-  if (a.scores.size() != b.scores.size()) return false;
-  for (std::size_t i = 0; i < a.scores.size(); ++i) {
-    if (to_json(a.scores[i].protocol) != to_json(b.scores[i].protocol)) return false;
-  }
-  return true;
+bool same_data(const Cell& a, const Cell& b) {
+  return a.data && b.data && a.data->fingerprint == b.data->fingerprint;
+}
+
+bool same_scoring(const ProtocolRecord& a, const ProtocolRecord& b) {
+  return a.protocol == b.protocol && a.version == b.version && a.options == b.options;
+}
+
+bool same_sequence(const Cell& a, const Cell& b) {
+  return same_data(a, b) && std::equal(a.scores.begin(), a.scores.end(), b.scores.begin(),
+                                       b.scores.end(), [](const Score& one, const Score& other) {
+                                         return one.protocol.name == other.protocol.name &&
+                                                same_scoring(one.protocol, other.protocol);
+                                       });
 }
 
 Verification verify_cell(const SubmittedCell& submitted, ScoredSequence& scored,

@@ -32,9 +32,16 @@ std::vector<ProtocolRequest> requested_protocols_of(const Cell& cell);
 /// is set in `given` stands above it. @throws UsageError if the cell names no such range or region
 SequenceOptions reading_of(const Cell& cell, SequenceOptions given);
 
-/// Whether two cells were made from the same data by the same protocols, so that they can stand in
-/// one table.
-bool comparable(const Cell& a, const Cell& b);
+/// Whether two cells were made from the same data.
+bool same_data(const Cell& a, const Cell& b);
+
+/// Whether two protocols score alike, whatever a suite calls them, so that what they say of the
+/// same data can stand in one table.
+bool same_scoring(const ProtocolRecord& a, const ProtocolRecord& b);
+
+/// Whether two cells were made from the same data by the same protocols in the same order, so that
+/// one `ScoredSequence` scores both.
+bool same_sequence(const Cell& a, const Cell& b);
 
 /// Compares the cell with what its masks score:
 /// - its key with its method, parameters, data and protocols, from which it follows;

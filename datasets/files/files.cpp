@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/files/same_file.h"
 #include "core/text.h"
+#include "datasets/clouds/bin/bin_width.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/frames.h"
@@ -121,9 +122,11 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
 
   Sequence sequence = make_sequence(settings, files_layout(), chosen.range);
   std::vector<FrameEntry> entries;
+  std::vector<fs::path> scans;
   for (std::size_t i = 0; i < chosen.files.size(); ++i) {
     if (!poses.poses[i]) continue;
     const fs::path& scan = chosen.files[i].path;
+    scans.push_back(scan);
     entries.push_back({scan, "", cloud_stem(scan), poses.times_s[i], *poses.poses[i]});
     sequence.stamps.push_back(poses.stamps[i]);
   }
@@ -138,6 +141,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
   FileScanSource::Traits traits;
   traits.point_frame = settings.points.value_or(PointFrame::kSensor);
   traits.reading.point_layout = settings.point_layout;
+  check_bin_width(scans, traits.reading);
   const auto source =
       std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
   sequence.scans = source;

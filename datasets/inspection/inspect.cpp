@@ -8,6 +8,7 @@
 #include "datasets/bag_scans/bag_source.h"
 #include "datasets/bag_scans/topics.h"
 #include "datasets/inspection/checks/checks.h"
+#include "datasets/inspection/evidence/point_unit.h"
 #include "datasets/inspection/unopenable.h"
 
 namespace raymoval {
@@ -43,6 +44,7 @@ const std::vector<InspectionCheck>& inspection_checks() {
 
 InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* cancel) {
   inspection::Samples samples(sequence, cancel);
+  inspection::settle_point_unit(samples);
   InspectionReport report;
   report.sequence = sequence.name;
   report.layout = sequence.layout;

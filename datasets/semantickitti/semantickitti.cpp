@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/clouds/bin/bin_width.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/frames.h"
@@ -78,12 +79,15 @@ ScanKeys scan_keys(const std::vector<NumberedFile>& files, const std::vector<Num
 std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
                                       const ScanPoses& poses, const RecordReading& reading) {
   std::vector<FrameEntry> frames;
+  std::vector<std::filesystem::path> scans;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::filesystem::path& path = chosen[i].path;
     check_bin_size(path, plain_file_size(path), reading);
+    scans.push_back(path);
     if (!poses.poses[i]) continue;
     frames.push_back({path, "", path.stem().string(), poses.times_s[i], *poses.poses[i]});
   }
+  check_bin_width(scans, reading);
   return frames;
 }
 

@@ -2,6 +2,7 @@
 // Defects made in a good drive that was traced in memory. Those that need files are in
 // inspect_files_test.cpp.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -272,6 +273,55 @@ TEST_CASE("millimetres and kilometres are named, in points and in poses",
   });
   CHECK(found(points.inspected()) ==
         std::set<std::string>{"points-in-millimetres", "poses-in-millimetres"});
+}
+
+TEST_CASE("centimetres and feet are told by the agreement under the poses",
+          "[inspect][every-finding]") {
+  const auto times = [](EditedSequence drive, double factor) {
+    drive.each_point([&](const Scan&, const Eigen::Vector3d& p) { return factor * p; });
+    return drive;
+  };
+  check_finds(times(good_drive(), 100.0).inspected(), "points-in-centimetres", "by 0.01.");
+  check_finds(times(good_drive(), 1.0 / 0.3048).inspected(), "points-in-feet", "by 0.3048.");
+
+  // A narrow place in millimetres is as large as a wide one in centimetres.
+  EditedSequence near = good_drive();
+  near.keep([](const Eigen::Vector3f& p) { return p.norm() < 12.0F; });
+  const std::set<std::string> names = found(times(near, 1000.0).inspected());
+  CHECK(names.contains("points-in-millimetres"));
+  CHECK_FALSE(names.contains("points-in-centimetres"));
+}
+
+TEST_CASE("both units are named if the scans do not tell", "[inspect][every-finding]") {
+  // The poses are centimetres, too, so the scans agree in no unit of the points.
+  EditedSequence drive = good_drive();
+  drive.each_point([](const Scan&, const Eigen::Vector3d& p) { return 100.0 * p; });
+  drive.each_pose([](Pose pose) {
+    pose.translation() *= 100.0;
+    return pose;
+  });
+  const InspectionReport report = drive.inspected();
+  INFO(text_of(report));
+  REQUIRE(found(report).contains("points-in-millimetres"));
+  const auto finding =
+      std::find_if(report.findings.begin(), report.findings.end(),
+                   [](const Finding& one) { return one.check == "points-in-millimetres"; });
+  CHECK_THAT(finding->what, Catch::Contains("millimetres") && Catch::Contains("centimetres"));
+  CHECK_THAT(finding->remedy, Catch::Contains("by 0.001 if") && Catch::Contains("by 0.01 if"));
+}
+
+TEST_CASE("metres are not taken for feet, however little the scans agree",
+          "[inspect][every-finding]") {
+  for (const char* sensor : {"rosette", "solid-state"}) {
+    for (const char* scene : {"motorway", "walk"}) {
+      SimulationOptions options;
+      options.scene = scene;
+      options.scans = 12;
+      options.sensor = sensor;
+      INFO(scene << ", " << sensor);
+      CHECK_FALSE(found(EditedSequence(options).inspected()).contains("points-in-feet"));
+    }
+  }
 }
 
 TEST_CASE("a quaternion's order is named", "[inspect][every-finding]") {

@@ -71,7 +71,7 @@ class Verifier {
   ScoredSequence& scored_for(const Cell& cell) {
     const std::string place = place_of(cell, flags_.data);
     for (Opened& opened : opened_) {
-      if (opened.place == place && comparable(opened.cell, cell)) return *opened.scored;
+      if (opened.place == place && same_sequence(opened.cell, cell)) return *opened.scored;
     }
     const std::vector<ProtocolRequest> protocols = requested_protocols_of(cell);
     Sequence sequence = open_sequence(place, reading_of(cell, flags_.reading.options()),

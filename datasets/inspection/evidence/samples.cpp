@@ -14,9 +14,6 @@ namespace {
 constexpr std::size_t kReferences = 6;
 /// Distances in scans: near enough to overlap, far enough for a slow sensor to have moved.
 constexpr std::size_t kSteps[] = {1, 3, 8};
-/// No sensor on the ground has half of its returns beyond this many metres.
-constexpr double kFarthestMedian = 400.0;
-constexpr double kMillimetre = 0.001;
 
 }  // namespace
 
@@ -30,7 +27,7 @@ Samples::Samples(const Sequence& sequence, const std::atomic<bool>* cancel)
   }
   choose_pairs();
   read_scans(cancel);
-  settle_point_scale();
+  measure_range();
 }
 
 void Samples::choose_pairs() {
@@ -59,7 +56,7 @@ void Samples::read_scans(const std::atomic<bool>* cancel) {
   }
 }
 
-void Samples::settle_point_scale() {
+void Samples::measure_range() {
   std::vector<double> ranges;
   for (const auto& [index, scan] : scans_) {
     const std::size_t step = std::max<std::size_t>(1, scan.size() / 1000);
@@ -71,11 +68,15 @@ void Samples::settle_point_scale() {
   }
   if (ranges.empty()) return;
   median_range_ = median(std::move(ranges));
-  if (median_range_ < kFarthestMedian) return;
-  point_scale_ = kMillimetre;
+}
+
+void Samples::set_point_scale(double scale) {
+  point_scale_ = scale;
   for (auto& [index, scan] : scans_) {
-    for (Eigen::Vector3f& point : scan.points) point *= static_cast<float>(kMillimetre);
+    for (Eigen::Vector3f& point : scan.points) point *= static_cast<float>(scale);
   }
+  surfels_.clear();
+  seen_sensor_.reset();
 }
 
 const std::vector<Surfel>& Samples::surfels(std::size_t scan) const {
