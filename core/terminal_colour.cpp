@@ -79,6 +79,10 @@ void print_error(const std::string& line) {
   std::fprintf(stderr, "%s\n", terminal_text(line, stderr).c_str());
 }
 
+void print_warning(const std::string& line) {
+  print_error("raymoval: warning: " + line);
+}
+
 std::string coloured_phrases(const std::string& text,
                              const std::vector<std::pair<std::string, TerminalColour>>& phrases,
                              std::FILE* stream) {

@@ -31,6 +31,9 @@ std::string terminal_text(const std::string& text, std::FILE* stream);
 /// Writes a line to standard error as `terminal_text`.
 void print_error(const std::string& line);
 
+/// Writes "raymoval: warning: LINE" to standard error as `terminal_text`.
+void print_warning(const std::string& line);
+
 /// `text` with each phrase coloured where a line begins with "phrase:" or ends with "phrase.".
 std::string coloured_phrases(const std::string& text,
                              const std::vector<std::pair<std::string, TerminalColour>>& phrases,

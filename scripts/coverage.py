@@ -87,7 +87,7 @@ def table(coverage):
             bad.append(room)
         print(f"{room:<10} {lines:>7} {ran:>7} {share:>6.1f}  {branches:>8} {taken:>7} "
               f"{percent(taken, branches):>6.1f}{note}")
-    print("stores are benchmark/result and benchmark/run/folder")
+    print("stores are " + " and ".join(folder.rstrip("/") for folder in ROOMS["stores"][0]))
     return bad
 
 

@@ -11,14 +11,6 @@
 #include "datasets/inspection/inspect.h"
 
 namespace raymoval {
-namespace {
-
-void warn(const std::string& text) {
-  print_error("raymoval: warning: " + text);
-}
-
-}  // namespace
-
 std::vector<Finding> check_data(const Sequence& sequence, const std::string& path, bool force,
                                 Progress& progress, const std::atomic<bool>& cancel) {
   progress.begin("looking for mistakes in the data", 1);
@@ -34,7 +26,8 @@ std::vector<Finding> check_data(const Sequence& sequence, const std::string& pat
       wrong.push_back(finding.sentence());
     } else {
       warned.push_back(finding);
-      warn((refused ? "going on because of --force, in spite of " : "") + finding.sentence());
+      print_warning((refused ? "going on because of --force, in spite of " : "") +
+                    finding.sentence());
     }
   }
   if (wrong.empty()) return warned;
@@ -49,9 +42,11 @@ void check_removed(std::uint64_t removed, std::uint64_t points, const std::strin
       " Look at the poses, units and sensor (`raymoval inspect {}`), or try another --method.",
       path);
   if (removed == 0) {
-    warn("nothing was removed: either nothing moves here, or the method cannot see it." + look);
+    print_warning("nothing was removed: either nothing moves here, or the method cannot see it." +
+                  look);
   } else if (2 * removed > points) {
-    warn("more than half of all points were removed, which is much for things that move." + look);
+    print_warning("more than half of all points were removed, which is much for things that move." +
+                  look);
   }
 }
 

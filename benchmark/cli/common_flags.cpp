@@ -61,7 +61,7 @@ void tell_opening(const Sequence& sequence, Progress& progress) {
   progress.end();  // The messages get lines of their own.
   for (const std::string& line : sequence.notes) progress.say(sequence.name + ": " + line);
   for (const std::string& line : lost_scan_lines(sequence)) {
-    print_error("raymoval: warning: " + sequence.name + ": " + line);
+    print_warning(sequence.name + ": " + line);
   }
 }
 

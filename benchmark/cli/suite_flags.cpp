@@ -121,7 +121,7 @@ Suite SuiteFlags::resolved() const {
 
 void warn_of_settings_without_effect(const Suite& suite) {
   for (const std::string& line : settings_without_effect(suite)) {
-    print_error("raymoval: warning: " + line);
+    print_warning(line);
   }
 }
 

@@ -273,7 +273,7 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   const Sequence sequence = opened(flags, paths, method, progress);
   const std::string turned = up_line(sequence.up());
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
-  for (const std::string& line : sequence.losses) print_error("raymoval: warning: " + line);
+  for (const std::string& line : sequence.losses) print_warning(line);
   CleaningFacts facts{paths, RangeCut{flags.reading.options().range_m}};
   facts.warned = check_data(sequence, flags.path, flags.force, progress, interrupt_flag());
   progress.set_context(method.full_name() + " on " + sequence.name);

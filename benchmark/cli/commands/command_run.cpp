@@ -39,7 +39,7 @@ void tell_problems(const RunSummary& summary, bool collect) {
     print_error(red("raymoval: cell failed:") + " " + failure);
   }
   for (const auto* lines : {&summary.lost_scans, &summary.flat_sweeps}) {
-    for (const std::string& line : *lines) print_error("raymoval: warning: " + line);
+    for (const std::string& line : *lines) print_warning(line);
   }
   for (const std::string& problem : summary.controls) {
     print_error(red("raymoval: controls are off:") + " " + problem);

@@ -40,10 +40,10 @@ std::vector<ProtocolRecord> protocol_records(const ScoredSequence& scored) {
 /// nothing.
 void warn_of_labels(const LabelIds& found, const std::string& folder) {
   if (has_removed_label(found)) return;
-  print_error("raymoval: warning: " + folder +
-              ": no point has a label from 251 to 259, so none counts as removed; found " +
-              label_ids_text(found) +
-              ". If some are to be removed, write 251 for those and 9 for the others.");
+  print_warning(folder +
+                ": no point has a label from 251 to 259, so none counts as removed; found " +
+                label_ids_text(found) +
+                ". If some are to be removed, write 251 for those and 9 for the others.");
 }
 
 void score_predictions(ScoredSequence& scored, const std::string& folder, Progress& progress,

@@ -93,8 +93,9 @@ bool can_remove_removals(const std::filesystem::path& folder) {
 }
 
 bool remove_removals(const std::filesystem::path& folder) {
-  if (!can_remove_removals(folder)) return false;
-  for (const std::filesystem::path& entry : content_of(folder)) remove_if_there(entry);
+  const std::vector<std::filesystem::path> content = content_of(folder);
+  if (!std::ranges::all_of(content, is_removals_file)) return false;
+  for (const std::filesystem::path& entry : content) remove_if_there(entry);
   remove_if_there(folder);
   return true;
 }

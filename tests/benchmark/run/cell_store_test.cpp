@@ -59,6 +59,14 @@ fs::path written_removals(const CellStore& store, const MaskStore& masks) {
   return place;
 }
 
+/// A cell, and a store in which it is not yet.
+struct OneCell {
+  test::TemporaryFolder folder;
+  CellStore store{folder.path()};
+  MaskStore masks = masks_of_two_scans();
+  Cell cell = cell_of(identity(), masks);
+};
+
 /// What happens to the names in folders, in order, as the kernel tells it.
 class FolderWatch {
  public:
@@ -99,10 +107,8 @@ std::ptrdiff_t position(const std::vector<std::string>& list, const std::string&
 }  // namespace
 
 TEST_CASE("No cell stands beside removals of another one at any moment") {
-  const test::TemporaryFolder folder;
-  const CellStore store(folder.path());
-  const MaskStore masks = masks_of_two_scans();
-  const Cell cell = cell_of(identity(), masks);
+  const OneCell one;
+  const auto& [folder, store, masks, cell] = one;
   store.keep(cell, written_removals(store, masks));
   const fs::path removals = written_removals(store, masks);
   FolderWatch watch({store.folder(kName), store.folder(kName) / "removals"});
@@ -119,10 +125,8 @@ TEST_CASE("No cell stands beside removals of another one at any moment") {
 }
 
 TEST_CASE("A cell that had no removals goes before those of another one come") {
-  const test::TemporaryFolder folder;
-  const CellStore store(folder.path());
-  const MaskStore masks = masks_of_two_scans();
-  const Cell cell = cell_of(identity(), masks);
+  const OneCell one;
+  const auto& [folder, store, masks, cell] = one;
   store.keep(cell);
   const fs::path removals = written_removals(store, masks);
   FolderWatch watch({store.folder(kName)});
@@ -134,10 +138,8 @@ TEST_CASE("A cell that had no removals goes before those of another one come") {
 }
 
 TEST_CASE("A cell without removals does not stand beside those of an earlier one") {
-  const test::TemporaryFolder folder;
-  const CellStore store(folder.path());
-  const MaskStore masks = masks_of_two_scans();
-  const Cell cell = cell_of(identity(), masks);
+  const OneCell one;
+  const auto& [folder, store, masks, cell] = one;
   store.keep(cell, written_removals(store, masks));
   CHECK(fs::exists(store.folder(kName) / "removals/000007.label"));
   store.keep(cell);
@@ -146,10 +148,8 @@ TEST_CASE("A cell without removals does not stand beside those of an earlier one
 }
 
 TEST_CASE("A place where a cell could not be kept is refused before it is needed, and left whole") {
-  const test::TemporaryFolder folder;
-  const CellStore store(folder.path());
-  const MaskStore masks = masks_of_two_scans();
-  const Cell cell = cell_of(identity(), masks);
+  const OneCell one;
+  const auto& [folder, store, masks, cell] = one;
   store.keep(cell, written_removals(store, masks));
   const fs::path removals = written_removals(store, masks);
   const fs::path place = store.folder(kName);
@@ -177,10 +177,8 @@ TEST_CASE("A stored result is a whole cell that did not fail") {
 }
 
 TEST_CASE("Removals that were not written in the end leave a cell without any") {
-  const test::TemporaryFolder folder;
-  const CellStore store(folder.path());
-  const MaskStore masks = masks_of_two_scans();
-  const Cell cell = cell_of(identity(), masks);
+  const OneCell one;
+  const auto& [folder, store, masks, cell] = one;
   store.prepare(kName);
   store.keep(cell, store.new_removals(kName));  // Nothing is there.
   CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));

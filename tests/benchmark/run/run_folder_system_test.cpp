@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a run asks of the system for its folders, and what it does if that refuses: this program's
-// fsync and flock are found before those of the C library.
-#include <sys/file.h>
+// fsync is found before that of the C library.
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include "benchmark/run/folder/cell_store.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
+#include "tests/core/refusing_locks.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -26,7 +26,6 @@ namespace {
 
 bool keeps_syncs = false;
 std::vector<fs::path> syncs;  ///< What was put on the disk, in order.
-int lock_error = 0;           ///< With which error the system refuses locks; 0: it does not.
 
 /// Keeps what is put on the disk while it lives.
 class KeptSyncs {
@@ -38,15 +37,6 @@ class KeptSyncs {
   ~KeptSyncs() { keeps_syncs = false; }
   KeptSyncs(const KeptSyncs&) = delete;
   KeptSyncs& operator=(const KeptSyncs&) = delete;
-};
-
-/// Refuses locks while it lives.
-class LockError {
- public:
-  explicit LockError(int reason) { lock_error = reason; }
-  ~LockError() { lock_error = 0; }
-  LockError(const LockError&) = delete;
-  LockError& operator=(const LockError&) = delete;
 };
 
 /// What a run of one control on one scan says, by itself or as one cell.
@@ -82,12 +72,6 @@ extern "C" int fsync(int file) {
   return static_cast<int>(::syscall(SYS_fsync, file));
 }
 
-extern "C" int flock(int file, int operation) noexcept {
-  if (lock_error == 0) return static_cast<int>(::syscall(SYS_flock, file, operation));
-  errno = lock_error;
-  return -1;
-}
-
 TEST_CASE("The folders of a cell have their names on the disk before something is written there") {
   const test::TemporaryFolder folder;
   const fs::path out = fs::canonical(folder.path()) / "run";
@@ -106,12 +90,12 @@ TEST_CASE("A run says that its folder has no locks, and does not begin if a lock
   for (const bool as_cell : {false, true}) {
     const fs::path out = folder.path() / (as_cell ? "cell" : "suite");
     {
-      const LockError none(ENOSYS);
+      const test::RefusingLocks none(ENOSYS);
       CHECK_THAT(said_by_run(out, as_cell),
                  Contains("the file system of " + out.string() + " has no locks"));
     }
     CHECK_THAT(said_by_run(out, as_cell), !Contains("no locks"));
-    const LockError broken(EIO);
+    const test::RefusingLocks broken(EIO);
     CHECK_THROWS_WITH(said_by_run(out, as_cell),
                       Contains("run.lock: cannot be locked (Input/output error)") &&
                           Contains("choose another --out"));
