@@ -106,8 +106,6 @@ add_custom_command(OUTPUT ${report_source}
           -P ${PROJECT_SOURCE_DIR}/cmake/embed_report.cmake
   DEPENDS ${report_parts} ${PROJECT_SOURCE_DIR}/cmake/embed_report.cmake
   COMMENT "Embedding the parts of reports" VERBATIM)
-if(NOT RAYMOVAL_HARNESS_OBJECTS)  # Among which it is.
-  target_sources(raymoval_benchmark PRIVATE ${report_source})
-endif()
+target_sources(raymoval_benchmark PRIVATE ${report_source})
 set_source_files_properties(${PROJECT_SOURCE_DIR}/benchmark/report/page_parts.cpp PROPERTIES
   COMPILE_DEFINITIONS RAYMOVAL_THREE_VERSION="${three_version}")

@@ -69,9 +69,7 @@ in_parallel+='|foreseen|at once|[Jj]obs|more passes|maps added up'
 in_parallel+='|: external|[Rr]uns? (give|is|are|has|that)|cancelled|progress'
 
 races() {
-  # The tests themselves are compiled once.
-  cmake --preset release >/dev/null && cmake --build --preset release || exit 2
-  cmake --preset tsan -DRAYMOVAL_TEST_OBJECTS="$PWD/build/release" >/dev/null &&
+  cmake --preset tsan >/dev/null &&
     cmake --build --preset tsan &&
     cmake --build --preset tsan --target raymoval_threads raymoval_planted_race || exit 2
   watches || failed "ThreadSanitizer does not tell a race from none here."

@@ -16,9 +16,8 @@ if ! command -v clang-tidy >/dev/null; then
   echo "tidy.sh: clang-tidy is missing. Install it: apt-get install clang-tidy" >&2
   exit 2
 fi
-# clang cannot read what GCC precompiled.
-cmake --preset release -B build/tidy -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DRAYMOVAL_PCH=OFF \
-  -DRAYMOVAL_BUILD_TESTS=OFF -DRAYMOVAL_REPORT_3D=OFF -DRAYMOVAL_UNITY= >/dev/null
+cmake -S . -B build/tidy -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DRAYMOVAL_BUILD_TESTS=OFF \
+  -DRAYMOVAL_REPORT_3D=OFF >/dev/null
 
 if [[ $# -eq 0 ]]; then
   mapfile -t files < <(git ls-files 'core/*.cpp' 'datasets/*.cpp' 'methods/*.cpp' 'eval/*.cpp' \

@@ -35,8 +35,6 @@ std::int64_t highway_targets() {
       return here & up_to(HWY_SSE4);
     case InstructionSet::kAvx2:
       return here & up_to(HWY_AVX2);
-    case InstructionSet::kAvx512:
-      return here & up_to(HWY_AVX3);
     default:
       break;
   }
@@ -52,8 +50,6 @@ const char* instruction_set_name(InstructionSet set) {
       return "SSE4";
     case InstructionSet::kAvx2:
       return "AVX2";
-    case InstructionSet::kAvx512:
-      return "AVX-512";
     default:
       return "best";
   }
@@ -65,7 +61,6 @@ std::vector<InstructionSet> supported_instruction_sets() {
   const std::int64_t here = hwy::SupportedTargets();
   if ((here & HWY_SSE4) != 0) sets.push_back(InstructionSet::kSse4);
   if ((here & HWY_AVX2) != 0) sets.push_back(InstructionSet::kAvx2);
-  if ((here & HWY_AVX3) != 0) sets.push_back(InstructionSet::kAvx512);
 #endif
   return sets;
 }

@@ -18,7 +18,6 @@ enum class InstructionSet {
   kPlain,  ///< No vectors, and nothing beyond what the whole program is compiled for.
   kSse4,
   kAvx2,
-  kAvx512,
 };
 
 /// The name of a set, such as "AVX2".

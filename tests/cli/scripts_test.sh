@@ -32,30 +32,6 @@ holds "a page names the packages of $version" grep -q "raymoval_${version}_amd64
 holds "CITATION.cff has no DOI that is none" test -z \
   "$(grep -E '^doi:' "$house/CITATION.cff" | grep -vE '^doi: 10\.[0-9]{4,9}/[^ ]+$')"
 
-# A forgotten #include, of this repository, of the standard library and of the system.
-mkdir -p house/{core,datasets,methods,eval,benchmark,tests}
-cat >house/core/wall.h <<'END'
-namespace raymoval { struct Wall { int bricks; }; int count_of(const Wall& wall); }
-END
-cat >house/core/gate.cpp <<'END'
-#include "core/wall.h"
-#include <unistd.h>
-#include <fstream>
-int open_gate(const raymoval::Wall& wall) {
-  std::ofstream("out");
-  ::fsync(1);
-  return count_of(wall);
-}
-END
-tells 0 "2 files, 0 names" scripts/check_own_includes.py house
-for missing in 'core/wall.h:Wall needs "core/wall.h"' 'core/wall.h:count_of needs "core/wall.h"' \
-  'fstream:std::ofstream needs <fstream>' 'unistd.h:::fsync needs <unistd.h>'; do
-  rm -rf without && cp -r house without
-  sed -i "\,^#include.*${missing%%:*},d" without/core/gate.cpp
-  tells 1 "core/gate.cpp: ${missing#*:}" scripts/check_own_includes.py without
-done
-tells 2 "--nonsense" scripts/check_own_includes.py --nonsense
-
 # Which commit is built: read in each build, written only if it is another one.
 # asks FOLDER: what the source says of the commit and the tree of FOLDER.
 asks() {

@@ -125,7 +125,7 @@ Head vlp16() {
 
 }  // namespace
 
-TEST_CASE("The order of points says nothing of a sensor", "[sensor-estimate][long]") {
+TEST_CASE("The order of points says nothing of a sensor", "[sensor-estimate][slow]") {
   Head block;
   block.elevations = evenly(-20.0, 5.0, 40);
   block.step = 0.4;

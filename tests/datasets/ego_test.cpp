@@ -160,7 +160,7 @@ TEST_CASE("a sequence says what is left out of it", "[ego]") {
 }
 
 TEST_CASE("the vehicle in view is a finding, or a note where its labels say so",
-          "[inspect][long]") {
+          "[inspect][slow]") {
   EditedSequence many = with_own_points(good_drive());
   many.range_m.min = 5.0;  // Methods see it whatever is evaluated.
   const InspectionReport noted = many.inspected();

@@ -115,7 +115,7 @@ Vector3d up_of(const ScanSource& scans) {
 
 }  // namespace
 
-TEST_CASE("a slope is not mistaken for a tilted world", "[gravity][long]") {
+TEST_CASE("a slope is not mistaken for a tilted world", "[gravity][slow]") {
   for (const double percent : {0.0, 6.0, 18.0, 30.0, 50.0}) {
     for (const Houses houses : {Houses::kNone, Houses::kRows, Houses::kBlocks}) {
       INFO(percent << " %, houses " << static_cast<int>(houses));
@@ -129,7 +129,7 @@ TEST_CASE("a slope is not mistaken for a tilted world", "[gravity][long]") {
   }
 }
 
-TEST_CASE("houses say how a world is tilted, on the level and on a slope", "[gravity][long]") {
+TEST_CASE("houses say how a world is tilted, on the level and on a slope", "[gravity][slow]") {
   for (const double percent : {0.0, 12.0}) {
     const FlatWorld upright = road(percent, Houses::kBlocks);
     for (const double degrees : {12.0, 20.0, 35.0, 60.0, 130.0}) {

@@ -94,14 +94,14 @@ TEST_CASE("a good DynamicMap folder is silent", "[inspect]") {
 }
 
 TEST_CASE("points that lost their digits far from the origin are named",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   EditedSequence far = good_drive();
   far.each_pose(
       [](const Pose& pose) { return Eigen::Translation3d(150000.0, -3000.0, 0.0) * pose; });
   check_finds(inspect_dynamicmap({}, "", far), "coordinates-coarse", "float64");
 }
 
-TEST_CASE("VIEWPOINT applied twice or not at all is named", "[inspect][every-finding]") {
+TEST_CASE("VIEWPOINT applied twice or not at all is named", "[inspect][slow]") {
   PcdStyle twice;
   twice.times_applied = 2;
   check_finds(inspect_dynamicmap(twice), "viewpoint-twice", "once");
@@ -110,7 +110,7 @@ TEST_CASE("VIEWPOINT applied twice or not at all is named", "[inspect][every-fin
   check_finds(inspect_dynamicmap(never), "viewpoint-missing", "T p");
 }
 
-TEST_CASE("a VIEWPOINT that is not the sensor's pose is named", "[inspect][every-finding]") {
+TEST_CASE("a VIEWPOINT that is not the sensor's pose is named", "[inspect][slow]") {
   // A sensor that looks down far enough for its blind zone to show.
   const EditedSequence drive(suburb(sparse_hdl64e(), 16));
   const std::string range = R"({"range_m": {"min": 2.7}})";
@@ -129,7 +129,7 @@ TEST_CASE("a .pcd file without VIEWPOINT is named", "[inspect]") {
   check_finds(inspect_path(folder.text(), {}), "viewpoint-missing", "pose file");
 }
 
-TEST_CASE("labels in the intensity are named, by value and by bits", "[inspect][every-finding]") {
+TEST_CASE("labels in the intensity are named, by value and by bits", "[inspect][slow]") {
   PcdStyle value;
   value.intensity = [](float, std::uint32_t word) { return static_cast<float>(word & 0xFFFFU); };
   check_finds(inspect_dynamicmap(value), "labels-in-intensity-by-value", "252, 253");
@@ -144,8 +144,8 @@ TEST_CASE("labels in the intensity are named, by value and by bits", "[inspect][
   check_finds(inspect_dynamicmap(bits), "labels-in-intensity-by-bits", "uint32");
 }
 
-TEST_CASE("a good folder of scans is silent; labels where methods look are named",
-          "[inspect][long]") {
+TEST_CASE("a good folder of scans is silent, labels where methods look are named",
+          "[inspect][slow]") {
   EditedSequence drive = good_drive();
   const TemporaryFolder good, leaking;
   write_files(good, drive);
@@ -174,7 +174,7 @@ TEST_CASE("a pose file with another count is named before anything is opened", "
 }
 
 TEST_CASE("a gap between frames is named, and so is a time that stands",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   const TemporaryFolder folder;
   write_simulated(suburb("vlp16", 12), folder / "drive", 2, nullptr);
   const std::string drive = (folder / "drive").string();
@@ -193,7 +193,7 @@ TEST_CASE("a gap between frames is named, and so is a time that stands",
   check_silent(inspect_path(drive, options));
 }
 
-TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect][long]") {
+TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect][slow]") {
   const TemporaryFolder folder;
   write_simulated(suburb("vlp16", 12), folder / "drive", 2, nullptr);
   fs::remove_all(folder / "drive/labels");
@@ -206,7 +206,7 @@ TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect][long
 }
 
 TEST_CASE("missing returns in files are a note, and nothing has to be done",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   const float nan = std::nanf("");
   for (const Eigen::Vector3f& fake : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(nan, nan, nan)}) {
     EditedSequence drive = good_drive();

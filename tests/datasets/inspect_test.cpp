@@ -112,7 +112,7 @@ TEST_CASE("a recording that is cut is a finding, and scans without a pose are a 
   CHECK(report.findings[1].where == "the recording");
 }
 
-TEST_CASE("the scenes are silent", "[inspect][every-finding]") {
+TEST_CASE("the scenes are silent", "[inspect][slow]") {
   for (const char* scene : {"town", "country", "crossing", "highway", "excavator"}) {
     SimulationOptions options;
     options.scene = scene;
@@ -128,7 +128,7 @@ TEST_CASE("the scenes are silent", "[inspect][every-finding]") {
 }
 
 TEST_CASE("a narrow view of a road with traffic is not taken for another drive",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   // The rosette sees little but the ground; the window sees vehicles that all drive along, and a
   // few poles.
   for (const char* sensor : {"rosette", "solid-state"}) {
@@ -157,7 +157,7 @@ TEST_CASE("a narrow view of a road with traffic is not taken for another drive",
 }
 
 TEST_CASE("a narrow view tells poses that the ground alone contradicts",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   // The sensor looks down by 35 degrees. Poses of a car that goes ahead would take it into the
   // ground.
   SimulationOptions options;
@@ -172,7 +172,7 @@ TEST_CASE("a narrow view tells poses that the ground alone contradicts",
   CHECK(found(drive.inspected()).count("poses-of-another-sequence") == 1);
 }
 
-TEST_CASE("a world far from its origin is silent", "[inspect][every-finding]") {
+TEST_CASE("a world far from its origin is silent", "[inspect][slow]") {
   EditedSequence far = good_drive();
   const Eigen::Translation3d shift(691000.25, 5336000.5, 512.0);
   far.each_pose([&](const Pose& pose) { return shift * pose; });
@@ -180,7 +180,7 @@ TEST_CASE("a world far from its origin is silent", "[inspect][every-finding]") {
 }
 
 TEST_CASE("positions that lost their digits far from the origin are named",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   EditedSequence coarse = good_drive();
   coarse.each_pose([](const Pose& pose) {
     Pose far = Eigen::Translation3d(691000.25, 5336000.5, 512.0) * pose;
@@ -192,7 +192,7 @@ TEST_CASE("positions that lost their digits far from the origin are named",
   check_finds(coarse.inspected(), "poses-coarse", "digits");
 }
 
-TEST_CASE("a world whose z is not up is a note", "[inspect][every-finding]") {
+TEST_CASE("a world whose z is not up is a note", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   const Pose turn(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
   drive.each_pose([&](const Pose& pose) { return turn * pose; });
@@ -204,7 +204,7 @@ TEST_CASE("a world whose z is not up is a note", "[inspect][every-finding]") {
   CHECK_THAT(report.findings.front().what, Catch::Contains("up is -y"));
 }
 
-TEST_CASE("up that the scans contradict is named", "[inspect][every-finding]") {
+TEST_CASE("up that the scans contradict is named", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   drive.up = Eigen::Vector3d::UnitZ();
   check_silent(drive.inspected());
@@ -218,7 +218,7 @@ TEST_CASE("inverted poses are named", "[inspect]") {
   check_finds(drive.inspected(), "poses-inverted", "R^T");
 }
 
-TEST_CASE("camera frames are told from the LiDAR's", "[inspect][long]") {
+TEST_CASE("camera frames are told from the LiDAR's", "[inspect][slow]") {
   const Pose C = to_camera();
   EditedSequence poses = good_drive();
   poses.each_pose([&](const Pose& pose) { return C * pose * C.inverse(); });
@@ -228,7 +228,7 @@ TEST_CASE("camera frames are told from the LiDAR's", "[inspect][long]") {
   check_finds(lidar_as_camera.inspected(), "lidar-poses-as-camera", "poses_are_lidar");
 }
 
-TEST_CASE("points in camera axes are told by the ground", "[inspect][every-finding]") {
+TEST_CASE("points in camera axes are told by the ground", "[inspect][slow]") {
   const Pose C = to_camera();
   // Enough beams to see the ground as a plane.
   EditedSequence points(suburb(sparse_hdl64e(), 10));
@@ -240,7 +240,7 @@ TEST_CASE("points in camera axes are told by the ground", "[inspect][every-findi
 }
 
 TEST_CASE("angles in the wrong unit are named, whatever the first heading",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   for (const double heading : {0.0, 1.9, -2.8}) {
     EditedSequence degrees = good_drive();
     turn_world(degrees, heading);
@@ -254,7 +254,7 @@ TEST_CASE("angles in the wrong unit are named, whatever the first heading",
 }
 
 TEST_CASE("millimetres and kilometres are named, in points and in poses",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   for (const double factor : {1000.0, 0.001}) {
     EditedSequence poses = good_drive();
     poses.each_pose([&](Pose pose) {
@@ -276,7 +276,7 @@ TEST_CASE("millimetres and kilometres are named, in points and in poses",
 }
 
 TEST_CASE("centimetres and feet are told by the agreement under the poses",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   const auto times = [](EditedSequence drive, double factor) {
     drive.each_point([&](const Scan&, const Eigen::Vector3d& p) { return factor * p; });
     return drive;
@@ -292,7 +292,7 @@ TEST_CASE("centimetres and feet are told by the agreement under the poses",
   CHECK_FALSE(names.contains("points-in-centimetres"));
 }
 
-TEST_CASE("both units are named if the scans do not tell", "[inspect][every-finding]") {
+TEST_CASE("both units are named if the scans do not tell", "[inspect][slow]") {
   // The poses are centimetres, too, so the scans agree in no unit of the points.
   EditedSequence drive = good_drive();
   drive.each_point([](const Scan&, const Eigen::Vector3d& p) { return 100.0 * p; });
@@ -311,7 +311,7 @@ TEST_CASE("both units are named if the scans do not tell", "[inspect][every-find
 }
 
 TEST_CASE("metres are not taken for feet, however little the scans agree",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   for (const char* sensor : {"rosette", "solid-state"}) {
     for (const char* scene : {"motorway", "walk"}) {
       SimulationOptions options;
@@ -324,7 +324,7 @@ TEST_CASE("metres are not taken for feet, however little the scans agree",
   }
 }
 
-TEST_CASE("a quaternion's order is named", "[inspect][every-finding]") {
+TEST_CASE("a quaternion's order is named", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   turn_world(drive, 0.7);
   // Written as w x y z, read as x y z w.
@@ -336,14 +336,14 @@ TEST_CASE("a quaternion's order is named", "[inspect][every-finding]") {
   check_finds(drive.inspected(), "quaternion-order", "columns");
 }
 
-TEST_CASE("points in the world frame are named", "[inspect][long]") {
+TEST_CASE("points in the world frame are named", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   drive.each_point(
       [](const Scan& scan, const Eigen::Vector3d& p) { return scan.T_world_sensor * p; });
   check_finds(drive.inspected(), "points-in-world", "--points world");
 }
 
-TEST_CASE("poses of another sequence are named", "[inspect][every-finding]") {
+TEST_CASE("poses of another sequence are named", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   // The poses of a drive that turns the other way and twice as fast.
   for (std::size_t i = 0; i < drive.size(); ++i) {
@@ -380,7 +380,7 @@ TEST_CASE("duplicated scans are named", "[inspect]") {
   CHECK(found(report).count("duplicated-scans") == 1);
 }
 
-TEST_CASE("scans left out show in the motion", "[inspect][every-finding]") {
+TEST_CASE("scans left out show in the motion", "[inspect][slow]") {
   EditedSequence drive(suburb(sparse_vlp16(), 19));
   drive.scans.erase(drive.scans.begin() + 6, drive.scans.begin() + 9);
   drive.words.erase(drive.words.begin() + 6, drive.words.begin() + 9);
@@ -388,7 +388,7 @@ TEST_CASE("scans left out show in the motion", "[inspect][every-finding]") {
   check_finds(drive.inspected(), "jump-in-motion", "missing scans");
 }
 
-TEST_CASE("labels of the next or the last scan are named", "[inspect][long]") {
+TEST_CASE("labels of the next or the last scan are named", "[inspect][slow]") {
   for (const bool next : {true, false}) {
     EditedSequence drive = good_drive();
     const auto good = drive.words;
@@ -418,7 +418,7 @@ TEST_CASE("a count of labels that does not fit is named", "[inspect]") {
   CHECK_THAT(report.findings[0].where, Catch::Contains("scan 0"));
 }
 
-TEST_CASE("skewed scans are named, corrected ones are not", "[inspect][long]") {
+TEST_CASE("skewed scans are named, corrected ones are not", "[inspect][slow]") {
   SimulationOptions options = suburb(sparse_hdl64e(), 14);
   options.scene = "country";  // At 10 m/s some pairs of scans are 6 m apart.
   options.rolling = Rolling::kSkewed;
@@ -429,7 +429,7 @@ TEST_CASE("skewed scans are named, corrected ones are not", "[inspect][long]") {
   check_silent(EditedSequence(options).inspected());
 }
 
-TEST_CASE("skewed scans of more than one revolution are named", "[inspect][every-finding]") {
+TEST_CASE("skewed scans of more than one revolution are named", "[inspect][slow]") {
   SimulationOptions options = suburb(sparse_hdl64e(), 18);
   options.scene = "country";
   options.rolling = Rolling::kSkewed;
@@ -438,7 +438,7 @@ TEST_CASE("skewed scans of more than one revolution are named", "[inspect][every
   CHECK_THAT(report.findings[0].what, Catch::Contains("clockwise, more than one revolution"));
 }
 
-TEST_CASE("a sensor that is named by mistake is named", "[inspect][every-finding]") {
+TEST_CASE("a sensor that is named by mistake is named", "[inspect][slow]") {
   EditedSequence drive(suburb("vlp16", 12));
   for (const char* name : {"hdl64e", "hdl32e", "os1-128"}) {
     INFO(name);
@@ -467,7 +467,7 @@ TEST_CASE("a cut at a range is named", "[inspect]") {
 }
 
 TEST_CASE("a vehicle that is hardly in view is no matter, whatever is evaluated",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   // Ten points a scan, 0.03 %; see kManyEgoPoints and ego_test.cpp.
   EditedSequence drive(suburb(sparse_hdl64e(), 14));
   check_silent(drive.inspected());
@@ -477,7 +477,7 @@ TEST_CASE("a vehicle that is hardly in view is no matter, whatever is evaluated"
   check_silent(drive.inspected());
 }
 
-TEST_CASE("positions and points beyond the reach of voxels are found", "[inspect][every-finding]") {
+TEST_CASE("positions and points beyond the reach of voxels are found", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   SECTION("a position") {
     for (const double far : {1.01 * kUsualReach, 1e9, 1e16, 1e300}) {

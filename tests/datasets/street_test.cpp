@@ -132,7 +132,7 @@ TEST_CASE("the street is seen by beams of its sensor model, each at most once", 
   CHECK(beams.size() == scan.size());
 }
 
-TEST_CASE("the street is the same at every call and opens by frames", "[street][long]") {
+TEST_CASE("the street is the same at every call and opens by frames", "[street][slow]") {
   const Sequence sequence = open_sequence("street", {});
   CHECK(fingerprint(sequence, 1) == fingerprint(open_sequence("street", {}), 2));
   SequenceOptions options;

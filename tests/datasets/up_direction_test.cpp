@@ -34,7 +34,7 @@ TEST_CASE("up is told as it was meant", "[up]") {
   CHECK_THAT(up_line({{0, -1, 0}, UpDirection::Source::kGiven}), Contains("as given"));
 }
 
-TEST_CASE("an option stands above sequence.json, and both above the estimate", "[up][long]") {
+TEST_CASE("an option stands above sequence.json, and both above the estimate", "[up][slow]") {
   SequenceOptions options;
   CHECK(open_sequence("street", options).up().is_world_z());
   options.up = "-y";

@@ -129,7 +129,7 @@ TEST_CASE("the controls score what they must on any cloud", "[erasor]") {
   }
 }
 
-TEST_CASE("the number of threads changes nothing", "[erasor][long]") {
+TEST_CASE("the number of threads changes nothing", "[erasor][slow]") {
   CloudShape shape;
   shape.scans = 20;
   shape.points = 8000;

@@ -52,7 +52,7 @@ Counted count(const EvaluationInput& input, const MaskStore& masks, const Option
 }  // namespace
 
 TEST_CASE("with little room the search takes more passes and finds the same",
-          "[dynamicmap][long]") {
+          "[dynamicmap][slow]") {
   for (unsigned seed = 0; seed < 6; ++seed) {
     CloudShape shape;
     shape.seed = seed;

@@ -4,7 +4,7 @@
 # Usage: latex_test.sh PATH/TO/raymoval; exit code 77: there is no pdflatex.
 set -uo pipefail
 if ! command -v pdflatex >/dev/null; then
-  echo "latex_test.sh: no pdflatex; run scripts/install_dependencies.sh --tests" >&2
+  echo "latex_test.sh: no pdflatex; run scripts/install_dependencies.sh --all" >&2
   exit 77
 fi
 raymoval=$(readlink -f "$1")

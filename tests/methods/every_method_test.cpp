@@ -57,7 +57,7 @@ class KeptEvidence : public EvidenceSink {
 
 // Where the world's origin lies and which way its axes point is nobody's business: what a method
 // answers may depend on it only through the lattice of its voxels.
-TEST_CASE("whole voxels and quarter turns change no verdict", "[every-method]") {
+TEST_CASE("whole voxels and quarter turns change no verdict", "[slow]") {
   const toy::World world = toy::street(8);
   for (const ConfiguredMethod& method : all_methods()) {
     if (knows_origin(method)) continue;
@@ -74,7 +74,7 @@ TEST_CASE("whole voxels and quarter turns change no verdict", "[every-method]") 
   }
 }
 
-TEST_CASE("any number of threads gives the same answer", "[threads][every-method]") {
+TEST_CASE("any number of threads gives the same answer", "[threads][slow]") {
   // As many threads as are asked for, on any number of processors.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   const toy::World world = toy::street(10);
@@ -92,7 +92,7 @@ TEST_CASE("any number of threads gives the same answer", "[threads][every-method
 
 // Nobody who looks closer changes what there is to see.
 TEST_CASE("evidence changes no mask, and is the same for any number of threads",
-          "[threads][every-method]") {
+          "[threads][slow]") {
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   const toy::World world = toy::street(10);
   for (const ConfiguredMethod& method : all_methods()) {
@@ -117,7 +117,7 @@ TEST_CASE("evidence changes no mask, and is the same for any number of threads",
 }
 
 // What the sanitizers see of threads.
-TEST_CASE("a second thread changes nothing on a short street", "[threads][long]") {
+TEST_CASE("a second thread changes nothing on a short street", "[threads][slow]") {
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 2);
   const toy::World world = toy::street(4);
   for (const ConfiguredMethod& method : all_methods()) {
@@ -165,7 +165,7 @@ TEST_CASE("points next to a sensor that stands on walls of voxels end every walk
 }
 
 // What inspection lets pass must not make a method fail.
-TEST_CASE("every method takes scans and points as far away as inspection does", "[long]") {
+TEST_CASE("every method takes scans and points as far away as inspection does", "[slow]") {
   constexpr double kFar = kUsualReach - kFarthestReturn - 1.0;
   const auto far = static_cast<float>(kFarthestReturn);
   toy::HeldScans scans;

@@ -282,7 +282,7 @@ void check_turned_off(const std::string& name, std::set<std::string>& tested) {
 }  // namespace
 
 TEST_CASE("raymoval_plus's parameters are without effect where their conditions do not hold",
-          "[effects]") {
+          "[slow]") {
   std::set<std::string> tested;
   for (const char* const variant : {"offline", "online"}) {
     check_turned_off(std::string("raymoval_plus:") + variant, tested);
@@ -291,47 +291,47 @@ TEST_CASE("raymoval_plus's parameters are without effect where their conditions 
   CHECK(tested.count("cluster_gap objects low_points") == 1);
 }
 
-TEST_CASE("raymoval's parameters act when they are said to", "[effects]") {
+TEST_CASE("raymoval's parameters act when they are said to", "[slow]") {
   check_method("raymoval");
 }
-TEST_CASE("raymoval_plus's parameters act when they are said to", "[effects]") {
+TEST_CASE("raymoval_plus's parameters act when they are said to", "[slow]") {
   check_method("raymoval_plus");
 }
-TEST_CASE("octomap's parameters act when they are said to", "[effects]") {
+TEST_CASE("octomap's parameters act when they are said to", "[slow]") {
   check_method("octomap");
 }
-TEST_CASE("peopleremover's parameters act when they are said to", "[effects]") {
+TEST_CASE("peopleremover's parameters act when they are said to", "[slow]") {
   check_method("peopleremover");
 }
-TEST_CASE("removert's parameters act when they are said to", "[effects]") {
+TEST_CASE("removert's parameters act when they are said to", "[slow]") {
   check_method("removert");
 }
-TEST_CASE("erasor's parameters act when they are said to", "[effects]") {
+TEST_CASE("erasor's parameters act when they are said to", "[slow]") {
   check_method("erasor");
 }
-TEST_CASE("dufomap's parameters act when they are said to", "[effects]") {
+TEST_CASE("dufomap's parameters act when they are said to", "[slow]") {
   check_method("dufomap");
 }
-TEST_CASE("beautymap's parameters act when they are said to", "[effects]") {
+TEST_CASE("beautymap's parameters act when they are said to", "[slow]") {
   check_method("beautymap");
 }
-TEST_CASE("hmm_mos's parameters act when they are said to", "[effects]") {
+TEST_CASE("hmm_mos's parameters act when they are said to", "[slow]") {
   check_method("hmm_mos");
 }
 
-TEST_CASE("freedom's parameters act when they are said to", "[effects]") {
+TEST_CASE("freedom's parameters act when they are said to", "[slow]") {
   check_method("freedom");
 }
 
-TEST_CASE("dynablox's parameters act when they are said to", "[effects]") {
+TEST_CASE("dynablox's parameters act when they are said to", "[slow]") {
   check_method("dynablox");
 }
 
-TEST_CASE("mapcleaner's parameters act when they are said to", "[effects]") {
+TEST_CASE("mapcleaner's parameters act when they are said to", "[slow]") {
   check_method("mapcleaner");
 }
 
-TEST_CASE("every condition names parameters of its method", "[effects]") {
+TEST_CASE("every condition names parameters of its method", "[slow]") {
   for (const auto& entry : MethodRegistry::built_in().entries()) {
     for (const MethodVariant& variant : entry->variants) {
       const ConfiguredMethod method =

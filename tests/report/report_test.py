@@ -224,7 +224,7 @@ def check_counts(browser, results):
 def main():
     browser_path = chromium.find()
     if browser_path is None:
-        print("report_test.py: no Chromium; scripts/install_dependencies.sh --tests brings it.")
+        print("report_test.py: no Chromium; scripts/install_dependencies.sh --all brings it.")
         return 77
     raymoval = os.path.abspath(sys.argv[1])
     with tempfile.TemporaryDirectory(prefix="raymoval-report-") as folder:

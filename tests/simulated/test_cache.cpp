@@ -84,7 +84,7 @@ void in_killed_process(const std::function<void()>& deed) {
 }  // namespace
 
 TEST_CASE("A scene of the cache that is not what was written there is made again, and said",
-          "[long]") {
+          "[slow]") {
   const TemporaryFolder scratch;
   const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
   const std::string whole = content_of(folder);
@@ -188,7 +188,7 @@ TEST_CASE("Only names and sizes are looked at where the content is checked other
   CHECK(content_of(folder) != harmed);
 }
 
-TEST_CASE("What a killed process left goes; what may be alive or another's stays") {
+TEST_CASE("What a killed process left goes, what may be alive or another's stays") {
   const TemporaryFolder scratch;
   const fs::path cache = scratch / "simulated";
   fs::create_directories(cache);

@@ -46,7 +46,7 @@ std::string hash_of(const SimulatedSequence& sequence, std::size_t index) {
 
 }  // namespace
 
-TEST_CASE("the same seed gives the same bytes for any threads and any order", "[long]") {
+TEST_CASE("the same seed gives the same bytes for any threads and any order", "[slow]") {
   for (const std::string sensor : {"vlp16", "solid-state", "rosette"}) {
     SimulationOptions options = small_town(8);
     options.sensor = sensor;
@@ -171,7 +171,7 @@ TEST_CASE("a scene's name is told without generating it, and is the one it is op
   unsetenv("RAYMOVAL_CACHE");
 }
 
-TEST_CASE("the cache tells apart whatever changes the bytes", "[long]") {
+TEST_CASE("the cache tells apart whatever changes the bytes", "[slow]") {
   const TemporaryFolder scratch;
   const auto folder = [&](const SimulationOptions& options) {
     return cached_simulation(options, scratch.text(), 2, nullptr);
@@ -279,7 +279,7 @@ TEST_CASE("a world with other axes shows the sensor the same") {
   CHECK_THROWS_AS(make_simulated(options), UsageError);
 }
 
-TEST_CASE("a sequence longer than its route is refused, one on a closed route is not", "[long]") {
+TEST_CASE("a sequence longer than its route is refused, one on a closed route is not", "[slow]") {
   SimulationOptions options = small_town(5000);  // town: 380 m at 5 to 7 m/s are some 600 scans
   CHECK_THROWS_AS(make_simulated(options), UsageError);
   options.scene = "long";

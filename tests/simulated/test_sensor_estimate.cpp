@@ -9,7 +9,7 @@
 using namespace raymoval;
 
 TEST_CASE("What scans show of each simulated sensor is what it is",
-          "[simulated][sensor-estimate][long]") {
+          "[simulated][sensor-estimate][slow]") {
   for (const std::string& name : simulated_sensor_names()) {
     SimulationOptions options;
     options.sensor = name;

@@ -47,7 +47,7 @@ bool is_moving(std::uint32_t word) {
 
 }  // namespace
 
-TEST_CASE("every point labelled moving lies on a part of that mover", "[long]") {
+TEST_CASE("every point labelled moving lies on a part of that mover", "[slow]") {
   for (const std::string scene : {"crossing", "suburb", "excavator"}) {
     SimulationOptions options;
     options.scene = scene;
@@ -153,7 +153,7 @@ TEST_CASE("a vehicle stands on its road, a kerb lies higher than the carriageway
   CHECK_THROWS_AS(ground.road("q"), ConfigurationError);
 }
 
-TEST_CASE("every built-in world gives a scan with ground, standing things and movers", "[long]") {
+TEST_CASE("every built-in world gives a scan with ground, standing things and movers", "[slow]") {
   for (const std::string& name : simulated_scene_names()) {
     INFO(name);
     SimulationOptions options;

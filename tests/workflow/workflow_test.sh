@@ -8,7 +8,7 @@ raymoval=$(readlink -f "$1")
 source_folder=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../..")
 source "$source_folder/tests/cli/checks.sh"
 if ! command -v snakemake >/dev/null; then
-  echo "workflow_test.sh: snakemake is missing; run scripts/install_dependencies.sh --tests" >&2
+  echo "workflow_test.sh: snakemake is missing; run scripts/install_dependencies.sh --all" >&2
   exit 1
 fi
 

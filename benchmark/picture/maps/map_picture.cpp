@@ -14,11 +14,11 @@
 namespace raymoval {
 namespace {
 
-constexpr int kMargin = 20;
-constexpr int kGap = 14;
-constexpr int kHeading = 26;  ///< Height above the panels of a row, for the sequence's name.
-constexpr int kCaption = 22;  ///< Height below a panel, for its rates.
-constexpr double kAround = 30.0;
+constexpr int kMapMargin = 20;
+constexpr int kMapGap = 14;
+constexpr int kMapHeading = 26;  ///< Height above the panels of a row, for the sequence's name.
+constexpr int kCaption = 22;     ///< Height below a panel, for its rates.
+constexpr double kMapAround = 30.0;
 
 /// One panel: a raster, or a reason why there is none.
 struct MapPanel {
@@ -133,13 +133,13 @@ void fill_row(const KeptRun& run, const std::vector<const KeptCell*>& cells,
 }
 
 void draw_row(Canvas& canvas, const MapRow& row, int column_width, int top) {
-  canvas.text(kMargin, top + 17, row.sequence, 15, kInk);
+  canvas.text(kMapMargin, top + 17, row.sequence, 15, kInk);
   bool scale_shown = false;
   for (std::size_t i = 0; i < row.panels.size(); ++i) {
     const MapPanel& panel = row.panels[i];
-    const int left =
-        kMargin + static_cast<int>(i) * (column_width + kGap) + (column_width - row.width) / 2;
-    const int y = top + kHeading;
+    const int left = kMapMargin + static_cast<int>(i) * (column_width + kMapGap) +
+                     (column_width - row.width) / 2;
+    const int y = top + kMapHeading;
     if (panel.raster) {
       panel.raster->draw(canvas, left, y);
     } else {
@@ -169,26 +169,26 @@ void check_crop(const WorldWindow& crop, const std::vector<MapRow>& rows) {
 
 Canvas drawn(const std::vector<MapRow>& rows, const std::vector<std::string>& methods) {
   int column_width = 1;
-  int height = kMargin + 24 + 34 + kMargin;
+  int height = kMapMargin + 24 + 34 + kMapMargin;
   for (const MapRow& row : rows) {
     column_width = std::max(column_width, row.width);
-    height += kHeading + row.height + kCaption + kGap;
+    height += kMapHeading + row.height + kCaption + kMapGap;
   }
   const int columns = static_cast<int>(methods.size());
   // Wide enough for the legend below one narrow column.
-  const int width = std::max(2 * kMargin + columns * (column_width + kGap) - kGap, 620);
+  const int width = std::max(2 * kMapMargin + columns * (column_width + kMapGap) - kMapGap, 620);
   Canvas canvas(width, height);
   for (int i = 0; i < columns; ++i) {
-    canvas.text(kMargin + i * (column_width + kGap) + column_width / 2, kMargin + 14,
+    canvas.text(kMapMargin + i * (column_width + kMapGap) + column_width / 2, kMapMargin + 14,
                 canvas.fitted(methods[static_cast<std::size_t>(i)], 16, column_width), 16, kInk,
                 Align::kCentre);
   }
-  int top = kMargin + 24;
+  int top = kMapMargin + 24;
   for (const MapRow& row : rows) {
     draw_row(canvas, row, column_width, top);
-    top += kHeading + row.height + kCaption + kGap;
+    top += kMapHeading + row.height + kCaption + kMapGap;
   }
-  draw_outcome_legend(canvas, kMargin, top + 18, 13);
+  draw_outcome_legend(canvas, kMapMargin, top + 18, 13);
   return canvas;
 }
 
@@ -198,12 +198,12 @@ WorldWindow window_around_way(const ScanSource& scans) {
   WorldWindow window{1e300, -1e300, 1e300, -1e300};
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Eigen::Vector3d at = scans.pose(i).translation();
-    window.x_min = std::min(window.x_min, at.x() - kAround);
-    window.x_max = std::max(window.x_max, at.x() + kAround);
-    window.y_min = std::min(window.y_min, at.y() - kAround);
-    window.y_max = std::max(window.y_max, at.y() + kAround);
+    window.x_min = std::min(window.x_min, at.x() - kMapAround);
+    window.x_max = std::max(window.x_max, at.x() + kMapAround);
+    window.y_min = std::min(window.y_min, at.y() - kMapAround);
+    window.y_max = std::max(window.y_max, at.y() + kMapAround);
   }
-  return scans.size() > 0 ? window : WorldWindow{-kAround, kAround, -kAround, kAround};
+  return scans.size() > 0 ? window : WorldWindow{-kMapAround, kMapAround, -kMapAround, kMapAround};
 }
 
 void throw_empty_crop(const WorldWindow& crop, const WorldWindow& around) {

@@ -17,10 +17,10 @@
 namespace raymoval {
 namespace {
 
-constexpr int kMargin = 20;
-constexpr int kHeading = 28;
-constexpr int kGap = 16;
-constexpr double kAround = 20.0;
+constexpr int kOverviewMargin = 20;
+constexpr int kOverviewHeading = 28;
+constexpr int kOverviewGap = 16;
+constexpr double kOverviewAround = 20.0;
 constexpr double kLeastAspect = 0.30;  ///< Least ratio of height to width of the maps.
 constexpr double kMostAboveSensor = 4.0;
 constexpr double kZoomSide = 26.0;
@@ -61,10 +61,10 @@ ObliqueCamera camera_of(const ScanSource& scans, const OverviewOptions& options)
     window = {1e300, -1e300, 1e300, -1e300};
     for (std::size_t i = 0; i < scans.size(); ++i) {
       const Eigen::Vector3d at = camera.to_view(scans.pose(i).translation());
-      window.x_min = std::min(window.x_min, at.x() - kAround);
-      window.x_max = std::max(window.x_max, at.x() + kAround);
-      window.y_min = std::min(window.y_min, at.y() - kAround);
-      window.y_max = std::max(window.y_max, at.y() + kAround);
+      window.x_min = std::min(window.x_min, at.x() - kOverviewAround);
+      window.x_max = std::max(window.x_max, at.x() + kOverviewAround);
+      window.y_min = std::min(window.y_min, at.y() - kOverviewAround);
+      window.y_max = std::max(window.y_max, at.y() + kOverviewAround);
     }
     const double lacking = kLeastAspect * window.width() - window.height();
     window.y_min -= std::max(0.0, lacking) / 2.0;
@@ -174,30 +174,33 @@ Canvas drawn(const KeptCell& cell, std::size_t scans, const Views& views,
              const WorldWindow& place) {
   const int wide = views.raw.camera().width(), high = views.raw.camera().height();
   const int zoom_wide = views.zoom.camera().width(), zoom_high = views.zoom.camera().height();
-  const int maps_high = 2 * (kHeading + high) + kGap;
-  const int body = std::max(maps_high, kHeading + zoom_high);
-  Canvas canvas(2 * kMargin + wide + kGap + zoom_wide, 2 * kMargin + body + 30);
+  const int maps_high = 2 * (kOverviewHeading + high) + kOverviewGap;
+  const int body = std::max(maps_high, kOverviewHeading + zoom_high);
+  Canvas canvas(2 * kOverviewMargin + wide + kOverviewGap + zoom_wide,
+                2 * kOverviewMargin + body + 30);
   const auto panel = [&](const ObliqueRaster& raster, int x, int y, const std::string& heading) {
     const int size = canvas.text_width(heading, 14) <= raster.camera().width() ? 14 : 12;
     canvas.text(x, y + 18, canvas.fitted(heading, size, raster.camera().width()), size, kInk);
-    raster.draw(canvas, x, y + kHeading);
-    canvas.frame(x, y + kHeading, raster.camera().width(), raster.camera().height(), kBorder);
+    raster.draw(canvas, x, y + kOverviewHeading);
+    canvas.frame(x, y + kOverviewHeading, raster.camera().width(), raster.camera().height(),
+                 kBorder);
   };
-  panel(views.raw, kMargin, kMargin,
+  panel(views.raw, kOverviewMargin, kOverviewMargin,
         cell.sequence + ": all points of " + grouped_text(scans) + " scans, " +
             percent_text(views.moving, views.points) + " of them moving");
-  const int second = kMargin + kHeading + high + kGap;
-  panel(views.cleaned, kMargin, second,
+  const int second = kOverviewMargin + kOverviewHeading + high + kOverviewGap;
+  panel(views.cleaned, kOverviewMargin, second,
         "Cleaned by " + cell.name + ": " + percent_text(views.left, views.moving) +
             " of moving points left, " + percent_text(views.wrong, views.points - views.moving) +
             " of static ones lost");
-  const int right = kMargin + wide + kGap;
-  panel(views.zoom, right, kMargin, "What was removed, within the outline");
-  draw_outline(canvas, views.raw.camera(), place, kMargin, kMargin + kHeading);
-  draw_outline(canvas, views.raw.camera(), place, kMargin, second + kHeading);
-  draw_scale_bar(canvas, kMargin + 10, second + kHeading + high - 12, views.raw.camera().resolution,
-                 wide / 5);
-  draw_outcome_legend(canvas, kMargin, kMargin + body + 24, 13);
+  const int right = kOverviewMargin + wide + kOverviewGap;
+  panel(views.zoom, right, kOverviewMargin, "What was removed, within the outline");
+  draw_outline(canvas, views.raw.camera(), place, kOverviewMargin,
+               kOverviewMargin + kOverviewHeading);
+  draw_outline(canvas, views.raw.camera(), place, kOverviewMargin, second + kOverviewHeading);
+  draw_scale_bar(canvas, kOverviewMargin + 10, second + kOverviewHeading + high - 12,
+                 views.raw.camera().resolution, wide / 5);
+  draw_outcome_legend(canvas, kOverviewMargin, kOverviewMargin + body + 24, 13);
   return canvas;
 }
 
@@ -213,7 +216,8 @@ Canvas overview_picture(const KeptRun& run, const KeptCell& cell, const Overview
   ObliqueCamera close = camera;
   close.window = busiest_place(sequence, scans, masks, camera, context);
   // As high as the two maps together.
-  close.resolution = camera.resolution * close.height() / (2.0 * camera.height() + kHeading + kGap);
+  close.resolution = camera.resolution * close.height() /
+                     (2.0 * camera.height() + kOverviewHeading + kOverviewGap);
   Views views{ObliqueRaster(camera), ObliqueRaster(camera), ObliqueRaster(close)};
   for_each_point(sequence, scans, masks, "drawing", context,
                  [&](const PointOutcome& point) { views.add(point); });

@@ -18,9 +18,9 @@ namespace {
 
 using namespace raymoval_method;
 
-constexpr int kMargin = 20;
-constexpr int kHeading = 28;
-constexpr int kGap = 12;
+constexpr int kRangeMargin = 20;
+constexpr int kRangeHeading = 28;
+constexpr int kRangeGap = 12;
 constexpr double kVoxel = 0.2;
 constexpr double kMostRange = 60.0;  ///< Of the colours, metres.
 constexpr double kMostDifference = 10.0;
@@ -141,22 +141,23 @@ class Strip {
 
   template <class ColourOf>
   void draw(const std::string& heading, ColourOf&& colour_of) {
-    canvas_.text(kMargin, top_ + 18, heading, 14, kInk);
+    canvas_.text(kRangeMargin, top_ + 18, heading, 14, kInk);
     const AngularGrid& grid = images_.grid;
     const int height = grid.elevation_bins * row_height_;
-    canvas_.draw_pixels(kMargin, top_ + kHeading, grid.azimuth_bins, height, [&](int x, int y) {
-      const int row = grid.elevation_bins - 1 - y / row_height_;
-      const int bin = row * grid.azimuth_bins + grid.azimuth_bins - 1 - x;
-      return colour_of(static_cast<std::size_t>(bin));
-    });
-    canvas_.frame(kMargin, top_ + kHeading, grid.azimuth_bins, height, kBorder);
+    canvas_.draw_pixels(kRangeMargin, top_ + kRangeHeading, grid.azimuth_bins, height,
+                        [&](int x, int y) {
+                          const int row = grid.elevation_bins - 1 - y / row_height_;
+                          const int bin = row * grid.azimuth_bins + grid.azimuth_bins - 1 - x;
+                          return colour_of(static_cast<std::size_t>(bin));
+                        });
+    canvas_.frame(kRangeMargin, top_ + kRangeHeading, grid.azimuth_bins, height, kBorder);
   }
 
   /// Colours and what they mean at the right end of the heading.
   template <class ColourOf>
   void draw_scale(const std::string& low, const std::string& high, ColourOf&& colour_of) {
     constexpr int kLength = 160;
-    const int right = kMargin + images_.grid.azimuth_bins;
+    const int right = kRangeMargin + images_.grid.azimuth_bins;
     const int end = right - canvas_.text_width(high, 12) - 8;
     canvas_.text(right, top_ + 18, high, 12, kSoftInk, Align::kRight);
     canvas_.draw_pixels(end - kLength, top_ + 8, kLength, 12,
@@ -174,11 +175,13 @@ Canvas drawn(const std::string& title, const RangeImages& images) {
   const int rows = images.grid.elevation_bins;
   const int row_height =
       std::clamp(static_cast<int>(std::lround(images.grid.azimuth_bins / 7.0 / rows)), 1, 12);
-  const int pitch = kHeading + rows * row_height + kGap;
-  Canvas canvas(images.grid.azimuth_bins + 2 * kMargin, kMargin + 26 + 4 * pitch + kMargin);
-  canvas.text(kMargin, kMargin + 14, canvas.fitted(title, 17, images.grid.azimuth_bins), 17, kInk);
+  const int pitch = kRangeHeading + rows * row_height + kRangeGap;
+  Canvas canvas(images.grid.azimuth_bins + 2 * kRangeMargin,
+                kRangeMargin + 26 + 4 * pitch + kRangeMargin);
+  canvas.text(kRangeMargin, kRangeMargin + 14, canvas.fitted(title, 17, images.grid.azimuth_bins),
+              17, kInk);
   const auto strip = [&](int number) {
-    return Strip(canvas, images, row_height, kMargin + 26 + number * pitch);
+    return Strip(canvas, images, row_height, kRangeMargin + 26 + number * pitch);
   };
   const auto ranges = [](double share) { return sequential_colour(std::sqrt(share)); };
   strip(0).draw("Scan", [&](std::size_t bin) { return range_colour(images.scan[bin]); });
@@ -193,7 +196,7 @@ Canvas drawn(const std::string& title, const RangeImages& images) {
   strip(3).draw("Verdict", [&](std::size_t bin) {
     return images.outcome[bin] < 0 ? kPaper : outcome_colour(Outcome(images.outcome[bin]));
   });
-  draw_outcome_legend(canvas, kMargin + 90, kMargin + 26 + 3 * pitch + 18, 12);
+  draw_outcome_legend(canvas, kRangeMargin + 90, kRangeMargin + 26 + 3 * pitch + 18, 12);
   return canvas;
 }
 

@@ -80,7 +80,7 @@ ProtocolResult scored(const Sequence& sequence, const std::string& protocol,
 }  // namespace
 
 TEST_CASE("no method is changed by a shift of the world, or an exchange of its axes",
-          "[frames][every-method]") {
+          "[frames][slow]") {
   constexpr long kStep = 6;  // Each of all methods runs four times.
   // A shift that double precision holds exactly beside the street's poses, and one it does not.
   const MovedStreet utm(shifted(691000.25, 5336000.5, 512.0), kStep);
@@ -101,7 +101,7 @@ TEST_CASE("no method is changed by a shift of the world, or an exchange of its a
   }
 }
 
-TEST_CASE("counts are the same from every whole kilometre", "[frames][long]") {
+TEST_CASE("counts are the same from every whole kilometre", "[frames][slow]") {
   const MethodRequest method{"raymoval_plus:offline",
                              MethodRegistry::built_in().configure("raymoval_plus:offline")};
   const MovedStreet near(shifted(3000.0, -2000.0, 1000.0));
@@ -115,7 +115,7 @@ TEST_CASE("counts are the same from every whole kilometre", "[frames][long]") {
   }
 }
 
-TEST_CASE("a cleaned map far from the origin is scored as near it", "[frames][long]") {
+TEST_CASE("a cleaned map far from the origin is scored as near it", "[frames][slow]") {
   const MovedStreet far(shifted(691000.0, 5336000.0, 1000.0));
   const auto counts = [](const Sequence& sequence) {
     ProtocolRequest erasor{"erasor", "erasor", protocol_defaults("erasor")};

@@ -123,7 +123,7 @@ TEST_CASE("A method that fails is a cell with a reason, and the rest goes on") {
   CHECK_THAT(csv, Contains("street,throws,v,erasor,failed,,,,,,,,,,,,,throws:v"));
 }
 
-TEST_CASE("A cell that is there, right and whole is not run again; anything else is", "[long]") {
+TEST_CASE("A cell that is there, right and whole is not run again, anything else is", "[slow]") {
   const test::TemporaryFolder folder;
   const auto out = folder.path() / "run";
   Suite suite = two_scans_with({"good"});
@@ -275,7 +275,7 @@ TEST_CASE("A suite of another name is refused, and replaces what is there if tha
 }
 
 TEST_CASE("Other data or protocols are refused where the folder has results of the same name",
-          "[long]") {
+          "[slow]") {
   const test::TemporaryFolder folder;
   const auto& out = folder.path();
   const Suite suite = two_scans_called("a", "good");
@@ -337,7 +337,7 @@ TEST_CASE("Names that would share a folder, and a record that is damaged, are re
   CHECK(read_text(out / "run.json") == record);
 }
 
-TEST_CASE("Two runs give the same bytes but for what is measured, whatever the threads", "[long]") {
+TEST_CASE("Two runs give the same bytes but for what is measured, whatever the threads", "[slow]") {
   const auto cell_with = [](int threads) {
     const test::TemporaryFolder folder;
     Suite suite = two_scans_with({"good"});

@@ -146,7 +146,7 @@ TEST_CASE("A layout of a program's own is opened and listed like any other") {
   CHECK_THROWS_WITH(register_layout(toy_layout()), Contains("already a layout 'toy'"));
 }
 
-TEST_CASE("A layout of a program's own is inspected like any other", "[long]") {
+TEST_CASE("A layout of a program's own is inspected like any other", "[slow]") {
   const test::TemporaryFolder folder;
   const InspectionReport report = inspect_path(write_toy(folder), {});
   CHECK(report.layout == "toy");
@@ -155,7 +155,7 @@ TEST_CASE("A layout of a program's own is inspected like any other", "[long]") {
 }
 
 TEST_CASE("A layout of a program's own is run, with the counts of the same data elsewhere",
-          "[long]") {
+          "[slow]") {
   const test::TemporaryFolder folder;
   Suite suite;
   suite.sequences = {{"street", first_scans()}, {write_toy(folder), {}}};

@@ -78,7 +78,7 @@ std::string part_from(const std::string& text, const std::string& begin) {
 
 }  // namespace
 
-TEST_CASE("A protocol of one's own is in every output", "[long]") {
+TEST_CASE("A protocol of one's own is in every output", "[slow]") {
   const test::RegisteredToy toy;
   const test::TemporaryFolder folder;
   const std::filesystem::path out = folder.path() / "run";

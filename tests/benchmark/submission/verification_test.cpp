@@ -82,7 +82,7 @@ void renew_key(Cell& cell) {
 
 }  // namespace
 
-TEST_CASE("A submission as it was run holds, and one that was changed does not", "[long]") {
+TEST_CASE("A submission as it was run holds, and one that was changed does not", "[slow]") {
   const CombRun run;
   CHECK(run.verify_changed([](Cell&) {}) == 0);
   CHECK(run.verify_changed([](Cell& cell) { --count(cell, "remaining_dynamic"); }) == 1);
@@ -181,7 +181,7 @@ TEST_CASE("What holds no cell itself, but beside or below it, says where the cel
                     Catch::Contains("expected the run folder " + run_folder.string()));
 }
 
-TEST_CASE("Only what holds is in the table", "[long]") {
+TEST_CASE("Only what holds is in the table", "[slow]") {
   const CombRun run;
   CHECK(run.verify_changed([](Cell& cell) { --count(cell, "remaining_dynamic"); }) == 1);
   const std::string table = run.path("table.md");

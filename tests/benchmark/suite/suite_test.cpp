@@ -56,7 +56,7 @@ TEST_CASE("A setting is METHOD.key=value") {
   }
 }
 
-TEST_CASE("A setting of a method reaches all variants; one of a variant wins in any order") {
+TEST_CASE("A setting of a method reaches all variants, one of a variant wins in any order") {
   for (const bool method_first : {true, false}) {
     Suite suite;
     add_method(suite, "toy:a", "", toys());
@@ -110,7 +110,7 @@ TEST_CASE("Settings that reach nothing, clash, or are illegal are errors") {
                     Contains("twice"));
 }
 
-TEST_CASE("Two cells of one name clash; controls come first and only once") {
+TEST_CASE("Two cells of one name clash, controls come first and only once") {
   Suite suite;
   add_method(suite, "toy", "", toys());
   CHECK_THROWS_AS(add_method(suite, "toy:a", "", toys()), UsageError);
@@ -167,7 +167,7 @@ TEST_CASE("Every slip in a suite file is named with its place and the nearest le
   CHECK_THROWS_AS(suite_of(R"({"sequences": ["street"], "methods": [7]})"), ConfigurationError);
 }
 
-TEST_CASE("\"all\" is the default variant of each method but the controls, NAME:all all variants") {
+TEST_CASE("The word all is the default variant of each method but the controls, and NAME:all is all variants") {
   CHECK(expanded_methods("all", toys()) == std::vector<std::string>{"toy:a"});
   CHECK(expanded_methods("toy:all", toys()) == std::vector<std::string>{"toy:a", "toy:b"});
   CHECK(expanded_methods("toy", toys()) == std::vector<std::string>{"toy"});

@@ -116,7 +116,7 @@ std::set<std::string> found_with(const TemporaryFolder& folder, const SequenceOp
 
 }  // namespace
 
-TEST_CASE("findings on poses go away with the option that they name", "[inspect][every-finding]") {
+TEST_CASE("findings on poses go away with the option that they name", "[inspect][slow]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, as_seen);
@@ -142,7 +142,7 @@ TEST_CASE("findings on poses go away with the option that they name", "[inspect]
 }
 
 TEST_CASE("poses of a camera are no finding once it is said where the sensor is on it",
-          "[inspect][long]") {
+          "[inspect][slow]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, as_seen);
@@ -185,7 +185,7 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
 }
 
 TEST_CASE("points in the world frame are named, and brought back on request",
-          "[inspect][every-finding]") {
+          "[inspect][slow]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, [](const Scan& scan, const Eigen::Vector3d& point) {
@@ -199,7 +199,7 @@ TEST_CASE("points in the world frame are named, and brought back on request",
   CHECK(found_with(folder, options).empty());
 }
 
-TEST_CASE("skewed scans are no finding any more once they are deskewed", "[inspect][long]") {
+TEST_CASE("skewed scans are no finding any more once they are deskewed", "[inspect][slow]") {
   SimulationOptions simulation = suburb(sparse_hdl64e(), 14);
   simulation.scene = "country";
   simulation.rolling = Rolling::kSkewed;
@@ -214,7 +214,7 @@ TEST_CASE("skewed scans are no finding any more once they are deskewed", "[inspe
   CHECK(found_with(folder, options).empty());
 }
 
-TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspect][long]") {
+TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspect][slow]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, as_seen);
@@ -234,7 +234,7 @@ TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspec
 }
 
 TEST_CASE("clocks that differ are told by how much, and agree once that is said",
-          "[inspect][long]") {
+          "[inspect][slow]") {
   const TemporaryFolder folder;
   const EditedSequence drive = lively_drive("[[0, 3], [1.2, 8], [2.4, 2]]");
   for (const double ahead : {0.12, -0.08}) {
@@ -257,7 +257,7 @@ TEST_CASE("clocks that differ are told by how much, and agree once that is said"
   CHECK(found_with(folder, {}).empty());
 }
 
-TEST_CASE("at a steady speed nobody can tell that clocks differ", "[inspect][long]") {
+TEST_CASE("at a steady speed nobody can tell that clocks differ", "[inspect][slow]") {
   SimulationOptions options = suburb(sparse_vlp16(), 14);
   options.scene = "highway";
   const EditedSequence drive(options);

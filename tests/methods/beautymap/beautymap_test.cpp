@@ -8,8 +8,7 @@
 #include "tests/methods/beautymap/oracle.h"
 #include "tests/methods/moved_world.h"
 
-using namespace raymoval;
-using namespace raymoval::beautymap_test;
+namespace raymoval::beautymap_test {
 
 namespace {
 
@@ -259,3 +258,5 @@ TEST_CASE("beautymap: the fast way gives what the description says") {
     }
   }
 }
+
+}  // namespace raymoval::beautymap_test

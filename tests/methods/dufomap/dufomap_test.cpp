@@ -7,8 +7,7 @@
 #include "tests/methods/dufomap/oracle.h"
 #include "tests/methods/moved_world.h"
 
-using namespace raymoval;
-using namespace raymoval::dufomap_test;
+namespace raymoval::dufomap_test {
 
 namespace {
 
@@ -191,3 +190,5 @@ TEST_CASE("where the lattice lies matters little") {
     CHECK(static_cast<double>(changed) < 0.015 * static_cast<double>(points));
   }
 }
+
+}  // namespace raymoval::dufomap_test

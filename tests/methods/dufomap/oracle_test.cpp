@@ -9,9 +9,8 @@
 #include "methods/dufomap/void_map.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::dufomap_test {
 using namespace raymoval::dufomap_method;
-using namespace raymoval::dufomap_test;
 
 namespace {
 
@@ -117,3 +116,5 @@ TEST_CASE("verdicts are those of the plain sets") {
   CHECK(removed > 100);  // The scenes have both.
   CHECK(kept > 100);
 }
+
+}  // namespace raymoval::dufomap_test

@@ -10,9 +10,8 @@
 #include "tests/methods/dufomap/oracle.h"
 #include "tests/methods/held_scans.h"
 
-using namespace raymoval;
+namespace raymoval::dufomap_test {
 using namespace raymoval::dufomap_method;
-using namespace raymoval::dufomap_test;
 
 namespace {
 
@@ -210,3 +209,5 @@ TEST_CASE("step 5: voids of several scans are united") {
   CHECK(map.contain({{x, y, 0}, {x, y, 1}, {x, y, 2}, {x, y + 1, 0}, {x + 90, y, 0}}) ==
         Mask{1, 1, 0, 0, 0});
 }
+
+}  // namespace raymoval::dufomap_test

@@ -11,7 +11,7 @@
 #include "methods/dufomap/cell_walk.h"
 #include "tests/methods/held_scans.h"
 
-using namespace raymoval;
+namespace raymoval::dufomap_test {
 using namespace raymoval::dufomap_method;
 
 namespace {
@@ -108,3 +108,5 @@ TEST_CASE("a wish to stop is heard within the beams of a scan", "[dufomap]") {
   context.cancel = &cancel;
   CHECK_THROWS_AS(cast_beams(scan, ends, parameters, grid, context), Cancelled);
 }
+
+}  // namespace raymoval::dufomap_test

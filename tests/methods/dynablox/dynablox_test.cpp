@@ -5,7 +5,7 @@
 
 #include "tests/methods/moved_world.h"
 
-using namespace raymoval;
+namespace raymoval::dynablox_test {
 using namespace raymoval::dynablox_method;
 
 namespace {
@@ -255,3 +255,5 @@ TEST_CASE("dynablox: parameters out of range are refused") {
     CHECK_THROWS_AS(checked_value_from_text("dynablox", spec, text), ConfigurationError);
   }
 }
+
+}  // namespace raymoval::dynablox_test

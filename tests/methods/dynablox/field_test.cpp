@@ -8,7 +8,7 @@
 #include "methods/dynablox/free_space.h"
 #include "methods/dynablox/integration.h"
 
-using namespace raymoval;
+namespace raymoval::dynablox_test {
 using namespace raymoval::dynablox_method;
 
 namespace {
@@ -174,3 +174,5 @@ TEST_CASE("dynablox: what was occupied for long is reset where it is, or even wh
     CHECK(block.is_ever_free(third));
   }
 }
+
+}  // namespace raymoval::dynablox_test

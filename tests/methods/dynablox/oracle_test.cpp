@@ -9,8 +9,7 @@
 #include "methods/dynablox/dynablox.h"
 #include "tests/methods/moved_world.h"
 
-using namespace raymoval;
-using namespace raymoval::dynablox_test;
+namespace raymoval::dynablox_test {
 
 namespace {
 
@@ -127,3 +126,5 @@ TEST_CASE("dynablox: all instruction sets give the same", "[simd]") {
     CHECK(toy::different_verdicts(best, masks, scans.size()) == 0);
   }
 }
+
+}  // namespace raymoval::dynablox_test

@@ -11,7 +11,7 @@
 #include "tests/methods/dynablox/oracle.h"
 #include "tests/methods/held_scans.h"
 
-using namespace raymoval;
+namespace raymoval::dynablox_test {
 using namespace raymoval::dynablox_method;
 
 namespace {
@@ -267,3 +267,5 @@ TEST_CASE("dynablox: the view is as published where the sensor's is unknown") {
 TEST_CASE("dynablox: a layer takes 14 bytes a voxel") {
   CHECK(sizeof(Layer) == 14 * kLayer);
 }
+
+}  // namespace raymoval::dynablox_test

@@ -6,7 +6,7 @@
 
 #include "tests/methods/erasor/scenes.h"
 
-using namespace raymoval;
+namespace raymoval::erasor_test {
 using namespace raymoval::erasor_method;
 
 namespace {
@@ -195,11 +195,11 @@ TEST_CASE("fewer beams leave fewer points in a bin", "[erasor]") {
 
 TEST_CASE("a tilted sensor at another height finds what an upright one finds", "[erasor]") {
   // The car of 1.5 m on a road, seen from 1.2 m, tilted by 35 degrees.
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   parameters.body = Body::kGround;
   parameters.maximum_height = 2.0;
   Pose pose = sensor_at({50, 60, 71.2}, {35 * kDegree, Eigen::Vector3d::UnitY()});
-  const auto seen = [&](toy::Points points) {
+  const auto seen = [&](Points points) {
     // Ground below the sensor, in other bins than the car's.
     for (int i = -5; i <= 5; ++i) {
       for (int j = -5; j <= 5; ++j) {
@@ -213,14 +213,16 @@ TEST_CASE("a tilted sensor at another height finds what an upright one finds", "
     }
     return points;
   };
-  toy::Points empty = toy::road();
+  Points empty = road();
   empty[0].z() = 0.05F;
-  toy::HeldScans scans;
-  scans.add(seen(toy::road_and({0.6F, 1.0F, 1.5F})), pose);
+  HeldScans scans;
+  scans.add(seen(road_and({0.6F, 1.0F, 1.5F})), pose);
   scans.add(seen(empty), pose);
-  CHECK(toy::removed_points(scans, parameters)[0] == std::vector{4, 5, 6});
+  CHECK(removed_points(scans, parameters)[0] == std::vector{4, 5, 6});
   // In the sensor's own frame the road is no plane of the bins.
   parameters.body = Body::kSensor;
   parameters.sensor_height = 1.2;
-  CHECK(toy::removed_points(scans, parameters)[0] != std::vector{4, 5, 6});
+  CHECK(removed_points(scans, parameters)[0] != std::vector{4, 5, 6});
 }
+
+}  // namespace raymoval::erasor_test

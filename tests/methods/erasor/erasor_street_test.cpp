@@ -10,7 +10,7 @@
 #include "methods/erasor/ground_fit.h"
 #include "tests/methods/erasor/scenes.h"
 
-using namespace raymoval;
+namespace raymoval::erasor_test {
 using namespace raymoval::erasor_method;
 
 namespace {
@@ -147,12 +147,12 @@ class SlowErasor {
 }  // namespace
 
 TEST_CASE("a street comes out as the slow method has it", "[erasor]") {
-  const toy::World world = toy::street(6);
+  const World world = street(6);
   Parameters parameters = street_parameters();
   for (const int version : {3, 2}) {
     parameters.version = version;
     const SlowErasor slow(world, parameters);
-    const MaskStore masks = toy::masks_of(*make_erasor(parameters), world);
+    const MaskStore masks = masks_of(*make_erasor(parameters), world);
     CHECK(masks.removed_count() > 500);
     for (std::size_t i = 0; i < world.size(); ++i) CHECK(masks.get(i) == slow.mask(i));
   }
@@ -161,29 +161,31 @@ TEST_CASE("a street comes out as the slow method has it", "[erasor]") {
 TEST_CASE("the car of a street goes and its road stays", "[erasor]") {
   // Over 30 scans the sensor comes to where the car was. The rest of the car was never seen from a
   // bin whose ground shows. Measured: car 0.58, road 0.0003.
-  const toy::World world = toy::street(30);
-  const MaskStore masks = toy::masks_of(*make_erasor(street_parameters()), world);
-  CHECK(toy::removed_share(world, masks, 3, 0, 29) > 0.5);
-  CHECK(toy::removed_share(world, masks, 0, 0, 29) < 0.002);
+  const World world = street(30);
+  const MaskStore masks = masks_of(*make_erasor(street_parameters()), world);
+  CHECK(removed_share(world, masks, 3, 0, 29) > 0.5);
+  CHECK(removed_share(world, masks, 0, 0, 29) < 0.002);
 }
 
 TEST_CASE("off the lattice few verdicts change", "[erasor]") {
   // A shift or turn that is not of whole voxels cuts the same points into other voxels, whose means
   // may fall to the other side of a bin's border or of the ground. Measured: 306 to 441 verdicts,
   // 0.20 to 0.29 % of the points, beside 2165 removals.
-  const toy::World world = toy::street(8);
+  const World world = street(8);
   ConfiguredMethod method = MethodRegistry::built_in().configure("erasor");
   set_parameter(method.configuration, "removal_interval", std::int64_t{2});
-  const auto removed = toy::masks_of(*method.make(), world).removed_count();
+  const auto removed = masks_of(*method.make(), world).removed_count();
   std::size_t points = 0;
   for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
-  Pose turned = toy::whole_motion(0.037, 0.081, 0, 0);
+  Pose turned = whole_motion(0.037, 0.081, 0, 0);
   turned.linear() = Eigen::AngleAxisd(17 * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (const Pose& motion :
-       {toy::whole_motion(0.1, 0.1, 0.1, 0), toy::whole_motion(0.037, 0.081, 0.113, 0), turned}) {
-    const auto changed = toy::verdicts_changed_by(motion, method, world);
+       {whole_motion(0.1, 0.1, 0.1, 0), whole_motion(0.037, 0.081, 0.113, 0), turned}) {
+    const auto changed = verdicts_changed_by(motion, method, world);
     CHECK(changed > 0);
     CHECK(changed < removed / 3);
     CHECK(100 * changed < points);
   }
 }
+
+}  // namespace raymoval::erasor_test

@@ -5,9 +5,8 @@
 
 #include "tests/methods/erasor/scenes.h"
 
-using namespace raymoval;
+namespace raymoval::erasor_test {
 using namespace raymoval::erasor_method;
-using toy::road_and;
 
 namespace {
 
@@ -16,8 +15,8 @@ using Numbers = std::vector<int>;
 const std::vector<float> kCar = {0.6F, 1.0F, 1.5F};
 
 /// The road as a later scan sees it, with a height of 5 cm.
-toy::Points empty_road() {
-  toy::Points points = toy::road();
+Points empty_road() {
+  Points points = road();
   points[0].z() = 0.05F;
   return points;
 }
@@ -26,92 +25,91 @@ toy::Points empty_road() {
 
 TEST_CASE("a car that is gone is removed", "[erasor]") {
   // Map 1.5 m high, query 0.05 m: ratio 0.033.
-  CHECK(toy::removed_by(empty_road(), road_and(kCar), toy::small_grid()) == Numbers{4, 5, 6});
+  CHECK(removed_by(empty_road(), road_and(kCar), small_grid()) == Numbers{4, 5, 6});
   // The order of the scans does not matter to the map: a car that comes later is removed too.
-  toy::HeldScans scans;
+  HeldScans scans;
   scans.add(empty_road());
   scans.add(road_and(kCar));
-  Parameters first_asks = toy::small_grid();
+  Parameters first_asks = small_grid();
   first_asks.phase = 0;
-  CHECK(toy::removed_points(scans, first_asks)[1] == Numbers{4, 5, 6});
+  CHECK(removed_points(scans, first_asks)[1] == Numbers{4, 5, 6});
 }
 
 TEST_CASE("where a wheel touches the road it stays", "[erasor]") {
-  toy::Points first = road_and(kCar);
+  Points first = road_and(kCar);
   first.emplace_back(2.8F, 0.6F, 0.1F);
-  CHECK(toy::removed_by(empty_road(), first, toy::small_grid()) == Numbers{4, 5, 6});
+  CHECK(removed_by(empty_road(), first, small_grid()) == Numbers{4, 5, 6});
 }
 
 TEST_CASE("a bin that the query hardly sees stays", "[erasor]") {
-  const toy::Points two = {{2.5F, 0.5F, 0}, {3.5F, 1, 0}};
-  CHECK(toy::removed_by(two, road_and(kCar), toy::small_grid()).empty());
-  CHECK(toy::removed_by({}, road_and(kCar), toy::small_grid()).empty());
+  const Points two = {{2.5F, 0.5F, 0}, {3.5F, 1, 0}};
+  CHECK(removed_by(two, road_and(kCar), small_grid()).empty());
+  CHECK(removed_by({}, road_and(kCar), small_grid()).empty());
   // Points are counted after thinning: two voxels, however full.
-  const toy::Points dense = {{2.5F, 0.5F, 0}, {2.51F, 0.5F, 0}, {2.52F, 0.5F, 0}, {3.5F, 1, 0}};
-  CHECK(toy::removed_by(dense, road_and(kCar), toy::small_grid()).empty());
-  const toy::Points three = {{2.5F, 0.5F, 0}, {3.5F, 0.5F, 0}, {3.5F, 1, 0}};
-  CHECK(toy::removed_by(three, road_and(kCar), toy::small_grid()).size() == 3);
+  const Points dense = {{2.5F, 0.5F, 0}, {2.51F, 0.5F, 0}, {2.52F, 0.5F, 0}, {3.5F, 1, 0}};
+  CHECK(removed_by(dense, road_and(kCar), small_grid()).empty());
+  const Points three = {{2.5F, 0.5F, 0}, {3.5F, 0.5F, 0}, {3.5F, 1, 0}};
+  CHECK(removed_by(three, road_and(kCar), small_grid()).size() == 3);
 }
 
 TEST_CASE("a low object stays in version 3 and goes in version 2", "[erasor]") {
   // 0.45 m against 0.02 m. In version 2 the top, 0.45, is above th_bin_max_h = 0.2.
-  toy::Points query = toy::road();
+  Points query = road();
   query[0].z() = 0.02F;
-  Parameters parameters = toy::small_grid();
-  CHECK(toy::removed_by(query, road_and({0.45F}), parameters).empty());
+  Parameters parameters = small_grid();
+  CHECK(removed_by(query, road_and({0.45F}), parameters).empty());
   parameters.version = 2;
-  CHECK(toy::removed_by(query, road_and({0.45F}), parameters) == Numbers{4});
+  CHECK(removed_by(query, road_and({0.45F}), parameters) == Numbers{4});
 }
 
 TEST_CASE("a car under a canopy stays unless the window ends below the leaves", "[erasor]") {
   const std::vector<float> car_and_leaves = {0.6F, 1.0F, 1.5F, 2.6F, 2.9F};
-  const toy::Points first = road_and(car_and_leaves);
-  toy::Points leaves_seen = road_and({2.6F, 2.9F});
-  Parameters parameters = toy::small_grid();
-  CHECK(toy::removed_by(leaves_seen, first, parameters).empty());
+  const Points first = road_and(car_and_leaves);
+  Points leaves_seen = road_and({2.6F, 2.9F});
+  Parameters parameters = small_grid();
+  CHECK(removed_by(leaves_seen, first, parameters).empty());
   parameters.maximum_height = 2.0;
-  CHECK(toy::removed_by(leaves_seen, first, parameters) == Numbers{4, 5, 6});
+  CHECK(removed_by(leaves_seen, first, parameters) == Numbers{4, 5, 6});
   // Leaves that are hidden from the query go with the car.
   parameters.maximum_height = 3.0;
-  CHECK(toy::removed_by(empty_road(), first, parameters) == Numbers{4, 5, 6, 7, 8});
+  CHECK(removed_by(empty_road(), first, parameters) == Numbers{4, 5, 6, 7, 8});
 }
 
 TEST_CASE("a pole of which a far query sees only the ground is lost", "[erasor]") {
-  const toy::Points first = road_and({0.2F, 0.7F, 1.2F, 1.7F, 2.2F, 2.8F});
+  const Points first = road_and({0.2F, 0.7F, 1.2F, 1.7F, 2.2F, 2.8F});
   // 0.2 m is above the road by more than 0.15 m: it goes too.
-  CHECK(toy::removed_by(empty_road(), first, toy::small_grid()) == Numbers{4, 5, 6, 7, 8, 9});
+  CHECK(removed_by(empty_road(), first, small_grid()) == Numbers{4, 5, 6, 7, 8, 9});
 }
 
 TEST_CASE("what the query sees in a bin that it clears comes back", "[erasor]") {
   // Map to 2.9 m, query to 0.5 m: ratio 0.17. All above the road goes out, 0.5 comes back in.
-  const toy::Points query = road_and({0.5F});
-  const toy::Points first = road_and({0.5F, 1.5F, 2.9F});
-  Parameters parameters = toy::small_grid();
-  CHECK(toy::removed_by(query, first, parameters) == Numbers{5, 6});
+  const Points query = road_and({0.5F});
+  const Points first = road_and({0.5F, 1.5F, 2.9F});
+  Parameters parameters = small_grid();
+  CHECK(removed_by(query, first, parameters) == Numbers{5, 6});
   parameters.reinsert = false;
-  CHECK(toy::removed_by(query, first, parameters) == Numbers{4, 5, 6});
+  CHECK(removed_by(query, first, parameters) == Numbers{4, 5, 6});
 }
 
 TEST_CASE("nothing beyond the range or the height window is touched", "[erasor]") {
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   parameters.maximum_range = 3.0;  // The car stands at 3.09 m.
-  CHECK(toy::removed_by(empty_road(), road_and(kCar), parameters).empty());
-  parameters = toy::small_grid();
+  CHECK(removed_by(empty_road(), road_and(kCar), parameters).empty());
+  parameters = small_grid();
   parameters.maximum_height = 1.2;
-  CHECK(toy::removed_by(empty_road(), road_and(kCar), parameters) == Numbers{4, 5});
+  CHECK(removed_by(empty_road(), road_and(kCar), parameters) == Numbers{4, 5});
 }
 
 TEST_CASE("heights are above the road below the sensor", "[erasor]") {
   // The same scene seen from 1.73 m up; with the height left at zero it is below the window.
-  const auto lowered = [](toy::Points points) {
+  const auto lowered = [](Points points) {
     for (Eigen::Vector3f& point : points) point.z() -= 1.73F;
     return points;
   };
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   parameters.maximum_height = 1.2;
   parameters.sensor_height = 1.73;
-  CHECK(toy::removed_by(lowered(empty_road()), lowered(road_and(kCar)), parameters) ==
-        Numbers{4, 5});
+  CHECK(removed_by(lowered(empty_road()), lowered(road_and(kCar)), parameters) == Numbers{4, 5});
 }
 
 TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
@@ -121,25 +119,25 @@ TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
   slope.linear() = (Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
                     Eigen::AngleAxisd(20 * kDegree, Eigen::Vector3d::UnitY()))
                        .toRotationMatrix();
-  toy::HeldScans scans;
+  HeldScans scans;
   scans.add(road_and(kCar), slope);
   scans.add(empty_road(), slope);
-  CHECK(toy::removed_points(scans, toy::small_grid())[0] == Numbers{4, 5, 6});
+  CHECK(removed_points(scans, small_grid())[0] == Numbers{4, 5, 6});
 }
 
 TEST_CASE("queries follow each other and the last word counts", "[erasor]") {
   // The first query clears the bin of car A and of B, which the map of all scans holds already;
   // then B itself drives by: the query is higher, and the map keeps what it has.
-  toy::HeldScans scans;
+  HeldScans scans;
   scans.add(road_and(kCar));
   scans.add(empty_road());
-  toy::Points with_b = toy::road();
+  Points with_b = road();
   for (const float z : {0.7F, 1.3F}) with_b.emplace_back(2.7F, 0.7F, z);
   scans.add(with_b);
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   parameters.removal_interval = 1;
   parameters.phase = 1;
-  const auto removed = toy::removed_points(scans, parameters);
+  const auto removed = removed_points(scans, parameters);
   CHECK(removed[0] == Numbers{4, 5, 6});
   CHECK(removed[2] == Numbers{4, 5});
 }
@@ -147,35 +145,35 @@ TEST_CASE("queries follow each other and the last word counts", "[erasor]") {
 TEST_CASE("version 2 takes the query in where the extents agree", "[erasor]") {
   // After the first query the map has road from 0 to 0.1 m; then a low object of 0.3 m comes:
   // ratio 0.33, equal. Version 2 puts it back, version 3 leaves it out.
-  toy::Points uneven = toy::road();
+  Points uneven = road();
   uneven[3].z() = 0.1F;
-  toy::Points with_car = uneven, with_low = uneven;
+  Points with_car = uneven, with_low = uneven;
   for (const float z : kCar) with_car.emplace_back(3.0F, 0.75F, z);
   with_low.emplace_back(2.7F, 0.7F, 0.3F);
-  toy::HeldScans scans;
+  HeldScans scans;
   scans.add(with_car);
   scans.add(uneven);
   scans.add(with_low);
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   parameters.removal_interval = 1;
   parameters.phase = 1;
-  CHECK(toy::removed_points(scans, parameters)[2] == Numbers{4});
+  CHECK(removed_points(scans, parameters)[2] == Numbers{4});
   parameters.version = 2;
-  CHECK(toy::removed_points(scans, parameters)[2].empty());
-  CHECK(toy::removed_points(scans, parameters)[0] == Numbers{4, 5, 6});
+  CHECK(removed_points(scans, parameters)[2].empty());
+  CHECK(removed_points(scans, parameters)[0] == Numbers{4, 5, 6});
 }
 
 TEST_CASE("only every n-th scan is a query", "[erasor]") {
-  toy::HeldScans scans;
+  HeldScans scans;
   scans.add(empty_road());
   for (int i = 0; i < 4; ++i) scans.add(road_and(kCar));
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   parameters.removal_interval = 3;  // Scan 2, which sees the car.
-  CHECK(toy::removed_points(scans, parameters)[1].empty());
+  CHECK(removed_points(scans, parameters)[1].empty());
   parameters.phase = 0;  // Scans 0 and 3.
-  CHECK(toy::removed_points(scans, parameters)[1] == Numbers{4, 5, 6});
+  CHECK(removed_points(scans, parameters)[1] == Numbers{4, 5, 6});
   parameters.phase = 5;  // There is no such scan.
-  CHECK(toy::removed_points(scans, parameters)[1].empty());
+  CHECK(removed_points(scans, parameters)[1].empty());
 }
 
 TEST_CASE("the own car's points answer through voxels that others filled", "[erasor]") {
@@ -183,34 +181,34 @@ TEST_CASE("the own car's points answer through voxels that others filled", "[era
   // that the first query cleared is removed; one above it, in a voxel of no other scan, stays.
   Pose ahead = Pose::Identity();
   ahead.translation().x() = 1.0;
-  toy::HeldScans scans;
-  toy::Points first = road_and(kCar), query = empty_road();
-  for (toy::Points* points : {&first, &query}) {
+  HeldScans scans;
+  Points first = road_and(kCar), query = empty_road();
+  for (Points* points : {&first, &query}) {
     (*points)[0].x() = (*points)[1].x() = 2.9F;  // Beyond the ego radius.
   }
   scans.add(first);
   scans.add(query);
   scans.add({{2.0F, 0.75F, 1.5F}, {2.0F, 0.75F, 2.2F}}, ahead);
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   parameters.minimum_range = 2.7;
-  const auto removed = toy::removed_points(scans, parameters);
+  const auto removed = removed_points(scans, parameters);
   CHECK(removed[0] == Numbers{4, 5, 6});
   CHECK(removed[2] == Numbers{0});
 }
 
 TEST_CASE("no scans, empty scans and single points", "[erasor]") {
-  const toy::HeldScans none;
-  CHECK(toy::removed_points(none, toy::small_grid()).empty());
-  toy::HeldScans few;
+  const HeldScans none;
+  CHECK(removed_points(none, small_grid()).empty());
+  HeldScans few;
   few.add({});
   few.add({{3, 0.75F, 0}});
   few.add({});
   few.add({{0, 0, 0}});
   for (const int interval : {1, 2, 3}) {
-    Parameters parameters = toy::small_grid();
+    Parameters parameters = small_grid();
     parameters.removal_interval = interval;
     parameters.minimum_points = 1;
-    for (const auto& removed : toy::removed_points(few, parameters)) CHECK(removed.empty());
+    for (const auto& removed : removed_points(few, parameters)) CHECK(removed.empty());
   }
 }
 
@@ -222,3 +220,5 @@ TEST_CASE("an empty window is refused", "[erasor]") {
   parameters.maximum_range = 2.0;
   CHECK_THROWS_WITH(make_erasor(parameters), Catch::Contains("erasor.max_range = 2"));
 }
+
+}  // namespace raymoval::erasor_test

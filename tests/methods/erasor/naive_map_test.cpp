@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace raymoval;
+namespace raymoval::erasor_test {
 using namespace raymoval::erasor_method;
 
 namespace {
@@ -108,3 +108,5 @@ TEST_CASE("the tiles around a pose hold every voxel within the radius, once", "[
     CHECK(far == 0);
   }
 }
+
+}  // namespace raymoval::erasor_test

@@ -5,7 +5,7 @@
 
 #include "tests/methods/erasor/scenes.h"
 
-using namespace raymoval;
+namespace raymoval::erasor_test {
 using namespace raymoval::erasor_method;
 
 namespace {
@@ -58,3 +58,5 @@ TEST_CASE("the authors' sets are theirs, and the general one is their median", "
   }
   CHECK(MethodRegistry::built_in().configure("erasor").variant.name == "general");
 }
+
+}  // namespace raymoval::erasor_test

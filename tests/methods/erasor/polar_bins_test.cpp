@@ -6,7 +6,7 @@
 #include "methods/erasor/scan_ratio_test.h"
 #include "tests/methods/erasor/scenes.h"
 
-using namespace raymoval;
+namespace raymoval::erasor_test {
 using namespace raymoval::erasor_method;
 
 namespace {
@@ -22,7 +22,7 @@ BinExtent grade_extent(double end, double object_height) {
 }  // namespace
 
 TEST_CASE("a point falls into its ring and sector", "[erasor]") {
-  const PolarBins bins(toy::small_grid());
+  const PolarBins bins(small_grid());
   REQUIRE(bins.size() == 40);
   CHECK(bins.bin_of({1, 0.5, 0}) == 0);     // r = 1.1, 27 degrees
   CHECK(bins.bin_of({3, 0.75, 0}) == 8);    // r = 3.1: ring 1
@@ -32,7 +32,7 @@ TEST_CASE("a point falls into its ring and sector", "[erasor]") {
 }
 
 TEST_CASE("the sectors' seam lies on the x axis", "[erasor]") {
-  const PolarBins bins(toy::small_grid());
+  const PolarBins bins(small_grid());
   CHECK(bins.bin_of({5, 0.001, 0}) == 2 * 8 + 0);
   CHECK(bins.bin_of({5, -0.001, 0}) == 2 * 8 + 7);
   CHECK(bins.bin_of({5, -1e-300, 0}) == 2 * 8 + 7);  // 2 pi after rounding: still the last sector
@@ -42,7 +42,7 @@ TEST_CASE("the sectors' seam lies on the x axis", "[erasor]") {
 }
 
 TEST_CASE("the height window is open, the range closed", "[erasor]") {
-  const PolarBins bins(toy::small_grid());
+  const PolarBins bins(small_grid());
   CHECK(bins.bin_of({3, 0.75, -1}) == -1);
   CHECK(bins.bin_of({3, 0.75, 3}) == -1);
   CHECK(bins.bin_of({3, 0.75, -0.999}) == 8);
@@ -75,3 +75,5 @@ TEST_CASE("the bins' size limits the slope on which an object is found", "[eraso
   CHECK(compare_extents(grade_extent(8, 1.5), grade_extent(8, 0), parameters) ==
         BinFinding::kEqual);
 }
+
+}  // namespace raymoval::erasor_test

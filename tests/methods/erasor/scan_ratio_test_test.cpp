@@ -5,7 +5,7 @@
 
 #include "tests/methods/erasor/scenes.h"
 
-using namespace raymoval;
+namespace raymoval::erasor_test {
 using namespace raymoval::erasor_method;
 
 namespace {
@@ -20,7 +20,7 @@ BinExtent bin(double height, int points = 10) {
 }  // namespace
 
 TEST_CASE("extents are compared by their ratio, strictly", "[erasor]") {
-  const Parameters parameters = toy::small_grid();
+  const Parameters parameters = small_grid();
   CHECK(compare_extents(bin(1.5), bin(0.31), parameters) == BinFinding::kEqual);      // 0.207
   CHECK(compare_extents(bin(1.5), bin(0.29), parameters) == BinFinding::kMapHigher);  // 0.193
   CHECK(compare_extents(bin(0.29), bin(1.5), parameters) == BinFinding::kCurrentHigher);
@@ -31,14 +31,14 @@ TEST_CASE("extents are compared by their ratio, strictly", "[erasor]") {
 }
 
 TEST_CASE("flat bins: zero over zero is equal, zero against something is not", "[erasor]") {
-  const Parameters parameters = toy::small_grid();
+  const Parameters parameters = small_grid();
   CHECK(compare_extents(bin(0), bin(0), parameters) == BinFinding::kEqual);
   CHECK(compare_extents(bin(1), bin(0), parameters) == BinFinding::kMapHigher);
   CHECK(compare_extents(bin(0), bin(1), parameters) == BinFinding::kCurrentHigher);
 }
 
 TEST_CASE("a query with few points says nothing, a map without any is told apart", "[erasor]") {
-  const Parameters parameters = toy::small_grid();  // At least 3 query points.
+  const Parameters parameters = small_grid();  // At least 3 query points.
   CHECK(compare_extents(bin(1.5), bin(0, 2), parameters) == BinFinding::kTooFewPoints);
   CHECK(compare_extents(bin(1.5), bin(0, 0), parameters) == BinFinding::kTooFewPoints);
   CHECK(compare_extents(bin(1.5), bin(0, 3), parameters) == BinFinding::kMapHigher);
@@ -49,7 +49,7 @@ TEST_CASE("a query with few points says nothing, a map without any is told apart
 }
 
 TEST_CASE("version 3 changes only bins where the map is higher and tall", "[erasor]") {
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   for (const BinFinding finding : {BinFinding::kTooFewPoints, BinFinding::kQueryOnly,
                                    BinFinding::kCurrentHigher, BinFinding::kEqual}) {
     const BinAction action = action_for(finding, bin(1.5), parameters);
@@ -68,7 +68,7 @@ TEST_CASE("version 3 changes only bins where the map is higher and tall", "[eras
 }
 
 TEST_CASE("version 2 asks for a high top instead and takes in what the query sees", "[erasor]") {
-  Parameters parameters = toy::small_grid();
+  Parameters parameters = small_grid();
   parameters.version = 2;
   parameters.minimum_top = 0.2;
   CHECK(action_for(BinFinding::kMapHigher, bin(0.45), parameters).remove);
@@ -86,3 +86,5 @@ TEST_CASE("version 2 asks for a high top instead and takes in what the query see
   pit.add(0.1);
   CHECK_FALSE(action_for(BinFinding::kMapHigher, pit, parameters).remove);
 }
+
+}  // namespace raymoval::erasor_test

@@ -7,7 +7,9 @@
 #include "methods/erasor/erasor.h"
 #include "tests/methods/moved_world.h"
 
-namespace raymoval::toy {
+namespace raymoval::erasor_test {
+
+using namespace toy;
 
 using namespace erasor_method;
 
@@ -66,4 +68,4 @@ inline std::vector<int> removed_by(const Points& query, const Points& first,
   return removed_points(scans, parameters).front();
 }
 
-}  // namespace raymoval::toy
+}  // namespace raymoval::erasor_test

@@ -12,7 +12,7 @@
 #include "tests/datasets/temporary_folder.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::external_test {
 using test::message_of;
 
 namespace {
@@ -310,3 +310,5 @@ TEST_CASE("a manifest that is not right is refused with the remedy") {
                    {"external: names no manifest", "external:PATH"});
   CHECK_THROWS_AS(Fixture::configured(f.manifest("true", R"(, "files": ["none"])")), DataError);
 }
+
+}  // namespace raymoval::external_test

@@ -7,7 +7,7 @@
 
 #include "core/angle.h"
 
-using namespace raymoval;
+namespace raymoval::freedom_test {
 using namespace raymoval::freedom_method;
 
 namespace {
@@ -231,3 +231,5 @@ TEST_CASE("freedom: rays go into the sky above a wall as far as the wall is away
     CHECK(find_hole_ends(Scan{}, view, parameters).empty());  // A hole down to the last row.
   }
 }
+
+}  // namespace raymoval::freedom_test

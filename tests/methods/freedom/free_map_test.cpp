@@ -6,7 +6,7 @@
 
 #include "methods/freedom/free_rays.h"
 
-using namespace raymoval;
+namespace raymoval::freedom_test {
 using namespace raymoval::freedom_method;
 
 namespace {
@@ -185,3 +185,5 @@ TEST_CASE("freedom: rays stop before what the scan hits and before their end") {
     CHECK(passed_along_x({}) == " .....                 ");
   }
 }
+
+}  // namespace raymoval::freedom_test

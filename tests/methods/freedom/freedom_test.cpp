@@ -8,7 +8,7 @@
 #include "methods/registry.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::freedom_test {
 using namespace raymoval::freedom_method;
 
 namespace {
@@ -108,3 +108,5 @@ TEST_CASE("freedom: parameters that leave nothing to do are refused") {
         ConfigurationError);
   }
 }
+
+}  // namespace raymoval::freedom_test

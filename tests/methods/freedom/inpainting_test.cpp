@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+namespace raymoval::freedom_test {
 using namespace raymoval::freedom_method;
 
 namespace {
@@ -262,3 +263,5 @@ TEST_CASE("freedom: the fast inpainting gives what the publication says, and wha
     CHECK(other.values != image.values);
   }
 }
+
+}  // namespace raymoval::freedom_test

@@ -3,7 +3,7 @@
 
 #include "methods/freedom/static_map.h"
 
-using namespace raymoval;
+namespace raymoval::freedom_test {
 using namespace raymoval::freedom_method;
 
 namespace {
@@ -197,3 +197,5 @@ TEST_CASE("freedom: sub-voxels stay in order whatever comes first") {
   }
   CHECK(map.size() == 1);
 }
+
+}  // namespace raymoval::freedom_test

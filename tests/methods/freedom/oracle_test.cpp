@@ -8,7 +8,7 @@
 #include "tests/methods/properties/random_world.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::freedom_test {
 using freedom_test::Oracle;
 
 namespace {
@@ -66,3 +66,5 @@ TEST_CASE("freedom: the fast way gives what the description says") {
   }
   CHECK(removed > 500);
 }
+
+}  // namespace raymoval::freedom_test

@@ -8,8 +8,7 @@
 #include "tests/methods/hmm_mos/scenes.h"
 #include "tests/methods/moved_world.h"
 
-using namespace raymoval;
-using namespace raymoval::hmm_mos_test;
+namespace raymoval::hmm_mos_test {
 using namespace raymoval::hmm_mos_method;
 
 namespace {
@@ -151,3 +150,5 @@ TEST_CASE("parameters of hmm_mos that are out of range are refused by name", "[h
         Catch::Contains("hmm_mos." + name));
   }
 }
+
+}  // namespace raymoval::hmm_mos_test

@@ -8,8 +8,7 @@
 #include "methods/hmm_mos/moving_voxels.h"
 #include "tests/methods/hmm_mos/scenes.h"
 
-using namespace raymoval;
-using namespace raymoval::hmm_mos_test;
+namespace raymoval::hmm_mos_test {
 
 namespace {
 
@@ -131,3 +130,5 @@ TEST_CASE("verdicts of hmm_mos are those of the plain sets", "[hmm_mos]") {
   CHECK(removed > 100);  // The scenes have both.
   CHECK(kept > 100);
 }
+
+}  // namespace raymoval::hmm_mos_test

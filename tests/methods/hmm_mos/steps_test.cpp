@@ -13,8 +13,7 @@
 #include "tests/methods/hmm_mos/oracle.h"
 #include "tests/methods/hmm_mos/scenes.h"
 
-using namespace raymoval;
-using namespace raymoval::hmm_mos_test;
+namespace raymoval::hmm_mos_test {
 
 namespace {
 
@@ -312,3 +311,5 @@ TEST_CASE("equal scores have no threshold", "[hmm_mos]") {
   CHECK_FALSE(otsu_threshold({{0, 500}}, 100).has_value());
   CHECK_FALSE(otsu_threshold({{6, 500}}, 100).has_value());
 }
+
+}  // namespace raymoval::hmm_mos_test

@@ -9,9 +9,8 @@
 #include "tests/methods/mapcleaner/scenes.h"
 #include "tests/methods/moved_world.h"
 
-using namespace raymoval;
+namespace raymoval::mapcleaner_test {
 using namespace raymoval::mapcleaner_method;
-using namespace raymoval::mapcleaner_test;
 
 namespace {
 
@@ -288,3 +287,5 @@ TEST_CASE("mapcleaner: the fast way gives what the description says") {
     CHECK(removed < points / 2);
   }
 }
+
+}  // namespace raymoval::mapcleaner_test

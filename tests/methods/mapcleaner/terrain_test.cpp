@@ -10,9 +10,8 @@
 #include "methods/mapcleaner/height_fill.h"
 #include "tests/methods/mapcleaner/scenes.h"
 
-using namespace raymoval;
+namespace raymoval::mapcleaner_test {
 using namespace raymoval::mapcleaner_method;
-using namespace raymoval::mapcleaner_test;
 
 namespace {
 
@@ -216,3 +215,5 @@ TEST_CASE("mapcleaner: a cell has a height by its ground points' number and vari
   rough[2].z() = 0.3;  // 0.0156.
   CHECK(std::isnan(terrain_of(rough)));
 }
+
+}  // namespace raymoval::mapcleaner_test

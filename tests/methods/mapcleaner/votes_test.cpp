@@ -8,7 +8,7 @@
 #include "methods/mapcleaner/sensor_settings.h"
 #include "tests/methods/mapcleaner/scenes.h"
 
-using namespace raymoval;
+namespace raymoval::mapcleaner_test {
 using namespace raymoval::mapcleaner_method;
 
 namespace {
@@ -189,3 +189,5 @@ TEST_CASE("mapcleaner: voxels around the sensor are voted on, and chosen anew as
   CHECK(votes.is_dynamic(1));
   CHECK_FALSE(votes.is_dynamic(2));
 }
+
+}  // namespace raymoval::mapcleaner_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-using namespace raymoval;
+namespace raymoval::octomap_test {
 using namespace raymoval::octomap_method;
 
 namespace {
@@ -163,7 +163,7 @@ TEST_CASE("a beam too short to be squared ends, wherever its sensor stands") {
   CHECK(traced(0.25, {0, 0, 0}, {-1e-27F, -1e-27F, -1e-27F}).size() == 3);
 }
 
-TEST_CASE("beams through corners, along axes and across the whole tree end", "[long]") {
+TEST_CASE("beams through corners, along axes and across the whole tree end", "[slow]") {
   for (const float far : {6553.4F, 100.0F, 0.6F}) {
     for (int signs = 0; signs < 27; ++signs) {
       const octomap::point3d to(far * static_cast<float>(signs % 3 - 1),
@@ -181,3 +181,5 @@ TEST_CASE("a beam from or to a place outside the tree frees nothing") {
   CHECK(traced(0.2, {7000.0F, 0, 0}, {6000.0F, 0, 0}).empty());
   CHECK(traced(0.2, {6000.0F, 0, 0}, {7000.0F, 0, 0}).empty());
 }
+
+}  // namespace raymoval::octomap_test

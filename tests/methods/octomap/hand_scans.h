@@ -11,7 +11,9 @@
 #include "methods/octomap/scan_cells.h"
 #include "tests/methods/moved_world.h"
 
-namespace raymoval::toy {
+namespace raymoval::octomap_test {
+
+using namespace toy;
 
 using namespace octomap_method;
 
@@ -79,4 +81,4 @@ inline std::string tree_bytes(const octomap::OcTree& tree) {
   return bytes.str();
 }
 
-}  // namespace raymoval::toy
+}  // namespace raymoval::octomap_test

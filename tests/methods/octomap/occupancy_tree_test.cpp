@@ -7,20 +7,20 @@
 
 #include "tests/methods/octomap/hand_scans.h"
 
-using namespace raymoval;
+namespace raymoval::octomap_test {
 using namespace raymoval::octomap_method;
 
 namespace {
 
 /// A room with a moving box in it, seen from a moving place, without anything exact about it.
-toy::Points random_scan(std::mt19937& random, const Eigen::Vector3d& origin, double mover) {
+Points random_scan(std::mt19937& random, const Eigen::Vector3d& origin, double mover) {
   std::normal_distribution<double> direction;
-  toy::Points points;
+  Points points;
   for (int i = 0; i < 900; ++i) {
     const Eigen::Vector3d u =
         Eigen::Vector3d(direction(random), direction(random), 0.3 * direction(random)).normalized();
-    const std::vector<toy::Box> solids{{{mover, 1.03, -3}, {mover + 1.1, 1.9, 3}}};
-    double distance = toy::enter_distance(solids[0], origin, u);
+    const std::vector<Box> solids{{{mover, 1.03, -3}, {mover + 1.1, 1.9, 3}}};
+    double distance = enter_distance(solids[0], origin, u);
     for (int k = 0; k < 3; ++k) {
       const double wall = k == 2 ? 1.57 : 4.93;
       if (u[k] != 0.0)
@@ -31,35 +31,35 @@ toy::Points random_scan(std::mt19937& random, const Eigen::Vector3d& origin, dou
   return points;
 }
 
-void insert_by_library(octomap::OcTree& tree, const toy::Points& points,
-                       const Eigen::Vector3d& origin, const Parameters& parameters) {
+void insert_by_library(octomap::OcTree& tree, const Points& points, const Eigen::Vector3d& origin,
+                       const Parameters& parameters) {
   octomap::Pointcloud cloud;
-  for (const octomap::point3d& p : toy::rounded(points)) cloud.push_back(p);
-  tree.insertPointCloud(cloud, toy::rounded(origin), parameters.maximum_range, false,
+  for (const octomap::point3d& p : rounded(points)) cloud.push_back(p);
+  tree.insertPointCloud(cloud, rounded(origin), parameters.maximum_range, false,
                         parameters.discretise);
 }
 
 /// Inserts scans both ways and compares the trees after each.
 void compare_with_library(const Parameters& parameters, int threads, int scans = 14) {
   octomap::OcTree plain(parameters.resolution);
-  toy::HandMap map(parameters, threads);
+  HandMap map(parameters, threads);
   std::mt19937 random(11);
   for (int scan = 0; scan < scans; ++scan) {
     const Eigen::Vector3d origin(0.013 + 0.2 * (scan % 4), -0.51, 0.017);
-    const toy::Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
+    const Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
     insert_by_library(plain, points, origin, parameters);
     map.insert(points, origin);
     INFO("scan " << scan);
     REQUIRE(plain.size() == map.tree().size());
     REQUIRE(map.tree().size() == map.tree().calcNumNodes());
     // Depth, children and log-odds of each node, inner ones too.
-    REQUIRE(toy::tree_bytes(plain) == toy::tree_bytes(map.tree()));
+    REQUIRE(tree_bytes(plain) == tree_bytes(map.tree()));
   }
 }
 
 }  // namespace
 
-TEST_CASE("the tree is node for node that of insertPointCloud", "[long]") {
+TEST_CASE("the tree is node for node that of insertPointCloud", "[slow]") {
   Parameters parameters;
   SECTION("0.2 m") {}
   SECTION("0.05 m") {
@@ -81,7 +81,7 @@ TEST_CASE("the tree is node for node that of insertPointCloud", "[long]") {
 
 TEST_CASE("a map kept to some cells has the same values there, and nothing else") {
   const Parameters parameters;
-  toy::HandMap whole(parameters);
+  HandMap whole(parameters);
   const RunContext context;
   ScanCells cells(parameters, context);
   OccupancyTree kept(parameters);
@@ -89,21 +89,20 @@ TEST_CASE("a map kept to some cells has the same values there, and nothing else"
   CellBlocks wanted;
   std::mt19937 random(11);
   std::set<CellCode> codes;
-  for (double x = -4.9; x < 4.9; x += 0.6)
-    codes.insert(*lattice.cell_of(toy::rounded({x, 0.3, 0.1})));
+  for (double x = -4.9; x < 4.9; x += 0.6) codes.insert(*lattice.cell_of(rounded({x, 0.3, 0.1})));
   for (const CellCode code : codes) wanted.occupy(code);
   const Eigen::Vector3d origin(0.013, -0.51, 0.017);
   for (int scan = 0; scan < 8; ++scan) {
-    const toy::Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
+    const Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
     whole.insert(points, origin);
-    cells.compute(toy::rounded(points), std::vector<PointRole>(points.size(), PointRole::kSurface),
-                  toy::rounded(origin));
+    cells.compute(rounded(points), std::vector<PointRole>(points.size(), PointRole::kSurface),
+                  rounded(origin));
     kept.update(cells.parts(), &wanted);
   }
   TreeReader of_whole(whole.tree()), of_kept(kept.tree());
   int known = 0;
   for (double x = -4.9; x < 4.9; x += 0.2) {
-    const CellCode code = *lattice.cell_of(toy::rounded({x, 0.3, 0.1}));
+    const CellCode code = *lattice.cell_of(rounded({x, 0.3, 0.1}));
     const octomap::OcTreeNode* node = of_kept.find(code);
     known += node != nullptr ? 1 : 0;
     if (!codes.contains(code)) {
@@ -120,8 +119,8 @@ TEST_CASE("equal leaves are merged, and parted when they differ") {
   // Beams to a wall free a wedge of space; once all its cells are clamped, many merge.
   Parameters parameters;
   parameters.resolution = 0.4;
-  toy::HandMap map(parameters);
-  toy::Points wall;
+  HandMap map(parameters);
+  Points wall;
   for (double y = 0.05; y < 6.4; y += 0.1) {
     for (double z = 0.05; z < 6.4; z += 0.1) wall.emplace_back(6.6, y, z);
   }
@@ -174,11 +173,11 @@ TEST_CASE("a block whose cells stand at a clamp is parted only by what can chang
 TEST_CASE("lazy evaluation changes no leaf") {
   Parameters eager, lazy;
   lazy.lazy_eval = true;
-  toy::HandMap a(eager), b(lazy);
+  HandMap a(eager), b(lazy);
   std::mt19937 random(5);
   for (int scan = 0; scan < 8; ++scan) {
     const Eigen::Vector3d origin(0.013, -0.51, 0.017);
-    const toy::Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
+    const Points points = random_scan(random, origin, -2.0 + 0.21 * scan);
     a.insert(points, origin);
     b.insert(points, origin);
   }
@@ -192,7 +191,7 @@ TEST_CASE("lazy evaluation changes no leaf") {
 
 TEST_CASE("the reader gives the node that a search gives") {
   Parameters parameters;
-  toy::HandMap map(parameters);
+  HandMap map(parameters);
   const CellLattice lattice(parameters.resolution);
   TreeReader of_nothing(map.tree());
   CHECK(of_nothing.find(*lattice.cell_of({1, 1, 1})) == nullptr);
@@ -224,3 +223,5 @@ TEST_CASE("a wish to stop is heard within a scan") {
   const std::vector<octomap::point3d> points = {{3.0F, 0.0F, 0.0F}};
   CHECK_THROWS_AS(cells.compute(points, {PointRole::kSurface}, {0.0F, 0.0F, 0.0F}), Cancelled);
 }
+
+}  // namespace raymoval::octomap_test

@@ -8,10 +8,8 @@
 
 #include "tests/methods/octomap/hand_scans.h"
 
-using namespace raymoval;
+namespace raymoval::octomap_test {
 using namespace raymoval::octomap_method;
-using toy::HandMap;
-using toy::HandScans;
 
 namespace {
 
@@ -22,7 +20,7 @@ Eigen::Vector3d at(double x) {
 }
 
 MaskStore masks(const ScanSource& scans, const Parameters& parameters = {}, int threads = 1) {
-  return toy::masks_of(*make_octomap(parameters), scans, threads);
+  return masks_of(*make_octomap(parameters), scans, threads);
 }
 
 ConfiguredMethod variant(const std::string& name) {
@@ -39,8 +37,8 @@ HandScans seen(int first, int then) {
 
 /// What scan `scan` of 6 sees of a flat road of 10 m x 10 m at z = 0.03 and of a wall behind it:
 /// the whole wall, and every sixth row of the road, rows 0.25 m apart.
-toy::Points road_and_wall(int scan) {
-  toy::Points points;
+Points road_and_wall(int scan) {
+  Points points;
   for (double x = 0.12; x < 10; x += 0.25) {
     for (int row = scan; row < 40; row += 6) points.emplace_back(x, 0.12 + 0.25 * row, 0.03);
     for (double z = 0.5; z < 2; z += 0.25) points.emplace_back(x, 10.13, z);
@@ -174,14 +172,14 @@ TEST_CASE("ground frees its beams, is not hit, and always stays") {
   // there in scan 0 goes, too: the wall is seen through their place five times.
   HandScans scans;
   for (int i = 0; i < 6; ++i) {
-    toy::Points points = road_and_wall(i);
+    Points points = road_and_wall(i);
     if (i == 0) points.emplace_back(5.05, 5.05, 1.5);
     scans.add(points, Eigen::Vector3d(5.05, -10.0, 1.75));
   }
   const auto road_removed = [&](const MaskStore& answer) {
     std::size_t removed = 0;
     for (int i = 0; i < 6; ++i) {
-      const toy::Points points = road_and_wall(i);
+      const Points points = road_and_wall(i);
       const Mask mask = answer.get(static_cast<std::size_t>(i));
       for (std::size_t k = 0; k < points.size(); ++k) removed += points[k].z() < 0.1 ? mask[k] : 0;
     }
@@ -220,8 +218,8 @@ TEST_CASE("a maximum range of zero is refused") {
   CHECK_THROWS_WITH(make_octomap(parameters), Catch::Contains("octomap.maximum_range"));
 }
 
-TEST_CASE("every point is answered as after plain calls of insertPointCloud", "[long]") {
-  const toy::World world = toy::street(8);
+TEST_CASE("every point is answered as after plain calls of insertPointCloud", "[slow]") {
+  const World world = street(8);
   for (const bool discretise : {false, true}) {
     Parameters parameters;
     parameters.discretise = discretise;
@@ -230,13 +228,13 @@ TEST_CASE("every point is answered as after plain calls of insertPointCloud", "[
       octomap::Pointcloud cloud;
       const Scan scan = world.load(i);
       for (const Eigen::Vector3f& p : scan.points) {
-        cloud.push_back(toy::rounded(scan.T_world_sensor * p.cast<double>()));
+        cloud.push_back(rounded(scan.T_world_sensor * p.cast<double>()));
       }
       return cloud;
     };
     for (std::size_t i = 0; i < world.size(); ++i) {
-      plain.insertPointCloud(world_points(i), toy::rounded(world.pose(i).translation()), -1.0,
-                             false, discretise);
+      plain.insertPointCloud(world_points(i), rounded(world.pose(i).translation()), -1.0, false,
+                             discretise);
     }
     // The street starts within 4 cm of the origin: the tree's centre is the world's.
     const MaskStore answer = masks(world, parameters, 2);
@@ -254,16 +252,16 @@ TEST_CASE("every point is answered as after plain calls of insertPointCloud", "[
   }
 }
 
-TEST_CASE("the lattice's place changes a bounded share of the verdicts", "[long]") {
+TEST_CASE("the lattice's place changes a bounded share of the verdicts", "[slow]") {
   // The tree's centre is rounded to whole cells, so a move by part of a cell moves the lattice
   // under the world. Measured: sideways 0.4 and 0.6 % of the points change; upwards by half a cell
   // 18 %, for what part of the road goes depends on how high it lies in its layer of cells.
-  const toy::World world = toy::street(8);
+  const World world = street(8);
   std::size_t points = 0;
   for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
   const auto share = [&](double x, double y, double z) {
-    const Pose motion = toy::whole_motion(x, y, z, 0);
-    return static_cast<double>(toy::verdicts_changed_by(motion, variant("r20"), world)) /
+    const Pose motion = whole_motion(x, y, z, 0);
+    return static_cast<double>(verdicts_changed_by(motion, variant("r20"), world)) /
            static_cast<double>(points);
   };
   const double half_a_cell = share(0.1, 0.0, 0.0);
@@ -272,3 +270,5 @@ TEST_CASE("the lattice's place changes a bounded share of the verdicts", "[long]
   CHECK(share(0.07, -0.03, 0.0) < 0.02);
   CHECK(share(0.0, 0.0, 0.1) < 0.35);
 }
+
+}  // namespace raymoval::octomap_test

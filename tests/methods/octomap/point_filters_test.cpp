@@ -8,7 +8,7 @@
 
 #include "tests/methods/octomap/hand_scans.h"
 
-using namespace raymoval;
+namespace raymoval::octomap_test {
 using namespace raymoval::octomap_method;
 
 namespace {
@@ -19,10 +19,10 @@ std::size_t count(const Mask& mask) {
 
 /// 400 points of a plane through (0, 0, 1) of the given slope along x, no two alike, up to 1 cm off
 /// it; then 20 points 0.5 m above it.
-toy::Points slope(double tangent) {
+Points slope(double tangent) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> along(-10, 10), off(-0.01, 0.01);
-  toy::Points points;
+  Points points;
   for (int i = 0; i < 420; ++i) {
     const double x = along(random);
     points.emplace_back(x, along(random), 1.0 + tangent * x + off(random) + (i < 400 ? 0.0 : 0.5));
@@ -34,19 +34,19 @@ toy::Points slope(double tangent) {
 
 TEST_CASE("the ground is the points near the one plane that is nearly level") {
   const Parameters parameters;
-  const Mask ground = find_ground(toy::rounded(slope(0.1)), parameters);  // 0.0997 rad.
+  const Mask ground = find_ground(rounded(slope(0.1)), parameters);  // 0.0997 rad.
   CHECK(count(ground) == 400);
   CHECK(std::all_of(ground.begin(), ground.begin() + 400, [](auto value) { return value == 1; }));
   // 0.197 rad is steeper than 0.15: a level plane through a few points may be found, the slope not.
-  CHECK(count(find_ground(toy::rounded(slope(0.2)), parameters)) < 200);
+  CHECK(count(find_ground(rounded(slope(0.2)), parameters)) < 200);
 }
 
 TEST_CASE("fewer than fifty points have no ground") {
-  toy::Points points = slope(0.0);
+  Points points = slope(0.0);
   points.resize(50);
-  CHECK(count(find_ground(toy::rounded(points), {})) == 50);
+  CHECK(count(find_ground(rounded(points), {})) == 50);
   points.resize(49);
-  CHECK(count(find_ground(toy::rounded(points), {})) == 0);
+  CHECK(count(find_ground(rounded(points), {})) == 0);
   CHECK(find_ground({}, {}).empty());
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("noise is far from its neighbours, by the scan's own measure") {
   // 1 inside the line (9 points), 1.5 at its ends, 9.5 for the loner: mean 1.7917, sum of squares
   // 9 + 4.5 + 90.25 = 103.75, variance (103.75 - 21.5^2 / 12) / 11 = 5.930, deviation 2.435. The
   // limit is 4.227 with S = 1, and 9.0966 with S = 3, and 9.583 with S = 3.2.
-  toy::Points points;
+  Points points;
   for (int i = 0; i < 11; ++i) points.emplace_back(i, 0.0, 0.0);
   points.emplace_back(19.0, 0.0, 0.0);
   Parameters parameters;
@@ -65,14 +65,14 @@ TEST_CASE("noise is far from its neighbours, by the scan's own measure") {
     parameters.noise_sigma = sigma;
     expected.back() = sigma < 3.1 ? 1 : 0;
     INFO(sigma);
-    CHECK(find_noise(toy::rounded(points), parameters, 1) == expected);
+    CHECK(find_noise(rounded(points), parameters, 1) == expected);
   }
 }
 
 TEST_CASE("nearest neighbours are those of a comparison of all pairs") {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
-  toy::Points points;
+  Points points;
   for (int i = 0; i < 300; ++i) points.emplace_back(normal(random), normal(random), normal(random));
   Parameters parameters;
   parameters.noise_neighbours = 10;
@@ -91,23 +91,23 @@ TEST_CASE("nearest neighbours are those of a comparison of all pairs") {
   const double limit = sum / 300 + std::sqrt(squares / 299);
   Mask expected;
   for (const double m : mean) expected.push_back(m > limit ? 1 : 0);
-  CHECK(find_noise(toy::rounded(points), parameters, 2) == expected);
+  CHECK(find_noise(rounded(points), parameters, 2) == expected);
   CHECK(count(expected) > 5);
 }
 
 TEST_CASE("a scan of no more points than neighbours has no noise") {
   Parameters parameters;
   parameters.noise_neighbours = 3;
-  const toy::Points three{{0, 0, 0}, {1, 0, 0}, {90, 0, 0}};
-  CHECK(count(find_noise(toy::rounded(three), parameters, 1)) == 0);
+  const Points three{{0, 0, 0}, {1, 0, 0}, {90, 0, 0}};
+  CHECK(count(find_noise(rounded(three), parameters, 1)) == 0);
   CHECK(find_noise({}, parameters, 1).empty());
 }
 
 TEST_CASE("outliers hit without a beam, or leave the scan and the map") {
   // Scans of 60 points of a wall, and one loner at (5.1, 0.1, 0.1) in the last.
   const auto scans_with = [](NoisePoints what) {
-    toy::HandScans scans;
-    toy::Points wall;
+    HandScans scans;
+    Points wall;
     for (int i = 0; i < 60; ++i) wall.emplace_back(30.1, 0.05 * i - 1.5, 0.11);
     const Eigen::Vector3d loner(5.1, 0.1, 0.1);
     wall.push_back(loner);
@@ -120,13 +120,15 @@ TEST_CASE("outliers hit without a beam, or leave the scan and the map") {
     set_parameter(configuration, "noise", true);
     set_parameter(configuration, "noise_points",
                   std::string(what == NoisePoints::kRemoved ? "removed" : "occupied"));
-    return toy::masks_of(*method.entry->make(configuration), scans).get(0);
+    return masks_of(*method.entry->make(configuration), scans).get(0);
   };
   CHECK(scans_with(NoisePoints::kOccupied).back() == 0);
   CHECK(scans_with(NoisePoints::kRemoved).back() == 1);
   // No beam: the cells before it stay unknown.
-  toy::HandMap map({});
+  HandMap map({});
   map.insert({{2.1, 0.1, 0.1}}, {0.1, 0.1, 0.1}, PointRole::kNoise);
   CHECK(map.log_odds({2.1, 0.1, 0.1}) == Approx(0.847298));
   CHECK_FALSE(map.knows({1.1, 0.1, 0.1}));
 }
+
+}  // namespace raymoval::octomap_test

@@ -7,7 +7,7 @@
 #include "methods/common/patchwork/bin_ground.h"
 #include "methods/common/patchwork/zones.h"
 
-using namespace raymoval;
+namespace raymoval::patchwork_test {
 using namespace raymoval::patchwork;
 
 namespace {
@@ -149,3 +149,5 @@ TEST_CASE("patchwork: what lies deep in the innermost zone does not say where gr
   const Points valley = square(5.0, -3.0);
   CHECK(count_between(ground_in_bin(valley, true), 0, 100) == 100);
 }
+
+}  // namespace raymoval::patchwork_test

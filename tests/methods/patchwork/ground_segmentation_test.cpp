@@ -8,9 +8,8 @@
 #include "tests/methods/moved_world.h"
 #include "tests/methods/patchwork/level_ground.h"
 
-using namespace raymoval;
+namespace raymoval::patchwork_test {
 using namespace raymoval::patchwork;
-using namespace raymoval::patchwork_test;
 
 namespace {
 
@@ -188,3 +187,5 @@ TEST_CASE("patchwork: a tilted sensor and a turned world see the same ground") {
   CHECK(ground > 5000);
   CHECK(different < ground / 50);
 }
+
+}  // namespace raymoval::patchwork_test

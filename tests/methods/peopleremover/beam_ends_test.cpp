@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-using namespace raymoval;
+namespace raymoval::peopleremover_test {
 using namespace raymoval::peopleremover_method;
 
 namespace {
@@ -180,3 +180,5 @@ TEST_CASE("surface normals", "[peopleremover]") {
   CHECK(surface_normal(normal * normal.transpose()).isZero());
   CHECK(surface_normal(Eigen::Matrix3d::Zero()).isZero());
 }
+
+}  // namespace raymoval::peopleremover_test

@@ -9,7 +9,9 @@
 #include "methods/registry.h"
 #include "tests/methods/toy_world.h"
 
-namespace raymoval::toy {
+namespace raymoval::peopleremover_test {
+
+using namespace toy;
 
 /// Scans given point by point.
 class ListedScans : public HeldScans {
@@ -35,4 +37,4 @@ inline ConfiguredMethod peopleremover(const std::string& variant, const Configur
   return method;
 }
 
-}  // namespace raymoval::toy
+}  // namespace raymoval::peopleremover_test

@@ -11,7 +11,7 @@
 #include "tests/methods/moved_world.h"
 #include "tests/methods/peopleremover/listed_scans.h"
 
-using namespace raymoval;
+namespace raymoval::peopleremover_test {
 using namespace raymoval::peopleremover_method;
 
 namespace {
@@ -145,8 +145,8 @@ class SlowPeopleremover {
 };
 
 /// Every `step`-th point of the scans of another source.
-toy::ListedScans thinned(const ScanSource& source, std::size_t step) {
-  toy::ListedScans scans;
+ListedScans thinned(const ScanSource& source, std::size_t step) {
+  ListedScans scans;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const Scan scan = source.load(i);
     std::vector<Eigen::Vector3d> world;
@@ -161,7 +161,7 @@ toy::ListedScans thinned(const ScanSource& source, std::size_t step) {
 }  // namespace
 
 TEST_CASE("peopleremover answers as one with a set of scans in each voxel", "[peopleremover]") {
-  const toy::ListedScans scans = thinned(toy::street(9), 7);
+  const ListedScans scans = thinned(street(9), 7);
   const auto text = [](const char* word) { return std::string(word); };
   const std::vector<Configuration> settings{
       {{"maxrange_method", text("normals")}},
@@ -178,8 +178,8 @@ TEST_CASE("peopleremover answers as one with a set of scans in each voxel", "[pe
        {"half_voxel_radius", std::int64_t{5}}},
   };
   for (std::size_t s = 0; s < settings.size(); ++s) {
-    const ConfiguredMethod method = toy::peopleremover("normals", settings[s]);
-    const MaskStore masks = toy::masks_of(*method.make(), scans);
+    const ConfiguredMethod method = peopleremover("normals", settings[s]);
+    const MaskStore masks = masks_of(*method.make(), scans);
     const SlowPeopleremover slow(method, scans);
     INFO("setting " << s);
     CHECK(masks.removed_count() > 20);
@@ -188,34 +188,35 @@ TEST_CASE("peopleremover answers as one with a set of scans in each voxel", "[pe
 }
 
 TEST_CASE("peopleremover removes what moves on the street and keeps the rest", "[peopleremover]") {
-  const toy::World world = toy::street(12);
-  const MaskStore masks = toy::masks_of(*toy::peopleremover("normals", {}).make(), world);
-  CHECK(toy::removed_share(world, masks, 0, 0, 11) < 0.05);  // Road.
-  CHECK(toy::removed_share(world, masks, 1, 0, 11) < 0.01);  // Wall.
+  const World world = street(12);
+  const MaskStore masks = masks_of(*peopleremover("normals", {}).make(), world);
+  CHECK(removed_share(world, masks, 0, 0, 11) < 0.05);  // Road.
+  CHECK(removed_share(world, masks, 1, 0, 11) < 0.01);  // Wall.
   // What stands before the sky, or out of the rows' reach, is never seen through.
-  CHECK(toy::removed_share(world, masks, 3, 0, 6) > 0.5);  // Car.
-  CHECK(toy::removed_share(world, masks, 4, 0, 8) > 0.7);  // Person.
+  CHECK(removed_share(world, masks, 3, 0, 6) > 0.5);  // Car.
+  CHECK(removed_share(world, masks, 4, 0, 8) > 0.7);  // Person.
   // Whole beams take a good part of the road with them.
-  const MaskStore whole = toy::masks_of(*toy::peopleremover("none", {}).make(), world);
-  CHECK(toy::removed_share(world, whole, 0, 0, 11) > 0.2);
+  const MaskStore whole = masks_of(*peopleremover("none", {}).make(), world);
+  CHECK(removed_share(world, whole, 0, 0, 11) > 0.2);
 }
 
-TEST_CASE("peopleremover hardly depends on where the lattice lies", "[peopleremover][long]") {
+TEST_CASE("peopleremover hardly depends on where the lattice lies", "[peopleremover][slow]") {
   // Measured over shifts of 0.03 to 0.15 m with and without a turn by 0.3 rad: at most 0.70 % of
   // the verdicts change (normals), 0.84 % (reduced), 1.6 % (fine, whose voxels are half as large).
   // Whole beams are another matter: how much of the road they take depends on its height in its
   // voxels, 26 to 38 % of the verdicts change, and no useful bound can be given.
-  const toy::World world = toy::street(8);
+  const World world = street(8);
   std::size_t points = 0;
   for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
-  Pose motion = toy::ListedScans::at(0.1, 0.07, 0.05);
+  Pose motion = ListedScans::at(0.1, 0.07, 0.05);
   for (const double turn : {0.0, 0.3}) {
     motion.linear() = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).matrix();
     for (const auto& [variant, share] : {std::pair("normals", 0.015), std::pair("fine", 0.03)}) {
       INFO(variant << ", turn " << turn);
-      const std::size_t changed =
-          toy::verdicts_changed_by(motion, toy::peopleremover(variant, {}), world);
+      const std::size_t changed = verdicts_changed_by(motion, peopleremover(variant, {}), world);
       CHECK(static_cast<double>(changed) < share * static_cast<double>(points));
     }
   }
 }
+
+}  // namespace raymoval::peopleremover_test

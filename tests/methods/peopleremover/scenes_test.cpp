@@ -5,9 +5,8 @@
 #include "core/error.h"
 #include "tests/methods/peopleremover/listed_scans.h"
 
-using namespace raymoval;
+namespace raymoval::peopleremover_test {
 using namespace raymoval::peopleremover_method;
-using toy::ListedScans;
 
 namespace {
 
@@ -15,10 +14,9 @@ using Verdicts = std::vector<Mask>;
 
 /// Whole beams, voxels of 1 m, clusters of any size, unless `changes` say more.
 Verdicts verdicts(const ScanSource& scans, const Configuration& changes = {}) {
-  auto method =
-      toy::peopleremover("none", {{"voxel_size", 1.0}, {"min_cluster_size", std::int64_t{1}}});
+  auto method = peopleremover("none", {{"voxel_size", 1.0}, {"min_cluster_size", std::int64_t{1}}});
   for (const auto& [name, value] : changes) set_parameter(method.configuration, name, value);
-  const MaskStore masks = toy::masks_of(*method.make(), scans);
+  const MaskStore masks = masks_of(*method.make(), scans);
   Verdicts result;
   for (std::size_t i = 0; i < scans.size(); ++i) result.push_back(masks.get(i));
   return result;
@@ -195,3 +193,5 @@ TEST_CASE("peopleremover: methods of beam ends that its public program lacks are
   const ParameterSpec& spec = find_parameter("peopleremover", entry.parameters, "maxrange_method");
   CHECK_THROWS_AS(checked_value_from_text("peopleremover", spec, "1nearest"), ConfigurationError);
 }
+
+}  // namespace raymoval::peopleremover_test

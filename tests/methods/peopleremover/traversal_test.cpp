@@ -11,7 +11,7 @@
 #include "methods/peopleremover/freed_clusters.h"
 #include "methods/peopleremover/thinning.h"
 
-using namespace raymoval;
+namespace raymoval::peopleremover_test {
 using namespace raymoval::peopleremover_method;
 
 namespace {
@@ -246,3 +246,5 @@ TEST_CASE("thinning's cells have the solid angle of a cap", "[peopleremover]") {
   const auto chosen = choose_beams(points, 0, {1, 0.1, 1});
   CHECK(std::count(chosen.begin(), chosen.end(), std::uint8_t{1}) == Approx(400).margin(12));
 }
+
+}  // namespace raymoval::peopleremover_test

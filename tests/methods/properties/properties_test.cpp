@@ -21,7 +21,7 @@
 #include "tests/methods/properties/changes.h"
 #include "tests/methods/properties/claims.h"
 
-using namespace raymoval;
+namespace raymoval::properties_test {
 using toy::Claim;
 
 namespace {
@@ -260,43 +260,45 @@ TEST_CASE("online variants claim that later scans change nothing", "[properties]
   }
 }
 
-TEST_CASE("what may change an answer of the controls", "[properties][every-method]") {
+TEST_CASE("what may change an answer of the controls", "[properties][slow]") {
   check_method("noop");
   check_method("remove-all");
 }
-TEST_CASE("what may change an answer of raymoval", "[properties][every-method]") {
+TEST_CASE("what may change an answer of raymoval", "[properties][slow]") {
   check_method("raymoval");
 }
-TEST_CASE("what may change an answer of raymoval_plus", "[properties][every-method]") {
+TEST_CASE("what may change an answer of raymoval_plus", "[properties][slow]") {
   check_method("raymoval_plus");
 }
-TEST_CASE("what may change an answer of octomap", "[properties][every-method]") {
+TEST_CASE("what may change an answer of octomap", "[properties][slow]") {
   check_method("octomap");
 }
-TEST_CASE("what may change an answer of peopleremover", "[properties][every-method]") {
+TEST_CASE("what may change an answer of peopleremover", "[properties][slow]") {
   check_method("peopleremover");
 }
-TEST_CASE("what may change an answer of removert", "[properties][every-method]") {
+TEST_CASE("what may change an answer of removert", "[properties][slow]") {
   check_method("removert");
 }
-TEST_CASE("what may change an answer of erasor", "[properties][every-method]") {
+TEST_CASE("what may change an answer of erasor", "[properties][slow]") {
   check_method("erasor");
 }
-TEST_CASE("what may change an answer of dufomap", "[properties][every-method]") {
+TEST_CASE("what may change an answer of dufomap", "[properties][slow]") {
   check_method("dufomap");
 }
-TEST_CASE("what may change an answer of beautymap", "[properties][every-method]") {
+TEST_CASE("what may change an answer of beautymap", "[properties][slow]") {
   check_method("beautymap");
 }
-TEST_CASE("what may change an answer of freedom", "[properties][every-method]") {
+TEST_CASE("what may change an answer of freedom", "[properties][slow]") {
   check_method("freedom");
 }
-TEST_CASE("what may change an answer of hmm_mos", "[properties][every-method]") {
+TEST_CASE("what may change an answer of hmm_mos", "[properties][slow]") {
   check_method("hmm_mos");
 }
-TEST_CASE("what may change an answer of dynablox", "[properties][every-method]") {
+TEST_CASE("what may change an answer of dynablox", "[properties][slow]") {
   check_method("dynablox");
 }
-TEST_CASE("what may change an answer of mapcleaner", "[properties][every-method]") {
+TEST_CASE("what may change an answer of mapcleaner", "[properties][slow]") {
   check_method("mapcleaner");
 }
+
+}  // namespace raymoval::properties_test

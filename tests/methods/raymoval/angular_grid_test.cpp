@@ -8,7 +8,7 @@
 #include "core/simd/instruction_set_scope.h"
 #include "methods/raymoval/kernels/voxel_runs.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 using std::numbers::pi;
 
@@ -124,3 +124,5 @@ TEST_CASE("a point beyond the lattice is an error") {
   VoxelRuns runs;
   CHECK_THROWS_AS(find_voxels(scan, 5.0, 1, runs), DataError);
 }
+
+}  // namespace raymoval::raymoval_test

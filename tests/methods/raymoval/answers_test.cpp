@@ -9,7 +9,7 @@
 #include "methods/registry.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using toy::Box;
 using toy::World;
 
@@ -196,3 +196,5 @@ TEST_CASE("a run is timed by the steps that it takes", "[raymoval]") {
   CHECK(stages_of(method, 1) ==
         Names{"binning", "raycasting", "classification", "no-return evidence", "integration"});
 }
+
+}  // namespace raymoval::raymoval_test

@@ -8,7 +8,7 @@
 
 #include "core/simd/instruction_set_scope.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
 TEST_CASE("eq. 11: a point is dynamic if the map lies farther by more than the margin") {
@@ -103,3 +103,5 @@ TEST_CASE("no return counts only within the sensor's view and the range asked fo
   sensor.azimuth_max = 3 * std::numbers::pi / 2;
   CHECK(find_no_return(silent, hits, grid, sensor, 20.0) == std::vector<int>{0, 3});
 }
+
+}  // namespace raymoval::raymoval_test

@@ -6,7 +6,7 @@
 #include "core/angle.h"
 #include "methods/raymoval/erase_evidence.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
 namespace {
@@ -175,3 +175,5 @@ TEST_CASE("it takes as many scans without return as asked for to erase a voxel",
   CHECK(erased(2).empty());
   CHECK(erased(3) == std::vector<VoxelIndex>{ahead});
 }
+
+}  // namespace raymoval::raymoval_test

@@ -7,7 +7,7 @@
 #include "core/simd/instruction_set_scope.h"
 #include "tests/methods/raymoval/random_map.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 using random_map::Random;
 
@@ -263,3 +263,5 @@ TEST_CASE("the voxel of a hit is the one the exact ray meets") {
   map.erase({10, 0, 0});
   CHECK_FALSE(image.voxel(map, 1));
 }
+
+}  // namespace raymoval::raymoval_test

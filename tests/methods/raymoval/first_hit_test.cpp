@@ -8,7 +8,7 @@
 
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
 TEST_CASE("eq. 7: a ray meets the near face of the first voxel") {
@@ -213,3 +213,5 @@ TEST_CASE("eqs 4-7: the image of a wall, for any number of threads") {
   const FirstHitImage parallel = cast_first_hits(map, pose, grid, {0.0, 60.0}, 8);
   CHECK(parallel.range == image.range);
 }
+
+}  // namespace raymoval::raymoval_test

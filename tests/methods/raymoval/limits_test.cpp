@@ -11,7 +11,7 @@
 #include "methods/raymoval/scan_against_map.h"
 #include "methods/raymoval/validation.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
 namespace {
@@ -327,3 +327,5 @@ TEST_CASE("no points are not covered", "[raymoval]") {
   CHECK(coverage({}, voxel_points({}), map, 1) == 0.0);
   CHECK(validate_candidates(voxel_points({}), map, give_nothing_back()).empty());
 }
+
+}  // namespace raymoval::raymoval_test

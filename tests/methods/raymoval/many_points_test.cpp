@@ -7,7 +7,7 @@
 #include "methods/raymoval/consistency.h"
 #include "methods/raymoval/kernels/voxel_runs.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
 TEST_CASE("every point and bin is tested, however many there are", "[raymoval]") {
@@ -69,3 +69,5 @@ TEST_CASE("scans of more points than a thread takes are in the bins and voxels o
     CHECK(projected.minimum_range == nearest);
   }
 }
+
+}  // namespace raymoval::raymoval_test

@@ -7,7 +7,7 @@
 
 #include "core/simd/instruction_set_scope.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
 namespace {
@@ -127,3 +127,5 @@ TEST_CASE("window percentiles and minima equal those of each window, on every in
     }
   }
 }
+
+}  // namespace raymoval::raymoval_test

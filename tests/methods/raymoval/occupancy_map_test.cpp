@@ -6,7 +6,7 @@
 
 #include "tests/methods/raymoval/random_map.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 using random_map::Random;
 
@@ -237,3 +237,5 @@ TEST_CASE("a map that fills and empties again and again does not grow") {
     CHECK(map.size() == 0);
   }
 }
+
+}  // namespace raymoval::raymoval_test

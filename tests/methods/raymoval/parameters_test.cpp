@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "methods/registry.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 
 namespace {
 
@@ -122,3 +122,5 @@ TEST_CASE("raymoval answers online from a growing map only", "[raymoval]") {
   }
   CHECK_NOTHROW(MethodRegistry::built_in().configure("raymoval:online").make());
 }
+
+}  // namespace raymoval::raymoval_test

@@ -8,7 +8,7 @@
 #include "methods/registry.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 using toy::Box;
 using toy::World;
@@ -335,3 +335,5 @@ TEST_CASE("table1 uses every printed value in both tests") {
   CHECK(p.erase_tau1 == 0.35);
   CHECK(p.erase_percentile == 0.9);
 }
+
+}  // namespace raymoval::raymoval_test

@@ -11,7 +11,7 @@
 #include "methods/raymoval/static_map.h"
 #include "tests/methods/raymoval/random_map.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 using random_map::Random;
 
@@ -204,3 +204,5 @@ TEST_CASE("an image does not depend on what was prepared for it", "[raymoval]") 
     REQUIRE(image.range == cast_first_hits(map, pose, grid, limits, 1).range);
   }
 }
+
+}  // namespace raymoval::raymoval_test

@@ -4,7 +4,7 @@
 
 #include "methods/raymoval/static_map.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
 TEST_CASE("a map forgets what it erased if it is filled again, unless erasing is for good",
@@ -84,3 +84,5 @@ TEST_CASE("points of new and old bricks in any order come into the map, dynamic 
     CHECK(map.occupied().contains(farther));
   }
 }
+
+}  // namespace raymoval::raymoval_test

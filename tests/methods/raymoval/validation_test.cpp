@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
 namespace {
@@ -184,3 +184,5 @@ TEST_CASE("support equals a count voxel by voxel, across the borders of bricks")
     REQUIRE(support(voxel, map, removed, dilation) == expected);
   }
 }
+
+}  // namespace raymoval::raymoval_test

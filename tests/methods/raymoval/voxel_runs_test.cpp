@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "tests/methods/raymoval/random_map.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 using random_map::Random;
 
@@ -74,3 +74,5 @@ TEST_CASE("the error of a point beyond the lattice names that point", "[raymoval
     }
   }
 }
+
+}  // namespace raymoval::raymoval_test

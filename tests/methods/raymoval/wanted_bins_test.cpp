@@ -5,7 +5,7 @@
 #include "core/simd/instruction_set_scope.h"
 #include "tests/methods/raymoval/random_map.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 using random_map::Random;
 
@@ -108,3 +108,5 @@ TEST_CASE("first hits that are asked for do not depend on which others are", "[s
     }
   }
 }
+
+}  // namespace raymoval::raymoval_test

@@ -9,7 +9,7 @@
 #include "methods/raymoval_plus/evidence/located_scan.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -79,7 +79,7 @@ struct Street {
     }
   }
   [[nodiscard]] MaskStore masks(EvidenceSink* evidence) const {
-    toy::Masks masks(scans.size());
+    Masks masks(scans.size());
     RunContext context;
     context.evidence = evidence;
     answer_from_map(terrain, maps, parameters, scans, masks, context);
@@ -89,7 +89,7 @@ struct Street {
   Parameters parameters;
   Terrain terrain;
   EvidenceMaps maps;
-  toy::HeldScans scans;
+  HeldScans scans;
 };
 
 struct NoEvidence : EvidenceSink {
@@ -119,3 +119,5 @@ TEST_CASE("who asks for confidence gets the same masks, also where clusters have
     CHECK(mask[kBeside] == 0);
   }
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -7,7 +7,7 @@
 
 #include "tests/methods/raymoval_plus/map_points.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 TEST_CASE("blocks hold what was put into their cells, for either sign") {
@@ -30,7 +30,7 @@ TEST_CASE("blocks hold what was put into their cells, for either sign") {
 }
 
 TEST_CASE("a voxel has the mean of its points, and is found within range of it") {
-  toy::MapPoints points;
+  MapPoints points;
   EvidenceMap& map = points.map;
   // Two points of one voxel, and one of a voxel 40 m away, some tiles of 12.8 m farther.
   const auto near = points.add({-0.15, 0.05, 1.05});
@@ -65,7 +65,7 @@ TEST_CASE("a roof stands alone in its column, one voxel high or two") {
   const auto [above, is_roof] = GENERATE(
       Others{{}, true}, Others{{0.2}, true}, Others{{-0.2}, true}, Others{{-0.2, 0.2}, false},
       Others{{0.4}, false}, Others{{-1.6}, false}, Others{{1.6}, false}, Others{{-1.8, 1.8}, true});
-  toy::MapPoints points;
+  MapPoints points;
   const Eigen::Vector3d at(-3.95, 7.05, -0.55);
   const auto roof = points.add(at);
   for (const double metres : above) points.add(at + Eigen::Vector3d(0.0, 0.0, metres));
@@ -77,7 +77,7 @@ TEST_CASE("a roof stands alone in its column, one voxel high or two") {
 
 TEST_CASE("a column goes on over gaps, but not over wide ones") {
   // Voxels of 0.2 m at these heights above the first one, metres, one of which is aside.
-  toy::MapPoints points;
+  MapPoints points;
   const auto at = [](double height) { return Eigen::Vector3d(-3.95, 7.05, -0.55 + height); };
   const auto first = points.add(at(0.0));
   for (const double height : {-0.2, 0.6, 1.6, 2.8}) points.add(at(height));
@@ -94,3 +94,5 @@ TEST_CASE("a column goes on over gaps, but not over wide ones") {
   CHECK_FALSE(reaches(1.8));
   CHECK_FALSE(reaches(2.8));  // Over 1 m.
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -7,7 +7,7 @@
 #include "tests/methods/raymoval_plus/map_points.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -16,7 +16,7 @@ namespace {
 RangeImage image_of_return(float range) {
   Scan scan;
   scan.points.emplace_back(range, 0.02F, 0.02F);
-  RangeImage image(toy::Scanner{}.model(), Parameters{});
+  RangeImage image(Scanner{}.model(), Parameters{});
   image.fill(scan);
   return image;
 }
@@ -127,7 +127,7 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
       GENERATE(Beams{{-0.13}, true}, Beams{{-0.09}, false}, Beams{{0.0}, false},
                Beams{{0.09, -0.13}, false}, Beams{{0.13, -0.13}, true});
   const bool is_tilted = GENERATE(false, true);  // A sensor that looks down a little sees the same.
-  toy::MapPoints points;
+  MapPoints points;
   EvidenceMap& map = points.map;
   const auto roof = points.add({20.02, 0.02, 1.03});
   points.add({20.06, 0.06, 1.05});
@@ -141,7 +141,7 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
     const Eigen::Vector3d beyond = 2.0 * Eigen::Vector3d(20.04, 0.04, 1.04 + high);
     scan.points.push_back((scan.T_world_sensor.inverse() * beyond).cast<float>());
   }
-  SensorModel sensor = toy::Scanner{}.model();
+  SensorModel sensor = Scanner{}.model();
   // Steps that are the same both ways tell a sensor without even beams, of which nothing is beside.
   const bool has_beams = GENERATE(true, false);
   CAPTURE(above, is_tilted, has_beams);
@@ -165,7 +165,7 @@ TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands 
   const auto [below, is_beside_column] =
       GENERATE(Below{{}, true}, Below{{0.2}, true}, Below{{0.2, 0.6}, false}, Below{{0.6}, false},
                Below{{0.9}, false}, Below{{1.1}, true}, Below{{-0.2}, true});
-  toy::MapPoints points;
+  MapPoints points;
   EvidenceMap& map = points.map;
   const Eigen::Vector3d place(18.05, 0.05, 1.05);
   const auto roof = points.add(place);
@@ -175,7 +175,7 @@ TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands 
   const Eigen::Vector3d passed = place - Eigen::Vector3d(0.0, 0.0, 0.5);
   const Eigen::Vector3d sensor = scan.T_world_sensor.translation();
   scan.points.push_back((2.0 * (passed - sensor)).cast<float>());
-  SensorModel model = toy::Scanner{}.model();
+  SensorModel model = Scanner{}.model();
   model.azimuth_step = 0.25 * kDegree;
   model.elevation_step = 1.7 * kDegree;  // 0.5 m at that range.
   RangeImage image(model, Parameters{});
@@ -210,14 +210,14 @@ TEST_CASE("a beam just below a roof that is seen from below is not heard") {
       Roof{0.05, 1.05, 0.0, false}, Roof{-0.05, 1.05, 0.0, false}, Roof{0.01, 1.05, 0.0, true},
       Roof{-0.01, 1.05, 0.0, true}, Roof{0.05, -0.55, 0.0, true}, Roof{0.05, 1.05, 0.2, false},
       Roof{0.05, 1.05, 0.4, true}, Roof{0.05, 1.05, 1.6, true}, Roof{0.05, 1.05, 1.8, false});
-  toy::MapPoints points;
+  MapPoints points;
   EvidenceMap& map = points.map;
   const Eigen::Vector3d place(18.05, 0.05, up), upward = Eigen::Vector3d::UnitZ();
   const auto roof = points.add(place);
   if (below > 0.0) points.add(place - below * upward);
   Scan scan;
   scan.points.push_back((2.0 * (place - passed_below * upward)).cast<float>());
-  SensorModel model = toy::Scanner{}.model();
+  SensorModel model = Scanner{}.model();
   model.azimuth_step = 0.25 * kDegree;
   model.elevation_step = 1.7 * kDegree;
   RangeImage image(model, Parameters{});
@@ -279,7 +279,7 @@ TEST_CASE("runs of scans that see through are counted at either end of a voxel's
 
 TEST_CASE("every voxel in range is asked of a scan, and decided on") {
   // Voxels 5, 10 and 15 m ahead, one to the side. The scan has a return at 10 m.
-  toy::MapPoints points;
+  MapPoints points;
   EvidenceMap& map = points.map;
   const auto front = points.add({5.02, 0.02, 0.02}), hit = points.add({10.02, 0.02, 0.02});
   const auto behind = points.add({15.02, 0.02, 0.02}), aside = points.add({0.0, 9.0, 0.0});
@@ -315,7 +315,7 @@ TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") 
   for (const float range : {5.0F, 5.0F, 10.0F, 5.0F, 12.0F}) {
     earlier.keep(image_of_return(range), Pose::Identity(), scan++);
   }
-  toy::MapPoints points;
+  MapPoints points;
   EvidenceMap& map = points.map;
   const auto known = points.add({5.02, 0.02, 0.02}), fresh = points.add({5.22, 0.02, 0.02});
   const auto hit = points.add({10.02, 0.02, 0.02});
@@ -328,3 +328,5 @@ TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") 
   CHECK(map.evidence(hit).first_agree == 2);
   CHECK(map.evidence(hit).last_agree == 2);
 }
+
+}  // namespace raymoval::raymoval_plus_test

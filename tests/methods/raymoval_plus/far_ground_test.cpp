@@ -7,6 +7,7 @@
 
 #include "methods/raymoval_plus/terrain/land.h"
 
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -125,3 +126,5 @@ TEST_CASE("ground beyond the margin changes nothing") {
   }
   CHECK(others == 0);
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -10,7 +10,7 @@
 
 #include "methods/raymoval_plus/evidence/evidence.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -97,3 +97,5 @@ TEST_CASE("scans are heard as the rule says of any story, from its end as well")
     REQUIRE(free_scans(story) == wanted);
   }
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -86,3 +87,5 @@ TEST_CASE("the low quantile of a plane is as far below its middle as that of man
     }
   }
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -109,3 +109,5 @@ TEST_CASE("a point whose height is found anew moves from one map to the other") 
   CHECK(maps.ground.centroid(1).x() == Approx(9.0).margin(0.002));
   CHECK(maps.sizes() == std::array<std::size_t, 2>{3, 2});
 }
+
+}  // namespace raymoval::raymoval_plus_test

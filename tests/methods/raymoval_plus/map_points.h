@@ -3,7 +3,9 @@
 
 #include "methods/raymoval_plus/evidence/evidence_map.h"
 
-namespace raymoval::toy {
+namespace raymoval::raymoval_plus_test {
+
+using namespace toy;
 
 /// The voxel of a world point (metres) in a map with voxels of 0.2 m, and where the point is in it;
 /// written without the kernels.
@@ -38,4 +40,4 @@ class MapPoints {
   raymoval_plus_method::EvidenceMap::Blocks::Cursor cursor_;
 };
 
-}  // namespace raymoval::toy
+}  // namespace raymoval::raymoval_plus_test

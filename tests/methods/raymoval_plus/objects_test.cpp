@@ -14,7 +14,7 @@
 #include "methods/raymoval_plus/objects/reasons.h"
 #include "tests/methods/raymoval_plus/map_points.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -24,7 +24,7 @@ namespace {
 class Scene {
  public:
   Parameters parameters;
-  toy::MapPoints in_map;
+  MapPoints in_map;
   EvidenceMap& map = in_map.map;
   EvidenceMaps maps{Parameters{}};  ///< Only of the ground.
   LocatedScan scan;
@@ -39,7 +39,7 @@ class Scene {
     scan.in_map.x.push_back(map.index(voxel).x());
     scan.in_map.y.push_back(map.index(voxel).y());
     scan.in_map.z.push_back(map.index(voxel).z());
-    scan.in_map.parts.push_back(toy::MapPoint(point).parts);
+    scan.in_map.parts.push_back(MapPoint(point).parts);
     scan.scan.points.push_back(point.cast<float>());
     scan.height.push_back(static_cast<float>(point.z()));
     scan.voxel.push_back(voxel);
@@ -48,7 +48,7 @@ class Scene {
   }
   /// Adds what some scan saw of the ground to its map. @return the number of its voxel
   std::uint32_t see_ground(const Eigen::Vector3d& point) {
-    const toy::MapPoint at(point);
+    const MapPoint at(point);
     EvidenceMap::Blocks::Cursor cursor;
     return maps.ground.add(ground_cell(at.cell), ground_parts(at.cell, at.parts), cursor);
   }
@@ -775,3 +775,5 @@ TEST_CASE("the reason for a verdict is the step that made it") {
     CHECK(sentences.at(reasons[k]) == stories[k].reason);
   }
 }
+
+}  // namespace raymoval::raymoval_plus_test

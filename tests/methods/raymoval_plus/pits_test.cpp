@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -63,3 +64,5 @@ TEST_CASE("a pit is dropped if more than three quarters of the columns around it
   CHECK(without_pits(ground, kSide, 0.5F)[middle] == kNone);
   CHECK(without_pits(ground, kSide, 1.0F)[middle] == -1.0F);
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 TEST_CASE("free scans make one half where they are as many as are needed, or as a run needs") {
@@ -57,3 +57,5 @@ TEST_CASE("the verdict counts half, the voxel and the object a quarter each") {
   CHECK(evidence[4] == Approx(0.5 + 0.5 * 0.8));
   CHECK(evidence[5] == 0.0F);  // Ground that stays.
 }
+
+}  // namespace raymoval::raymoval_plus_test

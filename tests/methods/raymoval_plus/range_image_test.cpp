@@ -11,14 +11,14 @@
 #include "core/simd/instruction_set_scope.h"
 #include "tests/methods/toy_world.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
 /// The image of a scan of some points, by a sensor with steps of half a degree.
 RangeImage image_of(std::vector<Eigen::Vector3f> points,
-                    const SensorModel& sensor = toy::Scanner{}.model(),
+                    const SensorModel& sensor = Scanner{}.model(),
                     const Pose& T_world_sensor = Pose::Identity()) {
   Scan scan;
   scan.points = std::move(points);
@@ -30,7 +30,7 @@ RangeImage image_of(std::vector<Eigen::Vector3f> points,
 
 /// The same sensor, of which it is known that it has beams.
 SensorModel sensor_with_beams() {
-  SensorModel sensor = toy::Scanner{}.model();
+  SensorModel sensor = Scanner{}.model();
   sensor.beams = 41;
   return sensor;
 }
@@ -79,7 +79,7 @@ TEST_CASE("a place agrees with, hides behind or stands in front of a return") {
 TEST_CASE("steps that no sensor has cost no more memory than the finest sensor") {
   for (const double step : {0.0, 1e-300, 1e-9, 1e-4, 3.0}) {
     INFO(step);
-    SensorModel sensor = toy::Scanner{}.model();
+    SensorModel sensor = Scanner{}.model();
     sensor.elevation_min = -1.6;
     sensor.elevation_max = 1.6;
     sensor.azimuth_step = sensor.elevation_step = step;
@@ -92,7 +92,7 @@ TEST_CASE("steps that no sensor has cost no more memory than the finest sensor")
 
 TEST_CASE("rows are half a beam high, wherever the field of view ends") {
   // 16 beams 2 degrees apart are 30 rows of 1 degree, and 4 more at either end.
-  SensorModel sensor = toy::Scanner{}.model();
+  SensorModel sensor = Scanner{}.model();
   sensor.azimuth_step = 0.2 * kDegree;
   sensor.elevation_step = 2.0 * kDegree;
   sensor.elevation_min = -15.0 * kDegree;
@@ -119,7 +119,7 @@ TEST_CASE("a return above a place does not make it free") {
 
 TEST_CASE("a beam that passes above a place of the ground does not see through it") {
   // Rows are a quarter of a degree high; the place is in the middle of one.
-  const SensorModel sensor = toy::Scanner{}.model();
+  const SensorModel sensor = Scanner{}.model();
   const double middle = sensor.elevation_min + (8.0 + 0.5) * 0.25 * kDegree;
   const Eigen::Vector3f place = (40.0 * direction(0.0, middle)).cast<float>();
   const auto seen_by = [&](double beam, SeenThrough seen) {
@@ -136,12 +136,12 @@ TEST_CASE("a beam that passes above a place of the ground does not see through i
 
 TEST_CASE("what is above is so in the world, whichever way the sensor is turned") {
   // The sensor lies on its right side, so that its y is up: the beam at a greater azimuth is above.
-  const double elevation = toy::Scanner{}.model().elevation_min + (8.0 + 0.5) * 0.25 * kDegree;
+  const double elevation = Scanner{}.model().elevation_min + (8.0 + 0.5) * 0.25 * kDegree;
   const Pose lying(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()));
   const Eigen::Vector3f place = (40.0 * direction(0.0, elevation)).cast<float>();
   for (const double side : {-0.2, 0.2}) {
     const RangeImage image = image_of({(60.0 * direction(side * kDegree, elevation)).cast<float>()},
-                                      toy::Scanner{}.model(), lying);
+                                      Scanner{}.model(), lying);
     CHECK(image.observe(place, SeenThrough::kInRowOrBelow) == Observation::kFree);
     CHECK(image.observe(place, SeenThrough::kAtOrBelow) ==
           (side < 0.0 ? Observation::kFree : Observation::kUnknown));
@@ -152,7 +152,7 @@ TEST_CASE("a scan sees through a place beside what is nearer, in its own column 
   // The place is in the middle of a bin, 20 m away. Somebody stands 10 m away in the column beside
   // it. Without a gap, a return is beyond from 20 + 0.25 + 0.005 * 20 = 20.35 m on; in a gap, from
   // 1 m farther on.
-  const SensorModel sensor = toy::Scanner{}.model();
+  const SensorModel sensor = Scanner{}.model();
   const AroundBin bin{sensor.elevation_min + (8.0 + 0.5) * 0.25 * kDegree};
   const auto told = [&](const std::vector<Eigen::Vector3f>& points) {
     return image_of(points, sensor).observe(bin.at(20.0, 0.0, 0.0));
@@ -174,7 +174,7 @@ TEST_CASE("a scan sees through a place beside what is nearer, in its own column 
 }
 
 TEST_CASE("a gap above the horizon reaches two rows up, and one row down") {
-  SensorModel sensor = toy::Scanner{}.model();
+  SensorModel sensor = Scanner{}.model();
   sensor.elevation_min = -15.0 * kDegree;
   sensor.elevation_max = 15.0 * kDegree;
   const AroundBin bin{5.125 * kDegree};
@@ -195,7 +195,7 @@ TEST_CASE("a gap above the horizon reaches two rows up, and one row down") {
 TEST_CASE("a place on a slope that beams graze is not seen through beside it") {
   // The returns of a slope two rows apart are 18, 22.5 and 30 m away: 1/range falls by 1/90 from
   // each to the next one, by 1/180 in a row. 20.5 m are 0.8 rows before 22.5 m, and 19 m are 1.5.
-  SensorModel sensor = toy::Scanner{}.model();
+  SensorModel sensor = Scanner{}.model();
   sensor.elevation_min = -15.0 * kDegree;
   sensor.elevation_max = 15.0 * kDegree;
   const AroundBin bin{5.125 * kDegree};
@@ -219,7 +219,7 @@ TEST_CASE("few beams see through what they meet and pass, though lower ones end 
   // Beams 2 degrees apart, in the middles of rows of 1 degree, look down on a road 1.7 m below:
   // those at 5 and 3 degrees meet it 19.5 and 32.5 m away. What the upper one meets 26 m away is
   // 0.34 m above the road, and the lower one is in its window.
-  SensorModel sensor = toy::Scanner{}.model();
+  SensorModel sensor = Scanner{}.model();
   sensor.elevation_min = -15.5 * kDegree;
   sensor.elevation_max = 15.5 * kDegree;
   sensor.elevation_step = 2.0 * kDegree;
@@ -262,7 +262,7 @@ TEST_CASE("few beams see through what they meet and pass, though lower ones end 
 TEST_CASE("a place above the highest beam is not seen through") {
   // A ceiling 3 m above the sensor, whose highest beam looks up by 15 degrees: the nearest return
   // lies 11.2 m ahead, and the ceiling before it is within the window of that beam.
-  SensorModel sensor = toy::Scanner{}.model();
+  SensorModel sensor = Scanner{}.model();
   sensor.elevation_min = -15.0 * kDegree;
   sensor.elevation_max = 15.0 * kDegree;
   sensor.elevation_step = 2.0 * kDegree;
@@ -302,7 +302,7 @@ TEST_CASE("places are observed alike one by one, all at once, and by every instr
     places.insert(places.end(), place.data(), place.data() + 3);
   }
   const Parameters parameters;
-  const SensorModel sensor = GENERATE(toy::Scanner{}.model(), sensor_with_beams());
+  const SensorModel sensor = GENERATE(Scanner{}.model(), sensor_with_beams());
   std::array<int, 4> found{};
   for (const auto& [set, seen] : sets_and_rules()) {
     const InstructionSetScope scope(set);
@@ -350,7 +350,7 @@ TEST_CASE("places near the sensor, with large windows, are observed as bin by bi
     places.insert(places.end(), place.data(), place.data() + 3);
   }
   const SeenThrough seen = GENERATE(SeenThrough::kInRowOrBelow, SeenThrough::kAtOrBelow);
-  const RangeImage image = image_of(points, GENERATE(toy::Scanner{}.model(), sensor_with_beams()));
+  const RangeImage image = image_of(points, GENERATE(Scanner{}.model(), sensor_with_beams()));
   std::vector<ObservedPlace> observed;
   image.observe(places, Pose::Identity(), seen, observed);
   std::vector<Observation> told(places.size() / 3, Observation::kOccluded);
@@ -422,7 +422,7 @@ TEST_CASE("seen from above, the ground before a foot says nothing of the foot") 
 }
 
 TEST_CASE("a sensor has even beams if they are known, or its steps differ") {
-  SensorModel sensor = toy::Scanner{}.model();  // The same step both ways, as of a rosette.
+  SensorModel sensor = Scanner{}.model();  // The same step both ways, as of a rosette.
   CHECK_FALSE(has_even_beams(sensor));
   sensor.beams = 41;
   CHECK(has_even_beams(sensor));
@@ -488,3 +488,5 @@ TEST_CASE("a place is looked up where the formulas of azimuth and elevation say"
     }
   }
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -7,7 +7,7 @@
 
 #include "tests/methods/raymoval_plus/map_points.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -85,7 +85,7 @@ class DrivingPost {
     parameters.recent_scans = scans;
     return parameters;
   }
-  toy::MapPoints in_map_;
+  MapPoints in_map_;
   std::vector<std::vector<std::uint32_t>> voxels_;  ///< By scan.
   RecentObjects recent_;
 };
@@ -156,7 +156,7 @@ TEST_CASE("what was judged last holds for objects that are no longer recent") {
 }
 
 TEST_CASE("the blocks of recent objects are added once") {
-  toy::MapPoints in_map;
+  MapPoints in_map;
   SegmentedScan scan;
   for (int k = 0; k < 8; ++k) {
     const Eigen::Vector3d point(5.05, 0.05, 0.45 + 0.2 * k);  // Blocks are 0.8 m high.
@@ -175,3 +175,5 @@ TEST_CASE("the blocks of recent objects are added once") {
   std::sort(blocks.begin(), blocks.end());
   CHECK(std::adjacent_find(blocks.begin(), blocks.end()) == blocks.end());
 }
+
+}  // namespace raymoval::raymoval_plus_test

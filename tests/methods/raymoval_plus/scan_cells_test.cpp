@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/simd/instruction_set_scope.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -69,3 +69,5 @@ TEST_CASE("a point beyond the lattice is an error, and not a wrong cell") {
                     DataError);
   }
 }
+
+}  // namespace raymoval::raymoval_plus_test

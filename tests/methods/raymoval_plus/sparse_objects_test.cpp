@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -43,3 +43,5 @@ TEST_CASE("a post, which is as wide as its points, is not sparse") {
   post.high.head<2>() = post.low.head<2>();
   CHECK_FALSE(is_sparse(post, {0.01F, 0.01F}));
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -70,3 +70,5 @@ TEST_CASE("taken places are those of a look at all boxes") {
   }
   CHECK(found > 1000);
 }
+
+}  // namespace raymoval::raymoval_plus_test

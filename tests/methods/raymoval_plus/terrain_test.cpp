@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -157,3 +157,5 @@ TEST_CASE("ground found scan by scan is the ground found at once") {
   for (int i = 0; i < 2000; ++i) asked.emplace_back(place(random), place(random), 0.0);
   REQUIRE(heights_of(at_once, asked) == heights_of(in_parts, asked, 2));
 }
+
+}  // namespace raymoval::raymoval_plus_test

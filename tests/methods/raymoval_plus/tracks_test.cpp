@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -427,3 +427,5 @@ TEST_CASE("scans agree with what passes for as long as others stood there, if th
     CHECK(marked_by_tracks(scans)[11].empty());
   }
 }
+
+}  // namespace raymoval::raymoval_plus_test

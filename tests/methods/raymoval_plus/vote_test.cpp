@@ -7,14 +7,14 @@
 #include "methods/raymoval_plus/evidence/located_scan.h"
 #include "tests/methods/raymoval_plus/map_points.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
 /// A row of voxels along x.
 class Row {
-  toy::MapPoints points_;
+  MapPoints points_;
 
  public:
   EvidenceMap& map = points_.map;
@@ -155,7 +155,7 @@ TEST_CASE("only the blocks of a scan get new verdicts when it arrives") {
 
 TEST_CASE("votes are those of a count over all voxels, whatever the radius") {
   std::mt19937 random(7);
-  toy::MapPoints points;
+  MapPoints points;
   EvidenceMap& map = points.map;
   std::uniform_int_distribution<int> place(-11, 12), kind(0, 5);
   for (int i = 0; i < 3000; ++i) {
@@ -187,3 +187,5 @@ TEST_CASE("votes are those of a count over all voxels, whatever the radius") {
   CHECK(dynamic_verdicts > 100);
   CHECK(dynamic_verdicts < static_cast<int>(map.size()) - 100);
 }
+
+}  // namespace raymoval::raymoval_plus_test

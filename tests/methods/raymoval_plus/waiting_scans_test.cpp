@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-using namespace raymoval;
+namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 namespace {
@@ -74,3 +74,5 @@ TEST_CASE("a delay that is too long for a fast sensor is refused, and a shorter 
   CHECK_THROWS_WITH(known_scans(10.0, times), Catch::Contains("set a shorter delay"));
   CHECK(known_scans(8.0, times)[0] == 241);
 }
+
+}  // namespace raymoval::raymoval_plus_test

@@ -9,9 +9,8 @@
 #include "core/error.h"
 #include "tests/methods/removert/point_world.h"
 
-using namespace raymoval;
+namespace raymoval::removert_test {
 using namespace raymoval::removert_method;
-using toy::Points;
 
 namespace {
 
@@ -142,3 +141,5 @@ TEST_CASE("removert: a point beyond the lattice is an error") {
   MapBuilder builder(lattice);
   CHECK_THROWS_AS(builder.add({{1e7F, 0, 0}}, Pose::Identity(), 0, 1), DataError);
 }
+
+}  // namespace raymoval::removert_test

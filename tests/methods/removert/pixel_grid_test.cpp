@@ -6,7 +6,7 @@
 
 #include "tests/methods/removert/point_world.h"
 
-using namespace raymoval;
+namespace raymoval::removert_test {
 using namespace raymoval::removert_method;
 
 namespace {
@@ -43,12 +43,12 @@ TEST_CASE("removert: straight ahead is the middle of the image") {
 }
 
 TEST_CASE("removert: points outside the vertical field of view are in no pixel unless clamped") {
-  CHECK(pixel(grid_with(false, true), toy::polar(5, -25.1)) == kOutside);
-  CHECK(pixel(grid_with(false, true), toy::polar(5, 25.1)) == kOutside);
-  CHECK(pixel(grid_with(true, true), toy::polar(5, -40)) == 124 * 900 + 450);
-  CHECK(pixel(grid_with(true, true), toy::polar(5, 40)) == 450);
+  CHECK(pixel(grid_with(false, true), polar(5, -25.1)) == kOutside);
+  CHECK(pixel(grid_with(false, true), polar(5, 25.1)) == kOutside);
+  CHECK(pixel(grid_with(true, true), polar(5, -40)) == 124 * 900 + 450);
+  CHECK(pixel(grid_with(true, true), polar(5, 40)) == 450);
   // Down to the border itself they are: 125 rounds to row 125, of which there is none, so to 124.
-  CHECK(pixel(grid_with(false, true), toy::polar(5, -24.99)) == 124 * 900 + 450);
+  CHECK(pixel(grid_with(false, true), polar(5, -24.99)) == 124 * 900 + 450);
 }
 
 TEST_CASE("removert: the two half columns behind the sensor are one only if wrapped") {
@@ -62,11 +62,11 @@ TEST_CASE("removert: the two half columns behind the sensor are one only if wrap
 TEST_CASE("removert: a narrow image leaves out or clamps what is beside it") {
   Parameters parameters;
   parameters.horizontal_fov = 90.0;  // 225 columns at 2.5 pixels per degree
-  CHECK(pixel({parameters, 2.5}, toy::polar(5, 0.1, 46)) == kOutside);
-  CHECK(pixel({parameters, 2.5}, toy::polar(5, 0.1, -46)) == kOutside);
+  CHECK(pixel({parameters, 2.5}, polar(5, 0.1, 46)) == kOutside);
+  CHECK(pixel({parameters, 2.5}, polar(5, 0.1, -46)) == kOutside);
   parameters.clamp_fov = true;
-  CHECK(pixel({parameters, 2.5}, toy::polar(5, 0.1, 46)) == 62 * 225 + 224);
-  CHECK(pixel({parameters, 2.5}, toy::polar(5, 0.1, -46)) == 62 * 225);
+  CHECK(pixel({parameters, 2.5}, polar(5, 0.1, 46)) == 62 * 225 + 224);
+  CHECK(pixel({parameters, 2.5}, polar(5, 0.1, -46)) == 62 * 225);
 }
 
 TEST_CASE("removert: single precision finds the pixel of double precision or says it cannot") {
@@ -103,3 +103,5 @@ TEST_CASE("removert: single precision finds the pixel of double precision or say
     }
   }
 }
+
+}  // namespace raymoval::removert_test

@@ -11,7 +11,9 @@
 #include "methods/removert/parameters.h"
 #include "tests/methods/toy_world.h"
 
-namespace raymoval::toy {
+namespace raymoval::removert_test {
+
+using namespace toy;
 
 using Points = std::vector<Eigen::Vector3f>;
 
@@ -76,4 +78,4 @@ inline std::string verdicts(const ConfiguredMethod& method, const ScanSource& sc
   return text;
 }
 
-}  // namespace raymoval::toy
+}  // namespace raymoval::removert_test

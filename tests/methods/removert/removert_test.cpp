@@ -7,15 +7,8 @@
 #include "tests/methods/moved_world.h"
 #include "tests/methods/removert/point_world.h"
 
-using namespace raymoval;
+namespace raymoval::removert_test {
 using namespace raymoval::removert_method;
-using toy::ahead;
-using toy::aside;
-using toy::Points;
-using toy::PointWorld;
-using toy::polar;
-using toy::removert;
-using toy::verdicts;
 
 namespace {
 
@@ -36,9 +29,9 @@ const PointWorld kTwoLayers({{ahead(10), ahead(11)}, {ahead(20)}});
 }  // namespace
 
 TEST_CASE("removert: each pass takes one layer off, once the map is updated") {
-  CHECK(verdicts_with(toy::passes({2.5}), kTwoLayers) == "10 0");
-  CHECK(verdicts_with(toy::passes({2.5, 2.2}), kTwoLayers) == "11 0");
-  CHECK(verdicts_with(toy::passes({2.5, 2.2, 2.0}), kTwoLayers) == "11 0");
+  CHECK(verdicts_with(passes({2.5}), kTwoLayers) == "10 0");
+  CHECK(verdicts_with(passes({2.5, 2.2}), kTwoLayers) == "11 0");
+  CHECK(verdicts_with(passes({2.5, 2.2, 2.0}), kTwoLayers) == "11 0");
   CHECK(verdicts_with(Settings{{"update_between_passes", "false"}}, kTwoLayers) == "10 0");
 }
 
@@ -61,33 +54,33 @@ TEST_CASE("removert: all points of a cell share its verdict") {
   const PointWorld world({{{10.01F, 0.01F, 0.01F}, {10.04F, 0.02F, 0.01F}, {10.06F, 0.01F, 0.01F}},
                           {{10.02F, 0.01F, 0.02F}, aside(20)},
                           {{20, 0.02F, 0.02F}}});
-  CHECK(verdicts_with(toy::passes({2.5}), world) == "110 10 0");
-  CHECK(verdicts_with(toy::passes({2.5}) + Settings{{"map_voxel", "0"}}, world) == "100 00 0");
+  CHECK(verdicts_with(passes({2.5}), world) == "110 10 0");
+  CHECK(verdicts_with(passes({2.5}) + Settings{{"map_voxel", "0"}}, world) == "100 00 0");
 }
 
 TEST_CASE("removert: revert brings back ground that was removed at a grazing angle") {
   // Pixels of 0.4 degrees: E shares its row (75) with P1, 1.5 m behind it, and not with P2 (76).
   // Pixels of 1 degree: all three are in row 30, whose nearest return is at 18.6 m.
   const PointWorld world({{polar(20.0, -5.0), polar(18.6, -5.45)}, {polar(18.5, -5.05)}});
-  CHECK(verdicts_with(toy::passes({2.5}), world) == "00 1");
-  CHECK(verdicts_with(toy::passes({2.5}, {1.0}), world) == "00 0");
-  CHECK(verdicts_with(toy::passes({2.5}, {2.375}), world) == "00 0");
+  CHECK(verdicts_with(passes({2.5}), world) == "00 1");
+  CHECK(verdicts_with(passes({2.5}, {1.0}), world) == "00 0");
+  CHECK(verdicts_with(passes({2.5}, {2.375}), world) == "00 0");
 }
 
 TEST_CASE("removert: revert also brings back what other removed points hide") {
   const PointWorld world({{ahead(9.9), ahead(10)}, {ahead(20)}});
-  CHECK(verdicts_with(toy::passes({2.5, 2.2}), world) == "11 0");
-  CHECK(verdicts_with(toy::passes({2.5, 2.2}, {1.0}), world) == "10 0");
-  CHECK(verdicts_with(toy::passes({2.5, 2.2}, {1.0}) + Settings{{"revert_needs_view", "true"}},
-                      world) == "11 0");
+  CHECK(verdicts_with(passes({2.5, 2.2}), world) == "11 0");
+  CHECK(verdicts_with(passes({2.5, 2.2}, {1.0}), world) == "10 0");
+  CHECK(verdicts_with(passes({2.5, 2.2}, {1.0}) + Settings{{"revert_needs_view", "true"}}, world) ==
+        "11 0");
   // A second revert pass tests what the first left; nothing hides the point at 9.9 m, so it stays.
-  CHECK(verdicts_with(toy::passes({2.5, 2.2}, {1.0, 0.9}), world) == "10 0");
+  CHECK(verdicts_with(passes({2.5, 2.2}, {1.0, 0.9}), world) == "10 0");
 }
 
 TEST_CASE("removert: rm3-rv1 is rm3 with a revert pass of 0.55 degrees") {
   const auto method = removert("rm3-rv1");
   CHECK(verdicts(method, kTwoLayers) ==
-        verdicts_with(toy::passes({2.5, 2.2, 2.0}, {1.8182}), kTwoLayers));
+        verdicts_with(passes({2.5, 2.2, 2.0}, {1.8182}), kTwoLayers));
   CHECK(verdicts(method, kTwoLayers) == "10 0");
 }
 
@@ -145,8 +138,8 @@ TEST_CASE("removert: the scan-side step compares distances to neighbours") {
   // neighbours at the same distances in scan and map: static.
   const Points wall{{20, -0.1F, 0}, ahead(20), {20, 0.1F, 0}};
   const PointWorld world({{ahead(10), {0, 0, -5}}, wall});
-  const Settings scan_side = toy::passes({2.5}) + Settings{{"scan_side", "true"}};
-  CHECK(verdicts_with(toy::passes({2.5}), world) == "10 000");
+  const Settings scan_side = passes({2.5}) + Settings{{"scan_side", "true"}};
+  CHECK(verdicts_with(passes({2.5}), world) == "10 000");
   const std::string found = verdicts_with(scan_side, world);
   CHECK(found.front() == '1');
   CHECK(found.substr(3) == "000");
@@ -170,12 +163,12 @@ TEST_CASE("removert: settings that contradict each other are refused") {
 }
 
 TEST_CASE("removert: on a street the movers go, the wall stays, and revert mends the road",
-          "[long]") {
-  const toy::World world = toy::street(16);
-  const MaskStore removed = toy::masks_of(*removert("rm3").make(), world);
-  const MaskStore reverted = toy::masks_of(*removert("rm3-rv1").make(), world);
+          "[slow]") {
+  const World world = street(16);
+  const MaskStore removed = masks_of(*removert("rm3").make(), world);
+  const MaskStore reverted = masks_of(*removert("rm3-rv1").make(), world);
   const auto share = [&](const MaskStore& masks, int owner) {
-    return toy::removed_share(world, masks, owner, 0, 15);
+    return removed_share(world, masks, owner, 0, 15);
   };
   constexpr int kRoad = 0, kWall = 1, kCar = 3, kPerson = 4;
   // Measured: person 98 %, car 71 %, wall 0.1 %, road 30 %. The car's far layers outnumber the
@@ -189,8 +182,8 @@ TEST_CASE("removert: on a street the movers go, the wall stays, and revert mends
   CHECK(share(reverted, kCar) < share(removed, kCar));
 }
 
-TEST_CASE("removert: motions off the lattice change few verdicts", "[long]") {
-  const toy::World world = toy::street(8);
+TEST_CASE("removert: motions off the lattice change few verdicts", "[slow]") {
+  const World world = street(8);
   std::size_t points = 0;
   for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
   for (const char* variant : {"rm3", "rm3-rv1"}) {
@@ -200,9 +193,11 @@ TEST_CASE("removert: motions off the lattice change few verdicts", "[long]") {
       motion.linear() = Eigen::AngleAxisd(0.31 * k, Eigen::Vector3d::UnitZ()).matrix();
       // Measured over four such motions: 0.7 % to 0.95 %, nearly all of them road at a grazing
       // angle, where a cell's centroid decides which side of the margin it is on.
-      const std::size_t changed = toy::verdicts_changed_by(motion, removert(variant), world);
+      const std::size_t changed = verdicts_changed_by(motion, removert(variant), world);
       INFO(variant << ": " << changed << " of " << points);
       CHECK(changed < points / 50);
     }
   }
 }
+
+}  // namespace raymoval::removert_test

@@ -7,12 +7,8 @@
 
 #include "tests/methods/removert/point_world.h"
 
-using namespace raymoval;
+namespace raymoval::removert_test {
 using namespace raymoval::removert_method;
-using toy::ahead;
-using toy::aside;
-using toy::Points;
-using toy::polar;
 
 namespace {
 
@@ -212,3 +208,5 @@ TEST_CASE("removert: shortcuts change no vote") {
   CHECK(dynamic_votes > 5000);
   CHECK(still_votes > 1000);
 }
+
+}  // namespace raymoval::removert_test
