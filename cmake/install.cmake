@@ -3,12 +3,15 @@
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/raymoval)
 
+# Each component becomes one Debian package (cmake/package.cmake): `program`, `dev` for the library,
+# and `python` (python/CMakeLists.txt).
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS raymoval_core raymoval_datasets raymoval_methods raymoval_eval raymoval_benchmark
-        EXPORT raymovalTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+        EXPORT raymovalTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
 install(TARGETS raymoval_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(header ${raymoval_public_headers})
   get_filename_component(folder ${header} DIRECTORY)
-  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raymoval/${folder})
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/raymoval/${folder} COMPONENT dev)
 endforeach()
 install(DIRECTORY benchmark/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
         FILES_MATCHING PATTERN "*.json")
@@ -38,21 +41,28 @@ foreach(page ${pages})
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
-# The program holds three.js, whose licence asks to be named with it.
+# The program holds three.js, whose licence must be included.
 file(READ LICENSE copyright)
 if(raymoval_report_3d)
   file(READ ${PROJECT_BINARY_DIR}/report/node_modules/three/LICENSE three_licence)
-  string(APPEND copyright "\n\nThe program contains three.js for the pages of `raymoval report`:\n\n"
+  string(APPEND copyright "\n\nraymoval contains three.js for the pages of `raymoval report`:\n\n"
          "${three_licence}")
 endif()
 file(WRITE ${PROJECT_BINARY_DIR}/copyright "${copyright}")
+# Debian asks for this file in a folder with the name of the package.
 install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/raymoval-dev
+        COMPONENT dev)
+if(RAYMOVAL_PYTHON)
+  install(FILES ${PROJECT_BINARY_DIR}/copyright
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-raymoval COMPONENT python)
+endif()
 install(DIRECTORY scripts/workflow DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
         USE_SOURCE_PERMISSIONS PATTERN "test_slurm.sh" EXCLUDE)
-install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir})
+install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir} COMPONENT dev)
 configure_package_config_file(cmake/raymovalConfig.cmake.in raymovalConfig.cmake
                               INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(raymovalConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/raymovalConfigVersion.cmake
-              cmake/system_libraries.cmake DESTINATION ${config_dir})
+              cmake/system_libraries.cmake DESTINATION ${config_dir} COMPONENT dev)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Makes a release of the commit that is checked out: the source archive, the Debian packages of the
-# program with its library and of the Python package, the wheel, what they are made of (SPDX), the
-# licences of what is linked, and SHA256SUMS. All is built from the archive, without network.
+# program, the library and the Python package, the wheel, what they are made of (SPDX), the licences
+# of what is linked, and SHA256SUMS. All is built from the archive, without network.
 #
 #   scripts/release.sh [--out DIR] [--twice] [--source-only]
 #     --out DIR       where the files go; it must not exist or be empty (default: build/dist)

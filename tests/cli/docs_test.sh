@@ -59,9 +59,8 @@ done
   cat options.*
   echo --version
   grep -ohE -- '--[a-z][a-z-]+' "$source_folder"/scripts/*.sh "$source_folder"/scripts/workflow/*.sh
-  # Of cmake, apt, snakemake and Python.
-  printf '%s\n' --preset --build --no-install-recommends --cores --config --profile \
-    --system-site-packages
+  # Of cmake, snakemake and Python.
+  printf '%s\n' --preset --build --cores --config --profile --system-site-packages
 } | sort -u >known_options
 for page in "${pages[@]}"; do
   for option in $(page_text "$page" | grep -oE -- '(^|[^a-z-])--[a-z][a-z-]+' | grep -oE -- '--.*' | sort -u); do

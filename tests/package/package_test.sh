@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the Debian package, reads its fields, unpacks it into an empty root and uses it from there.
+# Makes the Debian packages, reads their fields, unpacks each into an empty root and uses it from there.
 # Usage: package_test.sh BUILD_FOLDER
 set -uo pipefail
 build=$(readlink -f "$1")
@@ -21,38 +21,63 @@ if ! command -v dpkg-deb >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; t
   echo "package_test.sh: dpkg-deb and dpkg-shlibdeps (package dpkg-dev) are needed." >&2
   exit 1
 fi
-holds "cpack makes a package" cpack --config "$build/CPackConfig.cmake" -B "$work/packages"
-package=$(find packages -maxdepth 1 -name 'raymoval_*.deb' 2>/dev/null)
-[[ -f $package ]] || { echo "package_test.sh: expected one package, found: $package"; exit 1; }
+holds "cpack makes packages" cpack --config "$build/CPackConfig.cmake" -B "$work/packages"
+names=(raymoval raymoval-dev)
+! grep -q '^RAYMOVAL_PYTHON:BOOL=ON' "$build/CMakeCache.txt" || names=(python3-raymoval "${names[@]}")
+made=$(find packages -maxdepth 1 -name '*.deb' -printf '%f\n' 2>/dev/null | sed 's/_.*//' | sort | xargs)
+[[ $made == "${names[*]}" ]] ||
+  { echo "package_test.sh: expected the packages ${names[*]}, found: $made"; exit 1; }
 
-field() { dpkg-deb --field "$package" "$1"; }
-# The packages a field names, without their versions.
-names_in() { field "$1" | tr ',' '\n' | sed 's/[(|].*//; s/ //g'; }
+# field PACKAGE NAME
+field() { dpkg-deb --field "packages/$1"_*.deb "$2"; }
+# The packages that a field names, without their versions.
+names_in() { field "$@" | tr ',' '\n' | sed 's/[(|].*//; s/ //g'; }
 version=$("$build/raymoval" --version | grep -oE '[0-9]+\.[0-9]+\.[0-9]+')
-holds "its name" test "$(field Package)" = raymoval
-holds "its version is the program's" test "$(field Version)" = "$version"
-holds "its architecture" test "$(field Architecture)" = "$(dpkg --print-architecture)"
-holds "it says what it is" test -n "$(field Description)"
-holds "its maintainer is who was configured" test "$(field Maintainer)" = \
-  "$(sed -n 's/^RAYMOVAL_PACKAGE_CONTACT:STRING=//p' "$build/CMakeCache.txt")"
-# Their names have versions that differ from system to system.
-for library in libc6 'libstdc\+\+6' libtbb12 'libembree(3-3|4-4)' libxxhash0 'liboctomap1\.[0-9]+(t64)?' \
-  liblzf1 'libpcl-common1\.[0-9]+(t64)?' 'libpcl-sample-consensus1\.[0-9]+(t64)?'; do
-  holds "it depends on $library" grep -qxE "$library" <(names_in Depends)
+for name in "${names[@]}"; do
+  holds "$name has the program's version" test "$(field "$name" Version)" = "$version"
+  holds "$name has an architecture" test "$(field "$name" Architecture)" = "$(dpkg --print-architecture)"
+  holds "$name has the configured maintainer" test "$(field "$name" Maintainer)" = \
+    "$(sed -n 's/^RAYMOVAL_PACKAGE_CONTACT:STRING=//p' "$build/CMakeCache.txt")"
+  # A package that it names exists: it is installed here, because the build needs it.
+  for needed in $(names_in "$name" Depends | grep -vx raymoval); do
+    holds "there is a package $needed" dpkg-query --show "$needed"
+  done
+  holds "$name unpacks into an empty root" dpkg-deb --extract "packages/$name"_*.deb "$name"
+  holds "$name has a copyright file" test -s "$name/usr/share/doc/$name/copyright"
+  found=$(grep -rlF -e "$source/" -e "$build" "$name")
+  holds "no file tells where it was built: $found" test -z "$found"
 done
-# What it names can be had: by name it is installed here, since it was built with it.
-for needed in $(names_in Depends) $(names_in Recommends); do
-  holds "there is a package $needed" dpkg-query --show "$needed"
-done
+holds "each package has a summary of its own" test -z \
+  "$(for name in "${names[@]}"; do field "$name" Description | head -n 1; done | sort | uniq -d)"
+found=$(for name in "${names[@]}"; do (cd "$name" && find . -type f); done | sort | uniq -d)
+holds "no file is in two packages: $found" test -z "$found"
 
-mkdir root
-holds "it unpacks into an empty root" dpkg-deb --extract "$package" root
-for path in bin/raymoval include/raymoval/methods/remover.h include/raymoval/methods/registry.h \
-  include/raymoval/benchmark/harness.h lib/libraymoval_harness.a \
-  lib/libraymoval_core.a lib/libraymoval_datasets.a lib/libraymoval_methods.a \
-  lib/libraymoval_eval.a lib/cmake/raymoval/raymovalConfig.cmake \
-  share/raymoval/suites/quick.json share/raymoval/published/raymoval_table2.json \
-  share/raymoval/schema/manifest.schema.json share/doc/raymoval/copyright \
+# Names of libraries have versions that differ from system to system.
+for library in fonts-dejavu-core libc6 'libstdc\+\+6' libtbb12 'libembree(3-3|4-4)' libxxhash0 \
+  'liboctomap1\.[0-9]+(t64)?' liblzf1; do
+  holds "raymoval depends on $library" grep -qxE "$library" <(names_in raymoval Depends)
+done
+found=$(for kind in Depends Recommends; do names_in raymoval $kind; done | grep -e '-dev$')
+holds "raymoval asks for nothing to build with: $found" test -z "$found"
+holds "raymoval-dev depends on the same version of raymoval" grep -qF "raymoval (= $version)" \
+  <(field raymoval-dev Depends)
+holds "raymoval-dev depends on PCL exactly if the program is linked with it" test \
+  "$(names_in raymoval-dev Depends | grep -cx libpcl-dev)" = "$(ldd "$build/raymoval" | grep -c libpcl_common)"
+# only PACKAGE PATTERN: all files of a package, below /usr, match the pattern.
+only() {
+  local found
+  found=$(cd "$1/usr" && find . -type f | grep -vE "^\./($2)")
+  holds "$1 holds nothing else: $found" test -z "$found"
+}
+only raymoval 'bin/raymoval$|share/'
+only raymoval-dev 'include/raymoval/.*\.h$|lib/[a-z_]*\.a$|lib/.*\.cmake$|share/doc/raymoval-dev/'
+for path in include/raymoval/methods/remover.h include/raymoval/methods/registry.h \
+  include/raymoval/benchmark/harness.h lib/libraymoval_{harness,core,datasets,methods,eval}.a \
+  lib/cmake/raymoval/raymovalConfig.cmake; do
+  holds "raymoval-dev holds $path" test -s "raymoval-dev/usr/$path"
+done
+for path in bin/raymoval share/raymoval/suites/quick.json \
+  share/raymoval/published/raymoval_table2.json share/raymoval/schema/manifest.schema.json \
   share/doc/raymoval/methods/README.md \
   share/doc/raymoval/methods/raymoval/README.md share/doc/raymoval/datasets/simulation/README.md \
   share/doc/raymoval/results/pictures/maps.png share/doc/raymoval/examples/cpp_method/near_points.cpp \
@@ -62,7 +87,7 @@ for path in bin/raymoval include/raymoval/methods/remover.h include/raymoval/met
   share/zsh/vendor-completions/_raymoval share/fish/vendor_completions.d/raymoval.fish \
   share/raymoval/workflow/Snakefile share/raymoval/workflow/slurm/config.yaml \
   share/raymoval/workflow/slurm/raymoval-job-status.sh; do
-  holds "it holds $path" test -s "root/usr/$path"
+  holds "raymoval holds $path" test -s "raymoval/usr/$path"
 done
 # dead_links FOLDER: links of its pages to files that are not there.
 dead_links() {
@@ -73,28 +98,26 @@ dead_links() {
     done
   done
 }
-dead=$(dead_links root/usr/share/doc/raymoval)
+dead=$(dead_links raymoval/usr/share/doc/raymoval)
 holds "its pages have no dead links: $dead" test -z "$dead"
 holds "no folder of its documentation is empty" test -z \
-  "$(find root/usr/share/doc/raymoval -type d -empty)"
-found=$(grep -rlF -e "$source/" -e "$build" root)
-holds "no file tells where it was built: $found" test -z "$found"
+  "$(find raymoval/usr/share/doc/raymoval -type d -empty)"
 
-raymoval=$work/root/usr/bin/raymoval
+raymoval=$work/raymoval/usr/bin/raymoval
 clean=(env -i HOME="$work" PATH=/usr/bin:/bin LC_ALL=C)
 holds "it tells its version" "${clean[@]}" "$raymoval" --version
 holds "it knows its suites" grep -q '^quick ' <("${clean[@]}" "$raymoval" list suites)
 holds "it knows its scenes" grep -q '^town ' <("${clean[@]}" "$raymoval" list scenes)
-holds "its manual page is the program's" diff root/usr/share/man/man1/raymoval.1 \
+holds "its manual page is the program's" diff raymoval/usr/share/man/man1/raymoval.1 \
   <("${clean[@]}" "$raymoval" help --man)
 for shell in bash:bash-completion/completions/raymoval zsh:zsh/vendor-completions/_raymoval \
   fish:fish/vendor_completions.d/raymoval.fish; do
-  holds "its completion for ${shell%%:*} is the program's" diff "root/usr/share/${shell#*:}" \
+  holds "its completion for ${shell%%:*} is the program's" diff "raymoval/usr/share/${shell#*:}" \
     <("${clean[@]}" "$raymoval" completion "${shell%%:*}")
 done
 if command -v snakemake >/dev/null; then
   mkdir elsewhere
-  (cd elsewhere && "${clean[@]}" snakemake -s "$work/root/usr/share/raymoval/workflow/Snakefile" \
+  (cd elsewhere && "${clean[@]}" snakemake -s "$work/raymoval/usr/share/raymoval/workflow/Snakefile" \
     --cores 1 --dry-run --printshellcmds --config suite=quick out=run) >workflow.txt 2>&1
   holds "its workflow finds its program" grep -q "^$raymoval plan quick" workflow.txt
 else
@@ -106,33 +129,17 @@ holds "it scores" grep -q '^street,raymoval,online,erasor,ok,' run/results.csv
 holds "it has the published tables" "${clean[@]}" "$raymoval" table run --with-published
 holds "it cleans a map" "${clean[@]}" "$raymoval" clean street --frames 0:5 --quiet -o map.pcd
 
-# The Python package, if the build has it.
-python_package=$(find packages -maxdepth 1 -name 'python3-raymoval_*.deb')
-has_python=$(grep -c '^RAYMOVAL_PYTHON:BOOL=ON' "$build/CMakeCache.txt")
-holds "there is a Python package exactly if the build has one: $python_package" \
-  test "$has_python" -eq "$(grep -c . <<<"$python_package")"
-if [[ -f $python_package ]]; then
-  program_package=$package
-  package=$python_package
-  holds "the Python package's name" test "$(field Package)" = python3-raymoval
-  holds "the Python package's version" test "$(field Version)" = "$version"
+if [[ -d python3-raymoval ]]; then
   for needed in python3 python3-numpy libc6 libtbb12 'libembree(3-3|4-4)'; do
-    holds "the Python package depends on $needed" grep -qxE "$needed" <(names_in Depends)
+    holds "python3-raymoval depends on $needed" grep -qxE "$needed" <(names_in python3-raymoval Depends)
   done
-  mkdir python_root
-  holds "the Python package unpacks" dpkg-deb --extract "$package" python_root
-  found=$(cd python_root && find . -type f | grep -v '^./usr/lib/python3/dist-packages/raymoval/')
-  holds "it holds nothing else: $found" test -z "$found"
-  found=$(cd root && find . -path '*python3*')
-  holds "the other package holds nothing of it: $found" test -z "$found"
-  found=$(grep -rlF -e "$source/" -e "$build" python_root)
-  holds "no file of it tells where it was built: $found" test -z "$found"
+  only python3-raymoval 'lib/python3/dist-packages/raymoval/|share/doc/python3-raymoval/'
   holds "it is imported" "${clean[@]}" \
-    PYTHONPATH="$work/python_root/usr/lib/python3/dist-packages" /usr/bin/python3 -B -c \
+    PYTHONPATH="$work/python3-raymoval/usr/lib/python3/dist-packages" /usr/bin/python3 -B -c \
     'import raymoval; assert len(raymoval.open("street", frames="0:3", progress=False)) == 4'
-  echo "Python package: $(du -h "$package" | cut -f1), depends on $(field Depends)"
-  package=$program_package
 fi
 
-echo "package: $(du -h "$package" | cut -f1), depends on $(field Depends)"
+for name in "${names[@]}"; do
+  echo "$name: $(du -h "packages/$name"_*.deb | cut -f1), depends on $(field "$name" Depends)"
+done
 [[ $failures -eq 0 ]]
