@@ -18,6 +18,7 @@ packages=(
   catch2 libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
   libembree-dev libfmt-dev librapidcheck-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
   liblz4-dev libzstd-dev libsqlite3-dev libcairo2-dev librsvg2-dev fonts-dejavu-core esbuild
+  libjs-three
 )
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 case ${1:-} in
@@ -29,11 +30,9 @@ case ${1:-} in
   *) echo "install_dependencies.sh: '$1' is unknown; expected nothing, --python or --tests." >&2
      exit 2 ;;
 esac
-# npm fetches three.js. One that did not come from Debian will do, and would be in Debian's way.
-command -v npm >/dev/null || packages+=(npm)
 
 # Reports are without their 3-D view, or a test is left out, where a system has no package of these.
-optional=" esbuild npm chromium snakemake mypy doxygen texlive-latex-base texlive-latex-recommended "
+optional=" esbuild libjs-three chromium snakemake mypy doxygen texlive-latex-base texlive-latex-recommended "
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "install_dependencies.sh: this is no Debian or Ubuntu (no apt-get or no dpkg-query), so nothing is installed." >&2
