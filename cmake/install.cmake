@@ -44,7 +44,7 @@ endforeach()
 # The program holds three.js, whose licence must be included.
 file(READ LICENSE copyright)
 if(raymoval_report_3d)
-  file(READ ${PROJECT_BINARY_DIR}/report/node_modules/three/LICENSE three_licence)
+  file(READ benchmark/report/web/three_licence.txt three_licence)
   string(APPEND copyright "\n\nraymoval contains three.js for the pages of `raymoval report`:\n\n"
          "${three_licence}")
 endif()

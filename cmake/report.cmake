@@ -1,101 +1,54 @@
-# The page of `raymoval report`. Its 3-D view is drawn with three.js, which comes from the npm
-# registry by npm, pinned by version and SHA-512, and is bundled by esbuild into one script. The source
-# archive of a release has it in third_party/, so that it is built without a network.
+# The page of `raymoval report`. Its 3-D view is drawn with three.js (Debian's libjs-three). esbuild
+# bundles three.js and the sources of the view into one script.
 set(RAYMOVAL_REPORT_3D AUTO CACHE STRING
-    "Reports with a 3-D view, which needs npm, its registry, and esbuild: ON, OFF, or AUTO (if they are there)")
+    "Reports with a 3-D view, which needs esbuild and three.js: ON, OFF, or AUTO (if they are there)")
 set_property(CACHE RAYMOVAL_REPORT_3D PROPERTY STRINGS AUTO ON OFF)
-set(three_version 0.187.0)
-set(three_sha512 422bbb47e0a687c0acb59b18d6e24e4969d595fa3b66d34b57b985f0996d9372c1dc0b43bbd71166572744a90093c638cfa28ac37e73ed8ed4addee3598f1eb4)
 set(report_web ${PROJECT_SOURCE_DIR}/benchmark/report/web)
 set(report_build ${PROJECT_BINARY_DIR}/report)
-file(MAKE_DIRECTORY ${report_build})
-
-# Gets three.js into report_build/node_modules. It is fetched once for a build folder; a file that is
-# not what was pinned is never used. `problem` is set to what is missing, or to nothing.
-function(raymoval_fetch_three problem)
-  set(${problem} "" PARENT_SCOPE)
-  set(archive ${report_build}/three-${three_version}.tgz)
-  set(brought ${PROJECT_SOURCE_DIR}/third_party/three-${three_version}.tgz)
-  if(NOT EXISTS ${archive} AND EXISTS ${brought})
-    file(COPY ${brought} DESTINATION ${report_build})
-  endif()
-  if(EXISTS ${archive})
-    file(SHA512 ${archive} found)
-  endif()
-  if(NOT "${found}" STREQUAL ${three_sha512})
-    find_program(RAYMOVAL_NPM npm)
-    if(NOT RAYMOVAL_NPM)
-      set(${problem} "npm is missing; scripts/install_dependencies.sh installs it" PARENT_SCOPE)
-      return()
-    endif()
-    message(STATUS "Fetching three ${three_version}")
-    execute_process(COMMAND ${RAYMOVAL_NPM} pack three@${three_version} --loglevel=error
-                            --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-timeout=60000
-                            --pack-destination ${report_build}
-                    WORKING_DIRECTORY ${report_build} INPUT_FILE /dev/null RESULT_VARIABLE status
-                    OUTPUT_VARIABLE told ERROR_VARIABLE told)
-    if(NOT status EQUAL 0 OR NOT EXISTS ${archive})
-      set(${problem} "npm could not fetch three ${three_version}:\n${told}" PARENT_SCOPE)
-      return()
-    endif()
-    file(SHA512 ${archive} found)
-    if(NOT found STREQUAL ${three_sha512})
-      file(REMOVE ${archive})
-      message(FATAL_ERROR "three ${three_version} came with SHA-512 ${found}, expected "
-                          "${three_sha512}. Find out why, or configure with "
-                          "-DRAYMOVAL_REPORT_3D=OFF for reports without the 3-D view")
-    endif()
-  endif()
-  if(NOT EXISTS ${report_build}/node_modules/three/package.json)
-    file(ARCHIVE_EXTRACT INPUT ${archive} DESTINATION ${report_build}/unpacked)
-    file(MAKE_DIRECTORY ${report_build}/node_modules)
-    file(RENAME ${report_build}/unpacked/package ${report_build}/node_modules/three)
-  endif()
-endfunction()
-
-# What is wanted, what can be had, and `raymoval_report_3d`: what is built.
-if(RAYMOVAL_REPORT_3D STREQUAL "AUTO")
-  # The registry is asked once for a build folder, for asking takes long where it does not answer.
-  set(wanted ON)
-  if(RAYMOVAL_REPORT_3D_TRIED)
-    set(wanted ${raymoval_report_3d})
-  endif()
-else()
-  set(wanted ${RAYMOVAL_REPORT_3D})
-endif()
-set(problem "")
-if(wanted)
-  find_program(RAYMOVAL_ESBUILD esbuild)
-  if(NOT RAYMOVAL_ESBUILD)
-    set(problem "esbuild is missing; scripts/install_dependencies.sh installs it")
-  else()
-    raymoval_fetch_three(problem)
-  endif()
-endif()
-if(problem AND RAYMOVAL_REPORT_3D STREQUAL "AUTO")
-  message(WARNING "Reports are built without the 3-D view: ${problem}\n"
-                  "Once this is mended, configure with -DRAYMOVAL_REPORT_3D=ON.")
-  set(wanted OFF)
-elseif(problem)
-  message(FATAL_ERROR "${problem}\nMend this, or configure with -DRAYMOVAL_REPORT_3D=OFF for "
-                      "reports without the 3-D view.")
-endif()
-set(RAYMOVAL_REPORT_3D_TRIED TRUE CACHE INTERNAL "AUTO has been decided for this build folder")
-set(raymoval_report_3d ${wanted} CACHE INTERNAL "Whether reports have the 3-D view")
-
 set(report_parts ${report_web}/page.css ${report_web}/page.js)
-if(raymoval_report_3d)
+set(with_view OFF)
+set(three_version "")
+
+if(RAYMOVAL_REPORT_3D)
+  find_program(RAYMOVAL_ESBUILD esbuild)
+  find_path(RAYMOVAL_THREE three/build/three.module.js PATHS /usr/share/nodejs
+            DOC "Folder that holds three/build/three.module.js")
+  set(missing "")
+  if(NOT RAYMOVAL_ESBUILD)
+    list(APPEND missing "esbuild (Debian's package esbuild)")
+  endif()
+  if(NOT RAYMOVAL_THREE)
+    list(APPEND missing "three.js (Debian's package libjs-three)")
+  endif()
+  list(JOIN missing " and " missing)
+  if(NOT missing)
+    set(with_view ON)
+  elseif(RAYMOVAL_REPORT_3D STREQUAL "AUTO")
+    message(WARNING "Reports are built without the 3-D view, which needs ${missing}.")
+  else()
+    message(FATAL_ERROR "The 3-D view of reports needs ${missing}. Install it, or configure with "
+                        "-DRAYMOVAL_REPORT_3D=OFF for reports without the view.")
+  endif()
+endif()
+set(raymoval_report_3d ${with_view} CACHE INTERNAL "Whether reports have the 3-D view")
+
+if(with_view)
+  set(three ${RAYMOVAL_THREE}/three/build)
+  file(STRINGS ${three}/three.module.js revision REGEX "REVISION = '")
+  if(NOT revision)  # Newer versions are split in two.
+    file(STRINGS ${three}/three.core.js revision REGEX "REVISION = '")
+  endif()
+  string(REGEX REPLACE ".*'(.*)'.*" "r\\1" three_version "${revision}")
   file(GLOB view_sources CONFIGURE_DEPENDS ${report_web}/view/*.js)
   set(view_bundle ${report_build}/view.js)
   add_custom_command(OUTPUT ${view_bundle}
-    COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=${report_build}/node_modules
+    COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=${RAYMOVAL_THREE}
             ${RAYMOVAL_ESBUILD} ${report_web}/view/main.js --bundle --minify --format=iife
             --target=es2020 --legal-comments=none --charset=ascii --log-level=warning
             --outfile=${view_bundle}
-    DEPENDS ${view_sources}
+    DEPENDS ${view_sources} ${three}/three.module.js
     COMMENT "Bundling the 3-D view of reports" VERBATIM)
-  list(APPEND report_parts ${report_web}/view.html ${view_bundle}
-       ${report_build}/node_modules/three/LICENSE)
+  list(APPEND report_parts ${report_web}/view.html ${report_web}/three_licence.txt ${view_bundle})
 endif()
 
 # Files as byte arrays of a C++ source, found by name.

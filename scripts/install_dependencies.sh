@@ -15,11 +15,11 @@ set -euo pipefail
 
 packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev liboctomap-dev nlohmann-json3-dev
-  libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
+  catch2 librapidcheck-dev libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
   libembree-dev libfmt-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
   liblz4-dev libzstd-dev libsqlite3-dev libcairo2-dev fonts-dejavu-core esbuild libjs-three
 )
-tests=(catch2 librapidcheck-dev clang-format git python3-numpy python3-yaml python3-jsonschema)
+tests=(clang-format git python3-numpy python3-yaml python3-jsonschema)
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 extra=(gcovr mypy snakemake dpkg-dev file texlive-latex-base texlive-latex-recommended chromium
   doxygen mkdocs mkdocs-material)

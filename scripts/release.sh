@@ -51,26 +51,10 @@ name=raymoval-$version
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# three.js, as pinned in cmake/report.cmake; a file with another hash is never used.
-three=three-$(sed -nE 's/^set\(three_version (.+)\)/\1/p' cmake/report.cmake).tgz
-sha512=$(sed -nE 's/^set\(three_sha512 (.+)\)/\1/p' cmake/report.cmake)
-fits() { [[ -f $1 ]] && sha512sum -c --status <<<"$sha512  $1"; }
-fetch_three() {
-  local known
-  for known in build/*/report/"$three"; do
-    fits "$known" && cp "$known" "$1" && return
-  done
-  npm pack "three@${three:6:-4}" --loglevel=error --pack-destination "$1" >/dev/null ||
-    fail "npm cannot fetch ${three%.tgz}, which the archive holds."
-  fits "$1/$three" || fail "$three has another SHA-512 than cmake/report.cmake says."
-}
-
 make_archive() {
   local top=$work/archive/$name
-  mkdir -p "$top/third_party"
+  mkdir -p "$top"
   git archive --format=tar HEAD | tar -x -C "$top"
-  fetch_three "$top/third_party"
-  tar -xzOf "$top/third_party/$three" package/LICENSE >"$top/third_party/${three%.tgz}.LICENSE"
   echo "$commit" >"$top/COMMIT"
   tar -C "$work/archive" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner \
     --mode='u+rw,go+r-w,a+X' --format=gnu -cf - "$name" | xz -T1 -6 >"$1"
@@ -78,7 +62,7 @@ make_archive() {
 
 # Without network, where the system lets a user have that.
 apart=(unshare --map-current-user --net)
-"${apart[@]}" true 2>/dev/null || apart=(env npm_config_offline=true)
+"${apart[@]}" true 2>/dev/null || apart=(env)
 
 # build_from ARCHIVE FOLDER DIST: unpacks, builds and packs in FOLDER.
 build_from() {

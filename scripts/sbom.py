@@ -6,8 +6,8 @@
 
 Nothing is typed in: which libraries a program loads is what ldd says, which headers were compiled in
 is what ninja noted, which package a file is of and its version is what dpkg says, and the names of
-licences are those of Debian's machine-readable copyright files. The page of reports holds three.js,
-whose version and hash are those of cmake/report.cmake. The time is SOURCE_DATE_EPOCH.
+licences are those of Debian's machine-readable copyright files. Which three.js the page of reports
+holds is what CMake found. The time is SOURCE_DATE_EPOCH.
 """
 import argparse
 import datetime
@@ -85,13 +85,12 @@ def found_in(file, pattern):
     return re.search(pattern, (ROOT / file).read_text()).group(1)
 
 
-def three():
-    return {"SPDXID": "SPDXRef-three.js", "name": "three.js",
-            "versionInfo": found_in("cmake/report.cmake", r"set\(three_version (\S+)\)"),
-            "downloadLocation": "https://www.npmjs.com/package/three", "filesAnalyzed": False,
-            "licenseConcluded": "MIT", "licenseDeclared": "MIT", "copyrightText": "NOASSERTION",
-            "checksums": [{"algorithm": "SHA512", "checksumValue": found_in(
-                "cmake/report.cmake", r"set\(three_sha512 ([0-9a-f]+)\)")}]}
+def three(build):
+    """three.js, if the build bundled it."""
+    if not os.path.exists(os.path.join(build, "report", "view.js")):
+        return set()
+    folder = re.search(r"^RAYMOVAL_THREE:PATH=(.+)$", Path(build, "CMakeCache.txt").read_text(), re.M)
+    return {folder.group(1) + "/three/build/three.module.js"}
 
 
 def debian_package(name, facts):
@@ -119,12 +118,12 @@ def gather(build):
             linked = os.path.basename(file) in needed
             if linked or package not in uses:
                 uses[package] = "linked" if linked else "loaded"
-    for package in packages_of(headers(build)).values():
+    for package in packages_of(headers(build) | three(build)).values():
         uses.setdefault(package, "compiled in")
     return uses
 
 
-def document(uses, facts, version, commit, has_three):
+def document(uses, facts, version, commit):
     epoch = int(os.environ.get("SOURCE_DATE_EPOCH", "0"))
     created = datetime.datetime.fromtimestamp(epoch, datetime.timezone.utc)
     own = {"SPDXID": "SPDXRef-raymoval", "name": "raymoval", "versionInfo": version,
@@ -136,9 +135,6 @@ def document(uses, facts, version, commit, has_three):
     relations = [("SPDXRef-DOCUMENT", "DESCRIBES", own["SPDXID"])]
     relations += [(own["SPDXID"], kinds[uses[package["name"]]], package["SPDXID"])
                   for package in packages[1:]]
-    if has_three:
-        packages.append(three())
-        relations.append((own["SPDXID"], "CONTAINS", "SPDXRef-three.js"))
     return {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
             "name": f"raymoval-{version}",
             "documentNamespace": f"https://spdx.org/spdxdocs/raymoval-{version}-{commit}",
@@ -149,20 +145,18 @@ def document(uses, facts, version, commit, has_three):
                                "relatedSpdxElement": b} for a, kind, b in relations]}
 
 
-def licence_list(uses, facts, version, has_three):
+def licence_list(uses, facts, version):
     lines = [f"# What raymoval {version} is linked with", "",
              "raymoval itself is under the MIT licence. Below are the Debian packages of the libraries",
-             "that it links, of those that these load, and of headers that were compiled in, with the",
-             "names of licences in Debian's copyright files. A package may name licences of parts that",
-             "are not in its library; the file has the texts.", "",
+             "that it links, of those that these load, and of headers and scripts that were compiled in,",
+             "with the names of licences in Debian's copyright files. A package may name licences of",
+             "parts that are not in its library; the file has the texts.", "",
              "| package | version | use | licences named |", "|---|---|---|---|"]
     order = {"linked": 0, "compiled in": 1, "loaded": 2}
     for name in sorted(uses, key=lambda name: (order[uses[name]], name)):
         named = ", ".join(facts[name]["licences"]) or f"see {copyright_file(name)}"
         lines.append(f"| {name} | {facts[name]['version']} | {uses[name]} | "
                      f"{named.replace('|', '/')} |")
-    if has_three:
-        lines.append(f"| three.js | {three()['versionInfo']} | in the page of reports | MIT |")
     return "\n".join(lines) + "\n"
 
 
@@ -177,12 +171,11 @@ def main():
     if not os.path.exists(os.path.join(build, "raymoval")):
         sys.exit(f"sbom.py: {given.build}: no program raymoval there; expected a build folder")
     version = found_in("CMakeLists.txt", r"project\(raymoval VERSION (\S+)")
-    has_three = os.path.exists(os.path.join(build, "report", "view.js"))
     uses = gather(build)
     facts = {name: facts_of(name) for name in uses}
     Path(given.json).write_text(json.dumps(
-        document(uses, facts, version, given.commit, has_three), indent=1) + "\n")
-    Path(given.licences).write_text(licence_list(uses, facts, version, has_three))
+        document(uses, facts, version, given.commit), indent=1) + "\n")
+    Path(given.licences).write_text(licence_list(uses, facts, version))
 
 
 if __name__ == "__main__":

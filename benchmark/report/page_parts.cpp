@@ -28,7 +28,7 @@ std::string footer_html(bool with_view) {
   if (with_view) {
     html += " Its 3-D view contains three.js " RAYMOVAL_THREE_VERSION
             ", under the MIT licence.</p>\n<details><summary>Licence of three.js</summary>\n<pre>" +
-            html_text(std::string(page_file("LICENSE"))) + "</pre></details";
+            html_text(std::string(page_file("three_licence.txt"))) + "</pre></details";
   } else {
     html += "</p";
   }

@@ -61,7 +61,8 @@ Scene scene_of(const HeldSequence& held, const MaskStore& masks, std::size_t poi
 std::string masks_page(const HeldSequence& held, const py::object& given, std::size_t points,
                        const py::object& on_progress) {
   if (!has_page_view()) {
-    throw UsageError("this raymoval was built without the 3-D view (it needs npm).");
+    throw UsageError(
+        "this raymoval was built without the 3-D view (that needs esbuild and three.js).");
   }
   const MaskStore masks = masks_from(given, held);
   std::string html;

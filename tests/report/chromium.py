@@ -148,6 +148,21 @@ class Browser:
         for kind in ("mousePressed", "mouseReleased"):
             self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
+    def drag(self, start, end, button="left"):
+        self.call("Input.dispatchMouseEvent", type="mousePressed", x=start[0], y=start[1],
+                  button=button, clickCount=1)
+        for kind in ("mouseMoved", "mouseReleased"):
+            self.call("Input.dispatchMouseEvent", type=kind, x=end[0], y=end[1], button=button,
+                      buttons={"left": 1, "right": 2}[button] if kind == "mouseMoved" else 0,
+                      clickCount=1)
+
+    def touch(self, *steps):
+        """Fingers that are put down at the places of the first step, and move to those of the others."""
+        for kind, places in zip(["touchStart"] + ["touchMove"] * len(steps), steps):
+            self.call("Input.dispatchTouchEvent", type=kind, touchPoints=[
+                {"x": x, "y": y, "id": i} for i, (x, y) in enumerate(places)])
+        self.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+
     def screenshot(self, path, whole=False):
         picture = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
         with open(path, "wb") as file:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Reports in a headless Chromium: no error, no network, what is clicked works, the canvas shows
 what it should. Usage: report_test.py PATH/TO/raymoval. Exit code 77: no Chromium."""
+import math
 import os
 import subprocess
 import sys
@@ -188,6 +189,61 @@ def check_click(browser):
     check("Escape forgets it", browser.run("document.getElementById('point').textContent") == "")
 
 
+def check_pointers(browser):
+    """A drag turns about the target, a drag with the right button moves it, the wheel and two fingers
+    zoom; what is under the pointer at the distance of the target stays there."""
+    left, top, width, height = browser.run("""(() => {
+      const {left, top, width, height} = document.getElementById('canvas').getBoundingClientRect();
+      return [left, top, width, height];
+    })()""")
+    place = (left + round(0.3 * width), top + round(0.4 * height))
+
+    def state():
+        """Camera and target, and the distance between them."""
+        camera, target = browser.run("[raymovalView.stage.camera.position.toArray(),"
+                                     " raymovalView.stage.target.toArray()]")
+        return camera, target, math.dist(camera, target)
+
+    def near(a, b):
+        return math.dist(a, b) < 1e-3
+
+    browser.run("raymovalView.lookAtAll()")
+    camera, target, distance = state()
+    browser.drag(place, (place[0] + 40, place[1] + 30))
+    turned = state()
+    check("a drag turns", near(turned[1], target) and not near(turned[0], camera)
+          and abs(turned[2] - distance) < 1e-3, f"{camera} {target} {turned}")
+    browser.drag(place, (place[0] + 40, place[1] + 30), "right")
+    moved = state()
+    step = [a - b for a, b in zip(moved[1], turned[1])]
+    check("a drag with the right button moves", math.hypot(*step) > 1
+          and near([a - b for a, b in zip(moved[0], turned[0])], step), f"{turned} {moved}")
+    browser.run("raymovalView.lookAtAll()")
+    under_pointer = """(() => {
+      const {stage} = raymovalView, {camera, target} = stage;
+      camera.updateMatrixWorld();
+      const {x, y} = stage.locate(%f, %f), range = camera.position.distanceTo(target);
+      return camera.position.clone().set(x, y, 0.5).unproject(camera).sub(camera.position)
+          .setLength(range).add(camera.position).toArray();
+    })()""" % (place[0] - left, place[1] - top)
+    fixed, before = browser.run(under_pointer), state()
+    browser.call("Input.dispatchMouseEvent", type="mouseWheel", x=place[0], y=place[1], deltaX=0,
+                 deltaY=-300)
+    browser.wait(f"raymovalView.stage.camera.position.x !== {before[0][0]!r}")
+    after = state()
+    check("the wheel zooms", abs(after[2] / before[2] - 0.95 ** 3) < 1e-6, f"{before} {after}")
+    # Browsers round a pointer's place to pixels.
+    check("towards the pointer", math.dist(browser.run(under_pointer), fixed)
+          < 2e-3 * before[2], f"{browser.run(under_pointer)} {fixed}")
+    x, y = place
+    browser.touch([(x - 50, y), (x + 50, y)], [(x - 100, y), (x + 100, y)])
+    pinched = state()
+    check("two fingers zoom", abs(pinched[2] / after[2] - 0.5) < 1e-6, f"{after} {pinched}")
+    check("between them", math.dist(browser.run(under_pointer), fixed) < 4e-3 * before[2],
+          f"{browser.run(under_pointer)} {fixed}")
+    browser.run("raymovalView.forgetPoint(); raymovalView.lookAtAll()")
+
+
 def check_reasons(browser):
     """raymoval says why; its word stands beside a point that it removed."""
     told = browser.run("""(async () => {
@@ -260,6 +316,7 @@ def main():
             check_points(browser)
             check_scans(browser)
             check_click(browser)
+            check_pointers(browser)
             check_reasons(browser)
             browser.open("many/report.html")
             check("30 cells are shown", browser.run(

@@ -67,7 +67,9 @@ MapPageFile::MapPageFile(const std::filesystem::path& path, ViewTexts texts,
       texts_(std::move(texts)),
       scene_(texts_.sequence, texts_.method, T_upright_world, kMostPoints) {
   if (has_page_view()) return;
-  throw UsageError("this program was built without the 3-D view (it needs npm); leave --html out.");
+  throw UsageError(
+      "this program was built without the 3-D view (that needs esbuild and three.js); leave --html "
+      "out.");
 }
 
 void MapPageFile::add(const CleanedScan& scan) {

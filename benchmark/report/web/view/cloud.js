@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Points on the graphics card: a geometry per kind of point, all of one cell sharing their buffers.
-import {BufferAttribute, BufferGeometry, Color, DataTexture, GLSL3, Group, NearestFilter, Points,
+import {BufferAttribute, BufferGeometry, Color, DataTexture, Group, NearestFilter, Points,
         RawShaderMaterial, Vector2} from 'three';
 
 import {HEIGHTS, between, labelColour, reasonColour, rgbOf} from './colours.js';
@@ -8,6 +8,7 @@ import {FALSE_POSITIVE, KEPT_STATIC, NOT_EVALUATED} from './scene_data.js';
 
 export const COLOUR_BY = {verdict: 0, label: 1, reason: 2, height: 3};
 
+// In GLSL ES 1.00, which every version of three.js takes as it is.
 const VERTEX = `
 precision highp float;
 uniform mat4 modelViewMatrix, projectionMatrix;
@@ -16,22 +17,22 @@ uniform vec2 heights;
 uniform vec3 low, high, ground;
 uniform float grow;
 uniform sampler2D colours;
-in vec4 place;
-in vec4 tag;
-out vec3 shade;
+attribute vec4 position;
+attribute vec4 tag;
+varying vec3 shade;
 void main() {
-  bool present = abs(place.w - scan) < 0.5;
-  if (mode > 0.5 && mode < 1.5 && place.w > scan + 0.5) {
+  bool present = abs(position.w - scan) < 0.5;
+  if (mode > 0.5 && mode < 1.5 && position.w > scan + 0.5) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 1.0;
     return;
   }
-  vec4 seen = modelViewMatrix * vec4((place.xyz + 0.5) * stepSize, 1.0);
+  vec4 seen = modelViewMatrix * vec4((position.xyz + 0.5) * stepSize, 1.0);
   gl_Position = projectionMatrix * seen;
-  float height = clamp((place.z - heights.x) / (heights.y - heights.x), 0.0, 1.0);
+  float height = clamp((position.z - heights.x) / (heights.y - heights.x), 0.0, 1.0);
   float column = colourBy < 1.5 ? tag.x : colourBy < 2.5 ? tag.y : height * 255.0;
   shade = colourBy < 0.5 ? mix(low, high, height)
-                         : texelFetch(colours, ivec2(int(column + 0.5), int(colourBy - 0.5)), 0).rgb;
+                         : texture2D(colours, vec2(column + 0.5, colourBy - 0.5) / vec2(256.0, 3.0)).rgb;
   if (colourBy > 0.5 && colourBy < 2.5) shade *= 0.68 + 0.32 * height;  // Shape shows.
   float size = max(pointSize * pixels, 0.03 * pointSize * projectionMatrix[1][1] * 400.0 * pixels / -seen.z);
   size = min(size * grow, 14.0 * pixels);
@@ -45,12 +46,11 @@ void main() {
 
 const FRAGMENT = `
 precision highp float;
-in vec3 shade;
-out vec4 colour;
+varying vec3 shade;
 void main() {
   vec2 from = gl_PointCoord - 0.5;
   if (dot(from, from) > 0.25) discard;
-  colour = vec4(shade, 1.0);
+  gl_FragColor = vec4(shade, 1.0);
 }`;
 
 /** Rows: colour of each label, of each reason, of each height. */
@@ -120,11 +120,11 @@ export class Cloud {
     const tag = new BufferAttribute(cell.tags, 4);
     this.kinds = indicesByKind(cell, data.count).map((numbers, kind) => {
       const geometry = new BufferGeometry();
-      geometry.setAttribute('place', buffers.place);
+      geometry.setAttribute('position', buffers.place);  // Without one of this name nothing is drawn.
       geometry.setAttribute('tag', tag);
       geometry.setIndex(new BufferAttribute(mayBeThinned(kind) ? shuffled(numbers) : numbers, 1));
       const material = new RawShaderMaterial({
-        glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader: FRAGMENT,
+        vertexShader: VERTEX, fragmentShader: FRAGMENT,
         uniforms: {...uniforms, stepSize: {value: data.step}, colours: {value: buffers.table},
                    heights: {value: new Vector2(data.low, data.high)},
                    grow: {value: kind === KEPT_STATIC ? 1 : kind === FALSE_POSITIVE ? 1.3 : 1.5},

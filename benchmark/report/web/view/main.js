@@ -281,7 +281,7 @@ function start() {
       view.ready = true;
     } catch (error) {
       element('view-status').textContent =
-          `The 3-D view cannot be shown: ${error.message}. It needs a browser with WebGL 2.`;
+          `The 3-D view cannot be shown (${error.message}). It needs a browser with WebGL.`;
       window.raymovalViewError = error;
     }
   };

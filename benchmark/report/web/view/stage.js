@@ -2,21 +2,22 @@
 // The canvas: one camera, one or two clouds beside each other, drawn only when something changed.
 import {BufferAttribute, BufferGeometry, Color, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
         PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer} from 'three';
-import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+
+import {listenToPointers} from './pointers.js';
 
 export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
     this.renderer = new WebGLRenderer({canvas, antialias: false, powerPreference: 'high-performance'});
     this.renderer.setScissorTest(true);
-    this.renderer.outputColorSpace = 'srgb-linear';  // Colours reach the screen as they are given.
+    // Colours reach the screen as they are given. Versions before 152 do that without being told.
+    this.renderer.outputColorSpace = 'srgb-linear';
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(50, 1, 0.3, 5000);
     this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.zoomToCursor = true;
-    this.controls.maxPolarAngle = Math.PI * 0.98;
-    this.controls.addEventListener('change', () => this.request());
+    /** The centre of turns, in the middle of the picture. */
+    this.target = new Vector3();
+    listenToPointers(this);
     this.sides = [];
     this.path = new Line(new BufferGeometry(), new LineBasicMaterial());
     this.path.frustumCulled = false;
@@ -103,9 +104,13 @@ export class Stage {
 
   /** Looks at `target` from `offset` away, both [x, y, z] in metres. */
   look(target, offset) {
-    this.controls.target.set(...target);
+    this.target.set(...target);
     this.camera.position.set(target[0] + offset[0], target[1] + offset[1], target[2] + offset[2]);
-    this.controls.update();
+    this.aim();
+  }
+
+  aim() {
+    this.camera.lookAt(this.target);
     this.request();
   }
 
@@ -129,42 +134,54 @@ export class Stage {
     this.look(centre, towards.multiplyScalar(range).toArray());
   }
 
-  /** Turns by angles in radians about the target. */
+  /** Turns by angles in radians about the target, never over the top. */
   turn(azimuth, polar) {
-    const offset = this.camera.position.clone().sub(this.controls.target);
+    const offset = this.camera.position.clone().sub(this.target);
     const range = offset.length();
     const angle = Math.atan2(offset.y, offset.x) + azimuth;
-    const up = Math.min(Math.PI / 2 - 0.02, Math.max(-1.4, Math.asin(offset.z / range) + polar));
+    const up = Math.min(Math.PI / 2 - 0.001, Math.max(-1.5, Math.asin(offset.z / range) + polar));
     offset.set(Math.cos(angle) * Math.cos(up), Math.sin(angle) * Math.cos(up), Math.sin(up));
-    this.camera.position.copy(this.controls.target).addScaledVector(offset, range);
-    this.controls.update();
-    this.request();
+    this.camera.position.copy(this.target).addScaledVector(offset, range);
+    this.aim();
   }
 
   /** Moves along the ground by shares of the distance to the target. */
   move(right, forward) {
-    const ahead = this.controls.target.clone().sub(this.camera.position);
+    const ahead = this.target.clone().sub(this.camera.position);
     const range = ahead.length();
     ahead.setZ(0).normalize();
-    const step = new Vector3(ahead.y, -ahead.x, 0).multiplyScalar(right * range)
-        .addScaledVector(ahead, forward * range);
-    this.camera.position.add(step);
-    this.controls.target.add(step);
-    this.controls.update();
-    this.request();
+    this.shift(new Vector3(ahead.y, -ahead.x, 0).multiplyScalar(right * range)
+        .addScaledVector(ahead, forward * range));
   }
 
-  zoom(factor) {
-    const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.request();
+  /** Moves the picture by pixels to the right and down, at the distance of the target. */
+  pan(right, down) {
+    const range = this.camera.position.distanceTo(this.target);
+    const pixel = 2 * range * Math.tan(this.camera.fov * Math.PI / 360) / this.height;
+    this.shift(new Vector3(-right, down, 0).multiplyScalar(pixel).applyQuaternion(this.camera.quaternion));
+  }
+
+  shift(step) {
+    this.camera.position.add(step);
+    this.target.add(step);
+    this.aim();
+  }
+
+  /** Scales the distance to the target. @param at the place that stays where it is, from locate */
+  zoom(factor, at = {x: 0, y: 0}) {
+    const {position} = this.camera, {target} = this;
+    const range = position.distanceTo(target);
+    this.camera.updateMatrixWorld();
+    const fixed = new Vector3(at.x, at.y, 0.5).unproject(this.camera).sub(position).setLength(range).add(position);
+    position.lerp(fixed, 1 - factor);
+    target.lerp(fixed, 1 - factor);
+    this.aim();
   }
 
   /** Side, and place within it from -1 to 1, of a place on the canvas in its pixels. */
   locate(x, y) {
     const each = this.width / this.sides.length;
-    const side = Math.min(this.sides.length - 1, Math.floor(x / each));
+    const side = Math.max(0, Math.min(this.sides.length - 1, Math.floor(x / each)));
     return {side, x: 2 * (x - side * each) / each - 1, y: 1 - 2 * y / this.height, each};
   }
 
