@@ -4,6 +4,7 @@
 #include "tests/methods/moved_world.h"
 
 namespace raymoval::raymoval_plus_test {
+using namespace toy;
 
 namespace {
 
