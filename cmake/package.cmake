@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++ (>= 4:11), pkg-config, libeigen3-dev,
  nlohmann-json3-dev, libtbb-dev, robin-map-dev, libxxhash-dev, libembree-dev, libpcl-dev,
  liblzf-dev, libbz2-dev, liblz4-dev, libzstd-dev, libsqlite3-dev, liboctomap-dev, libfmt-dev,
- libhwy-dev, zlib1g-dev, librsvg2-dev, libcairo2-dev")
+ libhwy-dev, zlib1g-dev, libcairo2-dev")
 string(REPLACE "\n" "" CPACK_DEBIAN_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_PACKAGE_RECOMMENDS}")
 # The example of a method in Python.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-numpy")

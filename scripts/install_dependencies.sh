@@ -17,7 +17,7 @@ packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev libpcl-dev liboctomap-dev nlohmann-json3-dev
   catch2 libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
   libembree-dev libfmt-dev librapidcheck-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
-  liblz4-dev libzstd-dev libsqlite3-dev libcairo2-dev librsvg2-dev fonts-dejavu-core esbuild
+  liblz4-dev libzstd-dev libsqlite3-dev libcairo2-dev fonts-dejavu-core esbuild
 )
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 case ${1:-} in
