@@ -103,9 +103,8 @@ raymoval_need(PCL_FOUND "PCL 1.12 or later" libpcl-dev)
 raymoval_need_package(octomap 1.9 liboctomap-dev)
 raymoval_find_embree()
 raymoval_need(embree_FOUND "Embree 3.12 or later, or 4" libembree-dev)
-# Pictures are drawn by cairo; charts as PDF and PNG by librsvg on it.
-raymoval_need_module(rsvg "librsvg2-dev and libcairo2-dev"
-                     librsvg-2.0>=2.46 cairo-pdf cairo-png cairo-ft)
+# Draws pictures and charts.
+raymoval_need_module(cairo libcairo2-dev cairo-pdf>=1.16 cairo-png cairo-ft)
 include(cmake/system_libraries.cmake)
 foreach(library lzf pcl_common pcl_sample_consensus octomap octomath)
   set(package liblzf-dev)

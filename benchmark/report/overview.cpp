@@ -27,8 +27,8 @@ std::string fact(const std::string& name, const std::string& value, const std::s
          (more.empty() ? "" : "<small>" + html_text(more) + "</small>") + "</dd></div>\n";
 }
 
-std::string chart_html(const std::string& svg) {
-  return svg.empty() ? "" : "<div class=\"chart\">" + svg + "</div>\n";
+std::string chart_html(const ChartDrawing& chart) {
+  return chart.empty() ? "" : "<div class=\"chart\">" + chart.svg("") + "</div>\n";
 }
 
 /// The method with the best mean of the first protocol's main rate.
@@ -173,7 +173,7 @@ std::string cells_html(const ReportContent& content) {
 }
 
 std::string confidence_html(const ReportContent& content) {
-  const std::string chart = reliability_chart(*content.results, ChartPlace::kPage);
+  const ChartDrawing chart = reliability_chart(*content.results);
   if (chart.empty()) return "";
   std::string html = "<div class=\"charts\">\n" + chart_html(chart) + "</div>\n";
   for (const TextTable& table : reliability_tables(*content.results)) html += html_table(table);
@@ -184,15 +184,15 @@ std::string charts_html(const ReportContent& content) {
   const RunResults& results = *content.results;
   std::string html = "<div class=\"charts\">\n";
   for (const std::string& protocol : results.protocols) {
-    html += chart_html(pr_rr_chart(results, protocol, ChartPlace::kPage));
+    html += chart_html(pr_rr_chart(results, protocol));
   }
   for (const std::string& protocol : results.protocols) {
-    html += chart_html(accuracy_time_chart(results, protocol, ChartPlace::kPage));
+    html += chart_html(accuracy_time_chart(results, protocol));
   }
   for (const std::string& protocol : results.protocols) {
-    html += chart_html(sweep_chart(results, protocol, ChartPlace::kPage));
+    html += chart_html(sweep_chart(results, protocol));
   }
-  html += chart_html(stage_chart(results, ChartPlace::kPage)) + "</div>\n";
+  html += chart_html(stage_chart(results)) + "</div>\n";
   std::string stages;
   for (const TextTable& table : make_tables(results)) {
     if (table.title.starts_with("Time of ")) stages += html_table(table);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <glib.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -140,9 +138,20 @@ std::string deflated(std::string_view bytes) {
 }
 
 std::string base64(std::string_view bytes) {
-  const auto* data = reinterpret_cast<const guchar*>(bytes.data());
-  const std::unique_ptr<gchar, void (*)(void*)> text(g_base64_encode(data, bytes.size()), g_free);
-  return text.get();
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(3, bytes.size()))) {
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      group = group << 8U | (i < bytes.size() ? static_cast<std::uint8_t>(bytes[i]) : 0U);
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      text += i <= bytes.size() ? kDigits[group >> (18U - 6U * i) & 63U] : '=';
+    }
+  }
+  return text;
 }
 
 std::string script_json(const ordered_json& json) {

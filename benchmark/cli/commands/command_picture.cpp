@@ -148,13 +148,12 @@ Canvas drawn(const PictureFlags& flags, Progress& progress) {
 }
 
 /// The chart that was asked for, of a run that has what it shows.
-DrawChart charted(const PictureFlags& flags) {
+ChartDrawing charted(const PictureFlags& flags) {
   const RunResults results = KeptRun(flags.run, "").results();
   if (flags.kind == "stages") {
-    if (stage_chart(results).empty()) {
-      throw DataError(flags.run + ": no method has times; none finished a cell.");
-    }
-    return [results](ChartPlace place) { return stage_chart(results, place); };
+    ChartDrawing drawing = stage_chart(results);
+    if (!drawing.empty()) return drawing;
+    throw DataError(flags.run + ": no method has times; none finished a cell.");
   }
   RunResults checked = results;
   if (!flags.protocol.empty()) choose_protocols(checked, {flags.protocol});
@@ -162,8 +161,8 @@ DrawChart charted(const PictureFlags& flags) {
                      : flags.kind == "sweep" ? sweep_chart
                                              : accuracy_time_chart;
   for (const std::string& protocol : checked.protocols) {
-    if (chart(results, protocol, ChartPlace::kFile).empty()) continue;
-    return [=](ChartPlace place) { return chart(results, protocol, place); };
+    ChartDrawing drawing = chart(results, protocol);
+    if (!drawing.empty()) return drawing;
   }
   throw DataError(flags.run + ": no method has what --kind " + flags.kind +
                   " shows; see `raymoval table " + flags.run + "`.");

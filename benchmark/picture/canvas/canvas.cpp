@@ -34,11 +34,11 @@ std::uint32_t* row_of(cairo_surface_t* surface, int y) {
   return reinterpret_cast<std::uint32_t*>(data + y * stride);
 }
 
-void set_source(cairo_t* context, const Colour& colour) {
+}  // namespace
+
+void set_source(_cairo* context, const Colour& colour) {
   cairo_set_source_rgb(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
-
-}  // namespace
 
 void CairoRelease::operator()(_cairo* context) const {
   cairo_destroy(context);

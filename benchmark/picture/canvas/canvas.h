@@ -21,6 +21,9 @@ struct CairoRelease {
   void operator()(_cairo_surface* surface) const;
 };
 
+/// Makes `context` draw in a colour.
+void set_source(_cairo* context, const Colour& colour);
+
 enum class Align { kLeft, kCentre, kRight };
 
 /// A picture in memory, drawn by cairo. Pixels count from the upper left corner; what lies outside
@@ -60,7 +63,7 @@ class Canvas {
   /// `text`, or as much of its beginning as fits into `width` with "..." behind it.
   [[nodiscard]] std::string fitted(const std::string& text, int size, int width) const;
 
-  /// What cairo draws with: for content that comes from elsewhere.
+  /// What cairo draws with: for content that is drawn elsewhere.
   [[nodiscard]] _cairo* context() const { return context_.get(); }
 
  private:

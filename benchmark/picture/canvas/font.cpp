@@ -33,7 +33,7 @@ std::string font_file() {
 cairo_font_face_t* load_font(const std::string& file) {
   // Both stay until the program ends: cairo reads letters from them whenever it needs one.
   static FT_Library library = nullptr;
-  static FT_Face face = nullptr;
+  FT_Face face = nullptr;
   if ((library == nullptr && FT_Init_FreeType(&library) != 0) ||
       FT_New_Face(library, file.c_str(), 0, &face) != 0) {
     throw ConfigurationError(
@@ -42,16 +42,23 @@ cairo_font_face_t* load_font(const std::string& file) {
   return cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_TARGET_LIGHT);
 }
 
+cairo_font_face_t* bold_font(cairo_font_face_t* other) {
+  const std::string file = font_file();
+  const std::string bold = file.substr(0, file.rfind('.')) + "-Bold.ttf";
+  return is_file(bold) ? load_font(bold) : other;
+}
+
 }  // namespace
 
-void choose_font(_cairo* context, int size) {
-  static cairo_font_face_t* const font = load_font(font_file());
+void choose_font(_cairo* context, int size, bool bold) {
+  static cairo_font_face_t* const regular = load_font(font_file());
+  static cairo_font_face_t* const heavy = bold_font(regular);
   const std::unique_ptr<cairo_font_options_t, void (*)(cairo_font_options_t*)> options(
       cairo_font_options_create(), cairo_font_options_destroy);
   cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
   cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_SLIGHT);
   cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
-  cairo_set_font_face(context, font);
+  cairo_set_font_face(context, bold ? heavy : regular);
   cairo_set_font_options(context, options.get());
   cairo_set_font_size(context, size);
 }

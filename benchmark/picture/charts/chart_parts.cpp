@@ -110,6 +110,22 @@ LinearAxis axis_between(double low, double high) {
   return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step, step};
 }
 
+void draw_scales(ChartDrawing& chart, const LinearAxis& across, const LinearAxis& up,
+                 const ChartPoint& corner, double side) {
+  const double left = corner.x, right = left + side, top = corner.y, bottom = top + side;
+  for (const double mark : across.marks()) {
+    const double x = left + across.at(mark, side);
+    chart.line(x, top, x, bottom, "grid");
+    chart.text(x, bottom + 16.0, length_text(mark), "soft middle");
+  }
+  for (const double mark : up.marks()) {
+    const double y = bottom - up.at(mark, side);
+    chart.line(left, y, right, y, "grid");
+    chart.text(left - 6.0, y + 4.0, length_text(mark), "soft end");
+  }
+  chart.polyline({{left, top}, {left, bottom}, {right, bottom}}, "axis");
+}
+
 std::string axis_title(const RateSpec& rate) {
   return rate.name + (rate.unit == RateUnit::kPercent ? ", %" : "");
 }
@@ -136,7 +152,7 @@ void PointLabels::add_text(double x, double y, const std::string& series, const 
   texts_.push_back({x, y, series, {text}});
 }
 
-void PointLabels::draw(SvgWriter& svg) const {
+void PointLabels::draw(ChartDrawing& chart) const {
   // What is far outside counts as taken.
   constexpr double kFar = 1e5;
   std::vector<Box> taken = {
@@ -158,7 +174,7 @@ void PointLabels::draw(SvgWriter& svg) const {
       least = covered;
       best = box;
     }
-    svg.text(best.left, best.bottom - 2.0, shown, "small");
+    chart.text(best.left, best.bottom - 2.0, shown, "small");
     taken.push_back(best);
   }
 }
@@ -169,7 +185,7 @@ double legend_width(const std::vector<ChartSeries>& series) {
   return column;
 }
 
-double draw_legend(SvgWriter& svg, const std::vector<ChartSeries>& series, double x, double y,
+double draw_legend(ChartDrawing& chart, const std::vector<ChartSeries>& series, double x, double y,
                    double width) {
   constexpr double kRow = 20.0;
   const double column = legend_width(series);
@@ -177,8 +193,8 @@ double draw_legend(SvgWriter& svg, const std::vector<ChartSeries>& series, doubl
   for (std::size_t i = 0; i < series.size(); ++i) {
     const double left = x + static_cast<double>(i % columns) * column;
     const double top = y + static_cast<double>(i / columns) * kRow;
-    svg.marker(left + 7.0, top + 8.0, series[i].look, series[i].name);
-    svg.text(left + 19.0, top + 12.0, series[i].name);
+    chart.marker(left + 7.0, top + 8.0, series[i].look, series[i].name);
+    chart.text(left + 19.0, top + 12.0, series[i].name);
   }
   return kRow * static_cast<double>((series.size() + columns - 1) / columns);
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/picture/charts/svg.h"
+#include "benchmark/picture/charts/chart_drawing.h"
 #include "benchmark/result/results.h"
 #include "eval/rate.h"
 
@@ -52,6 +52,11 @@ LinearAxis axis_from_zero(double most);
 /// An axis with both values, from a round number to another. @param low less than `high`
 LinearAxis axis_between(double low, double high);
 
+/// Draws the grid, the axes and their marks' values of a square plot.
+/// @param corner its upper left one
+void draw_scales(ChartDrawing& chart, const LinearAxis& across, const LinearAxis& up,
+                 const ChartPoint& corner, double side);
+
 /// The name of a rate with its unit: "PR, %".
 std::string axis_title(const RateSpec& rate);
 
@@ -66,7 +71,7 @@ class PointLabels {
   /// Says `text` beside the point at (x, y). Points of one series in nearly one place share a text:
   /// "0.1, 0.2".
   void add_text(double x, double y, const std::string& series, const std::string& text);
-  void draw(SvgWriter& svg) const;
+  void draw(ChartDrawing& chart) const;
 
  private:
   struct Text {
@@ -86,7 +91,7 @@ std::string sweep_label(const RunResults& results, const std::string& cell);
 double legend_width(const std::vector<ChartSeries>& series);
 
 /// Draws markers and names in rows; @return the height it takes.
-double draw_legend(SvgWriter& svg, const std::vector<ChartSeries>& series, double x, double y,
+double draw_legend(ChartDrawing& chart, const std::vector<ChartSeries>& series, double x, double y,
                    double width);
 
 }  // namespace raymoval

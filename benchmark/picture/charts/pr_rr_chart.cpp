@@ -40,26 +40,14 @@ std::string point_hint(const ResultRow& row, const Frame& frame) {
 /// One panel of the chart; `x`, `y` is the plot's upper left corner.
 class Panel {
  public:
-  Panel(SvgWriter& svg, const Frame& frame, double x, double y)
-      : svg_(svg), frame_(frame), x_(x), y_(y), labels_(x - 30.0, x + kSide + 30.0, y - 6.0) {}
+  Panel(ChartDrawing& chart, const Frame& frame, double x, double y)
+      : chart_(chart), frame_(frame), x_(x), y_(y), labels_(x - 30.0, x + kSide + 30.0, y - 6.0) {}
 
   void draw_axes(const std::string& sequence) {
-    svg_.text(x_, y_ - 24.0, sequence, "bold");
-    for (const double mark : frame_.across.marks()) {
-      const double x = to_x(mark);
-      svg_.line(x, y_, x, y_ + kSide, "grid");
-      svg_.text(x, y_ + kSide + 16.0, length_text(mark), "soft middle");
-    }
-    for (const double mark : frame_.up.marks()) {
-      const double y = to_y(mark);
-      svg_.line(x_, y, x_ + kSide, y, "grid");
-      svg_.text(x_ - 6.0, y + 4.0, length_text(mark), "soft end");
-    }
-    svg_.polyline(
-        point_text(x_, y_) + point_text(x_, y_ + kSide) + point_text(x_ + kSide, y_ + kSide),
-        "axis");
-    svg_.text(x_ + kSide / 2.0, y_ + kSide + 32.0, axis_title(frame_.across_rate), "middle");
-    svg_.text_upwards(x_ - 36.0, y_ + kSide / 2.0, axis_title(frame_.up_rate));
+    chart_.text(x_, y_ - 24.0, sequence, "bold");
+    draw_scales(chart_, frame_.across, frame_.up, {x_, y_}, kSide);
+    chart_.text(x_ + kSide / 2.0, y_ + kSide + 32.0, axis_title(frame_.across_rate), "middle");
+    chart_.text_upwards(x_ - 36.0, y_ + kSide / 2.0, axis_title(frame_.up_rate));
   }
 
   /// Draws where the harmonic mean of both rates is `level` percent: up = level across / (2 across
@@ -72,19 +60,19 @@ class Panel {
         2.0 * low > level ? std::min(100.0, level * low / (2.0 * low - level)) : 100.0;
     if (begin >= end) return;
     constexpr int kPieces = 32;
-    std::string points;
+    std::vector<ChartPoint> points;
     for (int i = 0; i <= kPieces; ++i) {
       const double across = begin + (end - begin) * i / kPieces;
-      points += point_text(to_x(across), to_y(level * across / (2.0 * across - level)));
+      points.push_back({to_x(across), to_y(level * across / (2.0 * across - level))});
     }
-    svg_.polyline(points, "iso");
+    chart_.polyline(points, "iso");
     label_iso_line(level, at_hundred);
   }
 
   /// @return whether there was anything to draw
   bool draw_series(const ChartSeries& series, const RunResults& results,
                    const std::string& sequence, const std::string& protocol) {
-    std::string joined;
+    std::vector<ChartPoint> joined;
     std::vector<const ResultRow*> rows;
     for (const std::string& cell : series.cells) {
       const ResultRow* row = results.find(sequence, cell, protocol);
@@ -92,23 +80,22 @@ class Panel {
       const auto across = row->rate(frame_.across_rate.name), up = row->rate(frame_.up_rate.name);
       if (!across || !up) continue;
       rows.push_back(row);
-      joined += point_text(to_x(*across), to_y(*up));
+      joined.push_back({to_x(*across), to_y(*up)});
     }
-    if (rows.size() > 1) svg_.polyline(joined, "joined", colour_text(series.look.colour));
-    for (const ResultRow* row : rows) {
-      const double x = to_x(*row->rate(frame_.across_rate.name));
-      const double y = to_y(*row->rate(frame_.up_rate.name));
-      svg_.marker(x, y, series.look, point_hint(*row, frame_));
+    if (rows.size() > 1) chart_.polyline(joined, "joined", series.look.colour);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto [x, y] = joined[i];
+      chart_.marker(x, y, series.look, point_hint(*rows[i], frame_));
       labels_.add_point(x, y);
-      labels_.add_text(x, y, series.name, sweep_label(results, row->cell));
+      labels_.add_text(x, y, series.name, sweep_label(results, rows[i]->cell));
     }
     return !rows.empty();
   }
 
   /// What the points of sweeps were set to, when all are drawn.
-  void draw_labels() { labels_.draw(svg_); }
+  void draw_labels() { labels_.draw(chart_); }
 
-  void say_empty() { svg_.text(x_ + kSide / 2.0, y_ + kSide / 2.0, "no result", "soft middle"); }
+  void say_empty() { chart_.text(x_ + kSide / 2.0, y_ + kSide / 2.0, "no result", "soft middle"); }
 
  private:
   /// At the upper edge, or at the right one if the line does not get there; not over another label.
@@ -116,16 +103,16 @@ class Panel {
     const std::string text = length_text(level / 100.0 * *frame_.harmonic_unit);
     if (at_hundred < frame_.across.low) {
       if (at_hundred < frame_.up.low) return;  // It leaves the plot at the lower edge.
-      svg_.text(x_ + kSide + 4.0, to_y(at_hundred) + 4.0, text, "soft");
+      chart_.text(x_ + kSide + 4.0, to_y(at_hundred) + 4.0, text, "soft");
     } else if (to_x(at_hundred) > last_label_ + 26.0) {
       last_label_ = to_x(at_hundred);
-      svg_.text(last_label_, y_ - 6.0, text, "soft middle");
+      chart_.text(last_label_, y_ - 6.0, text, "soft middle");
     }
   }
   [[nodiscard]] double to_x(double value) const { return x_ + frame_.across.at(value, kSide); }
   [[nodiscard]] double to_y(double value) const { return y_ + kSide - frame_.up.at(value, kSide); }
 
-  SvgWriter& svg_;
+  ChartDrawing& chart_;
   const Frame& frame_;
   double x_, y_;
   double last_label_ = -1e9;
@@ -166,22 +153,22 @@ std::vector<double> iso_levels(const Frame& frame) {
 
 }  // namespace
 
-std::string pr_rr_chart(const RunResults& results, const std::string& protocol, ChartPlace place) {
+ChartDrawing pr_rr_chart(const RunResults& results, const std::string& protocol) {
   const auto frame = frame_of(results, protocol);
-  if (!frame) return "";
+  if (!frame) return {};
   const std::vector<ChartSeries> series = chart_series(results);
   const std::string title =
       frame->up_rate.name + " against " + frame->across_rate.name + " by protocol " + protocol;
   const std::string dotted = frame->harmonic_unit ? frame->headline->name : "";
-  SvgWriter svg("rates-" + protocol, title,
-                "A panel for each sequence, a marker for each method" +
-                    (dotted.empty() ? "" : ", dotted lines of equal " + dotted) +
-                    ". Up and right is better.");
+  ChartDrawing chart("rates-" + protocol, title,
+                     "A panel for each sequence, a marker for each method" +
+                         (dotted.empty() ? "" : ", dotted lines of equal " + dotted) +
+                         ". Up and right is better.");
   const std::size_t columns =
       std::min<std::size_t>(3, std::max<std::size_t>(1, results.sequences.size()));
-  svg.text(16.0, 22.0, title + (dotted.empty() ? "" : "; dotted: equal " + dotted), "bold");
+  chart.text(16.0, 22.0, title + (dotted.empty() ? "" : "; dotted: equal " + dotted), "bold");
   for (std::size_t i = 0; i < results.sequences.size(); ++i) {
-    Panel panel(svg, *frame, kPanelLeft + static_cast<double>(i % columns) * kPitch,
+    Panel panel(chart, *frame, kPanelLeft + static_cast<double>(i % columns) * kPitch,
                 kPanelTop + static_cast<double>(i / columns) * kRowPitch);
     panel.draw_axes(results.sequences[i]);
     for (const double level : iso_levels(*frame)) panel.draw_iso_line(level);
@@ -197,8 +184,9 @@ std::string pr_rr_chart(const RunResults& results, const std::string& protocol, 
                std::max(legend_width(series), text_width(title) * 1.1 + 130.0) + 32.0);
   const std::size_t rows = (results.sequences.size() + columns - 1) / columns;
   const double legend_top = kPanelTop - 14.0 + static_cast<double>(rows) * kRowPitch;
-  const double legend = draw_legend(svg, series, 16.0, legend_top, width - 32.0);
-  return svg.finish(width, legend_top + legend + 14.0, place);
+  const double legend = draw_legend(chart, series, 16.0, legend_top, width - 32.0);
+  chart.set_size(width, legend_top + legend + 14.0);
+  return chart;
 }
 
 }  // namespace raymoval

@@ -89,8 +89,9 @@ bool has_points(const std::vector<Curve>& curves) {
 /// One rate over the parameter of a sweep; `left`, `top` is the plot's upper left corner.
 class RatePlot {
  public:
-  RatePlot(SvgWriter& svg, const NumberSweep& sweep, const RateSpec& rate, double left, double top)
-      : svg_(svg), parameter_(sweep.parameter), rate_(rate), left_(left), top_(top) {
+  RatePlot(ChartDrawing& chart, const NumberSweep& sweep, const RateSpec& rate, double left,
+           double top)
+      : chart_(chart), parameter_(sweep.parameter), rate_(rate), left_(left), top_(top) {
     across_ = axis_between(sweep.points.front().first, sweep.points.back().first);
   }
 
@@ -108,29 +109,19 @@ class RatePlot {
 
  private:
   void draw_axes() {
-    const double right = left_ + kPlotSide, bottom = top_ + kPlotSide;
-    for (const double mark : across_.marks()) {
-      svg_.line(to_x(mark), top_, to_x(mark), bottom, "grid");
-      svg_.text(to_x(mark), bottom + 16.0, length_text(mark), "soft middle");
-    }
-    for (const double mark : up_.marks()) {
-      svg_.line(left_, to_y(mark), right, to_y(mark), "grid");
-      svg_.text(left_ - 6.0, to_y(mark) + 4.0, length_text(mark), "soft end");
-    }
-    svg_.polyline(point_text(left_, top_) + point_text(left_, bottom) + point_text(right, bottom),
-                  "axis");
-    svg_.text(left_ + kPlotSide / 2.0, bottom + 32.0, parameter_, "middle");
-    svg_.text(left_, top_ - 10.0, axis_title(rate_), "bold");
+    draw_scales(chart_, across_, up_, {left_, top_}, kPlotSide);
+    chart_.text(left_ + kPlotSide / 2.0, top_ + kPlotSide + 32.0, parameter_, "middle");
+    chart_.text(left_, top_ - 10.0, axis_title(rate_), "bold");
   }
 
   void draw_curve(const Curve& curve) {
-    std::string joined;
-    for (const auto& [value, rate] : curve.points) joined += point_text(to_x(value), to_y(rate));
-    if (curve.points.size() > 1) svg_.polyline(joined, "joined", colour_text(curve.look.colour));
+    std::vector<ChartPoint> joined;
+    for (const auto& [value, rate] : curve.points) joined.push_back({to_x(value), to_y(rate)});
+    if (curve.points.size() > 1) chart_.polyline(joined, "joined", curve.look.colour);
     for (const auto& [value, rate] : curve.points) {
-      svg_.marker(to_x(value), to_y(rate), curve.look,
-                  curve.name + " at " + parameter_ + " " + length_text(value) + ": " + rate_.name +
-                      " " + rate_text(rate_.name, rate));
+      chart_.marker(to_x(value), to_y(rate), curve.look,
+                    curve.name + " at " + parameter_ + " " + length_text(value) + ": " +
+                        rate_.name + " " + rate_text(rate_.name, rate));
     }
   }
 
@@ -139,7 +130,7 @@ class RatePlot {
     return top_ + kPlotSide - up_.at(value, kPlotSide);
   }
 
-  SvgWriter& svg_;
+  ChartDrawing& chart_;
   std::string parameter_;
   RateSpec rate_;
   double left_, top_;
@@ -148,13 +139,13 @@ class RatePlot {
 
 }  // namespace
 
-std::string sweep_chart(const RunResults& results, const std::string& protocol, ChartPlace place) {
+ChartDrawing sweep_chart(const RunResults& results, const std::string& protocol) {
   const std::vector<RateSpec> rates = plotted_rates(results, protocol);
   const std::string title = "Rates over a parameter by protocol " + protocol;
-  SvgWriter svg("sweeps-" + protocol, title,
-                "A row of plots for each sweep, a plot for each rate, a line for each sequence and "
-                "their mean. Up is better.");
-  svg.text(16.0, 22.0, title, "bold");
+  ChartDrawing chart("sweeps-" + protocol, title,
+                     "A row of plots for each sweep, a plot for each rate, a line for each "
+                     "sequence and their mean. Up is better.");
+  chart.text(16.0, 22.0, title, "bold");
   double top = kFirstTop;
   double width = text_width(title) * 1.1;
   std::vector<ChartSeries> legend;
@@ -163,21 +154,22 @@ std::string sweep_chart(const RunResults& results, const std::string& protocol, 
     for (const RateSpec& rate : rates) {
       const std::vector<Curve> curves = curves_of(results, sweep, protocol, rate.name);
       if (!has_points(curves)) continue;
-      RatePlot(svg, sweep, rate, left, top).draw(curves);
+      RatePlot(chart, sweep, rate, left, top).draw(curves);
       left += kPlotPitch;
       legend.clear();
       for (const Curve& curve : curves) legend.push_back({curve.name, curve.look, {}});
     }
     if (left == kFirstLeft) continue;
-    svg.text(16.0, top - 40.0, sweep.name);
+    chart.text(16.0, top - 40.0, sweep.name);
     width = std::max({width, left - kPlotPitch + kPlotSide, text_width(sweep.name) + 16.0});
     top += kPlotRowPitch;
   }
-  if (legend.empty()) return "";
+  if (legend.empty()) return {};
   width = std::max(width, legend_width(legend)) + 32.0;
   const double legend_top = top - 50.0;
-  const double height = draw_legend(svg, legend, 16.0, legend_top, width - 32.0);
-  return svg.finish(width, legend_top + height + 14.0, place);
+  const double height = draw_legend(chart, legend, 16.0, legend_top, width - 32.0);
+  chart.set_size(width, legend_top + height + 14.0);
+  return chart;
 }
 
 }  // namespace raymoval

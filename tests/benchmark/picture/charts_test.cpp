@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 
 #include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/picture/charts/chart_file.h"
@@ -77,7 +78,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 }  // namespace
 
 TEST_CASE("PR against RR: every point is where its rates say") {
-  const std::string svg = pr_rr_chart(two_points(), "erasor");
+  const std::string svg = pr_rr_chart(two_points(), "erasor").svg();
   CHECK(is_well_formed(svg));
   // RR from 60 to 100 makes an axis from 50, PR from 90 an axis from 88; the plot's corner is at
   // (56, 70) and it is 230 wide and high. So RR 60 is at 56 + 10 / 50 * 230 = 102, and PR 90 at
@@ -97,7 +98,7 @@ TEST_CASE("What was said against what came true: each bin is where it says") {
   method.all.bins[9] = {200, 150, 200 * 225};  // Said 0.9, and 0.75 move.
   method.all.bins[5] = {99, 0, 99 * 125};      // Too few.
   results.reliability = {method};
-  const std::string svg = reliability_chart(results);
+  const std::string svg = reliability_chart(results).svg();
   CHECK(is_well_formed(svg));
   // The plot's corner is at (56, 44) and it is 300 wide and high: 56 + 270, 44 + 75.
   CHECK_THAT(svg, Contains("cx=\"326\" cy=\"119\" r=\"5\"><title>x: said 0.900, 0.750 of 200 "
@@ -106,7 +107,7 @@ TEST_CASE("What was said against what came true: each bin is where it says") {
 }
 
 TEST_CASE("Lines of equal F1 go through the points that have it") {
-  const std::string svg = pr_rr_chart(two_points(), "erasor");
+  const std::string svg = pr_rr_chart(two_points(), "erasor").svg();
   // F1 0.9 where one rate is 100 and the other 90 * 100 / (200 - 90) = 81.818: at RR 81.818 the
   // line leaves the plot at the top, 56 + 31.818 / 50 * 230 = 202.36.
   CHECK_THAT(svg, Contains("class=\"iso\" points=\"202.36,70 "));
@@ -120,7 +121,7 @@ TEST_CASE("Rates of the other protocol are played against each other in the same
     if (one.status == "ok") one.rates = {{"SA", 99.0}, {"DA", 80.0}, {"HA", 88.5}};
   }
   results.protocols = {"dynamicmap"};
-  const std::string svg = pr_rr_chart(results, "dynamicmap");
+  const std::string svg = pr_rr_chart(results, "dynamicmap").svg();
   CHECK(is_well_formed(svg));
   CHECK_THAT(svg, Contains("SA, %") && Contains("DA, %") && Contains("equal HA"));
   CHECK(pr_rr_chart(results, "erasor").empty());
@@ -129,13 +130,13 @@ TEST_CASE("Rates of the other protocol are played against each other in the same
 TEST_CASE("Points of a sweep look alike and are joined") {
   RunResults results = two_points();
   results.sweeps = {{"x", "swept", {{"tau", "1"}}}, {"y", "swept", {{"tau", "2"}}}};
-  const std::string svg = pr_rr_chart(results, "erasor");
+  const std::string svg = pr_rr_chart(results, "erasor").svg();
   CHECK_THAT(svg, Contains("class=\"joined\" stroke=\"#0072B2\" points=\"102,261.67 286,70 \""));
   CHECK(count(svg, "<circle") == 3);  // Two points and their legend.
 }
 
 TEST_CASE("Stages stand one behind the other, and what has no name is told") {
-  const std::string svg = stage_chart(two_points());
+  const std::string svg = stage_chart(two_points()).svg();
   CHECK(is_well_formed(svg));
   // x: 500 ms per scan fill the 778 pixels beside the total; of those the stage takes 375.
   CHECK_THAT(svg, Contains("x=\"16\" y=\"62\" width=\"583.5\" height=\"16\"><title>x, cast: 375.0 "
@@ -148,7 +149,7 @@ TEST_CASE("Stages stand one behind the other, and what has no name is told") {
 }
 
 TEST_CASE("Accuracy against time: logarithmic, with the line that nobody beats") {
-  const std::string svg = accuracy_time_chart(two_points(), "erasor");
+  const std::string svg = accuracy_time_chart(two_points(), "erasor").svg();
   CHECK(is_well_formed(svg));
   // 500 and 100 ms: the axis runs from 10 to 1000 ms over 460 pixels from 64. F1 from 0.72 to 1
   // makes an axis from 0.7; x is at 64 + 460 * (2.69897 - 1) / 2 = 454.76 and 48 + 330 - 0.02 / 0.3
@@ -164,18 +165,18 @@ TEST_CASE("Charts take any name, and the same results give the same bytes") {
   results.cells[1] = results.rows[1].cell = results.times[0].cell = odd;
   results.sequences[0] = "<s>";
   for (ResultRow& one : results.rows) one.sequence = "<s>";
-  for (const std::string& svg : {pr_rr_chart(results, "erasor"), stage_chart(results),
-                                 accuracy_time_chart(results, "erasor")}) {
+  for (const std::string& svg : {pr_rr_chart(results, "erasor").svg(), stage_chart(results).svg(),
+                                 accuracy_time_chart(results, "erasor").svg()}) {
     CHECK(is_well_formed(svg));
     CHECK_THAT(svg, Contains("a&lt;b &amp; &quot;c&quot; \xEF\xBF\xBD \xC3\xA9"));
   }
-  CHECK(pr_rr_chart(results, "erasor") == pr_rr_chart(results, "erasor"));
+  CHECK(pr_rr_chart(results, "erasor").svg() == pr_rr_chart(results, "erasor").svg());
 }
 
 TEST_CASE("A chart for a page leaves its style to the page") {
-  const std::string page = pr_rr_chart(two_points(), "erasor", ChartPlace::kPage);
+  const std::string page = pr_rr_chart(two_points(), "erasor").svg("");
   CHECK(page.find("<style>") == std::string::npos);
-  CHECK_THAT(pr_rr_chart(two_points(), "erasor"),
+  CHECK_THAT(pr_rr_chart(two_points(), "erasor").svg(),
              Contains("<style>") && Contains("prefers-color-scheme:dark"));
   CHECK_THAT(chart_style(), Contains("--chart-ink"));
 }
@@ -197,7 +198,7 @@ TEST_CASE("A bar of nine stages has nine colours") {
   RunResults results;
   results.times = {{"x", 1, 9.0, 0.0, {}, 1, 1}};
   for (int i = 0; i < 9; ++i) results.times[0].stages.emplace_back("s" + std::to_string(i), 1.0);
-  const std::string svg = stage_chart(results);
+  const std::string svg = stage_chart(results).svg();
   std::vector<std::string> fills;
   for (std::size_t at = svg.find("fill=\"#"); at != std::string::npos;
        at = svg.find("fill=\"#", at + 1)) {
@@ -211,14 +212,14 @@ TEST_CASE("A bar of nine stages has nine colours") {
 TEST_CASE("Points of a sweep carry what they were set to, apart from each other") {
   RunResults results = two_points();
   results.sweeps = {{"x", "m", {{"tau", "0.1"}}}, {"y", "m", {{"tau", "0.35"}}}};
-  const std::string svg = pr_rr_chart(results, "erasor");
+  const std::string svg = pr_rr_chart(results, "erasor").svg();
   CHECK_THAT(svg, Contains(">0.1</text>") && Contains(">0.35</text>"));
   CHECK_THAT(svg, Contains("m over tau"));
-  CHECK_THAT(accuracy_time_chart(results, "erasor"), Contains(">0.35</text>"));
+  CHECK_THAT(accuracy_time_chart(results, "erasor").svg(), Contains(">0.35</text>"));
   // Where both points are one, they share a text.
   results.rows[2].rates = results.rows[1].rates;
-  CHECK_THAT(pr_rr_chart(results, "erasor"), Contains(">0.1, 0.35</text>"));
-  CHECK(pr_rr_chart(two_points(), "erasor").find("class=\"small\"") == std::string::npos);
+  CHECK_THAT(pr_rr_chart(results, "erasor").svg(), Contains(">0.1, 0.35</text>"));
+  CHECK(pr_rr_chart(two_points(), "erasor").svg().find("class=\"small\"") == std::string::npos);
 }
 
 TEST_CASE("Rates over a parameter: each point is where its value and its rate say") {
@@ -226,7 +227,7 @@ TEST_CASE("Rates over a parameter: each point is where its value and its rate sa
   CHECK(sweep_chart(results, "erasor").empty());
   // In the order of the values, whatever the order of the cells.
   results.sweeps = {{"x", "m", {{"delay", "2"}}}, {"y", "m", {{"delay", "0.5"}}}};
-  const std::string svg = sweep_chart(results, "erasor");
+  const std::string svg = sweep_chart(results, "erasor").svg();
   CHECK(is_well_formed(svg));
   CHECK_THAT(svg, Contains(">m over delay</text>") && Contains(">delay</text>"));
   // From 0.5 to 2 the axis has steps of 0.5. Its plots are 230 wide and high with their corners at
@@ -244,7 +245,7 @@ TEST_CASE("Rates over a parameter: several sequences have a mean where all have 
   results.sequences.emplace_back("t");
   results.rows.push_back(row("y", 98, 90, 0.94));
   results.rows.back().sequence = "t";
-  const std::string svg = sweep_chart(results, "erasor");
+  const std::string svg = sweep_chart(results, "erasor").svg();
   CHECK(is_well_formed(svg));
   CHECK_THAT(svg, Contains("<title>mean at delay 0.5: F1 0.9700</title>") &&
                       Contains("<title>t at delay 0.5: F1 0.9400</title>"));
@@ -276,29 +277,106 @@ TEST_CASE("Two sweeps of one variant are two series") {
 
 TEST_CASE("A chart is written as PDF and PNG too") {
   const test::TemporaryFolder folder;
-  const RunResults results = two_points();
-  const auto draw = [&](ChartPlace place) { return pr_rr_chart(results, "erasor", place); };
+  const ChartDrawing chart = pr_rr_chart(two_points(), "erasor");
   const auto written = [&](const char* name) {
-    write_chart(folder.path() / name, draw);
+    write_chart(folder.path() / name, chart);
     return read_text(folder.path() / name);
   };
-  CHECK(draw(ChartPlace::kPrint).find("var(") == std::string::npos);
-  CHECK_THAT(written("a.svg"), Catch::Matchers::StartsWith("<svg "));
+  CHECK(written("a.svg") == chart.svg());
   const std::string pdf = written("a.pdf");
   CHECK_THAT(pdf, Catch::Matchers::StartsWith("%PDF-"));
   CHECK(pdf.find("CreationDate") == std::string::npos);
   CHECK(pdf == written("b.pdf"));
-  write_chart(folder.path() / "a.png", draw);
+  CHECK(written("a.png") == written("b.png"));
   const Canvas image = read_png(folder.path() / "a.png");
-  CHECK_THAT(draw(ChartPlace::kPrint),
-             Contains("width=\"" + std::to_string(image.width() / 2) + "\" height"));
-  // The ground is white, and there is ink.
-  CHECK(image.at(0, 0) == kPaper);
-  int ink = 0;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) ink += image.at(x, y).red < 100 ? 1 : 0;
+  CHECK(image.width() == 2.0 * chart.width());
+  CHECK(image.height() == 2.0 * chart.height());
+}
+
+TEST_CASE("A chart that is too large for a PNG is refused, and written as SVG and PDF") {
+  const test::TemporaryFolder folder;
+  ChartDrawing chart("large", "", "");
+  chart.line(0.0, 0.0, 9.0, 9.0, "axis");
+  chart.set_size(10'000.0, 1'001.0);
+  CHECK_THROWS_WITH(write_chart(folder.path() / "a.png", chart), Contains("20000 x 2002 pixels"));
+  CHECK_NOTHROW(write_chart(folder.path() / "a.pdf", chart));
+  CHECK_NOTHROW(write_chart(folder.path() / "a.svg", chart));
+}
+
+TEST_CASE("Cairo draws what the rules of the SVG's style say") {
+  constexpr Colour kSoft{0x59, 0x59, 0x59}, kLine{0xd4, 0xd4, 0xd4}, kBlue{0, 0, 255};
+  ChartDrawing chart("looks", "", "");
+  // Each on a row of pixels of its own.
+  chart.line(2.0, 1.5, 20.0, 1.5, "axis");
+  chart.line(2.0, 3.5, 20.0, 3.5, "grid");
+  chart.line(2.0, 5.5, 20.0, 5.5, "iso");
+  chart.line(2.0, 8.5, 20.0, 8.5, "front");
+  chart.polyline({{2.0, 12.5}, {20.0, 12.5}}, "joined", kBlue);
+  chart.rectangle(2.5, 16.5, 8.0, 4.0, kBlue, "hint");
+  for (const char* rule : {".axis{stroke:var(--chart-soft)", ".grid{stroke:var(--chart-line)",
+                           ".iso{stroke:var(--chart-soft);stroke-dasharray:2 3;",
+                           ".front{stroke:var(--chart-soft);stroke-width:1.5;",
+                           ".joined{stroke-width:1.5;", ".mark{stroke:var(--chart-ground)",
+                           "{--chart-ink:#1a1a1a;--chart-soft:#595959;--chart-line:#d4d4d4;"}) {
+    CHECK_THAT(chart.svg(), Contains(rule));
   }
-  CHECK(ink > 500);
+  Canvas canvas(24, 24);
+  canvas.fill(0, 0, 24, 24, kBlue);
+  chart.draw(canvas.context());
+  CHECK(canvas.at(0, 0) == kPaper);  // The ground.
+  for (int x = 2; x < 20; ++x) {
+    CHECK(canvas.at(x, 1) == kSoft);
+    CHECK(canvas.at(x, 3) == kLine);
+    CHECK(canvas.at(x, 5) == ((x - 2) % 5 < 2 ? kSoft : kPaper));
+    CHECK(canvas.at(x, 8) == kSoft);
+    CHECK(canvas.at(x, 12) == kBlue);
+  }
+  // A line 1.5 wide covers a quarter of the pixels at its sides; one 1 wide does not.
+  CHECK(canvas.at(9, 7).red == Approx(255 - (255 - 0x59) / 4.0).margin(6));
+  CHECK(canvas.at(9, 11).red == Approx(255 * 3 / 4.0).margin(6));
+  CHECK(canvas.at(9, 2) == kPaper);
+  CHECK(canvas.at(5, 18) == kBlue);
+  CHECK(canvas.at(5, 16) == kPaper);  // The mark's edge has the colour of the ground.
+}
+
+TEST_CASE("Cairo writes texts where the SVG has them") {
+  // The box of a text's ink: left, top, right, bottom.
+  const auto ink = [](const std::string& look, bool upwards = false) {
+    ChartDrawing chart("texts", "", "");
+    if (upwards) {
+      chart.text_upwards(100.0, 100.0, "HHHHHHHH");
+    } else {
+      chart.text(100.0, 100.0, "HHHHHHHH", look);
+    }
+    Canvas canvas(200, 200);
+    chart.draw(canvas.context());
+    std::array<int, 5> box = {200, 200, 0, 0, 255};
+    for (int y = 0; y < 200; ++y) {
+      for (int x = 0; x < 200; ++x) {
+        const int red = canvas.at(x, y).red;
+        box[4] = std::min(box[4], red);
+        if (red > 200) continue;
+        box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y),
+               box[4]};
+      }
+    }
+    return box;
+  };
+  const auto plain = ink("ink"), middle = ink("middle"), end = ink("soft end");
+  const int width = plain[2] - plain[0];  // An H of DejaVu Sans is 0.752 of its size wide.
+  CHECK(width == Approx(8 * 0.752 * 12).margin(4));
+  CHECK(plain[0] == Approx(101).margin(1));
+  CHECK(plain[3] == Approx(99).margin(1));  // On the base line.
+  CHECK(middle[0] + middle[2] == Approx(200).margin(3));
+  CHECK(end[2] == Approx(98).margin(1));
+  CHECK(plain[4] < 0x59);
+  CHECK(end[4] >= 0x59);
+  CHECK(ink("small")[2] - ink("small")[0] == Approx(width * 10 / 12.0).margin(2));
+  CHECK(ink("bold")[2] - ink("bold")[0] > width + 4);
+  const auto upwards = ink("", true);
+  CHECK(upwards[1] + upwards[3] == Approx(200).margin(3));
+  CHECK(upwards[3] - upwards[1] == Approx(width).margin(1));
+  CHECK(upwards[2] == Approx(99).margin(1));
 }
 
 TEST_CASE("Axes begin and end at round numbers") {
