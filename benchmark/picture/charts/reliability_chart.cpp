@@ -7,15 +7,15 @@
 namespace raymoval {
 namespace {
 
-constexpr double kPlotSide = 300.0;
-constexpr double kPlotLeft = 56.0;
-constexpr double kPlotTop = 44.0;
+constexpr double kReliabilitySide = 300.0;
+constexpr double kReliabilityLeft = 56.0;
+constexpr double kReliabilityTop = 44.0;
 
 double across(double confidence) {
-  return kPlotLeft + confidence * kPlotSide;
+  return kReliabilityLeft + confidence * kReliabilitySide;
 }
 double upwards(double share) {
-  return kPlotTop + (1.0 - share) * kPlotSide;
+  return kReliabilityTop + (1.0 - share) * kReliabilitySide;
 }
 
 void draw_plot(ChartDrawing& chart) {
@@ -30,7 +30,7 @@ void draw_plot(ChartDrawing& chart) {
       {{across(0.0), upwards(1.0)}, {across(0.0), upwards(0.0)}, {across(1.0), upwards(0.0)}},
       "axis");
   chart.text(across(0.5), upwards(0.0) + 34.0, "mean confidence", "middle");
-  chart.text_upwards(kPlotLeft - 38.0, upwards(0.5), "share that moves");
+  chart.text_upwards(kReliabilityLeft - 38.0, upwards(0.5), "share that moves");
 }
 
 std::string bin_hint(const std::string& method, const ReliabilityBin& bin) {

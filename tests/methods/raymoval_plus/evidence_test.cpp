@@ -8,6 +8,7 @@
 #include "tests/methods/toy_world.h"
 
 namespace raymoval::raymoval_plus_test {
+using namespace toy;
 using namespace raymoval::raymoval_plus_method;
 
 namespace {

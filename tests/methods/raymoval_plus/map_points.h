@@ -5,8 +5,6 @@
 
 namespace raymoval::raymoval_plus_test {
 
-using namespace toy;
-
 /// The voxel of a world point (metres) in a map with voxels of 0.2 m, and where the point is in it;
 /// written without the kernels.
 struct MapPoint {
