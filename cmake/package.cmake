@@ -22,10 +22,13 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core")
 # What building against the library takes; a machine that only runs the program can do without.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++ (>= 4:11), pkg-config, libeigen3-dev,
- nlohmann-json3-dev, libtbb-dev, robin-map-dev, libxxhash-dev, libembree-dev, libpcl-dev,
+ nlohmann-json3-dev, libtbb-dev, robin-map-dev, libxxhash-dev, libembree-dev,
  liblzf-dev, libbz2-dev, liblz4-dev, libzstd-dev, libsqlite3-dev, liboctomap-dev, libfmt-dev,
  libhwy-dev, zlib1g-dev, librsvg2-dev, libcairo2-dev")
 string(REPLACE "\n" "" CPACK_DEBIAN_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_PACKAGE_RECOMMENDS}")
+if(raymoval_has_pcl)
+  string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", libpcl-dev")
+endif()
 # The example of a method in Python.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-numpy")
 # With the Python package there are two packages: all that has no component, and that one.

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Makes the Debian package, reads its fields, unpacks it into an empty root and uses it from there.
-# Usage: package_test.sh BUILD_FOLDER
+# Usage: package_test.sh BUILD_FOLDER 1|0
+# 1 where the program has PCL.
 set -uo pipefail
 build=$(readlink -f "$1")
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -36,8 +37,13 @@ holds "it says what it is" test -n "$(field Description)"
 holds "its maintainer is who was configured" test "$(field Maintainer)" = \
   "$(sed -n 's/^RAYMOVAL_PACKAGE_CONTACT:STRING=//p' "$build/CMakeCache.txt")"
 # Their names have versions that differ from system to system.
-for library in libc6 'libstdc\+\+6' libtbb12 'libembree(3-3|4-4)' libxxhash0 'liboctomap1\.[0-9]+(t64)?' \
-  liblzf1 'libpcl-common1\.[0-9]+(t64)?' 'libpcl-sample-consensus1\.[0-9]+(t64)?'; do
+libraries=(libc6 'libstdc\+\+6' libtbb12 'libembree(3-3|4-4)' libxxhash0 'liboctomap1\.[0-9]+(t64)?' liblzf1)
+if [[ $2 == 1 ]]; then
+  libraries+=('libpcl-common1\.[0-9]+(t64)?' 'libpcl-sample-consensus1\.[0-9]+(t64)?')
+else
+  holds "nothing of PCL is needed" test -z "$(names_in Depends | grep pcl)$(names_in Recommends | grep pcl)"
+fi
+for library in "${libraries[@]}"; do
   holds "it depends on $library" grep -qxE "$library" <(names_in Depends)
 done
 # What it names can be had: by name it is installed here, since it was built with it.
