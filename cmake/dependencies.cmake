@@ -40,6 +40,12 @@ macro(raymoval_need_module name package)
   raymoval_need(${name}_FOUND "${wanted}" ${package})
 endmacro()
 
+# Only octomap's ground plane needs PCL, which brings along VTK and Qt: 2.3 GB of packages.
+set(RAYMOVAL_PCL AUTO CACHE STRING
+    "The ground plane of octomap, which needs PCL: ON, OFF, or AUTO (if PCL is found)")
+set_property(CACHE RAYMOVAL_PCL PROPERTY STRINGS AUTO ON OFF)
+set(raymoval_has_pcl OFF)
+
 # PCL only where a method says so. Its own configuration knows the folder of its headers, whose name
 # has the version. It sets much else, which ends with this function.
 function(raymoval_find_pcl)
@@ -48,7 +54,7 @@ function(raymoval_find_pcl)
   set(CMAKE_WARN_DEPRECATED OFF CACHE INTERNAL "")
   find_package(PCL 1.12 QUIET CONFIG COMPONENTS common sample_consensus)
   unset(CMAKE_WARN_DEPRECATED CACHE)
-  set(PCL_FOUND ${PCL_FOUND} PARENT_SCOPE)
+  set(raymoval_has_pcl ${PCL_FOUND} PARENT_SCOPE)
   set(PCL_VERSION ${PCL_VERSION} PARENT_SCOPE)
   # It also names the folders of Eigen and Boost.
   foreach(folder ${PCL_INCLUDE_DIRS})
@@ -98,8 +104,12 @@ raymoval_need_package(BZip2 "" libbz2-dev)
 raymoval_need_module(lz4 liblz4-dev liblz4)
 raymoval_need_module(zstd libzstd-dev libzstd)
 raymoval_need_module(sqlite3 libsqlite3-dev sqlite3)
-raymoval_find_pcl()
-raymoval_need(PCL_FOUND "PCL 1.12 or later" libpcl-dev)
+if(RAYMOVAL_PCL)  # ON or AUTO.
+  raymoval_find_pcl()
+endif()
+if(RAYMOVAL_PCL AND NOT RAYMOVAL_PCL STREQUAL "AUTO")
+  raymoval_need(raymoval_has_pcl "PCL 1.12 or later" libpcl-dev)
+endif()
 raymoval_need_package(octomap 1.9 liboctomap-dev)
 raymoval_find_embree()
 raymoval_need(embree_FOUND "Embree 3.12 or later, or 4" libembree-dev)
@@ -134,4 +144,9 @@ if(raymoval_lacks)
           "On Debian and Ubuntu scripts/install_dependencies.sh installs all of it. Elsewhere install "
           "what your system calls these. docs/platforms.md says what was tried where.")
 endif()
-message(STATUS "Found PCL ${PCL_VERSION}, Embree ${embree_VERSION}")
+if(raymoval_has_pcl)
+  message(STATUS "Found PCL ${PCL_VERSION}")
+else()
+  message(STATUS "Without PCL (RAYMOVAL_PCL is ${RAYMOVAL_PCL}): octomap has no ground plane")
+endif()
+message(STATUS "Found Embree ${embree_VERSION}")

@@ -1,8 +1,13 @@
 # Libraries that have no CMake configuration of their own, one that drags in VTK and Qt (PCL), or one
 # that names files by absolute path (OctoMap). Read by the build and by the installed configuration:
-# what links to these targets tells no path of the machine it was built on.
+# what links to these targets tells no path of the machine it was built on. `raymoval_has_pcl` says
+# whether the library was built with PCL.
 set(raymoval_missing_libraries "")
-foreach(name pcl_common pcl_sample_consensus octomap octomath lzf)
+set(raymoval_libraries octomap octomath lzf)
+if(raymoval_has_pcl)
+  list(APPEND raymoval_libraries pcl_common pcl_sample_consensus)
+endif()
+foreach(name ${raymoval_libraries})
   if(NOT TARGET raymoval::${name})
     find_library(RAYMOVAL_${name}_LIBRARY ${name})
     mark_as_advanced(RAYMOVAL_${name}_LIBRARY)

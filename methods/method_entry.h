@@ -16,8 +16,9 @@ namespace raymoval {
 struct MethodVariant {
   std::string name;
   std::string sentence;
-  bool online = false;      ///< Scan t is answered from scans 0 .. t, or up to its `delay` later.
-  Configuration overrides;  ///< Values that differ from the method's defaults.
+  bool online = false;       ///< Scan t is answered from scans 0 .. t, or up to its `delay` later.
+  Configuration overrides;   ///< Values that differ from the method's defaults.
+  bool is_available = true;  ///< False if this build lacks a library for it, as `sentence` says.
 };
 
 /// Everything the rest of the program knows about a method.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "methods/octomap/octomap.h"
+#include "methods/octomap/point_filters.h"
 
 namespace raymoval {
 namespace {
@@ -57,6 +58,8 @@ MethodEntry octomap_entry() {
   ground.emplace_back("ground", true);
   Configuration ground_noise = ground;
   ground_noise.emplace_back("noise", true);
+  constexpr bool kHasPcl = octomap_method::kHasPcl;
+  const std::string needs = kHasPcl ? "" : " It needs PCL, which this build lacks.";
   MethodEntry entry;
   entry.name = "octomap";
   entry.sentence =
@@ -72,9 +75,9 @@ MethodEntry octomap_entry() {
       {"r05", "The same with leaves of 0.05 m.", false, {{"resolution", 0.05}}},
       {"discretised", "0.2 m, one beam per occupied cell.", false, {{"discretise", true}}},
       {"kth", "The KTH port's shipped setting: 0.1 m, hits do not suppress misses.", false, kth},
-      {"ground", "The KTH port with its ground plane ('w G').", false, ground},
-      {"ground-noise", "The KTH port with ground plane and noise filter ('w GF').", false,
-       ground_noise},
+      {"ground", "The KTH port with its ground plane ('w G')." + needs, false, ground, kHasPcl},
+      {"ground-noise", "The KTH port with ground plane and noise filter ('w GF')." + needs, false,
+       ground_noise, kHasPcl},
   };
   entry.bind(octomap_method::parameter_table(), octomap_method::make_octomap);
   return entry;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "methods/octomap/point_filters.h"
+
+#if RAYMOVAL_PCL
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/sample_consensus/ransac.h>
 #include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
 
 #include <memory>
-
-#include "methods/octomap/point_filters.h"
 
 namespace raymoval::octomap_method {
 namespace {
@@ -57,3 +58,19 @@ Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& 
 }
 
 }  // namespace raymoval::octomap_method
+#else
+#include "core/error.h"
+
+namespace raymoval::octomap_method {
+
+Mask find_ground(const std::vector<octomap::point3d>& /*points*/,
+                 const Parameters& /*parameters*/) {
+  throw ConfigurationError(
+      "octomap:ground and octomap:ground-noise (ground = true) need PCL, and this program was "
+      "built "
+      "without it. Install libpcl-dev and configure with -DRAYMOVAL_PCL=ON, or choose "
+      "octomap:kth.");
+}
+
+}  // namespace raymoval::octomap_method
+#endif

@@ -216,6 +216,8 @@ std::unique_ptr<Remover> make_octomap(const Parameters& parameters) {
     throw ConfigurationError(
         "octomap.maximum_range = 0 leaves no beam; give a range in metres, or -1 for unlimited.");
   }
+  // A build without PCL refuses before anything runs.
+  if (parameters.ground && !kHasPcl) (void)find_ground({}, parameters);
   return remover_from(parameters, run);
 }
 

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # What the program advises when a folder, a suite, a run or an output is not what it takes it for.
-# Usage: advice_test.sh PATH/TO/raymoval 1|0
-# 1 where its reports have a 3-D view.
+# Usage: advice_test.sh PATH/TO/raymoval 1|0 1|0
+# 1 where its reports have a 3-D view, and where it has PCL.
 set -uo pipefail
 raymoval=$(readlink -f "$1")
 view=$2
+has_pcl=$3
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export RAYMOVAL_CACHE=$work/cache
 short=(--sequence street --frames 0:2 --quiet)
@@ -99,7 +100,7 @@ expect 2 "did not reach its end" table early
 # Roots of SemanticKITTI that are none, or incomplete.
 for suite in kth semantickitti; do
   expect 2 "empty: holds no folder sequences/; expected the root of SemanticKITTI" \
-    run $suite --data empty --out o
+    run "$(suite_anywhere $suite)" --data empty --out o
 done
 expect 2 "and sequences/ holds 05." inspect unlabelled:kitti-00
 expect 2 "unlabelled/sequences/05: segment kitti-05 is frames 2350:2670:2, but the data has 2 frames from 0 to 1. Copy the missing ones, or name your own part: --sequence unlabelled:05 --frames 0:1." \
@@ -119,7 +120,7 @@ expect 2 "nowhere/a.html: $there" report kept -o nowhere/a.html
 expect 2 "Did you mean 'town'" simulate twon -o o
 expect 2 "A single frame is 5:5." inspect data/05 --frames 5
 expect 2 "fits no cell of this run" picture kept -o map.png --only nothing --quiet
-expect 2 "fits no cell of this suite" run simulated --only nothing --out o
+expect 2 "fits no cell of this suite" run "$(suite_anywhere simulated)" --only nothing --out o
 holds "nothing was generated to find out" test -z "$(find cache -name 'highway*')"
 expect 2 "are called 'town' (data/05 and one). Run them into two folders, the second with --name NAME" \
   run --sequence data/05 --sequence one --method noop --out o
@@ -140,8 +141,25 @@ expect 0 "All controls" run "${short[@]}" --method noop --memory-limit 2GB --tim
   --out limits
 expect 0 "run   street / dufomap:offline" run "${short[@]}" --method all --method raymoval:online \
   --explain --out o
-expect 0 "run   street / octomap:ground-noise" run "${short[@]}" --method octomap:all \
-  --method octomap --explain --out o
+# Without PCL nothing runs that needs it, however it is asked for.
+echo '{"sequences": ["street"], "methods": ["noop", "octomap", "octomap:ground"]}' >ground.json
+if [[ $has_pcl == 1 ]]; then
+  expect 0 "run   street / octomap:ground-noise" run "${short[@]}" --method octomap:all \
+    --method octomap --explain --out o
+  expect 0 "ground plane ('w G')." describe octomap
+  holds "nothing is said of PCL" test -z "$(grep 'PCL, which this build lacks' out.txt)"
+else
+  for asked in "run ground.json" "run --sequence street --method octomap:all" "plan ground.json" \
+    "run --sequence street --method noop --method octomap --set octomap.ground=true" \
+    "clean street -o map.pcd --method octomap:ground-noise"; do
+    read -ra words <<<"$asked"
+    [[ $asked == clean* || $asked == plan* ]] || words+=(--out needs_pcl)
+    expect 2 "need PCL, and this program was built without it. Install libpcl-dev" "${words[@]}"
+    holds "$asked: nothing was run or written" test ! -e needs_pcl -a ! -e map.pcd -a -z "$(cat out.txt)"
+  done
+  expect 0 "ground plane ('w G'). It needs PCL, which this build lacks." describe octomap
+  expect 0 "filter ('w GF'). It needs PCL, which this build lacks." list variants
+fi
 expect 2 "'all' stands for 12 methods, and one is expected here" clean street -o map.pcd --method all
 expect 2 "--frames is given 2 times" run "${short[@]}" --frames 0:1 --method noop --out o
 expect 2 "Did you mean '--out'" run "${short[@]}" --method noop -o o

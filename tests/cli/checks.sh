@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 # For the tests of the program: source it with the program's path in $raymoval.
+shipped_suites=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../../benchmark/suites")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -33,6 +34,12 @@ expect() {
 holds() {
   checks=$((checks + 1))
   "${@:2}" >out.txt 2>err.txt || complain "$1"
+}
+
+# suite_anywhere NAME: prints the path of a copy of a shipped suite that a build without PCL takes, too.
+suite_anywhere() {
+  sed 's/"octomap:ground", *//' "$shipped_suites/$1.json" >"$work/$1.json"
+  echo "$work/$1.json"
 }
 
 # wait_for FILE PROCESS: until the file is there, or the process that should write it is gone.

@@ -254,9 +254,10 @@ expect 2 "sweeps this parameter" run sweep.json --set raymoval.tau1=0.2 --out sw
 expect 2 "--data ROOT" run semantickitti --out kitti
 expect 2 "--data is given" run sweep.json --data . --out kitti
 expect 2 "--data goes with" run "${short[@]}" --method noop --data . --out kitti
-expect 2 "holds no folder sequences/" run semantickitti --data "$work" --out kitti
+semantickitti=$(suite_anywhere semantickitti)
+expect 2 "holds no folder sequences/" run "$semantickitti" --data "$work" --out kitti
 mkdir -p root/sequences
-expect 2 "kitti-00" run semantickitti --data root --out kitti
+expect 2 "kitti-00" run "$semantickitti" --data root --out kitti
 holds "no refused run made a folder" test ! -e kitti
 
 # The cells of one folder belong together: what is added stands beside what is there, and another

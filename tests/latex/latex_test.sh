@@ -33,7 +33,7 @@ cat >suite.json <<'JSON'
     { "path": "street", "name": "straße 道", "frames": "0:3" }
   ],
   "methods": [
-    "raymoval:online", "octomap:ground", "removert:rm3", "dufomap:offline", "erasor:general",
+    "raymoval:online", "octomap:kth", "removert:rm3", "dufomap:offline", "erasor:general",
     { "method": "raymoval:offline", "set": { "tau1": { "sweep": [0.1, 0.2] } } },
     { "method": "external:MANIFEST", "as": "fails_with_a_long_reason" }
   ],

@@ -14,12 +14,14 @@ using namespace raymoval;
 
 namespace {
 
-/// Every variant of every method but the controls, and peopleremover with a window of scans.
+/// Every variant that this build has of every method but the controls, and peopleremover with a
+/// window of scans.
 std::vector<ConfiguredMethod> all_methods() {
   std::vector<ConfiguredMethod> methods;
   for (const auto& entry : MethodRegistry::built_in().entries()) {
     if (entry->parameters.empty()) continue;
     for (const MethodVariant& variant : entry->variants) {
+      if (!variant.is_available) continue;
       methods.push_back(MethodRegistry::built_in().configure(entry->name + ":" + variant.name));
       if (entry->name != "peopleremover") continue;
       methods.push_back(methods.back());

@@ -218,7 +218,7 @@ void check_variant(const std::string& name, std::set<std::string>& tested) {
 void check_method(const std::string& name) {
   std::set<std::string> tested;
   for (const MethodVariant& variant : MethodRegistry::built_in().find(name).variants) {
-    check_variant(name + ":" + variant.name, tested);
+    if (variant.is_available) check_variant(name + ":" + variant.name, tested);
   }
 }
 

@@ -64,6 +64,7 @@ std::vector<MethodRequest> all_methods() {
   std::vector<MethodRequest> requests;
   for (const auto& entry : MethodRegistry::built_in().entries()) {
     for (const MethodVariant& variant : entry->variants) {
+      if (!variant.is_available) continue;
       const auto method = MethodRegistry::built_in().configure(entry->name + ":" + variant.name);
       requests.push_back({method.full_name(), method});
     }

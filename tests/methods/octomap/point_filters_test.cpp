@@ -19,7 +19,7 @@ std::size_t count(const Mask& mask) {
 
 /// 400 points of a plane through (0, 0, 1) of the given slope along x, no two alike, up to 1 cm off
 /// it; then 20 points 0.5 m above it.
-Points slope(double tangent) {
+[[maybe_unused]] Points slope(double tangent) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> along(-10, 10), off(-0.01, 0.01);
   Points points;
@@ -32,6 +32,26 @@ Points slope(double tangent) {
 
 }  // namespace
 
+TEST_CASE("a ground plane is refused by a build without PCL, and only by it") {
+  const MethodRegistry& methods = MethodRegistry::built_in();
+  for (const MethodVariant& variant : methods.find("octomap").variants) {
+    INFO(variant.name);
+    ConfiguredMethod method = methods.configure("octomap:" + variant.name);
+    const bool finds_ground = variant.name == "ground" || variant.name == "ground-noise";
+    CHECK(variant.is_available == (kHasPcl || !finds_ground));
+    const bool says_so = variant.sentence.find("PCL, which this build lacks") != std::string::npos;
+    CHECK(says_so == !variant.is_available);
+    if (!finds_ground) CHECK_NOTHROW(method.make());
+    set_parameter(method.configuration, "ground", true);
+    if (kHasPcl) {
+      CHECK_NOTHROW(method.make());
+    } else {
+      CHECK_THROWS_WITH(method.make(), Catch::Contains("need PCL, and this program was built"));
+    }
+  }
+}
+
+#if RAYMOVAL_PCL
 TEST_CASE("the ground is the points near the one plane that is nearly level") {
   const Parameters parameters;
   const Mask ground = find_ground(rounded(slope(0.1)), parameters);  // 0.0997 rad.
@@ -49,6 +69,7 @@ TEST_CASE("fewer than fifty points have no ground") {
   CHECK(count(find_ground(rounded(points), {})) == 0);
   CHECK(find_ground({}, {}).empty());
 }
+#endif
 
 TEST_CASE("noise is far from its neighbours, by the scan's own measure") {
   // Eleven points 1 m apart on a line, and one 9 m away. Mean distance to the two nearest others:

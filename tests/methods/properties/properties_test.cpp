@@ -210,6 +210,7 @@ void check_method(const std::string& name) {
   std::map<std::string, int> open, changed;  // By change: variants that may, worlds that did.
   for (const toy::Claims& claims : toy::claims()) {
     if (!claims.variant.starts_with(name + ":")) continue;
+    if (!MethodRegistry::built_in().configure(claims.variant).variant.is_available) continue;
     INFO(claims.variant);
     Findings findings = check_claims(claims, worlds);
     for (std::size_t c = 0; c < claims.about.size(); ++c) {
