@@ -7,11 +7,13 @@
 #                           comparison with the recorded results
 #   scripts/test.sh --all   builds and runs the same tests with AddressSanitizer and UBSan, measures
 #                           coverage, and tests the site, LaTeX, reports in a browser, Python and packages
+#   RAYMOVAL_PCL=OFF        builds without PCL, which is then not installed
 #   scripts/test.sh --all --quick   leaves out tests with the label slow in the sanitizers' build
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
 all=
+pcl=${RAYMOVAL_PCL:-ON}
 sanitized='extra'
 for argument in "$@"; do
   case $argument in
@@ -68,14 +70,15 @@ if [[ -z $all ]]; then
   step "includes" scripts/check_includes.sh
   step "tree" scripts/check_tree.sh
   step "format" check_format
-  step "build" build release -DRAYMOVAL_WERROR=ON
+  step "build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_PCL="$pcl"
   run_tests release --label-exclude extra
   step "reference results" scripts/check_reference.sh
 else
   step "dependencies" scripts/install_dependencies.sh --all
-  step "build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_REPORT_3D=ON -DRAYMOVAL_PYTHON=ON
+  step "build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_PCL="$pcl" -DRAYMOVAL_REPORT_3D=ON \
+    -DRAYMOVAL_PYTHON=ON
   run_tests release --label-regex extra
-  step "sanitizer build" build asan-ubsan
+  step "sanitizer build" build asan-ubsan -DRAYMOVAL_PCL="$pcl"
   find build/asan-ubsan -name '*.gcda' -delete
   run_tests asan-ubsan --label-exclude "$sanitized"
   step "coverage" scripts/coverage.sh
