@@ -110,7 +110,7 @@ elif [[ $# -gt 0 ]]; then
 fi
 
 scripts/install_dependencies.sh
-cmake --preset release -DRAYMOVAL_PCL="${RAYMOVAL_PCL:-AUTO}"
+cmake --preset release ${RAYMOVAL_PCL:+-DRAYMOVAL_PCL="$RAYMOVAL_PCL"}
 cmake --build --preset release --target raymoval_program
 if [[ -n $quick ]] && grep -q 'octomap:ground .*PCL, which this build lacks' <<<"$(build/release/raymoval list variants)"; then
   echo "reproduce.sh: this build has no PCL, so octomap:kth runs in place of octomap:ground."

@@ -29,6 +29,7 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"raymoval_plus:online.track_dynamic_share", "as for tracks"},
     {"raymoval_plus:online.track_points", "as for tracks"},
     {"raymoval_plus:online.object_points", "a cluster of three points must be dynamic"},
+    {"raymoval_plus:online.terrain_drop", "something dark must lie below the ground (see pits_test)"},
     {"raymoval_plus:online.low_points", "something dynamic must reach the ground"},
     {"beautymap.public_top", "a column must be higher than 30 slices (see beautymap_test)"},
     {"hmm_mos.map_scans", "what moves must be out of sight for some scans (see oracle_test)"},
