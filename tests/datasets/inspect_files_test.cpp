@@ -93,8 +93,7 @@ TEST_CASE("a good DynamicMap folder is silent", "[inspect]") {
   check_silent(inspect_dynamicmap({}));
 }
 
-TEST_CASE("points that lost their digits far from the origin are named",
-          "[inspect][slow]") {
+TEST_CASE("points that lost their digits far from the origin are named", "[inspect][slow]") {
   EditedSequence far = good_drive();
   far.each_pose(
       [](const Pose& pose) { return Eigen::Translation3d(150000.0, -3000.0, 0.0) * pose; });
@@ -173,8 +172,7 @@ TEST_CASE("a pose file with another count is named before anything is opened", "
   CHECK_THROWS_WITH(inspect_path(folder.text(), options), Catch::Contains("nowhere.txt"));
 }
 
-TEST_CASE("a gap between frames is named, and so is a time that stands",
-          "[inspect][slow]") {
+TEST_CASE("a gap between frames is named, and so is a time that stands", "[inspect][slow]") {
   const TemporaryFolder folder;
   write_simulated(suburb("vlp16", 12), folder / "drive", 2, nullptr);
   const std::string drive = (folder / "drive").string();
@@ -205,8 +203,7 @@ TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect][slow
   CHECK_THAT(report.findings[0].what, Catch::Contains("50 % of what the scans around it hold"));
 }
 
-TEST_CASE("missing returns in files are a note, and nothing has to be done",
-          "[inspect][slow]") {
+TEST_CASE("missing returns in files are a note, and nothing has to be done", "[inspect][slow]") {
   const float nan = std::nanf("");
   for (const Eigen::Vector3f& fake : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(nan, nan, nan)}) {
     EditedSequence drive = good_drive();

@@ -156,8 +156,7 @@ TEST_CASE("a narrow view of a road with traffic is not taken for another drive",
   CHECK(names.count("poses-of-another-sequence") + names.count("poses-in-millimetres") == 0);
 }
 
-TEST_CASE("a narrow view tells poses that the ground alone contradicts",
-          "[inspect][slow]") {
+TEST_CASE("a narrow view tells poses that the ground alone contradicts", "[inspect][slow]") {
   // The sensor looks down by 35 degrees. Poses of a car that goes ahead would take it into the
   // ground.
   SimulationOptions options;
@@ -179,8 +178,7 @@ TEST_CASE("a world far from its origin is silent", "[inspect][slow]") {
   check_silent(far.inspected());
 }
 
-TEST_CASE("positions that lost their digits far from the origin are named",
-          "[inspect][slow]") {
+TEST_CASE("positions that lost their digits far from the origin are named", "[inspect][slow]") {
   EditedSequence coarse = good_drive();
   coarse.each_pose([](const Pose& pose) {
     Pose far = Eigen::Translation3d(691000.25, 5336000.5, 512.0) * pose;
@@ -239,8 +237,7 @@ TEST_CASE("points in camera axes are told by the ground", "[inspect][slow]") {
   check_finds(both.inspected(), "camera-frame", "Points of a camera frame");
 }
 
-TEST_CASE("angles in the wrong unit are named, whatever the first heading",
-          "[inspect][slow]") {
+TEST_CASE("angles in the wrong unit are named, whatever the first heading", "[inspect][slow]") {
   for (const double heading : {0.0, 1.9, -2.8}) {
     EditedSequence degrees = good_drive();
     turn_world(degrees, heading);
@@ -253,8 +250,7 @@ TEST_CASE("angles in the wrong unit are named, whatever the first heading",
   check_finds(radians.inspected(), "radians-for-degrees", "180/pi");
 }
 
-TEST_CASE("millimetres and kilometres are named, in points and in poses",
-          "[inspect][slow]") {
+TEST_CASE("millimetres and kilometres are named, in points and in poses", "[inspect][slow]") {
   for (const double factor : {1000.0, 0.001}) {
     EditedSequence poses = good_drive();
     poses.each_pose([&](Pose pose) {
@@ -275,8 +271,7 @@ TEST_CASE("millimetres and kilometres are named, in points and in poses",
         std::set<std::string>{"points-in-millimetres", "poses-in-millimetres"});
 }
 
-TEST_CASE("centimetres and feet are told by the agreement under the poses",
-          "[inspect][slow]") {
+TEST_CASE("centimetres and feet are told by the agreement under the poses", "[inspect][slow]") {
   const auto times = [](EditedSequence drive, double factor) {
     drive.each_point([&](const Scan&, const Eigen::Vector3d& p) { return factor * p; });
     return drive;
@@ -310,8 +305,7 @@ TEST_CASE("both units are named if the scans do not tell", "[inspect][slow]") {
   CHECK_THAT(finding->remedy, Catch::Contains("by 0.001 if") && Catch::Contains("by 0.01 if"));
 }
 
-TEST_CASE("metres are not taken for feet, however little the scans agree",
-          "[inspect][slow]") {
+TEST_CASE("metres are not taken for feet, however little the scans agree", "[inspect][slow]") {
   for (const char* sensor : {"rosette", "solid-state"}) {
     for (const char* scene : {"motorway", "walk"}) {
       SimulationOptions options;

@@ -167,7 +167,9 @@ TEST_CASE("Every slip in a suite file is named with its place and the nearest le
   CHECK_THROWS_AS(suite_of(R"({"sequences": ["street"], "methods": [7]})"), ConfigurationError);
 }
 
-TEST_CASE("The word all is the default variant of each method but the controls, and NAME:all is all variants") {
+TEST_CASE(
+    "The word all is the default variant of each method but the controls, and NAME:all is all "
+    "variants") {
   CHECK(expanded_methods("all", toys()) == std::vector<std::string>{"toy:a"});
   CHECK(expanded_methods("toy:all", toys()) == std::vector<std::string>{"toy:a", "toy:b"});
   CHECK(expanded_methods("toy", toys()) == std::vector<std::string>{"toy"});

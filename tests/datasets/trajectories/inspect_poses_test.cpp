@@ -184,8 +184,7 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
   CHECK_THROWS_AS(inspection::unopenable_findings(folder.text(), options), UnreadableError);
 }
 
-TEST_CASE("points in the world frame are named, and brought back on request",
-          "[inspect][slow]") {
+TEST_CASE("points in the world frame are named, and brought back on request", "[inspect][slow]") {
   const EditedSequence& drive = good_drive();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, [](const Scan& scan, const Eigen::Vector3d& point) {
