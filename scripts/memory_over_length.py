@@ -8,8 +8,7 @@ table in Markdown of their memory and speed over the length.
 
 A method's peak memory is that of its own process at each length. From the last two lengths follow
 the milliseconds that a late scan takes, and the bytes by which each more scan lets the memory grow:
-those of the map that it adds, and of what is kept of each scan. A sequence that stays in one place,
-as `bag_reading --write` makes it, shows the second alone. Controls have no process of their own. With --protocol scoring's peak memory at
+those of the map that it adds, and of what is kept of each scan. Controls have no process of their own. With --protocol scoring's peak memory at
 the whole length is measured, too, which takes its time.
 """
 

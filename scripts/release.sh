@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Makes a release of the commit that is checked out: the source archive, the Debian packages of the
-# program, the library and the Python package, the wheel, what they are made of (SPDX), the licences
-# of what is linked, and SHA256SUMS. All is built from the archive, without network.
+# program, the library and the Python package, the wheel, and SHA256SUMS.
+# All is built from the archive, without network.
 #
 #   scripts/release.sh [--out DIR] [--twice] [--source-only]
 #     --out DIR       where the files go; it must not exist or be empty (default: build/dist)
@@ -81,8 +81,6 @@ build_from() {
   (cd "$source/python/backend" && /usr/bin/python3 -B -c "import raymoval_backend as backend
 backend.build_wheel('$3', {'build': '$build'})") >>"$2/log.txt" 2>&1 ||
     { tail -n 30 "$2/log.txt" >&2; fail "the wheel could not be built, see above."; }
-  "$source/scripts/sbom.py" "$build" --commit "$commit" --json "$3/$name.spdx.json" \
-    --licences "$3/$name-licences.md"
 }
 
 make_archive "$out/$name.tar.xz"
