@@ -27,7 +27,7 @@ def _built(config_settings, prefix):
     build = (config_settings or {}).get("build")
     if build is None:
         build = "build/wheel"
-        _cmake("-S", ".", "-B", build, "-G", "Ninja", "-DRAYMOVAL_PYTHON=ON",
+        _cmake("-S", ".", "-B", build, "-G", "Ninja", "-DCMAKE_UNITY_BUILD=ON", "-DRAYMOVAL_PYTHON=ON",
                f"-DPython3_EXECUTABLE={sys.executable}", "-DRAYMOVAL_BUILD_TESTS=OFF",
                "-DRAYMOVAL_PYTHON_DIR=lib/python3/dist-packages")
     _cmake("--build", build, "--target", "raymoval_python")
