@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/report/thinned_points.h"
+#include "benchmark/report/shown_points.h"
 #include "benchmark/run/folder/kept_run.h"
 #include "core/progress.h"
 
