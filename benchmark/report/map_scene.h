@@ -29,7 +29,7 @@ class MapSceneBuilder {
 
  private:
   std::size_t limit_;
-  ShownPoints removed_, kept_;
+  ReportPoints removed_, kept_;
   Scene scene_;
 };
 

@@ -109,7 +109,7 @@ class SceneBuilder {
 
   const Sequence& sequence_;
   std::size_t limit_;
-  ShownPoints errors_, others_;
+  ReportPoints errors_, others_;
   std::vector<std::uint8_t> bytes_;  ///< What each cell did to the present point.
   std::map<std::uint16_t, LabelClass> labels_;
   bool only_controls_ = false;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/report/shown_points.h"
+#include "benchmark/report/report_points.h"
 #include "benchmark/run/folder/kept_run.h"
 #include "core/progress.h"
 

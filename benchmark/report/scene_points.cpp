@@ -46,9 +46,9 @@ std::array<std::int32_t, 3> steps_of(const Eigen::Vector3d& world) {
   return steps;
 }
 
-void gather_points(const ShownPoints& first, const ShownPoints& second, Scene& scene) {
+void gather_points(const ReportPoints& first, const ReportPoints& second, Scene& scene) {
   const std::size_t count = first.size() + second.size();
-  const auto set_of = [&](std::size_t i) -> std::pair<const ShownPoints&, std::size_t> {
+  const auto set_of = [&](std::size_t i) -> std::pair<const ReportPoints&, std::size_t> {
     if (i < first.size()) return {first, i};
     return {second, i - first.size()};
   };

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "benchmark/report/report_points.h"
 #include "benchmark/report/scene.h"
-#include "benchmark/report/shown_points.h"
 
 namespace raymoval {
 
@@ -17,6 +17,6 @@ std::array<std::int32_t, 3> steps_of(const Eigen::Vector3d& world);
 
 /// Puts the points of both sets, and their verdicts, into `scene`, in an order in which neighbours
 /// in space are near each other.
-void gather_points(const ShownPoints& first, const ShownPoints& second, Scene& scene);
+void gather_points(const ReportPoints& first, const ReportPoints& second, Scene& scene);
 
 }  // namespace raymoval

@@ -7,8 +7,8 @@
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/report/html.h"
 #include "benchmark/report/pack.h"
+#include "benchmark/report/report_points.h"
 #include "benchmark/report/scene.h"
-#include "benchmark/report/shown_points.h"
 #include "benchmark/result/removals/reasons.h"
 #include "core/error.h"
 #include "core/utf8.h"
@@ -91,14 +91,14 @@ SceneCell cell_with(const std::string& name, const Mask& first, const Mask& seco
 }  // namespace
 
 TEST_CASE("without need every point stays", "[report]") {
-  ShownPoints points(3, 0, 0);
+  ReportPoints points(3, 0, 0);
   for (int i = 0; i < 3; ++i) points.add(at(0), 0, kNoVerdict);
   CHECK(points.size() == 3);
   CHECK(points.cell() == 0);
 }
 
 TEST_CASE("one point of a cell stays, the first", "[report]") {
-  ShownPoints points(10, 1, 16);
+  ReportPoints points(10, 1, 16);
   points.add(at(0), 0, std::vector<std::uint8_t>{7});
   points.add(at(15), 0, std::vector<std::uint8_t>{8});  // The same cell.
   points.add(at(16), 0, std::vector<std::uint8_t>{9});
@@ -112,7 +112,7 @@ TEST_CASE("one point of a cell stays, the first", "[report]") {
 }
 
 TEST_CASE("cells grow until the limit holds", "[report]") {
-  ShownPoints points(100, 1, 0);
+  ReportPoints points(100, 1, 0);
   for (int i = 0; i < 1000; ++i) {
     points.add(at(i), 0, std::vector<std::uint8_t>{static_cast<std::uint8_t>(i % 251)});
   }
@@ -125,7 +125,7 @@ TEST_CASE("cells grow until the limit holds", "[report]") {
 }
 
 TEST_CASE("more groups than the limit still end", "[report]") {
-  ShownPoints points(10, 0, 0);
+  ReportPoints points(10, 0, 0);
   for (std::uint64_t group = 0; group < 50; ++group) points.add(at(0), group, kNoVerdict);
   CHECK(points.size() == 10);
 }

@@ -26,12 +26,12 @@ struct ShownPoint {
 /// Keeps points up to a limit. If more come, it divides space into cells and keeps the first point
 /// of each cell; the cells grow until the limit holds. The same points in the same order always
 /// leave the same ones.
-class ShownPoints {
+class ReportPoints {
  public:
   /// @param verdicts how many bytes stand beside each point
   /// @param cell the first size of a cell in steps. If 0, every point stays as long as there is
   /// room
-  ShownPoints(std::size_t limit, std::size_t verdicts, int cell)
+  ReportPoints(std::size_t limit, std::size_t verdicts, int cell)
       : limit_(limit), verdicts_(verdicts), cell_(cell) {}
 
   /// @param group points thin out only points of the same group

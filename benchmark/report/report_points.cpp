@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/report/shown_points.h"
+#include "benchmark/report/report_points.h"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
 
 // Two cells with the same 64-bit hash would be thinned as one: of a million cells that happens once
 // in tens of millions of reports, and costs one point of a picture.
-std::uint64_t ShownPoints::key(const ShownPoint& point, std::uint64_t group) const {
+std::uint64_t ReportPoints::key(const ShownPoint& point, std::uint64_t group) const {
   std::uint64_t hash = group;
   for (const std::int32_t step : point.step) {
     hash = mixed(hash, static_cast<std::uint64_t>(floor_divide(step, cell_)));
@@ -30,8 +30,8 @@ std::uint64_t ShownPoints::key(const ShownPoint& point, std::uint64_t group) con
   return hash;
 }
 
-void ShownPoints::add(const ShownPoint& point, std::uint64_t group,
-                      std::span<const std::uint8_t> verdict) {
+void ReportPoints::add(const ShownPoint& point, std::uint64_t group,
+                       std::span<const std::uint8_t> verdict) {
   if (cell_ > 0 && !taken_.insert(key(point, group)).second) return;
   points_.push_back(point);
   groups_.push_back(group);
@@ -39,12 +39,12 @@ void ShownPoints::add(const ShownPoint& point, std::uint64_t group,
   while (points_.size() > limit_) grow_cells();
 }
 
-void ShownPoints::reduce(std::size_t limit) {
+void ReportPoints::reduce(std::size_t limit) {
   limit_ = limit;
   while (points_.size() > limit_) grow_cells();
 }
 
-void ShownPoints::grow_cells() {
+void ReportPoints::grow_cells() {
   if (cell_ > kLargestCell) {  // One point of each group is left: there are too many groups.
     points_.resize(limit_);
     groups_.resize(limit_);
