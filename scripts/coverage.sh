@@ -12,15 +12,17 @@ case ${1:-} in
   *) echo "coverage.sh: '$1' is unknown; expected nothing." >&2; exit 2 ;;
 esac
 
-# Percent of lines.
-limits="core:90 datasets:90 methods:90 eval:90 benchmark:90"
+# Percent of lines. Much of benchmark is run by tests with the label slow.
+limits="core:90 datasets:90 methods:95 eval:95 benchmark:85"
 
 build=build/asan-ubsan
 [[ -n $(find "$build" -name '*.gcda' -print -quit 2>/dev/null) ]] ||
   { echo "coverage.sh: $build has no counts; run scripts/test.sh --all first." >&2; exit 2; }
 mkdir -p build/coverage
+# Counts that two threads change at once may become negative, which gcovr takes for an error.
 gcovr --root . --object-directory "$build" -j "$(nproc)" --exclude-throw-branches \
-  --json build/coverage/counts.json "$build" || exit 1
+  --gcov-ignore-parse-errors --json build/coverage/counts.json "$build" 2>build/coverage/log.txt ||
+  { tail -n 20 build/coverage/log.txt; exit 1; }
 status=0
 for limit in $limits; do
   room=${limit%:*}
