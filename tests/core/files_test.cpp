@@ -60,7 +60,7 @@ TEST_CASE("A byte order mark is no part of the text") {
   CHECK(read_json(folder.path() / "a.json")["a"] == 1);
 }
 
-TEST_CASE("JSON may have comments, an error tells line and column") {
+TEST_CASE("JSON may have comments, and an error tells line and column") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.json";
   write_atomically(path, "// one\n{\"a\": /* two */ [1, 2]}\n");

@@ -105,7 +105,7 @@ TEST_CASE("Unknown names and choices suggest the near ones") {
   CHECK_THROWS_WITH(find_parameter("noop", {}, "x"), Contains("noop has no parameters"));
 }
 
-TEST_CASE("Setting a parameter keeps the order, one that is not there is our own fault") {
+TEST_CASE("Setting a parameter keeps the order, and one that is not there is our own fault") {
   Configuration configuration = table().write(Parameters{});
   set_parameter(configuration, "bins", std::int64_t{9});
   CHECK(table().read(configuration).bins == 9);

@@ -105,7 +105,7 @@ TEST_CASE("names sort naturally", "[frames]") {
   CHECK_FALSE(natural_less("7", "7"));
 }
 
-TEST_CASE("numbered files are listed by number, strange names are errors", "[frames]") {
+TEST_CASE("numbered files are listed by number, and strange names are errors", "[frames]") {
   const TemporaryFolder folder;
   for (const char* name : {"10.bin", "9.bin", ".hidden.bin", "note.txt"}) folder.write(name, "x");
   const auto files = list_numbered_files(folder.text(), ".bin");

@@ -143,7 +143,7 @@ TEST_CASE("labels in the intensity are named, by value and by bits", "[inspect][
   check_finds(inspect_dynamicmap(bits), "labels-in-intensity-by-bits", "uint32");
 }
 
-TEST_CASE("a good folder of scans is silent, labels where methods look are named",
+TEST_CASE("a good folder of scans is silent, and labels where methods look are named",
           "[inspect][slow]") {
   EditedSequence drive = good_drive();
   const TemporaryFolder good, leaking;

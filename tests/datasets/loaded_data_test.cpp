@@ -59,7 +59,8 @@ TEST_CASE("A scan or label that is another when it is read again is an error") {
   CHECK_THAT(data.loaded().change, Catch::Contains("000001"));
 }
 
-TEST_CASE("What two readers read is compared scan by scan, what one did not read does not count") {
+TEST_CASE(
+    "What two readers read is compared scan by scan, and what one did not read does not count") {
   const TemporaryFolder at;
   write_sequence(at);
   const LoadedData before = all_of(watched(open_sequence(at.text(), {})));

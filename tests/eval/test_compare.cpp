@@ -74,7 +74,7 @@ TEST_CASE("A method that keeps one static voxel less is worse") {
   CHECK(result.same_cells == 0);
 }
 
-TEST_CASE("Better is told and no error, better in one rate and worse in another is worse") {
+TEST_CASE("Better is told and no error, and better in one rate and worse in another is worse") {
   const Comparison better = compared(cell_with(990, 10), kReference);
   CHECK(better.verdict() == ExitCode::kDone);
   REQUIRE(better.better.size() == 1);

@@ -274,7 +274,7 @@ TEST_CASE("trucks are counted both ways when they occur", "[erasor][edge]") {
                   InternalError);
 }
 
-TEST_CASE("labels 0, 1 and 251 are static, 0 and 1 can be left out of PR", "[erasor][edge]") {
+TEST_CASE("labels 0, 1 and 251 are static, and 0 and 1 can be left out of PR", "[erasor][edge]") {
   const std::vector<std::pair<std::uint32_t, bool>> points = {
       {0, true}, {1, false}, {251, false}, {40, false}, {252, true}};
   const ProtocolResult kept = score_row(points);

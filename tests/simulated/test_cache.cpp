@@ -188,7 +188,7 @@ TEST_CASE("Only names and sizes are looked at where the content is checked other
   CHECK(content_of(folder) != harmed);
 }
 
-TEST_CASE("What a killed process left goes, what may be alive or another's stays") {
+TEST_CASE("What a killed process left goes, and what may be alive or another's stays") {
   const TemporaryFolder scratch;
   const fs::path cache = scratch / "simulated";
   fs::create_directories(cache);

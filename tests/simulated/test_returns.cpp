@@ -48,7 +48,7 @@ TEST_CASE("ranges scatter by the stated noise around the truth") {
   CHECK(std::sqrt(squares / 1e4) == Approx(0.03).epsilon(0.04));
 }
 
-TEST_CASE("drop-out grows with range, grazing angle and darkness, glass hardly returns") {
+TEST_CASE("drop-out grows with range, grazing angle and darkness, and glass hardly returns") {
   const SensorFile sensor = window(R"(, "dropout": 0.02, "range_at_10_percent_m": 60)");
   const auto returned = [&](double range, Material material) {
     return static_cast<double>(sweep_of_wall(sensor, range, material).points.size()) / 1e4;

@@ -24,7 +24,8 @@ ChartDrawing stage_chart(const RunResults& results);
 
 /// Shows which share of the points moves (upwards) against the mean confidence that was said of
 /// them (to the right), a marker for each bin with points, a line for each method that was asked. A
-/// dotted diagonal is where what is said comes true. The drawing is empty if no method was asked.
+/// dotted diagonal marks confidences that equal the share. The drawing is empty if no method was
+/// asked.
 ChartDrawing reliability_chart(const RunResults& results);
 
 /// Shows, for each sweep over one parameter that is a number, the rates over that parameter: a plot

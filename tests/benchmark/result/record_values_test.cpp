@@ -96,7 +96,7 @@ TEST_CASE("What is wrong with a name or a place is told with its field", "[resul
   CHECK_THROWS_WITH(cell_from(json, "cell.json"), Contains("rates.PR: expected two numbers"));
 }
 
-TEST_CASE("Parameters keep their types, what is no number any more stays none", "[result]") {
+TEST_CASE("Parameters keep their types, and what is no number any more stays none", "[result]") {
   ordered_json json = plain_cell();
   json["method"]["parameters"] = {
       {"flag", true}, {"count", 3}, {"size", 3.0}, {"text", "3"}, {"infinite", nullptr}};

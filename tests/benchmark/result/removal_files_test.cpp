@@ -48,7 +48,7 @@ TEST_CASE("Removals are written per point of the file and read back per point of
   CHECK(back.get(1) == Mask{1});
 }
 
-TEST_CASE("Ids 251 to 259 mean removed whatever the instance, their neighbours do not") {
+TEST_CASE("Ids 251 to 259 mean removed whatever the instance, and their neighbours do not") {
   const test::TwoScans scans;
   const test::TemporaryFolder folder;
   const std::uint32_t instance = 7U << 16;

@@ -83,7 +83,7 @@ TEST_CASE("A sweep is a cell for each value") {
   CHECK(suite.methods[2].sweep.empty());
 }
 
-TEST_CASE("Two sweeps are combined, plain values hold for all points") {
+TEST_CASE("Two sweeps are combined, and plain values hold for all points") {
   const Suite suite = suite_of(
       R"({"method": "toy", "as": "t", "set": {"gap": {"sweep": [3, 4]}, "size": {"sweep": [1, 2]}}},
          {"method": "toy", "as": "u", "set": {"gap": 7, "size": {"sweep": [1]}}})");

@@ -123,7 +123,8 @@ TEST_CASE("A method that fails is a cell with a reason, and the rest goes on") {
   CHECK_THAT(csv, Contains("street,throws,v,erasor,failed,,,,,,,,,,,,,throws:v"));
 }
 
-TEST_CASE("A cell that is there, right and whole is not run again, anything else is", "[slow]") {
+TEST_CASE("A cell that is there, right and whole is not run again, and anything else is",
+          "[slow]") {
   const test::TemporaryFolder folder;
   const auto out = folder.path() / "run";
   Suite suite = two_scans_with({"good"});

@@ -56,7 +56,7 @@ TEST_CASE("A setting is METHOD.key=value") {
   }
 }
 
-TEST_CASE("A setting of a method reaches all variants, one of a variant wins in any order") {
+TEST_CASE("A setting of a method reaches all variants, and one of a variant wins in any order") {
   for (const bool method_first : {true, false}) {
     Suite suite;
     add_method(suite, "toy:a", "", toys());
@@ -110,7 +110,7 @@ TEST_CASE("Settings that reach nothing, clash, or are illegal are errors") {
                     Contains("twice"));
 }
 
-TEST_CASE("Two cells of one name clash, controls come first and only once") {
+TEST_CASE("Two cells of one name clash, and controls come first and only once") {
   Suite suite;
   add_method(suite, "toy", "", toys());
   CHECK_THROWS_AS(add_method(suite, "toy:a", "", toys()), UsageError);

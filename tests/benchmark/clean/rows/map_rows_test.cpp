@@ -122,7 +122,7 @@ TEST_CASE("Rows are those of the points that a scan has") {
   CHECK(value_of(made.rows, 1, "ring") == 3.0);
 }
 
-TEST_CASE("A scan with other fields is an error that names them, their order does not matter") {
+TEST_CASE("A scan with other fields is an error that names them, and their order does not matter") {
   RecordLayout other;
   other.add("ring", 'U', 2);
   for (const char* name : {"z", "y", "x", "intensity"}) other.add(name, 'F', 4);
