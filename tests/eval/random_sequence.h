@@ -45,8 +45,12 @@ inline LabelledScan random_scan(const CloudShape& shape, std::mt19937& random) {
   std::bernoulli_distribution flagged(0.4);
   for (std::size_t i = 0; i < shape.points; ++i) {
     const float side = random() % 2 == 0 ? 3.5f : -3.5f;
-    scan.add(side + coordinate(shape, random), coordinate(shape, random),
-             0.4f * coordinate(shape, random), kLabels[random() % 10], flagged(random));
+    // Compilers evaluate the arguments of a call in different orders.
+    const bool is_removed = flagged(random);
+    const std::uint32_t label = kLabels[random() % 10];
+    const float z = 0.4f * coordinate(shape, random);
+    const float y = coordinate(shape, random);
+    scan.add(side + coordinate(shape, random), y, z, label, is_removed);
   }
   return scan;
 }

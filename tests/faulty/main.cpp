@@ -48,8 +48,9 @@ class Faulty : public raymoval::Remover {
 void leak() {
   std::fputs("about to leak\n", stderr);
   for (;;) {
-    auto* block = new std::vector<char>(8 << 20, 'x');
-    std::this_thread::sleep_for(std::chrono::milliseconds(block->size() > 1 ? 2 : 0));
+    // Volatile, else a compiler may leave the block out.
+    const volatile char* block = (new std::vector<char>(8 << 20, 'x'))->data();
+    std::this_thread::sleep_for(std::chrono::milliseconds(block[0] == 'x' ? 2 : 0));
   }
 }
 

@@ -65,6 +65,11 @@ TEST_CASE("the same seed gives the same bytes for any threads and any order", "[
   }
 }
 
+TEST_CASE("a scene has the same bytes with every compiler") {
+  // Found with GCC 12. Clang evaluates the arguments of a call in the other order.
+  CHECK(hash_of(*make_simulated(small_town(1)), 0) == "421a057d2b452172cf268167a9cd641c");
+}
+
 TEST_CASE("another seed gives other movers, noise and poses") {
   SimulationOptions options = small_town(2);
   const auto a = make_simulated(options);

@@ -56,7 +56,7 @@ TEST_CASE("the tracer finds what trying every triangle finds") {
   const RayTracer::Moment moment(tracer, centre, {{}});
   std::vector<Ray> rays(1003);
   for (Ray& ray : rays) {
-    ray.direction = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+    ray.direction = random.normals().normalized();
   }
   std::vector<Hit> hits(rays.size());
   moment.trace(rays, hits);

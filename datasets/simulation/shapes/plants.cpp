@@ -21,7 +21,7 @@ void add_branch(Mesh& mesh, const Vector3d& from, const Vector3d& tip, int leave
   add_tube(mesh, kLeaves, from, tip, 0.06, 0.02, 5);
   for (int i = 0; i < leaves; ++i) {
     const double share = random.between(0.45, 1.05);
-    const Vector3d off(random.normal(), random.normal(), random.normal());
+    const Vector3d off = random.normals();
     add_leaf(mesh, kLeaves, from + share * (tip - from) + 0.3 * off, 0.28, random);
   }
 }
@@ -34,7 +34,8 @@ Mesh make_tree(const PartSpec& spec, Random& random) {
   const double radius = 0.5 * grown(spec.width_m, random, 4.0, 6.5);
   const double fork = height * random.between(0.28, 0.36);
   const double girth = 0.018 * height + 0.04;
-  const Vector3d lean(0.04 * random.normal(), 0.04 * random.normal(), 1.0);
+  const double lean_y = 0.04 * random.normal(), lean_x = 0.04 * random.normal();
+  const Vector3d lean(lean_x, lean_y, 1.0);
   add_tube(mesh, kBark, {0, 0, -0.4}, fork * lean, girth, 0.75 * girth, 8);
   add_tube(mesh, kBark, fork * lean, 0.8 * height * lean, 0.7 * girth, 0.25 * girth, 6);
   const double middle = 0.5 * (fork + height);
@@ -76,8 +77,7 @@ Mesh make_hedge(const PartSpec& spec, Random& random) {
   add_box(mesh, kLeaves, {0.0, 0.3 * width, -0.3}, {length, 0.7 * width, 0.8 * height});
   const int count = static_cast<int>(length * height * 55.0);
   for (int i = 0; i < count; ++i) {
-    const Vector3d at(random.between(0, length), random.between(0, width),
-                      random.between(0, height));
+    const Vector3d at = random.within(Vector3d::Zero(), {length, width, height});
     add_leaf(mesh, kLeaves, at, 0.14, random);
   }
   return mesh;

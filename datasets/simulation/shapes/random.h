@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <initializer_list>
 
@@ -65,6 +66,21 @@ class Random {
   double normal() { return to_normal(word()); }
   bool chance(double probability) { return unit() < probability; }
   int below(int count) { return static_cast<int>(unit() * count); }
+
+  // Compilers evaluate the arguments of a call in different orders, so a vector is drawn in
+  // statements of their own: z, y, x.
+
+  Eigen::Vector3d normals() {
+    const double z = normal(), y = normal(), x = normal();
+    return {x, y, z};
+  }
+  /// Each coordinate between that of `low` and that of `high`.
+  Eigen::Vector3d within(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    const double z = between(low.z(), high.z());
+    const double y = between(low.y(), high.y());
+    const double x = between(low.x(), high.x());
+    return {x, y, z};
+  }
 
  private:
   std::uint64_t key_;

@@ -122,8 +122,8 @@ void add_extrusion(Mesh& mesh, Paint paint, const std::vector<Vector2d>& outline
 }
 
 void add_leaf(Mesh& mesh, Paint paint, const Vector3d& centre, double leaf, Random& random) {
-  Vector3d u(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
-  Vector3d v(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+  Vector3d u = random.within(-Vector3d::Ones(), Vector3d::Ones());
+  Vector3d v = random.within(-Vector3d::Ones(), Vector3d::Ones());
   if (u.cross(v).norm() < 1e-3) {
     u = Vector3d::UnitX();
     v = Vector3d::UnitZ();
@@ -139,12 +139,12 @@ void add_leaves(Mesh& mesh, Paint paint, const Vector3d& centre, const Vector3d&
                 int count, Random& random) {
   constexpr int kCluster = 6;  // leaves grow at twigs, so there are gaps between
   for (int i = 0; i < count;) {
-    const Vector3d unit(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    const Vector3d unit = random.within(-Vector3d::Ones(), Vector3d::Ones());
     const double norm = unit.norm();
     if (norm > 1.0 || !random.chance(0.15 + 0.85 * norm)) continue;
     const Vector3d twig = centre + radii.cwiseProduct(unit);
     for (int k = 0; k < kCluster && i < count; ++k, ++i) {
-      const Vector3d off(random.normal(), random.normal(), random.normal());
+      const Vector3d off = random.normals();
       add_leaf(mesh, paint, twig + 0.75 * leaf * off, leaf, random);
     }
   }
