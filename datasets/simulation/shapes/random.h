@@ -67,8 +67,8 @@ class Random {
   bool chance(double probability) { return unit() < probability; }
   int below(int count) { return static_cast<int>(unit() * count); }
 
-  // Compilers evaluate the arguments of a call in different orders, so a vector is drawn in
-  // statements of their own: z, y, x.
+  // Compilers evaluate the arguments of a call in different orders, so these functions draw each
+  // coordinate in a statement of its own: z, then y, then x.
 
   Eigen::Vector3d normals() {
     const double z = normal(), y = normal(), x = normal();

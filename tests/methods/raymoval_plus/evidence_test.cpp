@@ -182,6 +182,7 @@ TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands 
   RangeImage image(model, Parameters{});
   image.fill(scan);
   CAPTURE(below);
+  // Clang 14 cannot capture a structured binding by reference.
   const auto check = [&, is_beside_column = is_beside_column] {
     REQUIRE(map.evidence(roof).free_scans == 1);
     CHECK(map.evidence(roof).beside.column_before == (is_beside_column ? 1 : 0));
