@@ -110,8 +110,6 @@ constexpr Line kLines[] = {
     // and free space is looked at again when an empty one comes. The boxes of public-code compare
     // heights with x, which the moved worlds do not show.
     {"dynablox:published", "= ? ? = ? ~ = ? ?"},
-    {"dynablox:public-code", "= ? ? = ? ~ = ? ?"},
-    {"dynablox:header", "= ? ? = ? ~ = ? ?"},
     {"dynablox:wide", "= ? ? = ? ~ = ? ?"},
     {"dynablox:offline", "? ? ? = = ~ ? ? ?"},
     {"dynablox:offline-wide", "? ? ? = = ~ ? ? ?"},
