@@ -96,13 +96,11 @@ constexpr Line kLines[] = {
     // that are skipped lie on a lattice of their own.
     {"freedom:published", "= = ? = = = ? ? ?"},
     {"freedom:few-counts", "= = ? = = = ? ? ?"},
-    {"freedom:sound", "= = ? = = = ? ? ?"},
 
     // A scan is a set of voxels, and scans are taken in turn. An empty one is the scan before of
     // the next. The public lattice is cut off towards the origin.
     {"hmm_mos:published", "= ? ? = = ? = ? ?"},
     {"hmm_mos:fine", "= ? ? = = ? = ? ?"},
-    {"hmm_mos:sound", "= ? ? = = = = ? ?"},
     {"hmm_mos:offline", "= ? ? = = = ? ? ?"},
 
     // Scans are counted, empty ones too. A pixel has its nearest return and a voxel is hit or not,
