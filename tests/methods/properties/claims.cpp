@@ -52,13 +52,11 @@ constexpr Line kLines[] = {
 
     // A voxel is freed by a single beam of a scan that has no point in it, for good. Without
     // normals a beam does not depend on other points. Whole scans, not voxels, lose the points near
-    // a freed voxel, unless subvoxel_accuracy is off. reduce draws by the number of the scan and of
-    // the point.
+    // a freed voxel, unless subvoxel_accuracy is off.
     {"peopleremover:normals", "= = ? ~ ? = - = ="},
     {"peopleremover:fine", "= = ? ~ ? = - = ="},
     {"peopleremover:none", "= = ? = = = - = ="},
     {"peopleremover:plain", "= = + = = = - = ="},
-    {"peopleremover:reduced", "= ? ? ? ? = ? ? ?"},
 
     // A single scan removes a map point that it sees behind, and half a scan sees at least as far.
     // The map's points are means of all points in a cell, which other points shift, in single
