@@ -55,14 +55,17 @@ class CellSet {
   }
   void clear() { bricks_.clear(); }
 
+  /// Calls `visit(brick, cells)` for each brick, in no particular order.
+  template <class Visit>
+  void for_each_brick(Visit&& visit) const {
+    for (const auto& [brick, cells] : bricks_) visit(brick, cells);
+  }
   /// Calls `visit(cell)` for each cell, in no particular order.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const auto& [brick, cells] : bricks_) {
-      for (std::uint64_t left = cells; left != 0; left &= left - 1) {
-        visit(cell_at(brick, std::countr_zero(left)));
-      }
-    }
+    for_each_brick([&](VoxelKey brick, std::uint64_t cells) {
+      for (; cells != 0; cells &= cells - 1) visit(cell_at(brick, std::countr_zero(cells)));
+    });
   }
 
  private:

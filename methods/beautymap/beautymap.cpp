@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "methods/beautymap/judgement.h"
+#include "methods/common/answers.h"
 #include "methods/common/prepared_scans.h"
 #include "methods/common/remover_from.h"
-#include "methods/common/scan_passes.h"
 
 namespace raymoval::beautymap_method {
 namespace {
@@ -58,7 +58,7 @@ ColumnMap build_map(const Parameters& parameters, const ScanSource& scans,
   for_scans_in_order<LowestPoints>(
       "beautymap, columns", "columns", scans, context,
       [&](const Scan& scan, LowestPoints& of_scan) { of_scan = lowest_points(scan, lattice); },
-      [&](const LowestPoints& of_scan) { lowest.add(of_scan); });
+      [&](const LowestPoints& of_scan) { add_lowest(of_scan, lowest); });
   ColumnMap map(parameters, lattice, lowest);
   for_scans_in_order<std::vector<PlacedPoint>>(
       "beautymap, slices", "slices", scans, context,
@@ -76,30 +76,23 @@ void judge_map(const Parameters& parameters, const ScanSource& scans, const RunC
       [&](const Scan& scan, Marks& marks) {
         std::vector<PlacedPoint> placed;
         map.place(scan, placed);
-        const ScanWindow window(parameters, map, scan, placed);
-        marks = window.is_empty() ? Marks{} : judge(parameters, map, window);
+        marks = judge(parameters, map, scan, placed);
       },
       [&](const Marks& marks) { add_marks(marks, map); });
-}
-
-/// Section C.
-void answer(const ScanSource& scans, const ColumnMap& map, RemovalSink& sink,
-            const RunContext& context) {
-  for_scans_at_once("beautymap, answers", "answers", scans, context, [&](const Scan& scan) {
-    std::vector<PlacedPoint> placed;
-    map.place(scan, placed);
-    Mask mask(scan.size());
-    std::transform(placed.begin(), placed.end(), mask.begin(),
-                   [&](const PlacedPoint& point) { return map.is_removed(point) ? 1 : 0; });
-    sink.accept(scan.index, mask);
-  });
 }
 
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   ColumnMap map = build_map(parameters, scans, context);
   judge_map(parameters, scans, context, map);
-  answer(scans, map, sink, context);
+  answer_scans("beautymap, answers", scans, sink, context, [&](const Scan& scan) {  // Section C.
+    std::vector<PlacedPoint> placed;
+    map.place(scan, placed);
+    Mask mask(scan.size());
+    std::transform(placed.begin(), placed.end(), mask.begin(),
+                   [&](const PlacedPoint& point) { return map.is_removed(point) ? 1 : 0; });
+    return mask;
+  });
 }
 
 }  // namespace

@@ -3,11 +3,29 @@
 
 #include <memory>
 
-#include "methods/beautymap/parameters.h"
 #include "methods/method_entry.h"
 
 namespace raymoval {
 namespace beautymap_method {
+
+/// Parameters of BeautyMap; defaults are those of its public program. Their units, ranges and
+/// meanings are in `parameter_table()`.
+struct Parameters {
+  // The lattice.
+  double column_size = 1.0;
+  double slice_height = 0.5;
+  double window_side = 40.0;
+  // What protects.
+  double sight_range = 15.0;
+  // As the public program does it.
+  bool public_lattice = true;
+  bool public_outliers = true;
+  bool public_rays = true;
+  bool public_top = true;
+};
+
+/// The one place where names, units, ranges and sources of the parameters stand.
+const ParameterTable<Parameters>& parameter_table();
 
 /// M. Jia, Q. Zhang, B. Yang, J. Wu, M. Liu, P. Jensfelt: "BeautyMap: Binary-Encoded Adaptable
 /// Ground Matrix for Dynamic Points Removal in Global Maps", RA-L 2024. The map is a matrix of

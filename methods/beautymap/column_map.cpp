@@ -7,6 +7,11 @@
 namespace raymoval::beautymap_method {
 namespace {
 
+// Constants of the public program.
+constexpr double kFinestPart = 0.1;         ///< Height of a part of a slice, metres.
+constexpr double kOutlierShare = 0.6;       ///< Of the neighbours that must have points.
+constexpr double kOutlierDeviations = 3.0;  ///< From the neighbours' median to an outlier.
+
 /// The middle value, or the mean of both middle ones.
 double middle_value(std::vector<double> values) {
   const std::size_t half = values.size() / 2;
@@ -24,28 +29,28 @@ int part_count(double slice_height, double part_height) {
   return std::clamp(static_cast<int>(std::ceil(slice_height / part_height - 1e-9)), 1, kMostParts);
 }
 
+void take_lower(VoxelKey column, double z, LowestPoints& lowest) {
+  const auto [found, is_new] = lowest.try_emplace(column, z);
+  if (!is_new && z < found->second) found.value() = z;
+}
+
 }  // namespace
 
 Lattice::Lattice(const Parameters& parameters)
     : column_size(parameters.column_size),
       slice_height(parameters.slice_height),
-      part_height(std::max(parameters.finest_slice, parameters.slice_height / kMostParts)),
+      part_height(std::max(kFinestPart, parameters.slice_height / kMostParts)),
       parts(part_count(slice_height, part_height)) {}
 
-void LowestPoints::add(const LowestPoints& other) {
-  for (const auto& [key, z] : other.of_column) {
-    const auto [found, is_new] = of_column.try_emplace(key, z);
-    if (!is_new && z < found->second) found.value() = z;
-  }
+void add_lowest(const LowestPoints& of_scan, LowestPoints& lowest) {
+  for (const auto& [column, z] : of_scan) take_lower(column, z, lowest);
 }
 
 LowestPoints lowest_points(const Scan& scan, const Lattice& lattice) {
   LowestPoints lowest;
   for (const Eigen::Vector3f& point : scan.points) {
     const Eigen::Vector3d world = scan.T_world_sensor * point.cast<double>();
-    const VoxelKey key = column_key(lattice.column_of(world));
-    const auto [found, is_new] = lowest.of_column.try_emplace(key, world.z());
-    if (!is_new && world.z() < found->second) found.value() = world.z();
+    take_lower(column_key(lattice.column_of(world)), world.z(), lowest);
   }
   return lowest;
 }
@@ -53,8 +58,8 @@ LowestPoints lowest_points(const Scan& scan, const Lattice& lattice) {
 ColumnMap::ColumnMap(const Parameters& parameters, const Lattice& lattice,
                      const LowestPoints& lowest)
     : parameters_(parameters), lattice_(lattice) {
-  columns_.reserve(lowest.of_column.size());
-  for (const auto& [key, z] : lowest.of_column) {
+  columns_.reserve(lowest.size());
+  for (const auto& [key, z] : lowest) {
     const VoxelIndex cell = voxel_index(key);
     columns_.push_back(
         {.index = {cell.x(), cell.y()}, .foot = z, .points = {}, .removed_parts = {}});
@@ -66,23 +71,21 @@ ColumnMap::ColumnMap(const Parameters& parameters, const Lattice& lattice,
     numbers_[column_key(columns_[i].index)] = static_cast<std::uint32_t>(i);
     lowest_ = i == 0 ? columns_[i].foot : std::min(lowest_, columns_[i].foot);
   }
-  if (parameters.outlier_neighbours > 0) place_feet(lowest);
+  place_feet(lowest);
 }
 
 std::vector<double> ColumnMap::lowest_around(const Column& column,
                                              const LowestPoints& lowest) const {
-  const int reach = parameters_.outlier_neighbours;
-  const int end = parameters_.public_outliers ? -1 : reach;
+  const int end = parameters_.public_outliers ? -1 : kOutlierReach;
   std::vector<double> around;
-  for (int dx = -reach; dx <= end; ++dx) {
-    for (int dy = -reach; dy <= end; ++dy) {
+  for (int dx = -kOutlierReach; dx <= end; ++dx) {
+    for (int dy = -kOutlierReach; dy <= end; ++dy) {
       if (dx == 0 && dy == 0) continue;
       const ColumnIndex neighbour{column.index.x + dx, column.index.y + dy};
       if (parameters_.public_outliers) {
         const std::uint32_t number = find(neighbour);
         if (number != kNone) around.push_back(columns_[number].foot);
-      } else if (const auto found = lowest.of_column.find(column_key(neighbour));
-                 found != lowest.of_column.end()) {
+      } else if (const auto found = lowest.find(column_key(neighbour)); found != lowest.end()) {
         around.push_back(found->second);
       }
     }
@@ -91,15 +94,14 @@ std::vector<double> ColumnMap::lowest_around(const Column& column,
 }
 
 void ColumnMap::place_feet(const LowestPoints& lowest) {
-  const int reach = parameters_.outlier_neighbours;
-  const int side = parameters_.public_outliers ? reach : 2 * reach + 1;
+  const int side = parameters_.public_outliers ? kOutlierReach : 2 * kOutlierReach + 1;
   const int all = side * side - (parameters_.public_outliers ? 0 : 1);
   for (Column& column : columns_) {  // In order, since feet that were moved are neighbours, too.
     std::vector<double> around = lowest_around(column, lowest);
-    if (static_cast<double>(around.size()) < parameters_.outlier_share * all) continue;
+    if (static_cast<double>(around.size()) < kOutlierShare * all) continue;
     const double middle = middle_value(around);
     for (double& z : around) z = std::abs(z - middle);
-    const double reachable = parameters_.outlier_deviations * middle_value(around);
+    const double reachable = kOutlierDeviations * middle_value(around);
     const double foot = std::clamp(column.foot, middle - reachable, middle + reachable);
     column.is_outlier = foot != column.foot;
     column.foot = foot;

@@ -2,6 +2,68 @@
 #include "methods/beautymap/beautymap.h"
 
 namespace raymoval {
+namespace beautymap_method {
+namespace {
+
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
+
+void add_lattice(Table& table) {
+  table
+      .number("column_size", &P::column_size,
+              {"m", 0.1, 10, "'xy_resolution' of the public program", "Side of a column."})
+      .number("slice_height", &P::slice_height,
+              {"m", 0.1, 5, "'h_res'", "Height of a slice; a column has 31 of them."})
+      .number("window_side", &P::window_side,
+              {"m", 4, 400, "'dis_range'",
+               "Side of the square around the sensor in which a scan judges the map."});
+}
+
+void add_protection(Table& table) {
+  table.number("sight_range", &P::sight_range,
+               {"m", 0, 400, "constant of the public program",
+                "From here on columns in which the scan has no ground are not judged."});
+}
+
+void add_switches(Table& table) {
+  table
+      .flag("public_lattice", &P::public_lattice,
+            {.source = "the public program",
+             .sentence = "Columns begin at the map's least x and y, and the window around the "
+                         "sensor begins at its position in whole metres and ends one column "
+                         "earlier than it begins. Else columns are those of the world's lattice, "
+                         "and the sensor's is in the middle."})
+      .flag("public_outliers", &P::public_outliers,
+            {.source = "the public program",
+             .sentence = "The neighbours are those with smaller x and y, after they were moved "
+                         "themselves. Else they are all around, as measured."})
+      .flag("public_rays", &P::public_rays,
+            {.source = "the public program",
+             .sentence = "Heights along rays walked backward add a difference in metres to slices, "
+                         "and count slices of columns as if all columns began at one height. Else "
+                         "they are heights."})
+      .flag("public_top", &P::public_top,
+            {.source = "the public program",
+             .sentence = "Of the slices above the 30th only the last counts, and a scan has "
+                         "something there if the column has something below too. Else all do."});
+}
+
+Table make_table() {
+  Table table;
+  add_lattice(table);
+  add_protection(table);
+  add_switches(table);
+  return table;
+}
+
+}  // namespace
+
+const ParameterTable<Parameters>& parameter_table() {
+  static const Table table = make_table();
+  return table;
+}
+
+}  // namespace beautymap_method
 
 MethodEntry beautymap_entry() {
   const Configuration sound = {{"public_lattice", false},
@@ -19,16 +81,12 @@ MethodEntry beautymap_entry() {
       "goes, down to the ground.";
   entry.source = "BeautyMap: Binary-Encoded Adaptable Ground Matrix (RA-L 2024)";
   entry.notes = {
+      // The page of the method has all.
       "The default is the public program with its quirks, each of which has a switch (public_...).",
       "A scan with nothing in the square around its sensor says nothing; the public program skips "
       "it as well.",
-      "Where the square reaches beyond the map it is cut; the public program's arrays are shorter "
-      "there.",
       "A point that stands straight above or below the sensor has no slope; the public program "
       "divides by zero.",
-      "Coordinates are double precision; parts of a slice that begin at its upper end by rounding "
-      "belong to the last one.",
-      "Slices are told apart up to the 4,095th.",
   };
   entry.variants = {
       {"published", "As the public program is set for KITTI.", false, {}},

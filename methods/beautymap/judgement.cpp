@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "methods/beautymap/judgement.h"
 
+#include "core/sampling.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,6 +10,140 @@
 
 namespace raymoval::beautymap_method {
 namespace {
+
+// Constants of the public program.
+constexpr double kBlindRange = 2.0;  ///< Columns nearer to the sensor are not judged, metres.
+constexpr int kRayMargin = 3;        ///< What stands so near to the sensor hides nothing, columns.
+constexpr double kGroundShare = 0.85;  ///< Of the points of a slice, counted from below.
+
+/// The columns around the sensor of one scan, with what the scan has in them.
+class ScanWindow {
+ public:
+  /// @param placed where the scan's points are in the map
+  ScanWindow(const Parameters& parameters, const ColumnMap& map, const Scan& scan,
+             const std::vector<PlacedPoint>& placed);
+
+  /// One column of the window.
+  struct Cell {
+    std::uint32_t column = ColumnMap::kNone;     ///< Number in the map.
+    std::uint32_t seen = 0;                      ///< Bit i: the scan has points in slice i.
+    bool has_lower = false, has_higher = false;  ///< Points in a slice up to the top one, or above.
+  };
+
+  /// Whether none of the scan's points is in the window.
+  [[nodiscard]] bool is_empty() const { return is_empty_; }
+  [[nodiscard]] int side() const { return side_; }      ///< Columns.
+  [[nodiscard]] int center() const { return center_; }  ///< The sensor's column, in x and in y.
+  [[nodiscard]] const Cell& at(int x, int y) const { return cells_[number(x, y)]; }
+  /// The foot of a column of the window, metres; where the map has none, the map's lowest point.
+  [[nodiscard]] double foot(int x, int y) const;
+  /// The foot of the sensor's own column, or what stands for it, metres.
+  [[nodiscard]] double center_foot() const { return center_foot_; }
+  [[nodiscard]] double sensor_z() const { return sensor_.z(); }  ///< Metres.
+  /// The steepest ray upward that returned, metres of height for each metre of way.
+  [[nodiscard]] double steepest() const { return steepest_; }
+
+ private:
+  [[nodiscard]] std::size_t number(int x, int y) const {
+    return static_cast<std::size_t>(x) * static_cast<std::size_t>(side_) +
+           static_cast<std::size_t>(y);
+  }
+  void place(const Parameters& parameters);
+  void find_columns();
+  void enter(const Parameters& parameters, const std::vector<PlacedPoint>& placed);
+  void find_steepest(const Scan& scan);
+  [[nodiscard]] double foot_around() const;
+
+  const ColumnMap& map_;
+  Eigen::Vector3d sensor_;
+  ColumnIndex first_;  ///< The column (0, 0) of the window.
+  int side_ = 0, center_ = 0;
+  double center_foot_ = 0.0, steepest_ = 0.0;
+  bool is_empty_ = true;
+  std::vector<Cell> cells_;
+};
+
+ScanWindow::ScanWindow(const Parameters& parameters, const ColumnMap& map, const Scan& scan,
+                       const std::vector<PlacedPoint>& placed)
+    : map_(map), sensor_(scan.T_world_sensor.translation()) {
+  place(parameters);
+  find_columns();
+  enter(parameters, placed);
+  find_steepest(scan);
+  const bool is_known = at(center_, center_).column != ColumnMap::kNone;
+  center_foot_ = parameters.public_lattice || is_known ? foot(center_, center_) : foot_around();
+}
+
+void ScanWindow::place(const Parameters& parameters) {
+  const Lattice& lattice = map_.lattice();
+  center_ = static_cast<int>(parameters.window_side / lattice.column_size) / 2;
+  if (!parameters.public_lattice) {
+    const ColumnIndex own = lattice.column_of(sensor_);
+    first_ = {own.x - center_, own.y - center_};
+    side_ = 2 * center_ + 1;
+    return;
+  }
+  // B.1: cut off to whole metres, then to columns.
+  side_ = static_cast<int>(parameters.window_side / lattice.column_size);
+  const auto first = [&](double position) {
+    const double meters = std::trunc(position) - center_ * lattice.column_size;
+    return static_cast<int>(meters / lattice.column_size);
+  };
+  first_ = {first(sensor_.x() - lattice.origin.x()), first(sensor_.y() - lattice.origin.y())};
+}
+
+void ScanWindow::find_columns() {
+  cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
+  for (int x = 0; x < side_; ++x) {
+    for (int y = 0; y < side_; ++y) {
+      cells_[number(x, y)].column = map_.find({first_.x + x, first_.y + y});
+    }
+  }
+}
+
+void ScanWindow::enter(const Parameters& parameters, const std::vector<PlacedPoint>& placed) {
+  for (const PlacedPoint& point : placed) {
+    const ColumnIndex& column = map_.columns()[point.column].index;
+    const int x = column.x - first_.x, y = column.y - first_.y;
+    if (x < 0 || y < 0 || x >= side_ || y >= side_) continue;
+    Cell& cell = cells_[number(x, y)];
+    is_empty_ = false;
+    cell.has_higher |= point.slice > kTopSlice;
+    cell.has_lower |= point.slice <= kTopSlice;
+    if (point.slice >= 0 && point.slice <= kTopSlice) cell.seen |= std::uint32_t{1} << point.slice;
+  }
+  for (Cell& cell : cells_) {
+    if (cell.has_higher && (cell.has_lower || !parameters.public_top)) {
+      cell.seen |= std::uint32_t{1} << kTopSlice;
+    }
+  }
+}
+
+void ScanWindow::find_steepest(const Scan& scan) {
+  steepest_ = -std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3f& point : scan.points) {
+    // The direction in the world's axes, since the sensor may be tilted.
+    const Eigen::Vector3d ray = scan.T_world_sensor.linear() * point.cast<double>();
+    const double way = ray.head<2>().norm();
+    if (way > 0.0) steepest_ = std::max(steepest_, ray.z() / way);
+  }
+}
+
+double ScanWindow::foot(int x, int y) const {
+  const std::uint32_t column = at(x, y).column;
+  return column == ColumnMap::kNone ? map_.lowest() : map_.columns()[column].foot;
+}
+
+double ScanWindow::foot_around() const {
+  const int reach = std::min(kOutlierReach, center_);
+  std::vector<double> feet;
+  for (int x = center_ - reach; x <= center_ + reach; ++x) {
+    for (int y = center_ - reach; y <= center_ + reach; ++y) {
+      if (at(x, y).column != ColumnMap::kNone) feet.push_back(foot(x, y));
+    }
+  }
+  return feet.empty() ? map_.lowest() : median(std::move(feet));
+}
 
 constexpr std::uint32_t kAllSlices = (std::uint32_t{1} << kSlices) - 1;
 
@@ -19,7 +155,7 @@ std::uint32_t slices_from(double first) {
 
 /// Whether a column is so near to the sensor that the scan is blind there. Offsets in columns.
 bool is_blind(const Parameters& parameters, int dx, int dy) {
-  const int reach = static_cast<int>(parameters.blind_range / parameters.column_size) + 1;
+  const int reach = static_cast<int>(kBlindRange / parameters.column_size) + 1;
   const int end = parameters.public_lattice ? reach - 1 : reach;
   return dx >= -reach && dx <= end && dy >= -reach && dy <= end;
 }
@@ -82,8 +218,8 @@ double slice_on_ray(const Parameters& parameters, const Lattice& lattice, const 
   return std::floor((z - window.foot(x, y)) / h);
 }
 
-}  // namespace
-
+/// Steps 4 to 6 for one column of the window: slices that the map has and the scan has not, without
+/// those that are out of sight, and without the lowest. Bit i is slice i.
 std::uint32_t suspicious_slices(const Parameters& parameters, const ColumnMap& map,
                                 const ScanWindow& window, int x, int y) {
   const ScanWindow::Cell& cell = window.at(x, y);
@@ -96,6 +232,7 @@ std::uint32_t suspicious_slices(const Parameters& parameters, const ColumnMap& m
          ~out_of_sight(parameters, map.lattice(), window, x, y, column.is_outlier);
 }
 
+/// Step 7: which of these slices are hidden, because on the way to them the scan has something.
 std::uint32_t hidden_slices(const Parameters& parameters, const Lattice& lattice,
                             const ScanWindow& window, int x, int y, std::uint32_t suspicious) {
   const int center = window.center();
@@ -107,7 +244,7 @@ std::uint32_t hidden_slices(const Parameters& parameters, const Lattice& lattice
     const int at_x = center + walk.x(step), at_y = center + walk.y(step);
     if (at_x < 0 || at_y < 0 || at_x >= window.side() || at_y >= window.side()) break;
     if (!parameters.public_rays && step >= walk.length()) break;
-    if (walk.way(step) <= parameters.ray_margin) continue;
+    if (walk.way(step) <= kRayMargin) continue;
     const std::uint32_t seen = window.at(at_x, at_y).seen;
     const double share = static_cast<double>(step) / walk.length();
     for (std::uint32_t rest = seen == 0 ? 0 : suspicious; rest != 0; rest &= rest - 1) {
@@ -122,8 +259,8 @@ std::uint32_t hidden_slices(const Parameters& parameters, const Lattice& lattice
   return hidden;
 }
 
-std::uint32_t parts_above_ground(const Parameters& parameters, const Lattice& lattice,
-                                 const Column& column, int slice) {
+/// Step 8: the parts above the ground of a slice. Bit i is part i.
+std::uint32_t parts_above_ground(const Lattice& lattice, const Column& column, int slice) {
   if (slice < 0 || slice > column.last_slice || (column.occupied >> slice & 1) == 0) return 0;
   const auto first = static_cast<std::size_t>(slice) * static_cast<std::size_t>(lattice.parts);
   double all = 0.0;
@@ -144,13 +281,18 @@ std::uint32_t parts_above_ground(const Parameters& parameters, const Lattice& la
     has_begun = true;
     if (is_above) above |= std::uint32_t{1} << part;
     below += points;
-    is_above = is_above || below >= parameters.ground_share * all;
+    is_above = is_above || below >= kGroundShare * all;
   }
   return above;
 }
 
-Marks judge(const Parameters& parameters, const ColumnMap& map, const ScanWindow& window) {
+}  // namespace
+
+Marks judge(const Parameters& parameters, const ColumnMap& map, const Scan& scan,
+            const std::vector<PlacedPoint>& placed) {
   Marks marks;
+  const ScanWindow window(parameters, map, scan, placed);
+  if (window.is_empty()) return marks;
   const Lattice& lattice = map.lattice();
   for (int x = 0; x < window.side(); ++x) {
     for (int y = 0; y < window.side(); ++y) {
@@ -161,8 +303,7 @@ Marks judge(const Parameters& parameters, const ColumnMap& map, const ScanWindow
       const std::uint32_t column = window.at(x, y).column;
       marks.slices.push_back({column, slices});
       const int ground = std::countr_zero(slices) - 1;
-      const std::uint32_t parts =
-          parts_above_ground(parameters, lattice, map.columns()[column], ground);
+      const std::uint32_t parts = parts_above_ground(lattice, map.columns()[column], ground);
       if (parts != 0) marks.parts.push_back({column, ground, parts});
     }
   }

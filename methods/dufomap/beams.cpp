@@ -7,8 +7,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "methods/common/diamond_angle.h"
-#include "methods/common/free_walk.h"
-#include "methods/dufomap/cell_walk.h"
 
 namespace raymoval::dufomap_method {
 namespace {
@@ -105,7 +103,7 @@ void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Par
   const double farthest = parameters.maximum_range > 0.0
                               ? parameters.maximum_range / parameters.voxel_size
                               : std::numeric_limits<double>::infinity();
-  FreeWalk walk(sensor, parameters.pass_through_hits, grid);
+  FreeWalk walk(sensor, grid);
   std::size_t count = 0;
   for (const VoxelIndex& end : ends) {
     if (++count % kBeamsInTurn == 0) context.check_cancelled();

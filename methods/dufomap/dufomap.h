@@ -3,11 +3,24 @@
 
 #include <memory>
 
-#include "methods/dufomap/parameters.h"
 #include "methods/method_entry.h"
 
 namespace raymoval {
 namespace dufomap_method {
+
+/// Parameters of DUFOMap; defaults are those of its public configuration.
+struct Parameters {
+  double voxel_size = 0.1;
+  double hit_extension = 0.2;
+  int unknown_inflation = 1;
+  bool compensate_inflation = true;
+  double minimum_range = 0.2;
+  double maximum_range = 0.0;
+  bool offline = true;
+};
+
+/// The one place where names, units, ranges and sources of the parameters stand.
+const ParameterTable<Parameters>& parameter_table();
 
 /// D. Duberg, Q. Zhang, M. Jia, P. Jensfelt: "DUFOMap: Efficient Dynamic Awareness Mapping", RA-L
 /// 2024. A voxel that one scan has once seen free for certain is a void; a point that ever falls in

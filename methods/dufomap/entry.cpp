@@ -2,12 +2,51 @@
 #include "methods/dufomap/dufomap.h"
 
 namespace raymoval {
+namespace dufomap_method {
+namespace {
+
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
+
+Table make_table() {
+  Table table;
+  table
+      .number("voxel_size", &P::voxel_size,
+              {"m", 0.02, 2, "v; 'resolution' of the public configuration", "Edge of a voxel."})
+      .number("hit_extension", &P::hit_extension,
+              {"m", 0, 5, "d_s; 'inflate_hits_dist'",
+               "Every hit reaches back so far along its beam: the sensor's range noise."})
+      .integer("unknown_inflation", &P::unknown_inflation,
+               {"voxels", 0, 8, "d_p; 'inflate_unknown'",
+                "A void needs all voxels within this distance (Chebyshev) seen free by the same "
+                "scan: the pose error."})
+      .flag("compensate_inflation", &P::compensate_inflation,
+            {.source = "'inflate_unknown_compensation'",
+             .sentence = "Beams run on behind their end until they have advanced d_p voxels along "
+                         "one axis, so that the inflation does not eat the free side of surfaces.",
+             .acts_when = "unknown_inflation > 0"})
+      .number("minimum_range", &P::minimum_range,
+              {"m", 0, 20, "'min_range'", "Points nearer to the sensor cast no beam."})
+      .number(
+          "maximum_range", &P::maximum_range,
+          {"m", 0, 1000, "'max_range' (-1 there)", "Beams free no voxel beyond; 0 is no limit."})
+      .flag("offline", &P::offline,
+            {.source = "the paper's online variant",
+             .sentence = "Answer for all points after the last scan instead of for each scan once "
+                         "it is integrated."});
+  return table;
+}
+
+}  // namespace
+
+const ParameterTable<Parameters>& parameter_table() {
+  static const Table table = make_table();
+  return table;
+}
+
+}  // namespace dufomap_method
 
 MethodEntry dufomap_entry() {
-  const Configuration wide = {{"unknown_inflation", std::int64_t{2}}};
-  const Configuration as_online = {{"offline", false}};
-  Configuration wide_online = as_online;
-  wide_online.insert(wide_online.end(), wide.begin(), wide.end());
   MethodEntry entry;
   entry.name = "dufomap";
   entry.sentence =
@@ -15,24 +54,24 @@ MethodEntry dufomap_entry() {
       "moving objects, before and after.";
   entry.source = "DUFOMap: Efficient Dynamic Awareness Mapping (RA-L 2024)";
   entry.notes = {
+      // The page of the method has all.
       "The default is the public configuration (d_p 1), which reproduces the paper's table; the "
       "public Python example passes d_p 2, here the variants called dp2.",
-      "One beam per occupied voxel, to the voxel's centre ('center' sampling); the other samplings "
-      "of the public code are left out.",
-      "Points nearer than minimum_range cast no beam at all; the public code leaves out their hits "
-      "only, measured to the voxel's centre. They are answered for like all others.",
-      "Beams are followed in fixed point of 40 binary places and poses stay in double precision; "
-      "the public code sums up single precision.",
-      "A beam that passes exactly through an edge crosses x before y before z.",
-      "The extent is that of the common lattice instead of 20 octree levels, and a beam may be "
-      "131,072 voxels long.",
-      "The public code's optional clustering of voids, off there, is left out.",
+      "One beam per occupied voxel, to the voxel's centre ('center' sampling); the other "
+      "samplings of the public code are left out.",
+      "Points nearer than minimum_range cast no beam at all; the public code leaves out their "
+      "hits only, measured to the voxel's centre. They are answered for like all others.",
+      "The public code's optional clustering of voids, and its beams through hits, both off "
+      "there, are left out.",
   };
   entry.variants = {
       {"offline", "Every point answered after the last scan.", false, {}},
-      {"online", "Each scan answered once it is integrated.", true, as_online},
-      {"offline-dp2", "Offline with d_p 2.", false, wide},
-      {"online-dp2", "Online with d_p 2.", true, wide_online},
+      {"online", "Each scan answered once it is integrated.", true, {{"offline", false}}},
+      {"offline-dp2", "Offline with d_p 2.", false, {{"unknown_inflation", std::int64_t{2}}}},
+      {"online-dp2",
+       "Online with d_p 2.",
+       true,
+       {{"offline", false}, {"unknown_inflation", std::int64_t{2}}}},
   };
   entry.bind(dufomap_method::parameter_table(), dufomap_method::make_dufomap);
   return entry;

@@ -97,30 +97,23 @@ void find_voids(const ScanGrid& grid, int inflation, ScanVoids& voids) {
     }
     erode_along_x(padded, inflation);
     if (erode_along_y(padded, inflation, block, bits)) {
-      voids.emplace_back(voxel_key(block.at), bits);
+      voids.emplace_back(block.at, bits);
     }
   }
 }
 
 void VoidMap::add(const ScanVoids& voids) {
-  for (const auto& [key, bits] : voids) {
-    auto& block = blocks_[key];
-    if (block == nullptr) block = std::make_unique<VoidBits>(VoidBits{});
-    for (std::size_t column = 0; column < kColumns; ++column) (*block)[column] |= bits[column];
+  for (const auto& [at, bits] : voids) {
+    VoidBits& block = blocks_.find_or_make(at);
+    for (std::size_t column = 0; column < kColumns; ++column) block[column] |= bits[column];
   }
 }
 
 std::vector<std::uint8_t> VoidMap::contain(const std::vector<VoxelIndex>& voxels) const {
   std::vector<std::uint8_t> inside(voxels.size(), 0);
-  VoxelKey last = ~VoxelKey{0};  // No block has this key.
-  const VoidBits* block = nullptr;
+  BlockFinder blocks(blocks_);
   for (std::size_t k = 0; k < voxels.size(); ++k) {
-    const VoxelKey key = voxel_key(block_of(voxels[k]));
-    if (key != last) {
-      const auto found = blocks_.find(key);
-      block = found == blocks_.end() ? nullptr : found->second.get();
-      last = key;
-    }
+    const VoidBits* block = blocks.find(block_of(voxels[k]));
     if (block == nullptr) continue;
     inside[k] = ((*block)[column_of(voxels[k])] & bit_of(voxels[k])) != 0 ? 1 : 0;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "methods/common/scan_grid.h"
+#include "methods/common/sparse_blocks.h"
 
 namespace raymoval::dufomap_method {
 
@@ -16,7 +17,7 @@ using namespace scan_grid;  // Its blocks and columns.
 using VoidBits = std::array<std::uint64_t, kColumns>;
 
 /// Void voxels of one scan by block.
-using ScanVoids = std::vector<std::pair<VoxelKey, VoidBits>>;
+using ScanVoids = std::vector<std::pair<VoxelIndex, VoidBits>>;
 
 /// Step 4: voxels that are not hit and whose (2 d_p + 1)^3 neighbourhood is all free.
 /// @param inflation d_p, voxels, at most a block's side
@@ -30,7 +31,7 @@ class VoidMap {
   [[nodiscard]] std::vector<std::uint8_t> contain(const std::vector<VoxelIndex>& voxels) const;
 
  private:
-  VoxelMap<std::unique_ptr<VoidBits>> blocks_;
+  SparseBlocks<VoidBits> blocks_;
 };
 
 }  // namespace raymoval::dufomap_method

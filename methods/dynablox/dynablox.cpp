@@ -2,13 +2,12 @@
 // "Dynablox"; the numbers are those of dynablox.h.
 #include "methods/dynablox/dynablox.h"
 
-#include <limits>
 #include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "methods/common/answers.h"
 #include "methods/common/remover_from.h"
-#include "methods/common/scan_passes.h"
 #include "methods/dynablox/clusters.h"
 #include "methods/dynablox/free_space.h"
 #include "methods/dynablox/integration.h"
@@ -22,62 +21,42 @@ class Detector {
   Detector(const Parameters& parameters, const ScanSource& scans)
       : parameters_(parameters), free_space_(parameters), integrator_(parameters, scans.sensor()) {}
 
-  /// Steps 1 to 8. @return which points move
+  /// Steps 1 to 7. @return which points move
   Mask detect(const Scan& scan, const RunContext& context) {
     {
       const StageScope timed(context.times, "voxels");
-      const bool all = parameters_.judged == Judged::kAll;
-      find_voxels(scan, parameters_.voxel_size, all ? 0.0 : parameters_.min_range,
-                  all ? std::numeric_limits<double>::infinity() : integrator_.max_range(), voxels_);
+      find_voxels(scan, parameters_.voxel_size, voxels_);
     }
     Mask mask(scan.size(), 0);
     if (!parameters_.offline) {
       const StageScope timed(context.times, "clusters");
-      mark_clusters(scan, mask);
+      for (const Cluster& cluster : find_clusters(voxels_, map_, parameters_)) {
+        for (const std::uint32_t point : cluster) mask[point] = 1;
+      }
     }
-    const auto number = static_cast<std::int32_t>(scan.index);
-    free_space_.update(touched_, voxels_.hits, number, context, map_);
+    free_space_.update(touched_, voxels_.hits, static_cast<std::int32_t>(scan.index), context,
+                       map_);
     integrator_.integrate(scan, context, map_, touched_);
     return mask;
   }
 
-  [[nodiscard]] const BlockMap& map() const { return map_; }
-
- private:
-  /// Steps 3 to 6.
-  void mark_clusters(const Scan& scan, Mask& mask) {
-    std::vector<Cluster> clusters = find_clusters(scan, voxels_, map_, parameters_);
-    if (parameters_.min_track > 0) {
-      follow_clusters(last_clusters_, parameters_.track_distance, clusters);
-    }
-    for (const Cluster& cluster : clusters) {
-      if (cluster.track < parameters_.min_track) continue;
-      for (const std::uint32_t point : cluster.points) mask[point] = 1;
-    }
-    last_clusters_ = std::move(clusters);
+  /// The points of a scan in voxels that are ever free, whatever their range.
+  [[nodiscard]] Mask ever_free_points(const Scan& scan) const {
+    BlockFinder blocks(map_);
+    return mask_by_voxel(scan, parameters_.voxel_size, [&](const VoxelIndex& voxel) {
+      const Block* block = blocks.find(block_of(voxel));
+      return block != nullptr && contains(block->ever_free, voxel);
+    });
   }
 
+ private:
   Parameters parameters_;
   BlockMap map_;
   FreeSpace free_space_;
   Integrator integrator_;
-  ScanVoxels voxels_;                   ///< Of the present scan.
-  std::vector<Block*> touched_;         ///< By the rays of the last scan.
-  std::vector<Cluster> last_clusters_;  ///< Of the last scan.
+  ScanVoxels voxels_;            ///< Of the present scan.
+  std::vector<Block*> touched_;  ///< By the rays of the last scan.
 };
-
-/// The points of a scan in voxels that are ever free, whatever their range.
-Mask ever_free_points(const Scan& scan, double voxel_size, const BlockMap& map) {
-  Mask mask(scan.size());
-  LastBlock<const BlockMap, const Block> blocks(map);
-  for (std::size_t k = 0; k < scan.size(); ++k) {
-    const VoxelIndex voxel =
-        voxel_index(scan.T_world_sensor * scan.points[k].cast<double>(), 1.0 / voxel_size);
-    const Block* block = blocks.find(block_of(voxel));
-    mask[k] = block != nullptr && block->is_ever_free(voxel) ? 1 : 0;
-  }
-  return mask;
-}
 
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
@@ -87,13 +66,27 @@ void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sin
     if (!parameters.offline) sink.accept(scan.index, mask);
   });
   if (!parameters.offline) return;
-  for_scans_at_once("dynablox, answers", "answers", scans, context, [&](const Scan& scan) {
-    const StageScope timed(context.threads > 1 ? nullptr : context.times, "answers");
-    sink.accept(scan.index, ever_free_points(scan, parameters.voxel_size, detector.map()));
-  });
+  answer_scans("dynablox, answers", scans, sink, context,
+               [&](const Scan& scan) { return detector.ever_free_points(scan); });
 }
 
 }  // namespace
+
+void find_voxels(const Scan& scan, double voxel_size, ScanVoxels& found) {
+  found.voxels.clear();
+  found.hits.clear();
+  VoxelIndex last_at;
+  BlockBits* last = nullptr;  // Points that follow each other mostly share their block.
+  for (const Eigen::Vector3f& point : scan.points) {
+    const VoxelIndex voxel =
+        voxel_index(scan.T_world_sensor * point.cast<double>(), 1.0 / voxel_size);
+    const VoxelIndex at = block_of(voxel);
+    if (last == nullptr || at != last_at) last = &found.hits.find_or_make(at);
+    last_at = at;
+    insert(voxel, *last);
+    found.voxels.push_back(voxel);
+  }
+}
 
 std::unique_ptr<Remover> make_dynablox(const Parameters& parameters) {
   if (!(parameters.min_range < parameters.max_range)) {

@@ -2,23 +2,68 @@
 #include "methods/dynablox/dynablox.h"
 
 namespace raymoval {
+namespace dynablox_method {
+namespace {
+
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
+
+const char* const kShipped = "the public program's configuration";
+const char* const kOnline = "offline is false";
+
+Table make_table() {
+  Table table;
+  table.number("voxel_size", &P::voxel_size, {"m", 0.1, 2, kShipped, "Edge of a voxel."})
+      .number("min_range", &P::min_range,
+              {"m", 0, 50, kShipped, "Nearer returns and voxels tell nothing of free space."})
+      .number("max_range", &P::max_range,
+              {"m", 1, 150, kShipped,
+               "Voxels beyond are not updated, nor beyond the sensor's own range. It must be more "
+               "than min_range."})
+      .number("truncation", &P::truncation,
+              {"m", 0.05, 10, kShipped,
+               "Distances to surfaces are cut off here; voxels that lie further behind one are "
+               "not updated. It must be more than occupied_below."})
+      .integer("max_weight", &P::max_weight,
+               {"", 1, 65535, kShipped,
+                "A voxel's distance is the mean over its scans, of which the earlier ones weigh no "
+                "more than this together."})
+      .number("occupied_below", &P::occupied_below,
+              {"m", 0.01, 10, "'tsdf_occupancy_threshold'",
+               "A voxel that is nearer to a surface is occupied, as is one with points. It must be "
+               "less than truncation."})
+      .integer("temporal_buffer", &P::temporal_buffer,
+               {"scans", 0, 1000, kShipped,
+                "A voxel that was free for no longer counts as occupied all the while."})
+      .integer("burn_in", &P::burn_in,
+               {"scans", 1, 1000, "'burn_in_period'",
+                "A voxel that was free for so long, and its neighbours with it, is ever free."})
+      .integer("frames_to_reset", &P::frames_to_reset,
+               {"scans", 1, 65535, "'counter_to_reset'",
+                "A voxel that was occupied for so long is no longer ever free, nor are its "
+                "neighbours."})
+      .number("separation", &P::separation,
+              {"m", 0, 1, "'min_cluster_separation'",
+               "Clusters are one if centres of their voxels are no further apart.", kOnline})
+      .integer("min_points", &P::min_points,
+               {"points", 1, 1000000, kShipped, "A smaller cluster is none.", kOnline})
+      .flag("offline", &P::offline,
+            {.source = "not in the paper",
+             .sentence = "Every point goes that lies in a voxel which is ever free in the end. "
+                         "Else the points of a scan's clusters, judged when it comes."});
+  return table;
+}
+
+}  // namespace
+
+const ParameterTable<Parameters>& parameter_table() {
+  static const Table table = make_table();
+  return table;
+}
+
+}  // namespace dynablox_method
 
 MethodEntry dynablox_entry() {
-  const Configuration mistakes = {{"public_boxes", true},
-                                  {"public_merges", true},
-                                  {"public_unmapped", true},
-                                  {"public_reset", true}};
-  const Configuration header = {{"free_neighbours", std::string("edges")},
-                                {"frames_to_reset", std::int64_t{50}},
-                                {"grow_twice", true},
-                                {"min_points", std::int64_t{25}},
-                                {"max_points", std::int64_t{2500}},
-                                {"min_extent", 0.25},
-                                {"max_extent", 2.5}};
-  const Configuration wide = {{"max_range", 80.0}};
-  const Configuration offline = {{"offline", true}};
-  Configuration offline_wide = wide;
-  offline_wide.emplace_back("offline", true);
   MethodEntry entry;
   entry.name = "dynablox";
   entry.version = "2";
@@ -26,24 +71,23 @@ MethodEntry dynablox_entry() {
       "A distance field finds voxels that were once free for sure; what appears there moves.";
   entry.source = "Dynablox: Real-time Detection of Diverse Dynamic Objects (RA-L 2023)";
   entry.notes = {
-      "The default is as published and without the public program's mistakes, each of which has a "
-      "switch (public_...).",
-      "Rows, columns and the vertical field of view of the range image are the sensor's (image).",
+      "The default is as published and without the public program's mistakes (when it compares "
+      "boxes of clusters, merges clusters, and resets voxels), which change hardly any score.",
+      "Rows, columns and the vertical field of view of the range image are the sensor's.",
       "A pixel has its nearest return, but for those nearer than min_range, which are left out.",
       "Voxels are reset all at once, so that no order of voxels or blocks counts; in the public "
-      "program a voxel that another one has just reset resets no more (public_reset).",
+      "program a voxel that another one has just reset resets no more.",
       "A voxel with points that touches two clusters makes them one, so that no order of seeds "
       "counts; centres of voxels, not points, are compared when clusters are merged, as the "
       "shipped configuration does.",
-      "The voxels' flag 'dynamic' is left out: nothing reads it.",
+      "Largest sizes of clusters, and tracks of clusters, which the shipped configuration leaves "
+      "off, are left out, as is the voxels' flag 'dynamic', which nothing reads.",
   };
   entry.variants = {
       {"published", "As the public program is configured, without its mistakes.", true, {}},
-      {"public-code", "With the mistakes of the public program.", true, mistakes},
-      {"header", "With the defaults of the public program's source.", true, header},
-      {"wide", "Up to 80 m instead of 20.", true, wide},
-      {"offline", "A point goes if its voxel is ever free in the end.", false, offline},
-      {"offline-wide", "Both.", false, offline_wide},
+      {"wide", "Up to 80 m instead of 20.", true, {{"max_range", 80.0}}},
+      {"offline", "A point goes if its voxel is ever free in the end.", false, {{"offline", true}}},
+      {"offline-wide", "Both.", false, {{"max_range", 80.0}, {"offline", true}}},
   };
   entry.bind(dynablox_method::parameter_table(), dynablox_method::make_dynablox);
   return entry;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/angle.h"
 #include "core/parallel.h"
 
 namespace raymoval::dynablox_method {
@@ -84,9 +85,8 @@ struct Rays {
   void mark(const Eigen::Vector3f& point, BlocksAround& blocks) const {
     const Eigen::Vector3d ahead = point.cast<double>();
     const double range = ahead.norm();
-    if (!(range >= parameters.min_range && range > 0.0)) return;
-    if (range > max_range && parameters.clearing != FarReturns::kBlocks) return;
-    const double reach = (std::min(range, max_range) + parameters.truncation) / edge;
+    if (!(range >= parameters.min_range && range > 0.0) || range > max_range) return;
+    const double reach = (range + parameters.truncation) / edge;
     blocks.mark_ray(scan.T_world_sensor.linear() * (ahead / range), reach);
   }
 };
@@ -101,8 +101,8 @@ class ViewCones {
     const float rows_above = static_cast<float>(grid.rows - 1);
     const double high = grid.elevation_min + rows_above / grid.rows_per_radian + half_row;
     // What lies above a rising cone, or below a falling one, is convex.
-    has_low_ = low < 0.0 && low > -kernels::kQuarterTurn;
-    has_high_ = high > 0.0 && high < kernels::kQuarterTurn;
+    has_low_ = low < 0.0 && low > -kTurn / 4.0;
+    has_high_ = high > 0.0 && high < kTurn / 4.0;
     low_slope_ = static_cast<float>(std::tan(low));
     high_slope_ = static_cast<float>(std::tan(high));
   }
@@ -152,8 +152,8 @@ class LayerUpdate {
       const kernels::LayerFields job{
           {centre.x(), centre.y(), centre.z()}, fields.distance.data(), fields.weight.data()};
       if (!kernels_.integrate(job_, job) || !is_new) continue;
-      fields.last_occupied.fill(block.unseen.last_occupied);
-      fields.occupied_scans.fill(block.unseen.scans);
+      fields.last_occupied.fill(block.unseen_last_occupied);
+      fields.occupied_scans.fill(block.unseen_occupied_scans);
       layer = std::move(spare);
     }
   }
@@ -185,37 +185,79 @@ double range_of(const Parameters& parameters, const SensorModel& sensor) {
   return std::min(parameters.max_range, sensor.range_max);
 }
 
-/// What voxels were before scan `number` makes their block.
-Occupation before_first(const Parameters& parameters, std::int32_t number) {
-  if (parameters.new_voxels == NewVoxels::kOccupied) return {.scans = 1, .last_occupied = number};
-  // Scans are counted from 1 in the public program, and voxels were never occupied in scan 0.
-  return {.scans = 0, .last_occupied = -1};
-}
-
-/// The lowest and highest row, or part of one, between whose pixels voxels are seen.
-std::pair<float, float> rows_seen(const Parameters& parameters, const ImageGrid& grid) {
-  const auto last = static_cast<float>(grid.rows - 1);
-  if (parameters.interpolation == Interpolation::kAdaptive) return {0.0F, last};
-  return {-0.5F, std::nextafter(last + 0.5F, 0.0F)};
+/// How many steps make up `whole`, as published if the step is unknown.
+int steps_in(double whole, double step, int published, int most) {
+  if (!(step > 0.0)) return published;
+  return static_cast<int>(std::clamp(std::round(whole / step), 1.0, static_cast<double>(most)));
 }
 
 }  // namespace
 
+ImageGrid::ImageGrid(const SensorModel& sensor) {
+  constexpr double kPublishedView = 33.22 * kDegree;
+  constexpr int kMostColumns = 16384, kMostRows = 1024;
+  double low = -0.5 * kPublishedView, high = -low;
+  const auto is_elevation = [](double angle) { return std::abs(angle) <= kTurn / 4.0; };
+  if (is_elevation(sensor.elevation_min) && is_elevation(sensor.elevation_max) &&
+      sensor.elevation_min < sensor.elevation_max) {  // Not if one is unknown.
+    low = sensor.elevation_min;
+    high = std::max(sensor.elevation_max, low + kDegree);
+  }
+  columns = steps_in(kTurn, sensor.azimuth_step, columns, kMostColumns);
+  rows = 1 + steps_in(high - low, sensor.elevation_step, rows - 1, kMostRows);
+  columns_per_radian = static_cast<float>(columns / kTurn);
+  rows_per_radian = static_cast<float>((rows - 1) / (high - low));
+  elevation_min = static_cast<float>(low);
+  pixels_per_square_radian = static_cast<float>(columns / kTurn * rows / (high - low));
+}
+
 Integrator::Integrator(const Parameters& parameters, const SensorModel& sensor)
     : parameters_(parameters),
       max_range_(range_of(parameters, sensor)),
-      image_(ImageGrid(parameters, sensor)),
-      kernels_(kernels::best_kernels()) {}
+      kernels_(kernels::best_kernels()),
+      grid_(sensor) {}
 
 void Integrator::integrate(const Scan& scan, const RunContext& context, BlockMap& map,
                            std::vector<Block*>& touched) {
   {
     const StageScope timed(context.times, "rays");
-    image_.fill(scan, parameters_, static_cast<float>(max_range_));
+    fill_image(scan);
     touch_blocks(scan, context, map, touched);
   }
   const StageScope timed(context.times, "integration");
   update(scan, context, touched);
+}
+
+/// Takes the place of the last scan's. Returns nearer than `min_range` are left out.
+void Integrator::fill_image(const Scan& scan) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  const kernels::Projection job{.columns = grid_.columns,
+                                .rows = grid_.rows,
+                                .columns_per_radian = grid_.columns_per_radian,
+                                .rows_per_radian = grid_.rows_per_radian,
+                                .elevation_min = grid_.elevation_min,
+                                .min_range = static_cast<float>(parameters_.min_range)};
+  const std::size_t lanes = kernels_.most_lanes, points = scan.size();
+  const std::size_t whole = points - points % lanes;
+  pixels_.resize(whole + lanes);
+  ranges_.resize(whole + lanes);
+  if (whole > 0) {
+    kernels_.project(job, scan.points.front().data(), whole, pixels_.data(), ranges_.data());
+  }
+  // The rest, with points at the origin behind them, which are in no pixel.
+  std::vector<Eigen::Vector3f> rest(scan.points.begin() + static_cast<std::ptrdiff_t>(whole),
+                                    scan.points.end());
+  rest.resize(lanes, Eigen::Vector3f::Zero());
+  kernels_.project(job, rest.front().data(), lanes, pixels_.data() + whole, ranges_.data() + whole);
+  image_.assign(grid_.stored(0, grid_.rows + 1), 0.0F);
+  for (std::size_t k = 0; k < points; ++k) {
+    if (pixels_[k] < 0) continue;
+    float& nearest = image_[static_cast<std::size_t>(pixels_[k])];
+    nearest = nearest == 0.0F ? ranges_[k] : std::min(nearest, ranges_[k]);
+  }
+  for (int row = 0; row < grid_.rows; ++row) {
+    image_[grid_.stored(grid_.columns, row)] = image_[grid_.stored(0, row)];
+  }
 }
 
 void Integrator::touch_blocks(const Scan& scan, const RunContext& context, BlockMap& map,
@@ -232,34 +274,26 @@ void Integrator::touch_blocks(const Scan& scan, const RunContext& context, Block
                   });
   for (const BlocksAround& part : parts) all.add(part);
   touched.clear();
-  const Occupation of_new = before_first(parameters_, static_cast<std::int32_t>(scan.index));
-  all.for_each([&](const VoxelIndex& at) { touched.push_back(&map.find_or_make(at, of_new)); });
-}
-
-kernels::Integration Integrator::job() const {
-  const ImageGrid& grid = image_.grid();
-  const auto [first_row, last_row] = rows_seen(parameters_, grid);
-  const double area = parameters_.voxel_size * parameters_.voxel_size;
-  return {.image = image_.ranges().data(),
-          .columns = grid.columns,
-          .first_row = first_row,
-          .last_row = last_row,
-          .columns_per_radian = grid.columns_per_radian,
-          .rows_per_radian = grid.rows_per_radian,
-          .elevation_min = grid.elevation_min,
-          .min_range = static_cast<float>(parameters_.min_range),
-          .max_range = static_cast<float>(max_range_),
-          .is_adaptive = parameters_.interpolation == Interpolation::kAdaptive,
-          .counts_rays = parameters_.weights == Weights::kRays,
-          .rays_at_a_metre = static_cast<float>(area * grid.pixels_per_square_radian),
-          .voxel_size = static_cast<float>(parameters_.voxel_size),
-          .truncation = static_cast<float>(parameters_.truncation),
-          .max_weight = static_cast<float>(parameters_.max_weight)};
+  all.for_each([&](const VoxelIndex& at) { touched.push_back(&map.find_or_make(at, at)); });
 }
 
 void Integrator::update(const Scan& scan, const RunContext& context,
                         const std::vector<Block*>& touched) const {
-  const LayerUpdate layers(scan, parameters_.voxel_size, job(), image_.grid(), kernels_);
+  const double area = parameters_.voxel_size * parameters_.voxel_size;
+  const kernels::Integration job{
+      .image = image_.data(),
+      .columns = grid_.columns,
+      .last_row = static_cast<float>(grid_.rows - 1),
+      .columns_per_radian = grid_.columns_per_radian,
+      .rows_per_radian = grid_.rows_per_radian,
+      .elevation_min = grid_.elevation_min,
+      .min_range = static_cast<float>(parameters_.min_range),
+      .max_range = static_cast<float>(max_range_),
+      .rays_at_a_metre = static_cast<float>(area * grid_.pixels_per_square_radian),
+      .voxel_size = static_cast<float>(parameters_.voxel_size),
+      .truncation = static_cast<float>(parameters_.truncation),
+      .max_weight = static_cast<float>(parameters_.max_weight)};
+  const LayerUpdate layers(scan, parameters_.voxel_size, job, grid_, kernels_);
   parallel_chunks(context.threads, touched.size(), kBlocksAtOnce,
                   [&](std::size_t begin, std::size_t end) {
                     std::unique_ptr<Layer> spare;

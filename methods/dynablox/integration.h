@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
-#include "methods/dynablox/block_map.h"
-#include "methods/dynablox/range_image.h"
+#include "core/scan/scan.h"
+#include "core/scan/sensor_model.h"
+#include "methods/dynablox/dynablox.h"
 #include "methods/dynablox/voxel_kernels.h"
+#include "methods/dynablox/voxels.h"
 #include "methods/remover.h"
 
 namespace raymoval::dynablox_method {
 
-/// Step 8: takes scans into the distance field, as the nearest returns of a range image.
+/// The spherical image of ranges around a sensor. Columns go around the whole circle from azimuth
+/// -pi, each as wide as the next; rows go up, the first and the last are centred on the ends of the
+/// vertical field of view.
+struct ImageGrid {
+  int columns = 2048, rows = 64;
+  float columns_per_radian = 0.0F, rows_per_radian = 0.0F;
+  float elevation_min = 0.0F;  ///< Of the centre of row 0, radians.
+  float pixels_per_square_radian = 0.0F;
+
+  /// What the sensor's model does not know, or cannot be, is as published.
+  explicit ImageGrid(const SensorModel& sensor);
+
+  /// A pixel of the stored image; the stored rows have an empty one below and above, and the stored
+  /// columns the first one again behind the last.
+  [[nodiscard]] std::size_t stored(int column, int row) const {
+    return static_cast<std::size_t>(row + 1) * static_cast<std::size_t>(columns + 1) +
+           static_cast<std::size_t>(column);
+  }
+};
+
+/// Step 8: takes scans into the distance field, as the nearest returns of a range image. Returns
+/// from beyond the range say that the way is free, in blocks that nearer returns touch.
 class Integrator {
  public:
   Integrator(const Parameters& parameters, const SensorModel& sensor);
@@ -21,12 +45,11 @@ class Integrator {
   void integrate(const Scan& scan, const RunContext& context, BlockMap& map,
                  std::vector<Block*>& touched);
 
-  /// How far points and voxels take part, metres: not beyond the sensor's own range.
+  /// How far voxels are updated, metres: not beyond the sensor's own range.
   [[nodiscard]] double max_range() const { return max_range_; }
 
  private:
-  /// What all voxels have in common in the present scan.
-  [[nodiscard]] kernels::Integration job() const;
+  void fill_image(const Scan& scan);
   void touch_blocks(const Scan& scan, const RunContext& context, BlockMap& map,
                     std::vector<Block*>& touched) const;
   void update(const Scan& scan, const RunContext& context,
@@ -34,8 +57,11 @@ class Integrator {
 
   Parameters parameters_;
   double max_range_;
-  RangeImage image_;
   kernels::Kernels kernels_;
+  ImageGrid grid_;
+  std::vector<float> image_;          ///< Ranges of the nearest returns, metres; 0 for none.
+  std::vector<std::int32_t> pixels_;  ///< Of points, and
+  std::vector<float> ranges_;         ///< their ranges.
 };
 
 }  // namespace raymoval::dynablox_method

@@ -50,7 +50,6 @@ void project(const Projection& image, const float* points, std::size_t count, st
         hn::And(hn::Ge(v, hn::Zero(d)), hn::Lt(v, number(static_cast<float>(image.rows))));
     inside = hn::And(inside,
                      hn::And(hn::Ge(range, number(image.min_range)), hn::Gt(range, hn::Zero(d))));
-    inside = hn::And(inside, hn::Le(range, number(image.max_range)));
     const I row = hn::Add(hn::ConvertTo(ints, hn::IfThenElseZero(inside, v)), hn::Set(ints, 1));
     const I column = hn::Min(hn::ConvertTo(ints, u), hn::Set(ints, image.columns - 1));
     const I at = hn::Add(hn::Mul(row, hn::Set(ints, image.columns + 1)), column);
@@ -86,26 +85,6 @@ HWY_INLINE Pixels pixels_around(const Integration& scan, F u, F v) {
           hn::Sub(v, below)};
 }
 
-/// The mean of the pixels, weighed by how near they are, without those that have no return; 0 where
-/// none has one.
-HWY_INLINE F mean_range(const Pixels& pixels) {
-  const Floats d;
-  const F one = number(1.0F);
-  F sum = hn::Zero(d), weight = hn::Zero(d);
-  const auto add = [&](F range, F share_across, F share_up) {
-    const F share = hn::IfThenElseZero(hn::Gt(range, hn::Zero(d)), hn::Mul(share_across, share_up));
-    sum = hn::Add(sum, hn::Mul(share, range));
-    weight = hn::Add(weight, share);
-  };
-  const F left_share = hn::Sub(one, pixels.right_share);
-  const F lower_share = hn::Sub(one, pixels.upper_share);
-  add(pixels.lower_left, left_share, lower_share);
-  add(pixels.lower_right, pixels.right_share, lower_share);
-  add(pixels.upper_left, left_share, pixels.upper_share);
-  add(pixels.upper_right, pixels.right_share, pixels.upper_share);
-  return hn::Div(sum, hn::Max(weight, number(kLeastDivisor)));
-}
-
 /// What two places tell together: the one that has a return, or their mean and the nearer one.
 struct MeanAndLeast {
   F mean, least;
@@ -121,8 +100,8 @@ HWY_INLINE MeanAndLeast together(const MeanAndLeast& a, const MeanAndLeast& b, F
   return {either(a.mean, b.mean, mean), either(a.least, b.least, hn::Min(a.least, b.least))};
 }
 
-/// The same of each two pixels in a column, and of both columns; but the nearest of the pixels
-/// where it is nearer by more than half the truncation.
+/// The mean of each two pixels in a column, and of both columns; but the nearest of the pixels
+/// where it is nearer by more than half the truncation. 0 where there is no return.
 HWY_INLINE F adaptive_range(const Pixels& pixels, float truncation) {
   const auto column = [&](F lower, F upper) {
     return together({lower, lower}, {upper, upper}, pixels.upper_share);
@@ -137,9 +116,7 @@ HWY_INLINE F adaptive_range(const Pixels& pixels, float truncation) {
 /// What a scan weighs in voxels. @param square of their ranges
 /// @param ahead how far they lie before the surface, metres
 HWY_INLINE F weight_of_scan(const Integration& scan, F square, F ahead) {
-  const F one = number(1.0F);
-  if (!scan.counts_rays) return one;
-  const F rays = hn::Div(number(scan.rays_at_a_metre), hn::Max(square, one));
+  const F rays = hn::Div(number(scan.rays_at_a_metre), hn::Max(square, number(1.0F)));
   const F left_of_rays = hn::Div(hn::Mul(rays, hn::Add(number(scan.truncation), ahead)),
                                  number(scan.truncation - scan.voxel_size));
   return hn::IfThenElse(hn::Lt(ahead, number(-scan.voxel_size)), left_of_rays, rays);
@@ -156,14 +133,13 @@ HWY_INLINE bool integrate_some(const Integration& scan, F x, F y, F z, float* di
       hn::And(hn::Ge(range, number(scan.min_range)), hn::Le(range, number(scan.max_range)));
   const F elevation = angle_of(z, hn::Sqrt(level_square));
   const F v = hn::Mul(hn::Sub(elevation, number(scan.elevation_min)), number(scan.rows_per_radian));
-  wanted =
-      hn::And(wanted, hn::And(hn::Ge(v, number(scan.first_row)), hn::Le(v, number(scan.last_row))));
+  wanted = hn::And(wanted, hn::And(hn::Ge(v, hn::Zero(d)), hn::Le(v, number(scan.last_row))));
   if (hn::AllFalse(d, wanted)) return false;
   const F azimuth = hn::Add(angle_of(y, x), number(kHalfTurn));
   const F u = hn::Sub(hn::Mul(azimuth, number(scan.columns_per_radian)), number(0.5F));
   // What is not wanted must not reach beyond the image.
   const Pixels pixels = pixels_around(scan, u, hn::IfThenElseZero(wanted, v));
-  const F seen = scan.is_adaptive ? adaptive_range(pixels, scan.truncation) : mean_range(pixels);
+  const F seen = adaptive_range(pixels, scan.truncation);
   const F ahead = hn::Sub(seen, range);
   const F truncation = number(scan.truncation);
   wanted = hn::And(wanted, hn::And(hn::Gt(seen, hn::Zero(d)), hn::Gt(ahead, hn::Neg(truncation))));
@@ -242,8 +218,7 @@ void sweep(const Sweep& scan, const SweptLayer& layer) {
       hn::StoreU(new_last, ints, layer.last_occupied + at);
       hn::StoreU(hn::DemoteTo(shorts, new_scans), shorts, layer.occupied_scans + at);
       const auto is_long = hn::Gt(new_scans, hn::Set(ints, scan.frames_to_reset - 1));
-      const auto is_lasting = scan.resets_free ? is_long : hn::And(is_occupied, is_long);
-      lasting |= bits_of(is_lasting) << x;
+      lasting |= bits_of(hn::And(is_occupied, is_long)) << x;
       settled |= settled_bits(scan, layer, at, new_last) << x;
     }
     layer.settled[y] = static_cast<std::uint16_t>(settled);

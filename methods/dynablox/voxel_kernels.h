@@ -17,20 +17,17 @@ inline constexpr float kSeenWeight = 1e-6F;  ///< A voxel that weighs no more wa
 struct Projection {
   int columns = 0, rows = 0;
   float columns_per_radian = 0.0F, rows_per_radian = 0.0F, elevation_min = 0.0F;
-  float min_range = 0.0F;  ///< Nearer points are in no pixel,
-  float max_range = 0.0F;  ///< nor are those beyond.
+  float min_range = 0.0F;  ///< Nearer points are in no pixel.
 };
 
 /// What all voxels have in common while one scan is integrated.
 struct Integration {
-  const float* image = nullptr;  ///< As `RangeImage` stores it.
+  const float* image = nullptr;  ///< As `ImageGrid` stores it.
   int columns = 0;
-  float first_row = 0.0F, last_row = 0.0F;  ///< Voxels below and above are not seen.
+  float last_row = 0.0F;  ///< Voxels above are not seen, nor those below row 0.
   float columns_per_radian = 0.0F, rows_per_radian = 0.0F, elevation_min = 0.0F;
   float min_range = 0.0F, max_range = 0.0F;
-  bool is_adaptive = false;      ///< As in `Interpolation`.
-  bool counts_rays = false;      ///< Whether voxels are weighed by the rays through them,
-  float rays_at_a_metre = 0.0F;  ///< which are so many at one metre.
+  float rays_at_a_metre = 0.0F;  ///< Through a voxel, which they weigh.
   float voxel_size = 0.0F;
   float truncation = 0.0F, max_weight = 0.0F;
   /// From a voxel's centre to the next one's along x and y, sensor frame, metres.
@@ -49,7 +46,6 @@ struct Sweep {
   float occupied_below = 0.0F;
   std::int32_t scan = 0;
   std::int32_t temporal_buffer = 0, burn_in = 0, frames_to_reset = 0;
-  bool resets_free = false;  ///< Whether voxels are reset that are free by now.
 };
 
 /// A layer to sweep: what it holds, and bits of its rows.

@@ -3,8 +3,8 @@
 
 #include "core/scan/scan.h"
 #include "core/scan/sensor_model.h"
+#include "methods/erasor/erasor.h"
 #include "methods/erasor/naive_map.h"
-#include "methods/erasor/parameters.h"
 
 namespace raymoval::erasor_method {
 

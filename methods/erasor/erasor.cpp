@@ -8,15 +8,13 @@
 
 #include "core/parallel.h"
 #include "core/text.h"
+#include "methods/common/answers.h"
 #include "methods/common/remover_from.h"
-#include "methods/common/scan_passes.h"
 #include "methods/common/side_by_side.h"
 #include "methods/common/thinned_points.h"
 #include "methods/erasor/body_frame.h"
-#include "methods/erasor/ground_fit.h"
 #include "methods/erasor/naive_map.h"
 #include "methods/erasor/polar_bins.h"
-#include "methods/erasor/scan_ratio_test.h"
 
 namespace raymoval::erasor_method {
 namespace {
@@ -85,17 +83,10 @@ class ErasorRun {
 
   /// A point is dynamic iff its voxel is out of the map.
   void answer(const NaiveMap& map, RemovalSink& sink) {
-    const auto answer_scan = [&](const Scan& scan) {
-      const StageScope timed(context_.threads > 1 ? nullptr : context_.times, "answer");
-      Mask removed(scan.size(), 0);
-      const double inverse = 1.0 / parameters_.map_voxel_size;
-      for (std::size_t k = 0; k < removed.size(); ++k) {
-        const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
-        removed[k] = map.is_out(voxel_key(voxel_index(world, inverse))) ? 1 : 0;
-      }
-      sink.accept(scan.index, removed);
-    };
-    for_scans_at_once("erasor, answers", "answer", scans_, context_, answer_scan);
+    answer_scans("erasor, answers", scans_, sink, context_, [&](const Scan& scan) {
+      return mask_by_voxel(scan, parameters_.map_voxel_size,
+                           [&](const VoxelIndex& voxel) { return map.is_out(voxel_key(voxel)); });
+    });
   }
 
  private:

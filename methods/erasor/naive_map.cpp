@@ -117,10 +117,10 @@ void NaiveMapBuilder::add(const std::vector<VoxelKey>& keys,
     if (number == keys_.size()) {
       keys_.push_back(collected.key);
       sums_of_means_.push_back(Eigen::Vector3d::Zero());
-      scans_.push_back();
+      scans_.push_back(0);
     }
     sums_of_means_[number] += collected.sum / collected.points;
-    scans_.count_one(number);
+    ++scans_[number];
   }
 }
 

@@ -10,12 +10,17 @@ namespace raymoval::freedom_method {
 namespace {
 
 constexpr double kUnitsOfDepth = 255.0;
+// The public program's settings for KITTI.
+constexpr int kRows = 64;             ///< Of a sensor whose steps are unknown.
+constexpr double kNearest = 0.2;      ///< Nearer points are not in the image, metres.
+constexpr double kMargin = 0.2;       ///< Rays end so much before the inpainted depth, metres.
+constexpr int kInpaintingRadius = 3;  ///< Pixels.
 // No sensor of today has finer images; a wrong step then costs no more than the finest would.
 constexpr double kMostRows = 720.0, kFinestPixel = 0.05 * kDegree;
 
 /// Rows of a sensor's image: one for each step of its beams.
-int rows_of(const SensorModel& sensor, const Parameters& parameters) {
-  if (!(sensor.elevation_step > 0.0)) return parameters.image_rows;
+int rows_of(const SensorModel& sensor) {
+  if (!(sensor.elevation_step > 0.0)) return kRows;
   const double height = sensor.elevation_max - sensor.elevation_min;
   return static_cast<int>(
       std::clamp(std::round(height / sensor.elevation_step) + 1.0, 2.0, kMostRows));
@@ -36,11 +41,10 @@ HoleImage wrapped(const HoleImage& image, int wings) {
 }
 
 /// Fills the holes of an image.
-void fill_holes(HoleImage& image, bool is_full_turn, const Parameters& parameters) {
-  const int wings = is_full_turn ? std::min(parameters.inpainting_radius, image.columns) : 0;
+void fill_holes(HoleImage& image, bool is_full_turn) {
+  const int wings = is_full_turn ? std::min(kInpaintingRadius, image.columns) : 0;
   HoleImage wide = wrapped(image, wings);
-  inpaint(wide, parameters.inpainting_radius,
-          parameters.public_inpainting ? Gradients::kBounded : Gradients::kExtrapolated);
+  inpaint(wide, kInpaintingRadius);
   for (int row = 0; row < image.rows; ++row) {
     const auto from = wide.values.begin() + row * wide.columns + wings;
     std::copy_n(from, image.columns, image.values.begin() + row * image.columns);
@@ -59,26 +63,20 @@ void take_columns_of(const SensorModel& sensor, DepthView& view) {
 
 }  // namespace
 
-DepthView view_for(const SensorModel& sensor, const Parameters& parameters) {
-  const bool is_own = parameters.view_of_sensor;
+DepthView view_for(const SensorModel& sensor, double farthest) {
   DepthView view;
-  view.rows = is_own ? rows_of(sensor, parameters) : parameters.image_rows;
-  view.top = is_own ? sensor.elevation_max : parameters.view_top * kDegree;
-  const double bottom = is_own ? sensor.elevation_min : parameters.view_bottom * kDegree;
-  const double width =
-      is_own ? sensor.azimuth_max - sensor.azimuth_min : parameters.view_width * kDegree;
-  view.resolution = std::max(kFinestPixel, (view.top - bottom) / (view.rows - 1));
-  view.azimuth_min = is_own ? sensor.azimuth_min : -0.5 * width;
-  view.is_full_turn = is_own ? sensor.full_circle() : parameters.view_width == 360.0;
+  view.rows = rows_of(sensor);
+  view.top = sensor.elevation_max;
+  const double width = sensor.azimuth_max - sensor.azimuth_min;
+  view.resolution = std::max(kFinestPixel, (view.top - sensor.elevation_min) / (view.rows - 1));
+  view.azimuth_min = sensor.azimuth_min;
+  view.is_full_turn = sensor.full_circle();
   view.column_width = view.resolution;
   // A whole number of columns must not become one more by rounding.
   view.columns = std::max(1, static_cast<int>(std::ceil(width / view.resolution - 1e-9)));
   constexpr double kAsFar = 0.999;  // Steps that are found in scans are not exact.
-  if (is_own && sensor.azimuth_step >= kAsFar * view.resolution) take_columns_of(sensor, view);
-  view.minimum = parameters.image_minimum;
-  const double farthest =
-      is_own ? std::min(parameters.image_maximum, sensor.range_max) : parameters.image_maximum;
-  view.unit = std::max(farthest, 1.0) / kUnitsOfDepth;
+  if (sensor.azimuth_step >= kAsFar * view.resolution) take_columns_of(sensor, view);
+  view.unit = std::max(std::min(farthest, sensor.range_max), 1.0) / kUnitsOfDepth;
   return view;
 }
 
@@ -111,7 +109,7 @@ HoleImage depth_image(const Scan& scan, const DepthView& view) {
   image.is_hole.assign(size, 1);
   for (const Eigen::Vector3f& point : scan.points) {
     const double depth = point.cast<double>().norm();
-    if (!(depth >= view.minimum && depth > 0.0 && depth <= kUnitsOfDepth * view.unit)) continue;
+    if (!(depth >= kNearest && depth <= kUnitsOfDepth * view.unit)) continue;
     const int found = view.pixel_of(point);
     if (found < 0) continue;
     const auto pixel = static_cast<std::size_t>(found);
@@ -122,8 +120,7 @@ HoleImage depth_image(const Scan& scan, const DepthView& view) {
   return image;
 }
 
-std::vector<std::uint8_t> open_holes(const HoleImage& image, bool is_full_turn,
-                                     const Parameters& parameters) {
+std::vector<std::uint8_t> open_holes(const HoleImage& image, bool is_full_turn) {
   std::vector<std::uint8_t> is_open(image.is_hole.size(), 0);
   std::vector<std::uint8_t> is_seen(image.is_hole.size(), 0);
   std::vector<int> hole;
@@ -135,10 +132,9 @@ std::vector<std::uint8_t> open_holes(const HoleImage& image, bool is_full_turn,
     is_seen[pixel] = 1;
     hole.push_back(static_cast<int>(pixel));
   };
-  const int first_pixels = std::min(image.rows, parameters.top_margin + 1) * image.columns;
-  for (int start = 0; start < first_pixels; ++start) {
+  for (int start = 0; start < image.columns; ++start) {
     hole.clear();
-    visit(start / image.columns, start % image.columns);
+    visit(0, start);
     bool reaches_last_row = false;
     for (std::size_t i = 0; i < hole.size(); ++i) {
       const int row = hole[i] / image.columns, column = hole[i] % image.columns;
@@ -148,21 +144,19 @@ std::vector<std::uint8_t> open_holes(const HoleImage& image, bool is_full_turn,
       visit(row, column - 1);
       visit(row, column + 1);
     }
-    if (reaches_last_row || hole.size() <= static_cast<std::size_t>(parameters.hole_area)) continue;
+    if (reaches_last_row) continue;
     for (const int pixel : hole) is_open[static_cast<std::size_t>(pixel)] = 1;
   }
   return is_open;
 }
 
-std::vector<Eigen::Vector3d> find_hole_ends(const Scan& scan, const DepthView& view,
-                                            const Parameters& parameters) {
+std::vector<Eigen::Vector3d> find_hole_ends(const Scan& scan, const DepthView& view) {
   std::vector<Eigen::Vector3d> ends;
-  if (!parameters.enhancement) return ends;
   HoleImage image = depth_image(scan, view);
-  const std::vector<std::uint8_t> is_open = open_holes(image, view.is_full_turn, parameters);
+  const std::vector<std::uint8_t> is_open = open_holes(image, view.is_full_turn);
   if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return ends;
-  fill_holes(image, view.is_full_turn, parameters);
-  const int margin = static_cast<int>(std::ceil(parameters.depth_margin / view.unit));
+  fill_holes(image, view.is_full_turn);
+  const int margin = static_cast<int>(std::ceil(kMargin / view.unit));
   for (int column = 0; column < view.columns; ++column) {
     for (int row = 0; row < view.rows; ++row) {
       const auto pixel = static_cast<std::size_t>(row * view.columns + column);

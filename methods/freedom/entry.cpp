@@ -2,13 +2,63 @@
 #include "methods/freedom/freedom.h"
 
 namespace raymoval {
+namespace freedom_method {
+namespace {
+
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
+constexpr const char* kKitti = "KITTI settings of the public program";
+
+Table make_table() {
+  Table table;
+  table
+      .number("sub_voxel_size", &P::sub_voxel_size,
+              {"m", 0.02, 2, kKitti,
+               "Edge of a sub-voxel, which keeps one point. Voxels, which are free or not, have "
+               "four along each edge."})
+      .number("minimum_range", &P::minimum_range,
+              {"m", 0, 100, kKitti, "Nearer points are not put into the map."})
+      .number("maximum_range", &P::maximum_range,
+              {"m", 1, 1000, kKitti, "Farther points are not put into the map."})
+      .number("lowest", &P::lowest,
+              {"m", -1000, 0, kKitti,
+               "Points further below the sensor are not put into the map (negative)."})
+      .number("highest", &P::highest,
+              {"m", 0, 1000, kKitti, "Points further above the sensor are not put into the map."})
+      .number("ray_range", &P::ray_range, {"m", 1, 1000, kKitti, "Rays end here."})
+      .number("ray_lowest", &P::ray_lowest,
+              {"m", -1000, 0, kKitti, "Rays end at this height relative to the sensor (negative)."})
+      .number("ray_highest", &P::ray_highest,
+              {"m", 0, 1000, kKitti, "Rays end at this height above the sensor."})
+      .integer("counts_to_free", &P::counts_to_free,
+               {"scans", 1, 255, "KITTI settings; 3 for KITTI 01, Livox and rooms",
+                "A voxel is free once it and its 26 neighbours were each passed by rays of so many "
+                "scans without a hit in between."})
+      .integer("counts_to_revert", &P::counts_to_revert,
+               {"scans", 1, 255, kKitti,
+                "A voxel that is hit by so many scans without being passed in between is not free "
+                "any more, nor are its 26 neighbours."})
+      .flag("enhancement", &P::enhancement,
+            {.source = "the publication",
+             .sentence = "Rays also go where the scan has no return, if this is open to the top of "
+                         "its image, as far as its surroundings are away."})
+      .number("image_maximum", &P::image_maximum,
+              {"m", 1, 1000, "KITTI settings; 30 for Livox",
+               "Farther points are not in the image, whose depths are 255th parts of this.",
+               "enhancement is true"});
+  return table;
+}
+
+}  // namespace
+
+const ParameterTable<Parameters>& parameter_table() {
+  static const Table table = make_table();
+  return table;
+}
+
+}  // namespace freedom_method
 
 MethodEntry freedom_entry() {
-  const std::int64_t few = 3;
-  const Configuration sound = {{"public_second_round", false},
-                               {"public_revert", false},
-                               {"public_full_blocks", false},
-                               {"public_inpainting", false}};
   MethodEntry entry;
   entry.name = "freedom";
   entry.version = "2";
@@ -17,39 +67,31 @@ MethodEntry freedom_entry() {
       "goes, and its neighbours go unless another scan saw them.";
   entry.source = "FreeDOM: Online Dynamic Object Removal Framework (RA-L 2025)";
   entry.notes = {
-      "The default is the public program with its quirks, each of which has a switch (public_...).",
+      // The page of the method has all.
+      "As in the public program, levels of the map grow by one round less than those of a scan, a "
+      "voxel's neighbours keep their counts when it is no longer free, and scans that pass do not "
+      "count in blocks of 8 x 8 x 8 voxels that are all free.",
       "The public program gives a map with one point in a sub-voxel; here a point goes if its "
       "sub-voxel had a point of any scan and has no static one after the last scan.",
       "A point that is out of range in its own scan is answered by its sub-voxel, too, and stays "
-      "if "
-      "there never was a point in it.",
-      "Heights of points and rays are measured along the world's z; ranges are distances in space.",
+      "if there never was a point in it.",
       "The image is that of the sensor's model (public settings: a file for each sensor).",
       "Columns of the image are as wide as its rows are high. If the sensor's directions are as "
-      "far "
-      "apart as its beams or farther, each has a column of its own.",
-      "The top of the image is that of the sensor. Of one mounted upside down it shows the ground, "
-      "so that rays would go where the ground gives no return: set enhancement=false there.",
-      "Depths are rounded down to grey levels. A pixel's ray goes through its middle.",
-      "Holes are joined behind a full turn.",
+      "far apart as its beams or farther, each has a column of its own.",
+      "The top of the image is that of the sensor. Of one mounted upside down it shows the "
+      "ground, so that rays would go where the ground gives no return: set enhancement=false "
+      "there.",
       "The inpainting is written from its publication; OpenCV's rule for gradients is kept, its "
       "mixing in of unfilled pixels beside the first row and column is not.",
-      "The mask image of a field of view and the erosion of holes, which the settings for KITTI do "
-      "not use, are left out.",
-      "Voxels become free once all rays of a scan are counted; only voxels that the scan passes "
-      "do.",
-      "Without public_revert, only neighbours that were free count anew.",
-      "Mean points are sums of whole numbers, so that the order of points does not matter; poses "
-      "stay in double precision.",
-      "A ray that passes exactly through an edge crosses x before y before z.",
+      "What the settings for KITTI do not use is left out: other neighbourhoods than 26, the mask "
+      "image of a field of view, the erosion of holes, and least sizes of holes.",
   };
   entry.variants = {
       {"published", "As the public program is set for KITTI.", false, {}},
       {"few-counts",
        "Three scans make a voxel free: the public settings for rooms, Livox and KITTI 01.",
        false,
-       {{"counts_to_free", few}}},
-      {"sound", "Without the quirks of the public program.", false, sound},
+       {{"counts_to_free", std::int64_t{3}}}},
   };
   entry.bind(freedom_method::parameter_table(), freedom_method::make_freedom);
   return entry;

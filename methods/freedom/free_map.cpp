@@ -60,25 +60,86 @@ void for_each_passed_block(const scan_grid::ScanBlock& columns, Visit&& visit) {
   }
 }
 
+constexpr double kAlmost = 1e-6;  ///< Voxels; far above the rounding of the walk.
+
+/// The rays of one scan.
+class Rays {
+ public:
+  Rays(const Eigen::Vector3d& sensor, const Parameters& parameters, scan_grid::ScanGrid& grid)
+      : p_(parameters),
+        scale_(1.0 / parameters.voxel_size()),
+        sensor_(sensor * scale_),
+        sensor_voxel_(voxel_index(sensor_, 1.0)),
+        walk_(sensor_, grid) {}
+
+  /// @param end relative to the sensor, along the world's axes, metres
+  void cast(const Eigen::Vector3d& end) {
+    const double length = end.norm();
+    if (length == 0.0) return;
+    const Eigen::Vector3d cut = end * (share_within_reach(end, length) * scale_);
+    const Eigen::Vector3d direction = end / length;
+    const double entry = entry_of(voxel_index(sensor_ + cut, 1.0), direction);
+    if (entry >= 0.0) walk_.mark_free(direction, std::max(0.0, entry - kAlmost));
+  }
+
+ private:
+  /// The share of a ray that lies in the range and between the heights of rays.
+  [[nodiscard]] double share_within_reach(const Eigen::Vector3d& end, double length) const {
+    double share = std::min(1.0, p_.ray_range / length);
+    if (end.z() > p_.ray_highest) share = std::min(share, p_.ray_highest / end.z());
+    if (end.z() < p_.ray_lowest) share = std::min(share, p_.ray_lowest / end.z());
+    return share;
+  }
+  /// Where a ray enters its last voxel; negative if it is the sensor's own.
+  [[nodiscard]] double entry_of(const VoxelIndex& last, const Eigen::Vector3d& direction) const {
+    double entry = -1.0;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if (last[k] == sensor_voxel_[k]) continue;
+      const int wall = last[k] > sensor_voxel_[k] ? last[k] : last[k] + 1;
+      entry = std::max(entry, (wall - sensor_[k]) / direction[k]);
+    }
+    return entry;
+  }
+
+  const Parameters& p_;
+  double scale_;
+  Eigen::Vector3d sensor_;  ///< In voxels.
+  VoxelIndex sensor_voxel_;
+  scan_grid::FreeWalk walk_;
+};
+
 }  // namespace
 
-bool FreeMap::is_free(const VoxelIndex& voxel) const {
-  const FreeBlock* block = find(block_of(voxel));
-  const Place place(voxel);
-  return block != nullptr && (block->is_free[place.word] & place.mask()) != 0;
+void cast_rays(const Scan& scan, const ScanMap& voxels,
+               const std::vector<Eigen::Vector3d>& hole_ends, const Parameters& parameters,
+               scan_grid::ScanGrid& grid, const RunContext& context) {
+  constexpr std::size_t kRaysInTurn = 4096;  // Between two questions whether to stop.
+  for (const ScanVoxel& voxel : voxels.voxels()) {
+    grid.column(voxel.at).hit |= scan_grid::bit_of(voxel.at);
+  }
+  const Eigen::Vector3d sensor = scan.T_world_sensor.translation();
+  Rays rays(sensor, parameters, grid);
+  std::size_t count = 0;
+  for (const ScanVoxel& voxel : voxels.voxels()) {
+    if (++count % kRaysInTurn == 0) context.check_cancelled();
+    rays.cast(voxel.mean() * parameters.voxel_size() - sensor);
+  }
+  for (const Eigen::Vector3d& end : hole_ends) {
+    if (++count % kRaysInTurn == 0) context.check_cancelled();
+    rays.cast(scan.T_world_sensor.linear() * end);
+  }
 }
 
-FreeBlock& FreeMap::at(const VoxelIndex& block) {
-  const auto next = static_cast<std::uint32_t>(blocks_.size());
-  const auto [found, is_new] = numbers_.try_emplace(voxel_key(block), next);
-  if (is_new) blocks_.push_back(std::make_unique<FreeBlock>());
-  return *blocks_[found->second];
+bool FreeMap::is_free(const VoxelIndex& voxel) const {
+  const FreeBlock* block = blocks_.find(block_of(voxel));
+  const Place place(voxel);
+  return block != nullptr && (block->is_free[place.word] & place.mask()) != 0;
 }
 
 void FreeMap::take_hits(ScanMap& scan) {
   std::vector<VoxelIndex> reverted;
   for (ScanVoxel& voxel : scan.voxels()) {
-    FreeBlock* block = find(block_of(voxel.at));
+    FreeBlock* block = blocks_.find(block_of(voxel.at));
     if (block == nullptr) continue;
     const Place place(voxel.at);
     block->passes[place.index()] = 0;
@@ -89,28 +150,22 @@ void FreeMap::take_hits(ScanMap& scan) {
   }
   // Not before all are classified, so that their order does not matter.
   for (const VoxelIndex& voxel : reverted) {
-    revert(voxel);
-    for (const VoxelIndex& offset : neighbour_offsets(26)) revert(voxel + offset);
+    for_each_around(voxel, 1, [this](const VoxelIndex& at) { revert(at); });
   }
 }
 
 void FreeMap::revert(const VoxelIndex& voxel) {
-  FreeBlock* block = find(block_of(voxel));
+  FreeBlock* block = blocks_.find(block_of(voxel));
   const Place place(voxel);
   if (block == nullptr || (block->is_free[place.word] & place.mask()) == 0) return;
   block->is_free[place.word] &= ~place.mask();
-  if (p_.public_revert) return;
-  block->passes[place.index()] = 0;
-  block->is_ready[place.word] &= ~place.mask();
 }
 
 void FreeMap::pass(const VoxelIndex& index, const BlockBits& passed,
                    std::vector<Candidates>& candidates) {
-  FreeBlock& block = at(index);
+  FreeBlock& block = blocks_.find_or_make(index);
   const auto is_full = [](std::uint64_t word) { return word == ~std::uint64_t{0}; };
-  if (p_.public_full_blocks && std::all_of(block.is_free.begin(), block.is_free.end(), is_full)) {
-    return;
-  }
+  if (std::all_of(block.is_free.begin(), block.is_free.end(), is_full)) return;
   Candidates found{index, {}};
   for (std::size_t word = 0; word < passed.size(); ++word) {
     for (std::uint64_t left = passed[word]; left != 0; left &= left - 1) {
@@ -128,11 +183,10 @@ void FreeMap::pass(const VoxelIndex& index, const BlockBits& passed,
 BlockBits FreeMap::all_neighbours_ready(const VoxelIndex& index) const {
   constexpr int kWide = kSide + 2;  // With a voxel of the neighbours on either side.
   std::array<std::array<std::array<const FreeBlock*, 3>, 3>, 3> around;
-  for (std::size_t i = 0; i < 27; ++i) {
-    const VoxelIndex offset(static_cast<int>(i / 9) - 1, static_cast<int>(i / 3 % 3) - 1,
-                            static_cast<int>(i % 3) - 1);
-    around[i / 9][i / 3 % 3][i % 3] = find(index + offset);
-  }
+  for_each_around(VoxelIndex::Zero(), 1, [&](const VoxelIndex& step) {
+    const Eigen::Matrix<std::size_t, 3, 1> place = (step.array() + 1).cast<std::size_t>();
+    around[place.x()][place.y()][place.z()] = blocks_.find(index + step);
+  });
   // The column at (x, y), whose voxels stay if those below and above are ready too.
   const auto eroded_column = [&](std::size_t x, std::size_t y) -> std::uint64_t {
     const auto& blocks = around[(x + kSide - 1) / kSide][(y + kSide - 1) / kSide];
@@ -170,7 +224,7 @@ std::vector<VoxelIndex> FreeMap::take_passes(const scan_grid::ScanGrid& rays) {
   std::vector<VoxelIndex> newly_free;
   for (const Candidates& found : candidates) {
     const BlockBits ready = all_neighbours_ready(found.block);
-    FreeBlock& block = at(found.block);
+    FreeBlock& block = *blocks_.find(found.block);
     for (std::size_t word = 0; word < ready.size(); ++word) {
       const std::uint64_t free = found.voxels[word] & ready[word];
       block.is_free[word] |= free;

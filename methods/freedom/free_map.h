@@ -7,6 +7,7 @@
 
 #include "methods/common/scan_grid.h"
 #include "methods/freedom/scan_map.h"
+#include "methods/remover.h"
 
 namespace raymoval::freedom_method {
 
@@ -20,6 +21,18 @@ struct FreeBlock {
   BlockBits is_ready{};                    ///< Passed often enough to be free.
   BlockBits is_free{};
 };
+
+/// First part of step 4: marks the voxels of a scan as hit in `grid` (empty before), and as free
+/// those that rays pass on their way to the voxels' mean points and to `hole_ends`. A ray stops
+/// before a voxel that the scan hits, and before the voxel that it ends in.
+/// @param hole_ends ends of rays without a return, sensor frame, metres
+/// @param context is asked now and then whether to stop
+/// @throws DataError for rays that cross too many voxels; Cancelled
+/// @note voxels which a ray crosses for less than a millionth of a voxel just before the one that
+/// it ends in are not marked
+void cast_rays(const Scan& scan, const ScanMap& voxels,
+               const std::vector<Eigen::Vector3d>& hole_ends, const Parameters& parameters,
+               scan_grid::ScanGrid& grid, const RunContext& context = {});
 
 /// Free space as all scans so far know it. Counts stop at 255, the largest threshold.
 class FreeMap {
@@ -41,18 +54,12 @@ class FreeMap {
     BlockBits voxels;
   };
 
-  [[nodiscard]] FreeBlock* find(const VoxelIndex& block) const {
-    const auto found = numbers_.find(voxel_key(block));
-    return found == numbers_.end() ? nullptr : blocks_[found->second].get();
-  }
-  FreeBlock& at(const VoxelIndex& block);
   void revert(const VoxelIndex& voxel);
   void pass(const VoxelIndex& block, const BlockBits& passed, std::vector<Candidates>& candidates);
   [[nodiscard]] BlockBits all_neighbours_ready(const VoxelIndex& block) const;
 
   Parameters p_;
-  VoxelMap<std::uint32_t> numbers_;
-  std::vector<std::unique_ptr<FreeBlock>> blocks_;
+  SparseBlocks<FreeBlock> blocks_;
 };
 
 }  // namespace raymoval::freedom_method

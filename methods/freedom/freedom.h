@@ -3,11 +3,36 @@
 
 #include <memory>
 
-#include "methods/freedom/parameters.h"
 #include "methods/method_entry.h"
 
 namespace raymoval {
 namespace freedom_method {
+
+/// Parameters of FreeDOM; defaults are those of its public program for KITTI. Their units, ranges
+/// and meanings are in `parameter_table()`.
+struct Parameters {
+  double sub_voxel_size = 0.1;
+  // The points of a scan, and its rays.
+  double minimum_range = 2.7;
+  double maximum_range = 80.0;
+  double lowest = -20.0;
+  double highest = 20.0;
+  double ray_range = 80.0;
+  double ray_lowest = -10.0;
+  double ray_highest = 10.0;
+  // Free space.
+  int counts_to_free = 6;
+  int counts_to_revert = 20;
+  // Raycast enhancement.
+  bool enhancement = true;
+  double image_maximum = 80.0;
+
+  /// Edge of a voxel, metres.
+  [[nodiscard]] double voxel_size() const { return sub_voxel_size * 4; }
+};
+
+/// The one place where names, units, ranges and sources of the parameters stand.
+const ParameterTable<Parameters>& parameter_table();
 
 /// C. Li et al.: "FreeDOM: Online Dynamic Object Removal Framework for Static Map Construction
 /// Based on Conservative Free Space Estimation", RA-L 2025. Voxels (0.4 m) are free or not;

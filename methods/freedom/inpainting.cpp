@@ -92,8 +92,8 @@ class Front {
 /// Fills one image, which lies in a frame of pixels that nothing is known of.
 class Inpainting {
  public:
-  Inpainting(const HoleImage& image, int radius, Gradients gradients)
-      : gradients_(gradients), frame_(radius + 1), width_(image.columns + 2 * frame_) {
+  Inpainting(const HoleImage& image, int radius)
+      : frame_(radius + 1), width_(image.columns + 2 * frame_) {
     const auto size = static_cast<std::size_t>(width_ * (image.rows + 2 * frame_));
     values_.assign(size, 0);
     is_known_.assign(size, 0);
@@ -182,13 +182,10 @@ class Inpainting {
   }
 
   void fill(int pixel) {
-    const bool is_bounded = gradients_ == Gradients::kBounded;
-    const double central = is_bounded ? 2.0 : 0.5;  // OpenCV doubles where it should halve.
+    constexpr double kCentral = 2.0;  // OpenCV doubles where it should halve.
     const double time = times_[at(pixel)];
     const auto is_known = [this](int of) { return is_known_[at(of)] != 0; };
-    const auto has_time = [&](int of) {
-      return is_known(of) || (is_bounded && is_image_[at(of)] == 0);
-    };
+    const auto has_time = [&](int of) { return is_known(of) || is_image_[at(of)] == 0; };
     const double time_x = slope(times_, pixel, 1, 0.5, has_time);
     const double time_y = slope(times_, pixel, width_, 0.5, has_time);
     double weights = 0.0, sum = 0.0, rise_x = 0.0, rise_y = 0.0;
@@ -196,23 +193,19 @@ class Inpainting {
       const int from = pixel + near.offset;
       if (is_known_[at(from)] == 0) continue;
       const double along = std::abs(near.x * time_x + near.y * time_y);
-      const double direction = along <= (is_bounded ? 0.01 : 0.0) ? 1e-6 : along;
+      const double direction = along <= 0.01 ? 1e-6 : along;
       const double weight = direction * near.inverse / (1.0 + std::abs(times_[at(from)] - time));
       weights += weight;
       sum += weight * values_[at(from)];
-      rise_x += weight * slope(values_, from, 1, central, is_known) * near.x;
-      rise_y += weight * slope(values_, from, width_, central, is_known) * near.y;
+      rise_x += weight * slope(values_, from, 1, kCentral, is_known) * near.x;
+      rise_y += weight * slope(values_, from, width_, kCentral, is_known) * near.y;
     }
-    double value = (sum + rise_x + rise_y) / weights;
-    if (is_bounded) {
-      value = sum / weights -
-              (rise_x + rise_y) / (std::sqrt(rise_x * rise_x + rise_y * rise_y) + 1e-20) + 0.5;
-    }
+    const double rise = std::sqrt(rise_x * rise_x + rise_y * rise_y) + 1e-20;
+    const double value = sum / weights - (rise_x + rise_y) / rise + 0.5;
     values_[at(pixel)] = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
     is_known_[at(pixel)] = 1;
   }
 
-  Gradients gradients_;
   int frame_, width_;
   std::vector<Near> near_;
   std::vector<std::uint8_t> values_, is_image_;
@@ -223,8 +216,8 @@ class Inpainting {
 
 }  // namespace
 
-void inpaint(HoleImage& image, int radius, Gradients gradients) {
-  Inpainting inpainting(image, radius, gradients);
+void inpaint(HoleImage& image, int radius) {
+  Inpainting inpainting(image, radius);
   inpainting.run(radius);
   inpainting.write(image);
 }

@@ -6,48 +6,31 @@
 #include <vector>
 
 #include "core/scan/scan.h"
-#include "methods/freedom/levels.h"
+#include "methods/common/sparse_blocks.h"
+#include "methods/freedom/freedom.h"
 
 namespace raymoval::freedom_method {
 
-/// Where voxels and their sub-voxels are.
-class Lattice {
- public:
-  explicit Lattice(const Parameters& parameters)
-      : inverse_(1.0 / parameters.sub_voxel_size),
-        per_edge_(parameters.sub_voxels),
-        voxels_a_metre_(1.0 / parameters.voxel_size()) {}
-
-  /// @param world metres @throws DataError beyond the common lattice
-  [[nodiscard]] VoxelIndex sub_voxel_of(const Eigen::Vector3d& world) const {
-    return voxel_index(world, inverse_);
-  }
-  /// The voxel that a sub-voxel lies in.
-  [[nodiscard]] VoxelIndex voxel_of(const VoxelIndex& sub_voxel) const {
-    if (per_edge_ == 4) return {sub_voxel.x() >> 2, sub_voxel.y() >> 2, sub_voxel.z() >> 2};
-    // Numbers from 0 on, so that quotients are rounded down.
-    const int offset = per_edge_ * kVoxelBias;
-    return ((sub_voxel.array() + offset) / per_edge_ - kVoxelBias).matrix();
-  }
-  /// The place of a sub-voxel in its voxel, 0 to 63.
-  [[nodiscard]] int place_of(const VoxelIndex& sub_voxel, const VoxelIndex& voxel) const {
-    const VoxelIndex inside = sub_voxel - per_edge_ * voxel;
-    return (inside.x() * per_edge_ + inside.y()) * per_edge_ + inside.z();
-  }
-  [[nodiscard]] VoxelIndex sub_voxel_at(const VoxelIndex& voxel, int place) const {
-    return per_edge_ * voxel + VoxelIndex(place / (per_edge_ * per_edge_),
-                                          place / per_edge_ % per_edge_, place % per_edge_);
-  }
-  /// A world point in voxels.
-  [[nodiscard]] Eigen::Vector3d in_voxels(const Eigen::Vector3d& world) const {
-    return world * voxels_a_metre_;
-  }
-
- private:
-  double inverse_;  ///< Sub-voxels a metre.
-  int per_edge_;    ///< Sub-voxels along the edge of a voxel.
-  double voxels_a_metre_;
+/// How surely something does not stay where it was seen. A point replaces those of a higher level.
+enum class Level : std::uint8_t {
+  kStatic,
+  kAggressive,    ///< Near a moderate one.
+  kModerate,      ///< Beside a conservative one.
+  kConservative,  ///< In free space.
+  kEmpty,         ///< There is no point any more.
 };
+
+/// The voxel that a sub-voxel lies in.
+inline VoxelIndex voxel_of(const VoxelIndex& sub_voxel) {
+  return {sub_voxel.x() >> 2, sub_voxel.y() >> 2, sub_voxel.z() >> 2};
+}
+/// The place of a sub-voxel in its voxel, 0 to 63, and back.
+inline int place_of(const VoxelIndex& sub_voxel) {
+  return (sub_voxel.x() & 3) << 4 | (sub_voxel.y() & 3) << 2 | (sub_voxel.z() & 3);
+}
+inline VoxelIndex sub_voxel_at(const VoxelIndex& voxel, int place) {
+  return 4 * voxel + VoxelIndex(place >> 4, place >> 2 & 3, place & 3);
+}
 
 /// A voxel in which a scan has points.
 struct ScanVoxel {
@@ -89,7 +72,7 @@ class ScanMap {
     return found == numbers_.end() ? kNone : found->second;
   }
   /// Second part of step 2: grows levels from the conservative voxels.
-  void grow(const Growth& growth);
+  void grow();
 
  private:
   std::vector<ScanVoxel> voxels_;

@@ -79,18 +79,16 @@ void StaticMap::grow(std::span<const Seed> seeds) {
     reached.push_back(voxel);
   };
   for (const Seed& seed : seeds) reach(seed.voxel, Level::kConservative, frontier);
-  grow_levels(growth_, std::move(frontier),
-              [&](const std::vector<Number>& from, int neighbours, Level level) {
-                std::vector<Number> reached;
-                for (const Number voxel : from) {
-                  const VoxelIndex at = voxel_index(keys_[voxel]);
-                  for (const VoxelIndex& offset : neighbour_offsets(neighbours)) {
-                    const Number number = find(at + offset);
-                    if (number != VoxelNumbers::kNone) reach(number, level, reached);
-                  }
-                }
-                return reached;
-              });
+  for (const Level level : {Level::kModerate, Level::kAggressive}) {
+    std::vector<Number> reached;
+    for (const Number voxel : frontier) {
+      for_each_around(voxel_index(keys_[voxel]), 1, [&](const VoxelIndex& at) {
+        const Number number = find(at);
+        if (number != VoxelNumbers::kNone) reach(number, level, reached);
+      });
+    }
+    frontier = std::move(reached);
+  }
 }
 
 void StaticMap::raise(Number voxel, std::uint32_t scan, Level level) {
@@ -133,7 +131,7 @@ CellSet StaticMap::removed() const {
     const SubVoxel* cell = voxels_[i].all().data();
     for_each_place(voxels_[i].places(), [&](int place) {
       if (!(cell++)->is(Level::kStatic)) {
-        removed.insert(voxel_key(lattice_.sub_voxel_at(voxel, place)));
+        removed.insert(voxel_key(sub_voxel_at(voxel, place)));
       }
     });
   }
@@ -141,10 +139,9 @@ CellSet StaticMap::removed() const {
 }
 
 Level StaticMap::level_of(const VoxelIndex& sub_voxel) const {
-  const VoxelIndex voxel = lattice_.voxel_of(sub_voxel);
-  const Number number = find(voxel);
+  const Number number = find(voxel_of(sub_voxel));
   if (number == VoxelNumbers::kNone) return Level::kEmpty;
-  const std::uint64_t bit = std::uint64_t{1} << lattice_.place_of(sub_voxel, voxel);
+  const std::uint64_t bit = std::uint64_t{1} << place_of(sub_voxel);
   const SubVoxels& cells = voxels_[number];
   if ((cells.places() & bit) == 0) return Level::kEmpty;
   const auto before = static_cast<std::size_t>(std::popcount(cells.places() & (bit - 1)));

@@ -55,9 +55,6 @@ class SubVoxels {
 /// bytes a voxel and 6 for each of its sub-voxels.
 class StaticMap {
  public:
-  explicit StaticMap(const Parameters& parameters)
-      : lattice_(parameters), growth_(growth_of(parameters, true)) {}
-
   /// Step 5: raises levels in and around newly free voxels, scan by scan.
   void remove(const std::vector<VoxelIndex>& newly_free);
   /// Step 6: takes in the points of scan number `scan`.
@@ -89,8 +86,6 @@ class StaticMap {
   void grow(std::span<const Seed> seeds);
   void clear_without_static();
 
-  Lattice lattice_;
-  Growth growth_;
   VoxelNumbers numbers_;
   std::vector<VoxelKey> keys_;
   std::vector<SubVoxels> voxels_;

@@ -8,6 +8,29 @@
 
 namespace raymoval::hmm_mos_method {
 
+BeliefModel::BeliefModel(const Parameters& parameters)
+    : transition_(parameters.transition),
+      keep_(1.0 - 2.0 * parameters.transition),
+      belief_(parameters.belief) {
+  for (int distance = 0;; ++distance) {
+    const double likelihood = std::exp(-distance / (2.0 * parameters.spread * parameters.spread));
+    if (is_far(likelihood)) return;
+    likelihood_.push_back(likelihood);
+    if (far() > kMostDistances) {
+      throw ConfigurationError(
+          "hmm_mos.spread and hmm_mos.transition: distances would count too far away; expected a "
+          "smaller spread, or a larger transition.");
+    }
+  }
+}
+
+bool BeliefModel::is_far(double likelihood) const {
+  // At worst, occupied is as likely before as it can be. What comes out falls with the distance.
+  const double stays = likelihood * (1.0 - transition_), goes = (1.0 - likelihood) * transition_;
+  const double occupied = stays / (stays + goes);
+  return 1.0 - occupied == 1.0 && transition_ + keep_ * occupied == transition_;
+}
+
 BeliefMap::BeliefMap(const Parameters& parameters)
     : lattice_(parameters),
       model_(parameters),
@@ -23,12 +46,7 @@ void BeliefMap::observe(const ScanVoxels& now_voxels, const ScanVoxels& before,
   find_beyond(now_voxels, before, beyond_);
   std::vector<Block*> blocks;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    std::unique_ptr<Block>& block = blocks_[voxel_key(now[i].at)];
-    if (block == nullptr) {
-      block = std::make_unique<Block>();
-      block->at = now[i].at;
-    }
-    blocks.push_back(block.get());
+    blocks.push_back(&blocks_.find_or_make(now[i].at, now[i].at));
   }
   parallel_for(context.threads, blocks.size(), 1, [&](std::size_t i) {
     context.check_cancelled();
@@ -90,46 +108,32 @@ void BeliefMap::observe_voxel(std::size_t column, int height, int distance, Bloc
 }
 
 void BeliefMap::forget(const Eigen::Vector3d& sensor) {
-  std::vector<VoxelKey> empty;
-  for (auto entry = blocks_.begin(); entry != blocks_.end(); ++entry) {
-    if (forget_in(sensor, *entry.value())) empty.push_back(entry.key());
-  }
-  for (const VoxelKey key : empty) blocks_.erase(key);
-}
-
-bool BeliefMap::forget_in(const Eigen::Vector3d& sensor, Block& block) {
-  const VoxelIndex sides(kSide, kSide, kHeight);
-  const bool is_near = is_within(block.at.cwiseProduct(sides), sides, sensor);
-  bool is_empty = true;
-  for (std::size_t brick = 0; brick < kBricks; ++brick) {
-    if (block.bricks[brick] == nullptr) continue;
-    forget_in(sensor, is_near, block, brick);
-    if (block.bricks[brick]->newest == 0) block.bricks[brick].reset();
-    is_empty &= block.bricks[brick] == nullptr;
-  }
-  return is_empty;
-}
-
-/// Whether all of a box of voxels is so near to the sensor that nothing of it is forgotten.
-bool BeliefMap::is_within(const VoxelIndex& first, const VoxelIndex& sides,
-                          const Eigen::Vector3d& sensor) const {
-  const Eigen::Vector3d low = lattice_.position(first) - sensor;
-  const Eigen::Vector3d high = lattice_.position(first + sides) - sensor;
-  return low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() < range_;
-}
-
-/// @param is_near whether all of the block is within range
-void BeliefMap::forget_in(const Eigen::Vector3d& sensor, bool is_near, Block& block,
-                          std::size_t number) {
-  const VoxelIndex origin = block.at.cwiseProduct(VoxelIndex(kSide, kSide, kHeight));
-  is_near =
-      is_near || is_within(origin + corner_of(number), VoxelIndex::Constant(kBrickSide), sensor);
   const ScanNumber last = now_ > static_cast<ScanNumber>(scans_) ? now_ - scans_ : 0;
-  if (is_near && block.bricks[number]->oldest >= last) return;
-  forget_voxels(block, number, [&](ScanNumber seen, const VoxelIndex& place) {
-    return seen < last ||
-           (!is_near && (lattice_.position(origin + place) - sensor).norm() > range_);
+  blocks_.erase_if([&](Block& block) {
+    const VoxelIndex origin = block.at.cwiseProduct(VoxelIndex(kSide, kSide, kHeight));
+    bool is_empty = true;
+    for (std::size_t number = 0; number < kBricks; ++number) {
+      std::unique_ptr<Brick>& brick = block.bricks[number];
+      if (brick == nullptr) continue;
+      const bool is_near = is_within(origin + corner_of(number), sensor);
+      if (!is_near || brick->oldest < last) {
+        forget_voxels(block, number, [&](ScanNumber seen, const VoxelIndex& place) {
+          return seen < last ||
+                 (!is_near && (lattice_.position(origin + place) - sensor).norm() > range_);
+        });
+        if (brick->newest == 0) brick.reset();
+      }
+      is_empty &= brick == nullptr;
+    }
+    return is_empty;
   });
+}
+
+/// Whether all of a brick is so near to the sensor that nothing of it is forgotten.
+bool BeliefMap::is_within(const VoxelIndex& first, const Eigen::Vector3d& sensor) const {
+  const Eigen::Vector3d low = lattice_.position(first) - sensor;
+  const Eigen::Vector3d high = low.array() + kBrickSide * lattice_.size();
+  return low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() < range_;
 }
 
 /// The place of a brick's lowest voxel in its block.
@@ -177,26 +181,24 @@ void BeliefMap::forget_voxel(Block& block, Brick& brick, const VoxelIndex& place
 }
 
 void BeliefMap::forget_all() {
-  for (auto entry = blocks_.begin(); entry != blocks_.end(); ++entry) {
-    Block& block = *entry.value();
-    for (std::size_t brick = 0; brick < kBricks; ++brick) {
-      if (block.bricks[brick] == nullptr) continue;
-      forget_voxels(block, brick, [](ScanNumber, const VoxelIndex&) { return true; });
+  blocks_.erase_if([this](Block& block) {
+    for (std::size_t number = 0; number < kBricks; ++number) {
+      if (block.bricks[number] == nullptr) continue;
+      forget_voxels(block, number, [](ScanNumber, const VoxelIndex&) { return true; });
     }
-  }
-  blocks_.clear();
+    return true;
+  });
 }
 
 std::size_t BeliefMap::size() const {
-  std::size_t voxels = 0;
-  for (const auto& [key, block] : blocks_) {
-    for (const std::unique_ptr<Brick>& brick : block->bricks) {
+  std::ptrdiff_t voxels = 0;
+  blocks_.for_each([&](const Block& block) {
+    for (const std::unique_ptr<Brick>& brick : block.bricks) {
       if (brick == nullptr) continue;
-      voxels += kBrickVoxels -
-                static_cast<std::size_t>(std::count(brick->seen.begin(), brick->seen.end(), 0U));
+      voxels += kBrickVoxels - std::count(brick->seen.begin(), brick->seen.end(), 0U);
     }
-  }
-  return voxels;
+  });
+  return static_cast<std::size_t>(voxels);
 }
 
 }  // namespace raymoval::hmm_mos_method

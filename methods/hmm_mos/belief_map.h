@@ -9,11 +9,49 @@
 
 #include "core/scan/cell_set.h"
 #include "methods/common/workspaces.h"
-#include "methods/hmm_mos/belief.h"
 #include "methods/hmm_mos/distances.h"
 #include "methods/hmm_mos/scan_voxels.h"
 
 namespace raymoval::hmm_mos_method {
+
+/// The hidden Markov model of one voxel. Of its three states the first, unobserved, has probability
+/// 0 from the first observation on, so that one number is kept: the probability of occupied.
+class BeliefModel {
+ public:
+  /// Before the first observation: as likely occupied as free, which is what a step from the state
+  /// unobserved comes to.
+  static constexpr double kUnobserved = 0.5;
+  /// More squared distances than this are never told apart.
+  static constexpr int kMostDistances = 254;
+
+  /// @throws ConfigurationError if it would have to tell more than `kMostDistances` apart
+  explicit BeliefModel(const Parameters& parameters);
+
+  /// From this squared distance on, in voxels, all are alike: after an observation at it or farther
+  /// off, occupied is so unlikely that the next step does not feel how much so, as double precision
+  /// has it, and the state is free.
+  [[nodiscard]] int far() const { return static_cast<int>(likelihood_.size()); }
+
+  /// Step 4: the probability of occupied after one more observation.
+  /// @param occupied the same before
+  /// @param distance squared, in voxels, to the nearest occupied voxel; not above `far()`
+  [[nodiscard]] double after(double occupied, int distance) const {
+    if (distance == 0) return 1.0;
+    if (distance >= far()) return 0.0;
+    const double likelihood = likelihood_[static_cast<std::size_t>(distance)];
+    const double stays = likelihood * (transition_ + keep_ * occupied);
+    const double goes = (1.0 - likelihood) * (transition_ + keep_ * (1.0 - occupied));
+    return stays / (stays + goes);
+  }
+  [[nodiscard]] bool is_occupied(double occupied) const { return occupied > belief_; }
+  [[nodiscard]] bool is_free(double occupied) const { return 1.0 - occupied > belief_; }
+
+ private:
+  [[nodiscard]] bool is_far(double likelihood) const;
+
+  double transition_, keep_, belief_;
+  std::vector<double> likelihood_;  ///< p_o by squared distance.
+};
 
 /// What is believed of the voxels around the sensor that were observed lately.
 class BeliefMap {
@@ -32,8 +70,8 @@ class BeliefMap {
 
   /// Of a column of voxels, those whose state is known: occupied or free.
   [[nodiscard]] std::uint64_t known(const VoxelIndex& block, std::size_t column) const {
-    const auto found = blocks_.find(voxel_key(block));
-    return found == blocks_.end() ? 0 : found->second->known[column];
+    const Block* found = blocks_.find(block);
+    return found == nullptr ? 0 : found->known[column];
   }
   /// Forgets all voxels, after the last scan.
   void forget_all();
@@ -58,7 +96,8 @@ class BeliefMap {
     ScanNumber oldest = std::numeric_limits<ScanNumber>::max(), newest = 0;
   };
   struct Block {
-    VoxelIndex at = VoxelIndex::Zero();
+    explicit Block(const VoxelIndex& position) : at(position) {}
+    VoxelIndex at;
     std::array<std::uint64_t, kColumns> known{};  ///< By column.
     std::array<std::uint64_t, kColumns> free{};   ///< As far as known.
     std::array<std::unique_ptr<Brick>, kBricks> bricks;
@@ -71,14 +110,10 @@ class BeliefMap {
 
   void observe_block(const ScanBlock& seen, const DistanceField& distances, Block& block) const;
   void observe_voxel(std::size_t column, int height, int distance, Block& block) const;
-  /// @return whether nothing of the block is left
-  bool forget_in(const Eigen::Vector3d& sensor, Block& block);
-  void forget_in(const Eigen::Vector3d& sensor, bool is_near, Block& block, std::size_t number);
   template <class IsGone>
   void forget_voxels(Block& block, std::size_t number, IsGone&& is_gone);
   void forget_voxel(Block& block, Brick& brick, const VoxelIndex& place);
-  [[nodiscard]] bool is_within(const VoxelIndex& first, const VoxelIndex& sides,
-                               const Eigen::Vector3d& sensor) const;
+  [[nodiscard]] bool is_within(const VoxelIndex& first, const Eigen::Vector3d& sensor) const;
 
   Lattice lattice_;
   BeliefModel model_;
@@ -87,7 +122,7 @@ class BeliefMap {
   bool offline_;
   ScanNumber now_ = 0;
   CellSet forgotten_free_;
-  VoxelMap<std::unique_ptr<Block>> blocks_;
+  SparseBlocks<Block> blocks_;
   std::vector<VoxelIndex> appeared_;
   Workspaces<DistanceField> distances_;
   ScanGrid beyond_ = empty_grid();  ///< Of the scan observed last and the one before.

@@ -55,12 +55,12 @@ void DistanceField::find_heights(const ScanBlock& block) {
 
 void DistanceField::find_neighbours(const std::array<const ScanGrid*, 3>& grids,
                                     const ScanBlock& block) {
-  for (int i = 0; i < 27; ++i) {
-    const VoxelIndex at = block.at + VoxelIndex(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
+  for_each_around(VoxelIndex::Zero(), 1, [&](const VoxelIndex& step) {
+    const auto place = static_cast<std::size_t>(9 * step.x() + 3 * step.y() + step.z() + 13);
     for (std::size_t g = 0; g < grids.size(); ++g) {
-      around_[g][static_cast<std::size_t>(i)] = grids[g]->find(at);
+      around_[g][place] = grids[g]->find(block.at + step);
     }
-  }
+  });
 }
 
 void DistanceField::along_z() {

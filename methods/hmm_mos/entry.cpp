@@ -2,11 +2,91 @@
 #include "methods/hmm_mos/hmm_mos.h"
 
 namespace raymoval {
+namespace hmm_mos_method {
+namespace {
+
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
+
+void add_scan(Table& table) {
+  table
+      .number("voxel_size", &P::voxel_size,
+              {"m", 0.05, 2, "all configurations of the public program (its README says 0.2)",
+               "Edge of a voxel."})
+      .number("min_range", &P::min_range,
+              {"m", 0, 20, "the least of the public configurations, 0.5 to 3",
+               "Points that are not farther from the sensor are left out and stay."})
+      .number("max_range", &P::max_range,
+              {"m", 1, 300, "the public configurations",
+               "Voxels farther from the sensor are neither observed nor judged."});
+}
+
+void add_state(Table& table) {
+  table
+      .number("spread", &P::spread,
+              {"voxels", 0.25, 1.5, "'sigma', a voxel's edge in the public configurations",
+               "Standard deviation of the distance to the nearest occupied voxel, of this scan or "
+               "the one before, at which a voxel counts as occupied."})
+      .number("transition", &P::transition,
+              {"", 0.001, 0.1, "epsilon, constant of the public program",
+               "Probability of each change of state between two scans."})
+      .number("belief", &P::belief,
+              {"", 0.5, 0.9999, "the public configurations",
+               "A voxel takes a state whose probability is above this."})
+      .integer("map_scans", &P::map_scans,
+               {"scans", 1, 100000, "w_G, the public configurations",
+                "A voxel that was not seen for more scans is forgotten."})
+      .number("map_range_factor", &P::map_range_factor,
+              {"", 1, 10, "constant of the public program",
+               "Voxels farther from the sensor than max_range times this are forgotten."});
+}
+
+void add_change(Table& table) {
+  table
+      .integer("reach", &P::reach,
+               {"voxels", 1, 4, "a convolution of 5 voxels in the public configurations",
+                "Half side of the cube around a voxel in which changes are counted."})
+      .integer("window_scans", &P::window_scans,
+               {"scans", 1, 100, "w_L, the public configurations (3 for HeLiMOS)",
+                "Scores of so many scans are added up; one more scan is let pass before the first "
+                "score."})
+      .number(
+          "least_threshold", &P::least_threshold,
+          {"", 0, 10000, "'minOtsu' of the public configurations",
+           "A scan whose threshold is not above this is static as a whole, and a voxel that was "
+           "dynamic in the scan before stays so if its score is above this."});
+}
+
+Table make_table() {
+  Table table;
+  add_scan(table);
+  add_state(table);
+  add_change(table);
+  table
+      .flag("public_lattice", &P::public_lattice,
+            {.source = "the public program",
+             .sentence = "Indices of voxels are cut off towards zero, so that those around the "
+                         "origin are twice as wide, and a voxel lies at its corner; the sensor's "
+                         "voxel is rounded down all the same. Else all are rounded down, and a "
+                         "voxel lies at its middle."})
+      .flag(
+          "offline", &P::offline,
+          {.source = "ours",
+           .sentence = "Answer after the last scan: points whose voxel was free when its state was "
+                       "last known go as well."});
+  return table;
+}
+
+}  // namespace
+
+const ParameterTable<Parameters>& parameter_table() {
+  static const Table table = make_table();
+  return table;
+}
+
+}  // namespace hmm_mos_method
 
 MethodEntry hmm_mos_entry() {
-  const Configuration sound = {{"public_lattice", false}};
-  Configuration offline = sound;
-  offline.emplace_back("offline", true);
   MethodEntry entry;
   entry.name = "hmm_mos";
   entry.version = "2";
@@ -17,29 +97,24 @@ MethodEntry hmm_mos_entry() {
       "Moving Object Segmentation in Point Cloud Data using Hidden Markov Models (IROS 2024 "
       "workshop)";
   entry.notes = {
-      "The default is the public program with its lattice, which has a switch (public_lattice).",
-      "Nothing depends on the sensor but its range. Of the public configurations' least ranges the "
-      "smallest is the default, which leaves out the fewest points.",
-      "Ranges are measured from the sensor's position to where a voxel lies.",
-      "What is hit beyond max_range is near to what is within, as in the public program: distances "
-      "are those to all hits of this scan and the one before.",
-      "The first scan has no scan before it; what is nearest is looked for in it alone.",
-      "From a distance on (9.8 voxels by default) all distances are alike: in double precision the "
-      "next step of a voxel's belief comes out the same.",
-      "A voxel that was forgotten begins anew; the scores of the window stay.",
-      "Edges of the histogram's bins are compared in whole numbers, so that no score falls into "
-      "another bin by rounding.",
+      // The page of the method has all.
+      "The default is the public program with its lattice; offline is without it.",
+      "Nothing depends on the sensor but its range. Of the public configurations' least ranges "
+      "the smallest is the default, which leaves out the fewest points.",
+      "What is hit beyond max_range is near to what is within, as in the public program: "
+      "distances are those to all hits of this scan and the one before.",
       "Where all scores are equal there is no threshold and nothing moves; voxels of the scan "
       "before may still stay dynamic for the next.",
-      "offline is ours: what moved when it was seen goes, and points whose voxel was free when its "
-      "state was last known. The public program has no answer for a whole map.",
+      "offline is ours: what moved when it was seen goes, and points whose voxel was free when "
+      "its state was last known. The public program has no answer for a whole map.",
   };
   entry.variants = {
       {"published", "As the public program is set.", true, {}},
       {"fine", "With voxels of 0.2 m, as its README says.", true, {{"voxel_size", 0.2}}},
-      {"sound", "Without the quirk of the public program.", true, sound},
-      {"offline", "Ours: sound, and points go whose voxel was last known to be free.", false,
-       offline},
+      {"offline",
+       "Ours: voxels lie at their middle, and points go whose voxel was last known to be free.",
+       false,
+       {{"public_lattice", false}, {"offline", true}}},
   };
   entry.bind(hmm_mos_method::parameter_table(), hmm_mos_method::make_hmm_mos);
   return entry;

@@ -10,8 +10,8 @@
 #include "core/parallel.h"
 #include "core/scan/mask_store.h"
 #include "core/text.h"
+#include "methods/common/answers.h"
 #include "methods/common/remover_from.h"
-#include "methods/common/scan_passes.h"
 #include "methods/hmm_mos/belief_map.h"
 #include "methods/hmm_mos/moving_voxels.h"
 
@@ -73,17 +73,6 @@ void for_scans_in_time(const Parameters& parameters, const ScanSource& scans,
   });
 }
 
-/// The masks by what moved when it was seen, and by the last state of each voxel.
-void answer_offline(const Parameters& parameters, const ScanSource& scans, const MaskStore& moved,
-                    const CellSet& free, RemovalSink& sink, const RunContext& context) {
-  for_scans_at_once("hmm_mos, answers", "answer", scans, context, [&](const Scan& scan) {
-    Mask mask = mask_of(scan, parameters, [&](VoxelKey voxel) { return free.contains(voxel); });
-    const Mask before = moved.get(scan.index);
-    std::transform(mask.begin(), mask.end(), before.begin(), mask.begin(), std::bit_or<>());
-    sink.accept(scan.index, mask);
-  });
-}
-
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   Knowledge known(parameters);
@@ -96,7 +85,13 @@ void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sin
   });
   if (!parameters.offline) return;
   known.map.forget_all();
-  answer_offline(parameters, scans, moved, known.map.forgotten_free(), sink, context);
+  const CellSet& free = known.map.forgotten_free();
+  answer_scans("hmm_mos, answers", scans, sink, context, [&](const Scan& scan) {
+    Mask mask = mask_of(scan, parameters, [&](VoxelKey voxel) { return free.contains(voxel); });
+    const Mask before = moved.get(scan.index);
+    std::transform(mask.begin(), mask.end(), before.begin(), mask.begin(), std::bit_or<>());
+    return mask;
+  });
 }
 
 }  // namespace

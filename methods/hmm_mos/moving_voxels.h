@@ -1,10 +1,54 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "methods/hmm_mos/change_scores.h"
-#include "methods/hmm_mos/threshold.h"
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "methods/hmm_mos/belief_map.h"
 
 namespace raymoval::hmm_mos_method {
+
+/// Scores of voxels. What is not listed has 0.
+using Scores = VoxelMap<int>;
+
+/// Step 6: for each occupied voxel the voxels around it that appeared with this scan, less those of
+/// unknown state, where that is above 0.
+Scores change_scores(const ScanGrid& now, const BeliefMap& map, int reach);
+
+/// Step 7: each occupied voxel gets the median score of the occupied voxels among its 26 neighbours
+/// and itself.
+Scores median_scores(const ScanGrid& now, const Scores& scores);
+
+/// Step 8: the sums of the scores of the last scans.
+class ScoreWindow {
+ public:
+  explicit ScoreWindow(int scans) : scans_(static_cast<std::size_t>(scans)) {}
+
+  void add(Scores scores);
+  [[nodiscard]] const Scores& sums() const { return sums_; }
+  [[nodiscard]] int sum(VoxelKey voxel) const {
+    const auto found = sums_.find(voxel);
+    return found == sums_.end() ? 0 : found->second;
+  }
+
+ private:
+  std::size_t scans_;
+  std::deque<Scores> last_;
+  Scores sums_;
+};
+
+/// How many voxels have a score.
+struct ScoreCount {
+  int score = 0;
+  std::int64_t voxels = 0;
+};
+
+/// Step 9: the score that parts best what is above it from the rest (Otsu 1979), of those between
+/// bins of a histogram. Of several that part equally well it is the highest.
+/// @param counts each score once, in any order
+/// @return nothing if all scores are equal, or there are none
+std::optional<double> otsu_threshold(const std::vector<ScoreCount>& counts, int bins);
 
 /// Steps 6 to 12: which occupied voxels of each scan move, by what changed with it and with the
 /// scans just before.

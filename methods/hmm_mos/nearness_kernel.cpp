@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/hmm_mos/nearness_kernel.h"
+#include "methods/hmm_mos/distances.h"
 
 #include <bit>
 

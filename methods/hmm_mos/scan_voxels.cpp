@@ -170,10 +170,9 @@ std::vector<VoxelIndex> find_occupied(const Scan& scan, const Parameters& parame
 
 /// Whether a grid has a block or one beside it, corners included.
 bool is_near_block(const ScanGrid& grid, const VoxelIndex& block) {
-  for (int i = 0; i < 27; ++i) {
-    if (grid.find(block + VoxelIndex(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1)) != nullptr) return true;
-  }
-  return false;
+  bool is_near = false;
+  for_each_around(block, 1, [&](const VoxelIndex& at) { is_near |= grid.find(at) != nullptr; });
+  return is_near;
 }
 
 }  // namespace

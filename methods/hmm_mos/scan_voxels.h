@@ -6,10 +6,41 @@
 
 #include "core/scan/scan.h"
 #include "methods/common/scan_grid.h"
-#include "methods/hmm_mos/lattice.h"
+#include "methods/common/sparse_blocks.h"
+#include "methods/hmm_mos/hmm_mos.h"
 #include "methods/remover.h"
 
 namespace raymoval::hmm_mos_method {
+
+/// Where voxels are.
+class Lattice {
+ public:
+  explicit Lattice(const Parameters& parameters)
+      : size_(parameters.voxel_size),
+        inverse_(1.0 / parameters.voxel_size),
+        corner_(parameters.public_lattice) {}
+
+  /// The voxel of a point. @param world metres
+  /// @throws DataError beyond the common lattice
+  [[nodiscard]] VoxelIndex voxel_of(const Eigen::Vector3d& world) const {
+    if (!corner_) return voxel_index(world, inverse_);
+    const VoxelIndex magnitude = voxel_index(world.cwiseAbs(), inverse_);
+    return (world.array() < 0.0).select(-magnitude, magnitude);
+  }
+  /// The voxel in which rays begin. @param world metres
+  [[nodiscard]] VoxelIndex sensor_voxel(const Eigen::Vector3d& world) const {
+    return voxel_index(world, inverse_);
+  }
+  /// From where the distance to a voxel counts, metres.
+  [[nodiscard]] Eigen::Vector3d position(const VoxelIndex& voxel) const {
+    return (voxel.cast<double>().array() + (corner_ ? 0.0 : 0.5)).matrix() * size_;
+  }
+  [[nodiscard]] double size() const { return size_; }  ///< Edge of a voxel, metres.
+
+ private:
+  double size_, inverse_;
+  bool corner_;
+};
 
 /// In a scan's grid, `hit` is what is occupied, and `free` all that is observed, ends of rays too.
 /// Both are within range.
@@ -31,30 +62,23 @@ inline ScanGrid empty_grid() {
   return ScanGrid("Set a smaller hmm_mos.max_range, or a larger hmm_mos.voxel_size.");
 }
 
-/// Looks columns up in a grid that stays as it is. The block that was asked for last is mostly
-/// asked for again.
+/// Looks columns up in a grid that stays as it is.
 class ColumnLookup {
  public:
-  explicit ColumnLookup(const ScanGrid& grid) : grid_(grid), found_(grid.find(at_)) {}
+  explicit ColumnLookup(const ScanGrid& grid) : blocks_(grid) {}
 
   /// A column of a block; an empty one where the scan has nothing.
   const Column& column(const VoxelIndex& block, std::size_t column) {
     static constexpr Column kEmpty{};
-    if (at_ != block) {
-      found_ = grid_.find(block);
-      at_ = block;
-    }
-    return found_ == nullptr ? kEmpty : found_->columns[column];
+    const ScanBlock* found = blocks_.find(block);
+    return found == nullptr ? kEmpty : found->columns[column];
   }
-  const Column& column(const VoxelIndex& voxel) {
-    return column(block_of(voxel), column_of(voxel));
+  bool is_occupied(const VoxelIndex& voxel) {
+    return (column(block_of(voxel), column_of(voxel)).hit & bit_of(voxel)) != 0;
   }
-  bool is_occupied(const VoxelIndex& voxel) { return (column(voxel).hit & bit_of(voxel)) != 0; }
 
  private:
-  const ScanGrid& grid_;
-  VoxelIndex at_ = VoxelIndex::Zero();
-  const ScanBlock* found_;
+  BlockFinder<ScanGrid> blocks_;
 };
 
 /// Whether a point is far enough from its sensor to count. One that is not finite is not.

@@ -1,14 +1,65 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "methods/peopleremover/direction_index.h"
-#include "methods/peopleremover/parameters.h"
+#include "methods/peopleremover/peopleremover.h"
 
 namespace raymoval::peopleremover_method {
+
+/// Points of a scan sorted by direction into rows of equal height (sine of the elevation) and
+/// columns of about equal azimuth. Positions below are in that order: by row, then column, then
+/// number in the scan.
+class DirectionIndex {
+ public:
+  static constexpr int kRows = 256;
+  static constexpr int kColumns = 720;
+
+  /// Sorts `points` (sensor frame, metres, none at the origin). Reuses its memory.
+  void build(const std::vector<Eigen::Vector3d>& points);
+
+  [[nodiscard]] std::size_t size() const { return point.size(); }
+
+  /// Calls `visit(begin, end)` with ranges of positions that hold all points whose direction is
+  /// nearer than an angle to that at `position`, and some others.
+  /// @param half_sine sine of half that angle, in (0, 1)
+  template <class Visit>
+  void for_each_range_near(std::size_t position, double half_sine, Visit&& visit) const {
+    const Window window = window_around(direction[position], half_sine);
+    for (int row = window.first_row; row <= window.last_row; ++row) {
+      const auto start = static_cast<std::size_t>(row * kColumns);
+      const auto span = [&](int first, int last) {
+        visit(cell_start_[start + static_cast<std::size_t>(first)],
+              cell_start_[start + static_cast<std::size_t>(last) + 1]);
+      };
+      if (window.last_column < kColumns) {
+        span(window.first_column, window.last_column);
+      } else {
+        span(0, window.last_column - kColumns);
+        span(window.first_column, kColumns - 1);
+      }
+    }
+  }
+
+  std::vector<std::uint32_t> number;       ///< The number of each point in the scan.
+  std::vector<double> range;               ///< r, metres.
+  std::vector<Eigen::Vector3d> direction;  ///< u = p / r.
+  std::vector<Eigen::Vector3d> point;      ///< p, metres.
+
+ private:
+  /// `last_column` is below `first_column + kColumns` and may pass the end once.
+  struct Window {
+    int first_row, last_row, first_column, last_column;
+  };
+  [[nodiscard]] static Window window_around(const Eigen::Vector3d& direction, double half_sine);
+
+  std::vector<std::uint32_t> cell_start_;
+  std::vector<std::uint32_t> cell_of_;
+  std::vector<double> range_of_;
+};
 
 inline constexpr double kWholeBeam = std::numeric_limits<double>::infinity();
 

@@ -5,10 +5,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <mutex>
 #include <vector>
 
-#include "core/scan/voxel_key.h"
+#include "core/scan/cell_set.h"
 
 namespace raymoval::peopleremover_method {
 
@@ -47,12 +46,6 @@ struct SlabMasks {
 };
 const SlabMasks& slab_masks();
 
-/// Voxels of one brick, for building a map.
-struct BrickVoxels {
-  VoxelKey brick;
-  BrickWord voxels;
-};
-
 /// The occupied voxels of all scans, once all are known: bricks numbered 0 .. size() - 1, found
 /// through blocks. Memory depends on the occupied volume only, about 40 bytes a brick.
 class BrickMap {
@@ -71,8 +64,7 @@ class BrickMap {
     }
   };
 
-  /// @param bricks each brick once, in any order
-  explicit BrickMap(std::vector<BrickVoxels> bricks);
+  explicit BrickMap(const CellSet& voxels);
 
   [[nodiscard]] std::size_t size() const { return occupied_.size(); }
   [[nodiscard]] BrickWord occupied(BrickId brick) const { return occupied_[brick]; }
@@ -88,18 +80,6 @@ class BrickMap {
   std::vector<VoxelKey> keys_;
   std::vector<Block> blocks_;
   VoxelMap<std::uint32_t> block_of_;
-};
-
-/// Collects the occupied voxels of scans. Thread-safe; the order of the scans does not matter.
-class BrickCollector {
- public:
-  void add(const VoxelMap<BrickWord>& bricks);
-  /// The map of everything collected; leaves nothing behind.
-  BrickMap take();
-
- private:
-  std::mutex mutex_;
-  VoxelMap<BrickWord> bricks_;
 };
 
 /// Finds bricks quickly where one look-up lies near the last ones. Each thread needs one of its
@@ -155,5 +135,9 @@ void for_each_brick_near(BrickFinder& finder, const VoxelIndex& voxel, int radiu
     }
   }
 }
+
+/// Step 2.8: clears the voxels of 26-connected components of fewer than `minimum` freed voxels.
+/// @param freed one word per brick of `map`
+void discard_small_clusters(const BrickMap& map, int minimum, std::vector<BrickWord>& freed);
 
 }  // namespace raymoval::peopleremover_method

@@ -2,33 +2,54 @@
 #include "methods/peopleremover/peopleremover.h"
 
 namespace raymoval {
+namespace peopleremover_method {
 namespace {
 
-std::vector<std::string> notes() {
-  return {
-      "Sets of scan numbers per voxel are not kept but read off the scans' own points, which gives "
-      "the same verdicts; memory is bounded by the map.",
-      "maxrange_method = none follows whole beams, as 3DTK did before May 2020; its present "
-      "version "
-      "follows none there and removes nothing.",
-      "maxrange_method = normals is the default here and the choice of 3DTK's own example; 3DTK's "
-      "default is none.",
-      "Points within the minimum range, which 3DTK drops, are answered for: static.",
-      "A point within two voxel diagonals of the sensor has no beam; 3DTK takes the arc sine of a "
-      "value above 1 there.",
-      "The normal is towards the sensor where fewer than three points, or points on a line, would "
-      "decide it; no beam passes its own point.",
-      "A beam that crosses two voxel walls at once crosses them one by one, x before y before z; "
-      "3DTK steps along both at once.",
-      "reduce draws from cells of a cap's solid angle by seed, scan and point; 3DTK's threads "
-      "share "
-      "one generator.",
-      "normal-method (only angle works), normal-knearest (without effect), and the values of "
-      "maxrange-method that abort in 3DTK are left out.",
-  };
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
+constexpr const char* kConstant = "a constant in 3DTK";
+
+Table make_table() {
+  Table table;
+  table
+      .number("voxel_size", &P::voxel_size,
+              {"m", 0.02, 10, "--voxel-size; 3DTK: 10 of its units, 0.1 m in centimetre data",
+               "Edge of a voxel."})
+      .choice("maxrange_method", &P::maxrange_method,
+              {{"none", MaxrangeMethod::kNone}, {"normals", MaxrangeMethod::kNormals}},
+              {.source = "--maxrange-method; 3DTK: none",
+               .sentence = "Beams go to their point, or end one voxel diagonal in front of the "
+                           "plane of the surface around it (point shadows)."})
+      .integer("diff", &P::diff,
+               {"scans", 0, 100000, "--diff",
+                "A voxel with points of a scan within so many of the beam's is not freed and stops "
+                "the beam."})
+      .integer("min_cluster_size", &P::min_cluster_size,
+               {"voxels", 0, 1e9, "--min-cluster-size",
+                "Smaller 26-connected clusters of freed voxels are discarded; 1 or less keeps "
+                "all."})
+      .flag("subvoxel_accuracy", &P::subvoxel_accuracy,
+            {.source = "--no-subvoxel-accuracy",
+             .sentence = "Remove, near a freed voxel, also the points of the scans that have "
+                         "points in it."})
+      .integer("half_voxel_radius", &P::half_voxel_radius,
+               {"voxels", 1, 8, kConstant, "How near is near for subvoxel_accuracy.",
+                "subvoxel_accuracy is true"})
+      .number("minimum_range", &P::minimum_range,
+              {"m", 0, 100, kConstant,
+               "Points this near are left out and stay static; 0 takes the voxel diagonal, as "
+               "3DTK does."});
+  return table;
 }
 
 }  // namespace
+
+const ParameterTable<Parameters>& parameter_table() {
+  static const Table table = make_table();
+  return table;
+}
+
+}  // namespace peopleremover_method
 
 MethodEntry peopleremover_entry() {
   const std::string none = "none";
@@ -40,7 +61,20 @@ MethodEntry peopleremover_entry() {
   entry.source =
       "Schauer and Nuechter: The Peopleremover - Removing Dynamic Objects From 3-D Point Cloud "
       "Data by Traversing a Voxel Occupancy Grid, RA-L 2018";
-  entry.notes = notes();
+  entry.notes = {
+      // The page of the method has all.
+      "maxrange_method = none follows whole beams, as 3DTK did before May 2020; its present "
+      "version follows none there and removes nothing.",
+      "maxrange_method = normals is the default here and the choice of 3DTK's own example; 3DTK's "
+      "default is none.",
+      "Points within the minimum range, which 3DTK drops, are answered for: static.",
+      "A point within two voxel diagonals of the sensor has no beam; 3DTK takes the arc sine of a "
+      "value above 1 there.",
+      "The normal is towards the sensor where fewer than three points, or points on a line, would "
+      "decide it; no beam passes its own point.",
+      "--fuzz and --reduce, normal-method (only angle works), normal-knearest (without effect), "
+      "and the values of maxrange-method that abort in 3DTK are left out.",
+  };
   entry.variants = {
       {"normals", "Point shadows, voxels of 0.2 m: what its authors recommend.", false, {}},
       {"fine",
@@ -56,10 +90,6 @@ MethodEntry peopleremover_entry() {
        "print.",
        false,
        {{"maxrange_method", none}, {"subvoxel_accuracy", false}}},
-      {"reduced",
-       "As normals, one beam per cap of 0.01 rad.",
-       false,
-       {{"reduce_points", std::int64_t{1}}, {"reduce_angle", 0.01}}},
   };
   entry.bind(peopleremover_method::parameter_table(), peopleremover_method::make_peopleremover);
   return entry;

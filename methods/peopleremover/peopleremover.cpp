@@ -3,20 +3,50 @@
 
 #include <algorithm>
 #include <deque>
+#include <mutex>
 
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/common/workspaces.h"
-#include "methods/peopleremover/answer.h"
 #include "methods/peopleremover/beam_ends.h"
 #include "methods/peopleremover/bricks.h"
-#include "methods/peopleremover/freed_clusters.h"
-#include "methods/peopleremover/lattice_scan.h"
-#include "methods/peopleremover/thinning.h"
 #include "methods/peopleremover/traversal.h"
 
 namespace raymoval::peopleremover_method {
 namespace {
+
+/// The points of a scan that take part (farther than the minimum range), in scan order.
+struct LatticeScan {
+  Eigen::Vector3d sensor;              ///< Position of the sensor, voxel units.
+  std::vector<std::uint32_t> index;    ///< Number of each point in its scan.
+  std::vector<Eigen::Vector3d> local;  ///< Sensor frame, metres.
+  std::vector<Eigen::Vector3d> world;  ///< World frame, voxel units (metres / voxel size).
+  std::vector<VoxelIndex> voxels;      ///< floor(world).
+  [[nodiscard]] std::size_t size() const { return index.size(); }
+};
+
+/// Step 2.1 of the reference: drops near points, and puts the others on the lattice. Reuses the
+/// memory of `result`. @throws DataError if a point lies beyond the lattice.
+void put_on_lattice(const Scan& scan, const Parameters& parameters, LatticeScan& result) {
+  const double inverse = 1.0 / parameters.voxel_size;
+  const double minimum = parameters.effective_minimum_range();
+  const Eigen::Vector3d position = scan.T_world_sensor.translation();
+  voxel_index(position, inverse);  // Throws if the sensor is beyond the lattice.
+  result.sensor = position * inverse;
+  result.index.clear();
+  result.local.clear();
+  result.world.clear();
+  result.voxels.clear();
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const Eigen::Vector3d local = scan.points[k].cast<double>();
+    if (!(local.squaredNorm() > minimum * minimum)) continue;
+    const Eigen::Vector3d world = scan.T_world_sensor * local;
+    result.index.push_back(static_cast<std::uint32_t>(k));
+    result.local.push_back(local);
+    result.world.emplace_back(world * inverse);
+    result.voxels.push_back(voxel_index(world, inverse));
+  }
+}
 
 /// The voxels of one scan as words of a map's bricks; a brick may come more than once.
 using OwnVoxels = std::vector<std::pair<BrickId, BrickWord>>;
@@ -70,6 +100,55 @@ class ScanWindow {
   LatticeScan read_;
 };
 
+/// Steps 2.9 and 2.10: the verdicts of a scan from the final freed voxels. Each thread needs one of
+/// its own.
+///
+/// half(x) need not be stored: a point of scan i in voxel x is in it iff scan i has a point in a
+/// freed voxel near x, which the scan's own points tell.
+class ScanVerdicts {
+ public:
+  /// @param freed one word per brick of `map`
+  /// @param half_voxel_radius voxels (Chebyshev); 0 removes freed voxels only
+  ScanVerdicts(const BrickMap& map, const std::vector<BrickWord>& freed, int half_voxel_radius)
+      : freed_(freed),
+        radius_(half_voxel_radius),
+        finder_(map),
+        own_freed_(map.size()),
+        halo_(map.size()) {}
+
+  /// @param scan_points points of the whole scan, those left out included, which stay static
+  Mask of(const LatticeScan& scan, std::size_t scan_points);
+
+ private:
+  const std::vector<BrickWord>& freed_;
+  int radius_;
+  BrickFinder finder_;
+  VoxelMarks own_freed_;  ///< Freed voxels in which the scan has a point.
+  VoxelMarks halo_;       ///< These voxels and all voxels near them.
+};
+
+Mask ScanVerdicts::of(const LatticeScan& scan, std::size_t scan_points) {
+  own_freed_.clear();
+  halo_.clear();
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const VoxelIndex& voxel = scan.voxels[k];
+    const BrickId brick = finder_.find(brick_of(voxel));
+    const BrickWord bit = voxel_bit(voxel);
+    if ((freed_[brick] & bit & ~own_freed_.at(brick)) == 0) continue;
+    own_freed_.set(brick, bit);
+    // Freed voxels of the halo are dynamic by themselves: including them changes nothing.
+    for_each_brick_near(finder_, voxel, radius_,
+                        [this](BrickId near, BrickWord voxels) { halo_.set(near, voxels); });
+  }
+  Mask dynamic(scan_points, 0);
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const BrickId brick = finder_.find(brick_of(scan.voxels[k]));
+    const BrickWord bit = voxel_bit(scan.voxels[k]);
+    dynamic[scan.index[k]] = (halo_.at(brick) & bit) != 0 ? 1 : 0;
+  }
+  return dynamic;
+}
+
 /// What a thread needs to follow the beams of a scan.
 struct BeamWorkspace {
   BeamWorkspace(const Parameters& parameters, const BrickMap& map, FreedVoxels& freed)
@@ -96,21 +175,21 @@ class Pass {
 
   /// Steps 2.1 and 2.2: the voxels that hold a point of any scan.
   BrickMap collect_occupied() {
-    BrickCollector collector;
+    CellSet occupied;
+    std::mutex mutex;
     Workspaces<LatticeScan> workspaces([] { return std::make_unique<LatticeScan>(); });
     for_chunks("peopleremover, map", 1, workspaces, [&](LatticeScan& points, auto&& each_scan) {
       each_scan([&](const Scan& scan) {
         const StageScope timed(context_.times, "occupancy");
         put_on_lattice(scan, parameters_, points);
-        VoxelMap<BrickWord> bricks;
-        for (const VoxelIndex& voxel : points.voxels) {
-          bricks[voxel_key(brick_of(voxel))] |= voxel_bit(voxel);
-        }
-        collector.add(bricks);
+        CellSet of_scan;
+        for (const VoxelIndex& voxel : points.voxels) of_scan.insert(voxel_key(voxel));
+        const std::lock_guard lock(mutex);
+        occupied.insert(of_scan);
       });
     });
     const StageScope timed(context_.times, "occupancy");
-    return collector.take();
+    return BrickMap(occupied);
   }
 
   /// Steps 2.3 to 2.7: the voxels that some beam passes through.
@@ -176,14 +255,9 @@ class Pass {
     const StageScope timed(context_.times, "traversal");
     const LatticeScan& points = workspace.points;
     const double inverse = 1.0 / parameters_.voxel_size;
-    const std::vector<std::uint8_t> chosen =
-        choose_beams(points.local, scan.index,
-                     {parameters_.reduce_points, parameters_.reduce_angle,
-                      static_cast<std::uint64_t>(parameters_.reduce_seed)});
     constexpr std::size_t kBeamsInTurn = 512;  // Between two questions whether to stop.
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (k % kBeamsInTurn == 0) context_.check_cancelled();
-      if (chosen[k] == 0) continue;
       if (lengths[k] == kWholeBeam) {
         workspace.walker.walk(points.sensor, points.world[k]);
         continue;

@@ -46,7 +46,7 @@ void Oracle::judge(const Scan& scan) {
   center_foot_ = foot_at(center_, center_);
   if (!p_.public_lattice && !trees_.contains({first_.first + center_, first_.second + center_})) {
     std::vector<double> feet;
-    const int reach = std::min(std::max(p_.outlier_neighbours, 1), center_);
+    const int reach = std::min(5, center_);
     for (int x = center_ - reach; x <= center_ + reach; ++x) {
       for (int y = center_ - reach; y <= center_ + reach; ++y) {
         const auto found = trees_.find({first_.first + x, first_.second + y});
@@ -79,7 +79,7 @@ void Oracle::judge(const Scan& scan) {
 
 Slices Oracle::protected_by_sight(const Tree& tree, const Slices& seen, int dx, int dy) const {
   int from = 31;
-  const int blind = static_cast<int>(p_.blind_range / p_.column_size) + 1;
+  const int blind = static_cast<int>(2.0 / p_.column_size) + 1;
   const int end = p_.public_lattice ? blind - 1 : blind;
   const double away = std::sqrt(dx * dx + dy * dy);
   Slices high = seen;
@@ -117,7 +117,7 @@ bool Oracle::is_hidden(int slice, int x, int y) const {
     if (at_x < 0 || at_y < 0 || at_x >= side_ || at_y >= side_) return false;
     const int way = static_cast<int>(std::abs(dx) * share + hair) +
                     static_cast<int>(std::abs(dy) * share + hair);
-    if (way <= p_.ray_margin) continue;
+    if (way <= 3) continue;
     const double foot = foot_at(at_x, at_y), h = p_.slice_height;
     double on_ray = 0;
     if (p_.public_rays) {
@@ -144,7 +144,7 @@ Slices Oracle::above_ground(const Tree& tree, int slice) const {
   for (const auto& [part, count] : points) {
     if (last >= 0 && part - last > 2) break;
     last = part;
-    if (below >= p_.ground_share * static_cast<double>(tree.heights.at(slice).size())) {
+    if (below >= 0.85 * static_cast<double>(tree.heights.at(slice).size())) {
       above.insert(part);
     }
     below += count;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "methods/beautymap/parameters.h"
+#include "methods/beautymap/beautymap.h"
 
 namespace raymoval::beautymap_test {
 
@@ -39,7 +39,7 @@ class Oracle {
  public:
   Oracle(const Parameters& parameters, const ScanSource& scans) : p_(parameters) {
     for (std::size_t i = 0; i < scans.size(); ++i) scans_.push_back(scans.load(i));
-    part_ = std::max(p_.finest_slice, p_.slice_height / 31);
+    part_ = std::max(0.1, p_.slice_height / 31);
     place_columns();
     place_feet();
     fill();
@@ -100,7 +100,7 @@ class Oracle {
 
   void place_feet() {
     const std::map<Place, Tree> before = trees_;
-    const int n = p_.outlier_neighbours;
+    const int n = 5;
     for (auto& [place, tree] : trees_) {
       std::vector<double> around;
       for (const auto& [other, its] : p_.public_outliers ? trees_ : before) {
@@ -111,11 +111,11 @@ class Oracle {
         if (is_near) around.push_back(its.foot);
       }
       const double all = p_.public_outliers ? n * n : (2 * n + 1) * (2 * n + 1) - 1;
-      if (around.empty() || static_cast<double>(around.size()) < p_.outlier_share * all) continue;
+      if (around.empty() || static_cast<double>(around.size()) < 0.6 * all) continue;
       const double middle = median(around);
       std::vector<double> deviations;
       for (const double z : around) deviations.push_back(std::abs(z - middle));
-      const double reach = p_.outlier_deviations * median(deviations);
+      const double reach = 3.0 * median(deviations);
       const double measured = tree.foot;
       tree.foot = std::min(std::max(tree.foot, middle - reach), middle + reach);
       tree.is_outlier = tree.foot != measured;

@@ -138,24 +138,6 @@ TEST_CASE("a larger d_p removes no point that a smaller one keeps") {
   CHECK(fewer > 0);
 }
 
-TEST_CASE("the order of the points does not matter") {
-  const toy::World world = passer_by();
-  toy::HeldScans forward, backward;
-  for (std::size_t i = 0; i < world.size(); ++i) {
-    std::vector<Eigen::Vector3d> points;
-    for (const auto& point : world.load(i).points) points.push_back(point.cast<double>());
-    forward.add_world(Eigen::Vector3d::Zero(), points);
-    std::reverse(points.begin(), points.end());
-    backward.add_world(Eigen::Vector3d::Zero(), points);
-  }
-  const MaskStore a = run(forward), b = run(backward);
-  for (std::size_t i = 0; i < world.size(); ++i) {
-    Mask reversed = b.get(i);
-    std::reverse(reversed.begin(), reversed.end());
-    CHECK(a.get(i) == reversed);
-  }
-}
-
 TEST_CASE("a beam of no length is a hit and nothing else") {
   Parameters parameters;
   parameters.minimum_range = 0.0;

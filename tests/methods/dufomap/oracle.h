@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/scan/scan_source.h"
-#include "methods/dufomap/parameters.h"
+#include "methods/dufomap/dufomap.h"
 
 namespace raymoval::dufomap_test {
 
@@ -118,8 +118,7 @@ class Oracle {
     Cell cell{floor_of(sensor.x()), floor_of(sensor.y()), floor_of(sensor.z())};
     sets.free.insert(cell);
     std::size_t next = 0;
-    while (walls[next].distance < length &&
-           (parameters_.pass_through_hits || sets.hit.count(cell) == 0)) {
+    while (walls[next].distance < length && sets.hit.count(cell) == 0) {
       step(cell, walls[next++].axis, u);
       sets.free.insert(cell);
     }

@@ -7,6 +7,7 @@
 #include "methods/dufomap/beams.h"
 #include "methods/dufomap/dufomap.h"
 #include "methods/dufomap/void_map.h"
+#include "tests/methods/grid_cells.h"
 #include "tests/methods/toy_world.h"
 
 namespace raymoval::dufomap_test {
@@ -37,35 +38,17 @@ toy::HeldScans random_scans(unsigned seed) {
 }
 
 std::vector<Parameters> settings() {
-  std::vector<Parameters> all(8);
+  std::vector<Parameters> all(7);
   all[1].unknown_inflation = 2;
   all[2].unknown_inflation = 0;
   all[2].hit_extension = 0.0;
-  all[3].pass_through_hits = true;
+  all[3].minimum_range = 2.0;
   all[4].compensate_inflation = false;
   all[5].maximum_range = 2.5;
   all[6].voxel_size = 0.05;
   all[6].unknown_inflation = 3;
   all[6].hit_extension = 0.33;
-  all[7].minimum_range = 2.0;
   return all;
-}
-
-/// Voxels of a scan's grid whose bit is set in the chosen word.
-template <class Word>
-Cells cells_of(const ScanGrid& grid, Word word) {
-  Cells cells;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    for (int column = 0; column < kColumns; ++column) {
-      const std::uint64_t bits = word(grid[i].columns[static_cast<std::size_t>(column)]);
-      for (int z = 0; z < kHeight; ++z) {
-        if ((bits >> z & 1U) == 0) continue;
-        cells.insert({grid[i].at.x() * kSide + column / kSide,
-                      grid[i].at.y() * kSide + column % kSide, grid[i].at.z() * kHeight + z});
-      }
-    }
-  }
-  return cells;
 }
 
 }  // namespace
@@ -81,8 +64,8 @@ TEST_CASE("hits and free voxels are those of the plain sets") {
       const auto voxels = voxels_of(scan, parameters.voxel_size);
       cast_beams(scan, beam_ends(scan, voxels, parameters, grid), parameters, grid);
       const ScanSets sets = oracle.sets_of(scan);
-      CHECK(cells_of(grid, [](const Column& c) { return c.hit; }) == sets.hit);
-      CHECK(cells_of(grid, [](const Column& c) { return c.free; }) == sets.free);
+      CHECK(toy::cells_of(grid, &Column::hit) == sets.hit);
+      CHECK(toy::cells_of(grid, &Column::free) == sets.free);
       std::vector<VoxelIndex> all;  // And the voids among everything that is free.
       for (const Cell& cell : sets.free) all.emplace_back(cell[0], cell[1], cell[2]);
       ScanVoids found;

@@ -1,30 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Walks along lines that rounding treats worst: each ends after no more voxels than walls lie
 // between its ends.
-#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <set>
 
-#include "methods/common/free_walk.h"
+#include "methods/common/scan_grid.h"
 #include "methods/dufomap/beams.h"
-#include "methods/dufomap/cell_walk.h"
+#include "tests/methods/grid_cells.h"
 #include "tests/methods/held_scans.h"
 
 namespace raymoval::dufomap_test {
 using namespace raymoval::dufomap_method;
 
 namespace {
-
-std::size_t free_voxels(const ScanGrid& grid) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    for (const Column& column : grid[i].columns) {
-      count += static_cast<std::size_t>(std::popcount(column.free));
-    }
-  }
-  return count;
-}
 
 /// Directions along axes and diagonals, each also with parts next to nothing.
 std::vector<Eigen::Vector3d> directions() {
@@ -54,11 +42,11 @@ TEST_CASE("a beam marks no more voxels than walls lie on its way", "[dufomap]") 
     for (const Eigen::Vector3d& direction : directions()) {
       for (const double length : {5e-324, 1e-162, 1e-9, 0.7, 41.3, 500.0}) {
         ScanGrid grid;
-        const VoxelIndex last = FreeWalk(start, true, grid).mark_free(direction, length);
+        const VoxelIndex last = FreeWalk(start, grid).mark_free(direction, length);
         const VoxelIndex first = voxel_index(start, 1.0);
         INFO(start.transpose() << " along " << direction.transpose() << ", " << length);
         const auto walls = static_cast<std::size_t>((last - first).cwiseAbs().sum());
-        CHECK(free_voxels(grid) == walls + 1);
+        CHECK(toy::cells_of(grid, &Column::free).size() == walls + 1);
         CHECK(static_cast<double>(walls) <= length * direction.lpNorm<1>() + 3.0);
         const Eigen::Vector3d end = start + length * direction;
         CHECK((end - last.cast<double>().array().matrix()).minCoeff() > -1.001);
@@ -71,9 +59,10 @@ TEST_CASE("a beam marks no more voxels than walls lie on its way", "[dufomap]") 
 TEST_CASE("the longest beam ends", "[dufomap]") {
   ScanGrid grid;
   const VoxelIndex last =
-      FreeWalk({0.5, 0.5, 0.5}, true, grid).mark_free({1.0, 0.0, 0.0}, FreeWalk::kLongest);
+      FreeWalk({0.5, 0.5, 0.5}, grid).mark_free({1.0, 0.0, 0.0}, FreeWalk::kLongest);
   CHECK(last.x() >= FreeWalk::kLongest - 1.0);
-  CHECK(free_voxels(grid) <= static_cast<std::size_t>(FreeWalk::kLongest) + 1);
+  CHECK(toy::cells_of(grid, &Column::free).size() <=
+        static_cast<std::size_t>(FreeWalk::kLongest) + 1);
 }
 
 TEST_CASE("a line comes to a distance after a bounded number of voxels", "[dufomap]") {

@@ -68,17 +68,16 @@ Scan wall(double range) {
 TEST_CASE("dynablox: a voxel holds the mean of its distances to the surface") {
   Parameters parameters;
   parameters.voxel_size = 0.25;
-  parameters.weights = Weights::kConstant;
   Field field(parameters, sensor_model_named("vlp16"));
   field.see(wall(3.0));
   CHECK(field.distance(4) == 0.4F);  // Far in front: cut off.
-  CHECK(field.weight(4) == 1.0F);
   CHECK(field.distance(11) == Approx(3.0 - field.range(11)).margin(1e-4));
   CHECK(field.distance(12) == Approx(3.0 - field.range(12)).margin(1e-4));
   CHECK(field.weight(14) == 0.0F);  // 0.63 m behind the wall.
-  field.see(wall(3.2));
+  const float weight = field.weight(12);
+  field.see(wall(3.2));  // Weighs as much, since it lies as many rays ahead.
   CHECK(field.distance(12) == Approx(3.1 - field.range(12)).margin(1e-4));
-  CHECK(field.weight(12) == 2.0F);
+  CHECK(field.weight(12) == 2.0F * weight);
 }
 
 TEST_CASE("dynablox: a scan weighs as many rays as go through a voxel") {
@@ -105,73 +104,55 @@ TEST_CASE("dynablox: a scan weighs as many rays as go through a voxel") {
 TEST_CASE("dynablox: between pixels is their mean, unless one is much nearer") {
   // Pixels of one degree. The voxel is seen at 1.17 degrees, between the middle of a pixel with the
   // wall at 5 m and one, at two thirds of the way, with a wall further back.
-  Parameters parameters;
-  parameters.image = ImageSource::kFixed;
-  parameters.image_columns = 360;
-  parameters.weights = Weights::kConstant;
+  SensorModel sensor;
+  sensor.azimuth_step = kDegree;
   const int x = 24;
-  const auto seen_with = [&](double further, Interpolation interpolation) {
-    parameters.interpolation = interpolation;
-    Field field(parameters, SensorModel{});
+  const auto seen_with = [&](double further) {
+    Field field(Parameters{}, sensor);
     field.see(wall([further](double azimuth) { return azimuth < 1.0 ? 5.0 : further; }));
     return field.distance(x) + field.range(x);
   };
   const double share = std::atan2(0.1, 4.9) / kDegree - 0.5;
   CHECK(share == Approx(0.669).margin(1e-3));
-  const double mean = 5.0 + 0.15 * share;
-  CHECK(seen_with(5.15, Interpolation::kMean) == Approx(mean).margin(1e-4));
-  CHECK(seen_with(5.15, Interpolation::kAdaptive) == Approx(mean).margin(1e-4));
+  CHECK(seen_with(5.15) == Approx(5.0 + 0.15 * share).margin(1e-4));
   // 0.29 and 0.31 m further back, of which two thirds are less and more than half the truncation.
-  CHECK(seen_with(5.29, Interpolation::kAdaptive) == Approx(5.0 + 0.29 * share).margin(1e-4));
-  CHECK(seen_with(5.31, Interpolation::kAdaptive) == Approx(5.0).margin(1e-4));
-  CHECK(seen_with(5.31, Interpolation::kMean) == Approx(5.0 + 0.31 * share).margin(1e-4));
+  CHECK(seen_with(5.29) == Approx(5.0 + 0.29 * share).margin(1e-4));
+  CHECK(seen_with(5.31) == Approx(5.0).margin(1e-4));
   // One alone tells it all.
-  CHECK(seen_with(0.0, Interpolation::kAdaptive) == Approx(5.0).margin(1e-4));
+  CHECK(seen_with(0.0) == Approx(5.0).margin(1e-4));
 }
 
-TEST_CASE("dynablox: a far return clears blocks that nearer ones touch, all, or none") {
+TEST_CASE("dynablox: a far return clears blocks that nearer ones touch") {
   // Nothing within 20 m but one return 9 m ahead.
   Scan scan = wall(30.0);
   scan.points.emplace_back(9.0F, 0.05F, 0.05F);
-  Parameters parameters;
-  const auto touched_with = [&](FarReturns clearing) {
-    parameters.clearing = clearing;
-    Field field(parameters, sensor_model_named("vlp16"));
-    field.see(scan);
-    const bool is_seen = !field.touched().empty() && field.touched()[0]->layers[0] != nullptr;
-    return std::pair(field.touched().size(), is_seen && field.weight(10) > 0.0F);
-  };
-  // Blocks of 3.2 m: 0 to 9.4 m.
-  CHECK(touched_with(FarReturns::kImage) == std::pair(std::size_t{3}, true));
-  CHECK(touched_with(FarReturns::kNothing) == std::pair(std::size_t{3}, false));
-  CHECK(touched_with(FarReturns::kBlocks).first > 7);
+  Field field(Parameters{}, sensor_model_named("vlp16"));
+  field.see(scan);
+  CHECK(field.touched().size() == 3);  // Blocks of 3.2 m: 0 to 9.4 m.
+  CHECK(field.weight(10) > 0.0F);
 }
 
-TEST_CASE("dynablox: what was occupied for long is reset where it is, or even where it is free") {
+TEST_CASE("dynablox: what was occupied for long is reset where it is, not where it is free") {
   // Ever free: two beside each other and a third. The first was occupied for 150 scans, long ago;
-  // the scan has points in the second.
-  Parameters parameters;
-  for (const bool is_public : {false, true}) {
-    parameters.public_reset = is_public;
+  // the scan has points in the second, or in the first.
+  const VoxelIndex first(4, 5, 6), second(5, 5, 6), third(9, 5, 6);
+  for (const bool is_there : {false, true}) {
     BlockMap map;
-    Block& block = map.find_or_make({0, 0, 0}, {});
+    Block& block = map.find_or_make({0, 0, 0}, VoxelIndex(0, 0, 0));
     for (std::unique_ptr<Layer>& layer : block.layers) {
       layer = std::make_unique<Layer>();
       layer->distance.fill(0.4F);
       layer->weight.fill(1.0F);
-      layer->last_occupied.fill(-1);
+      layer->last_occupied.fill(is_there ? 299 : -1);
     }
-    const VoxelIndex first(4, 5, 6), second(5, 5, 6), third(9, 5, 6);
-    for (const VoxelIndex& voxel : {first, second, third}) {
-      block.ever_free[row_of(voxel)] |= bit_of(voxel);
-    }
+    for (const VoxelIndex& voxel : {first, second, third}) insert(voxel, block.ever_free);
     block.layers[6]->occupied_scans[5 * kSide + 4] = 150;
-    VoxelHits hits;
-    hits.add(second);
-    FreeSpace(parameters).update({&block}, hits, 300, RunContext{}, map);
-    CHECK(block.is_ever_free(first) == !is_public);
-    CHECK(block.is_ever_free(second) == !is_public);
-    CHECK(block.is_ever_free(third));
+    SparseBlocks<BlockBits> hits;
+    insert(is_there ? first : second, hits.find_or_make({0, 0, 0}));
+    FreeSpace(Parameters{}).update({&block}, hits, 300, RunContext{}, map);
+    CHECK(contains(block.ever_free, first) == !is_there);
+    CHECK(contains(block.ever_free, second) == !is_there);
+    CHECK(contains(block.ever_free, third));
   }
 }
 

@@ -21,14 +21,13 @@ Cell block_with(const Cell& cell) {
   return block;
 }
 
-/// The 6, 18 or 26 cells around a cell.
-std::vector<Cell> around(const Cell& cell, Neighbours neighbours) {
-  const int most = neighbours == Neighbours::kFaces ? 1 : neighbours == Neighbours::kEdges ? 2 : 3;
+/// The cells around a cell that differ from it along at most so many axes: 6, 18 or 26.
+std::vector<Cell> around(const Cell& cell, int axes) {
   std::vector<Cell> cells;
   for (int i = 0; i < 27; ++i) {
     const int dx = i % 3 - 1, dy = i / 3 % 3 - 1, dz = i / 9 - 1;
     const int differing = dx * dx + dy * dy + dz * dz;
-    if (differing > 0 && differing <= most) {
+    if (differing > 0 && differing <= axes) {
       cells.push_back({cell[0] + dz, cell[1] + dy, cell[2] + dx});
     }
   }
@@ -52,7 +51,7 @@ float arc_tangent(float y, float x) {
 
 Oracle::Oracle(const Parameters& parameters, const SensorModel& sensor)
     : parameters_(parameters),
-      grid_(parameters, sensor),
+      grid_(sensor),
       max_range_(std::min(parameters.max_range, sensor.range_max)) {}
 
 Cell Oracle::cell_of(const Scan& scan, std::size_t point) const {
@@ -60,12 +59,6 @@ Cell Oracle::cell_of(const Scan& scan, std::size_t point) const {
   const double inverse = 1.0 / parameters_.voxel_size;
   return {floor_of(world.z() * inverse), floor_of(world.y() * inverse),
           floor_of(world.x() * inverse)};
-}
-
-bool Oracle::takes_part(const Eigen::Vector3f& point) const {
-  if (parameters_.judged == Judged::kAll) return true;
-  const double range = point.cast<double>().norm();
-  return range >= parameters_.min_range && range <= max_range_;
 }
 
 const Voxel* Oracle::find(const Cell& cell) const {
@@ -107,9 +100,7 @@ Mask Oracle::judge(const Scan& scan) const {
   std::map<Cell, std::vector<std::size_t>> points;
   std::set<Cell> hit;
   for (std::size_t k = 0; k < scan.size(); ++k) {
-    if (!takes_part(scan.points[k])) continue;
     const Cell cell = cell_of(scan, k);
-    if (parameters_.public_unmapped && find(cell) == nullptr) continue;
     points[cell].push_back(k);
     hit.insert(cell);
   }
@@ -118,64 +109,31 @@ Mask Oracle::judge(const Scan& scan) const {
   Mask mask(scan.size(), 0);
   for (const Cluster& cluster : clusters) {
     std::vector<std::size_t> its;
-    for (const Cell& cell : cluster.voxels) {
+    for (const Cell& cell : cluster) {
       its.insert(its.end(), points[cell].begin(), points[cell].end());
     }
-    const double extent = extent_of(scan, cluster, its), count = static_cast<double>(its.size());
-    if (count < parameters_.min_points || count > parameters_.max_points) continue;
-    if (extent < parameters_.min_extent || extent > parameters_.max_extent) continue;
+    if (its.size() < static_cast<std::size_t>(parameters_.min_points)) continue;
     for (const std::size_t k : its) mask[k] = 1;
   }
   return mask;
 }
 
-double Oracle::extent_of(const Scan& scan, const Cluster& cluster,
-                         const std::vector<std::size_t>& points) const {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-  const auto take_in = [&](const Eigen::Vector3d& corner) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  };
-  if (parameters_.extents == Extents::kPoints) {
-    for (const std::size_t k : points) {
-      take_in(scan.T_world_sensor * scan.points[k].cast<double>());
-    }
-    return (high - low).norm();
-  }
-  for (const Cell& cell : cluster.own) {
-    for (const int side : {0, 1}) {
-      take_in(Eigen::Vector3d(cell[2] + side, cell[1] + side, cell[0] + side));
-    }
-  }
-  return (high - low).norm() * parameters_.voxel_size;
-}
-
 std::vector<Oracle::Cluster> Oracle::grow(const std::set<Cell>& hit) const {
-  std::map<Cell, int> round;  // In which a voxel was taken in.
+  std::map<Cell, int> number;
+  std::vector<std::pair<Cell, Cell>> joins;
   for (const Cell& cell : hit) {
     const Voxel* voxel = find(cell);
-    if (voxel != nullptr && voxel->ever_free) round[cell] = 0;
-  }
-  const int rounds = parameters_.grow_twice ? 2 : 1;
-  std::vector<std::pair<Cell, Cell>> joins;
-  for (int now = 0; now < rounds; ++now) {
-    const std::map<Cell, int> before = round;
-    for (const auto& [cell, its_round] : before) {
-      if (its_round != now) continue;
-      for (const Cell& next : around(cell, parameters_.cluster_neighbours)) {
-        if (hit.count(next) == 0) continue;
-        round.try_emplace(next, now + 1);
-        joins.emplace_back(cell, next);
-      }
+    if (voxel == nullptr || !voxel->ever_free) continue;
+    number[cell] = 0;
+    for (const Cell& next : around(cell, 1)) {
+      if (hit.count(next) == 0) continue;
+      number[next] = 0;
+      joins.emplace_back(cell, next);
     }
   }
   // Numbers spread until nothing changes.
-  std::map<Cell, int> number;
   int next = 0;
-  for (const auto& [cell, its_round] : round) {
-    if (its_round == 0) number[cell] = next++;
-  }
-  for (const auto& [cell, its_round] : round) number.try_emplace(cell, next++);
+  for (auto& [cell, its] : number) its = next++;
   for (bool changed = true; changed;) {
     changed = false;
     for (const auto& [a, b] : joins) {
@@ -185,25 +143,16 @@ std::vector<Oracle::Cluster> Oracle::grow(const std::set<Cell>& hit) const {
     }
   }
   std::map<int, Cluster> clusters;
-  for (const auto& [cell, its] : number) clusters[its].voxels.insert(cell);
+  for (const auto& [cell, its] : number) clusters[its].insert(cell);
   std::vector<Cluster> listed;
-  for (auto& [its, cluster] : clusters) {
-    cluster.own = cluster.voxels;
-    listed.push_back(cluster);
-  }
+  for (auto& [its, cluster] : clusters) listed.push_back(cluster);
   return listed;
 }
 
 bool Oracle::are_near(const Cluster& a, const Cluster& b) const {
-  if (parameters_.public_boxes) {
-    int low_z = 1 << 30, high_x = -(1 << 30);
-    for (const Cell& cell : a.own) low_z = std::min(low_z, cell[0]);
-    for (const Cell& cell : b.own) high_x = std::max(high_x, cell[2]);
-    if (low_z > high_x + parameters_.separation / parameters_.voxel_size + 1.0) return false;
-  }
   const double most = parameters_.separation * (1.0 + 1e-9);
-  for (const Cell& p : a.own) {
-    for (const Cell& q : b.own) {
+  for (const Cell& p : a) {
+    for (const Cell& q : b) {
       double square = 0.0;
       for (std::size_t k = 0; k < 3; ++k) square += double(p[k] - q[k]) * (p[k] - q[k]);
       if (std::sqrt(square) * parameters_.voxel_size <= most) return true;
@@ -219,10 +168,9 @@ void Oracle::merge(std::vector<Cluster>& clusters) const {
         ++j;
         continue;
       }
-      clusters[i].voxels.insert(clusters[j].voxels.begin(), clusters[j].voxels.end());
-      if (!parameters_.public_merges) clusters[i].own = clusters[i].voxels;
+      clusters[i].insert(clusters[j].begin(), clusters[j].end());
       clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(j));
-      if (!parameters_.public_merges) j = i + 1;
+      j = i + 1;
     }
   }
 }
@@ -231,19 +179,16 @@ void Oracle::update_free_space(const Scan& scan) {
   const int now = static_cast<int>(scan.index);
   std::set<Cell> hit;
   for (std::size_t k = 0; k < scan.size(); ++k) {
-    if (takes_part(scan.points[k])) hit.insert(cell_of(scan, k));
+    hit.insert(cell_of(scan, k));
   }
   std::vector<Cell> reset;
   for (const Cell& at : touched_) {
     for (auto& [cell, voxel] : blocks_.at(at)) {
       const bool is_near = voxel.distance < static_cast<float>(parameters_.occupied_below);
-      const bool is_occupied = is_near || hit.count(cell) > 0;
-      if (is_occupied) {
-        const bool goes_on = voxel.last_occupied >= now - parameters_.temporal_buffer;
-        voxel.occupied_scans = goes_on ? voxel.occupied_scans + 1 : 1;
-        voxel.last_occupied = now;
-      }
-      if (!is_occupied && !parameters_.public_reset) continue;
+      if (!is_near && hit.count(cell) == 0) continue;
+      const bool goes_on = voxel.last_occupied >= now - parameters_.temporal_buffer;
+      voxel.occupied_scans = goes_on ? voxel.occupied_scans + 1 : 1;
+      voxel.last_occupied = now;
       if (voxel.ever_free && voxel.occupied_scans >= parameters_.frames_to_reset) {
         reset.push_back(cell);
       }
@@ -251,7 +196,7 @@ void Oracle::update_free_space(const Scan& scan) {
   }
   for (const Cell& cell : reset) {
     find(cell)->ever_free = false;
-    for (const Cell& other : around(cell, parameters_.free_neighbours)) {
+    for (const Cell& other : around(cell, 3)) {
       if (Voxel* voxel = find(other)) voxel->ever_free = false;
     }
   }
@@ -265,7 +210,7 @@ void Oracle::become_ever_free(const Cell& cell, Voxel& voxel, int now) {
     return any.weight > 1e-6F && any.last_occupied <= now - parameters_.burn_in;
   };
   if (voxel.ever_free || !is_settled(voxel)) return;
-  for (const Cell& other : around(cell, parameters_.free_neighbours)) {
+  for (const Cell& other : around(cell, 3)) {
     const Voxel* neighbour = find(other);
     if (neighbour == nullptr || !is_settled(*neighbour)) return;
   }
@@ -278,37 +223,15 @@ std::vector<float> Oracle::image_of(const Scan& scan) const {
     const float level = std::sqrt(p.x() * p.x() + p.y() * p.y());
     const float range = std::sqrt(p.x() * p.x() + p.y() * p.y() + p.z() * p.z());
     if (range < static_cast<float>(parameters_.min_range)) continue;
-    const auto most = static_cast<float>(max_range_);
-    if (range > most && parameters_.clearing == FarReturns::kNothing) continue;
     const float turned = arc_tangent(p.y(), p.x()) + kernels::kHalfTurn;
     const float raised = arc_tangent(p.z(), level) - grid_.elevation_min;
     const int row = floor_of(raised * grid_.rows_per_radian + 0.5F);
     const int column = std::min(floor_of(turned * grid_.columns_per_radian), grid_.columns - 1);
     if (row < 0 || row >= grid_.rows) continue;
     float& pixel = image[static_cast<std::size_t>(row * grid_.columns + column)];
-    const bool is_cut = parameters_.interpolation == Interpolation::kMean;
-    const float seen =
-        is_cut ? std::min(range, most + static_cast<float>(parameters_.truncation)) : range;
-    if (pixel == 0.0F || seen < pixel) pixel = seen;
+    if (pixel == 0.0F || range < pixel) pixel = range;
   }
   return image;
-}
-
-float Oracle::range_at(const std::vector<float>& image, float u, float v) const {
-  const float left = std::floor(u), below = std::floor(v);
-  float sum = 0.0F, weight = 0.0F;
-  for (const int up : {0, 1}) {
-    for (const int across : {0, 1}) {
-      const float range =
-          pixel(image, static_cast<int>(left) + across, static_cast<int>(below) + up);
-      if (range == 0.0F) continue;
-      const float share_across = across == 1 ? u - left : 1.0F - (u - left);
-      const float share_up = up == 1 ? v - below : 1.0F - (v - below);
-      sum += share_across * share_up * range;
-      weight += share_across * share_up;
-    }
-  }
-  return weight > 0.0F ? sum / weight : 0.0F;
 }
 
 float Oracle::pixel(const std::vector<float>& image, int column, int row) const {
@@ -340,7 +263,6 @@ float Oracle::adaptive_range(const std::vector<float>& image, float u, float v) 
 }
 
 float Oracle::weight_of_scan(float square, float ahead) const {
-  if (parameters_.weights == Weights::kConstant) return 1.0F;
   // A voxel covers as many square radians as its area over the square of its range says.
   const double area = parameters_.voxel_size * parameters_.voxel_size;
   const auto at_a_metre = static_cast<float>(area * grid_.pixels_per_square_radian);
@@ -367,16 +289,14 @@ void Oracle::update(const Scan& scan, const std::vector<float>& image, const Cel
   const float level_square = p.x() * p.x() + p.y() * p.y();
   const float square = level_square + p.z() * p.z();
   const float range = std::sqrt(square);
-  const bool is_adaptive = parameters_.interpolation == Interpolation::kAdaptive;
   if (range < static_cast<float>(parameters_.min_range)) return;
   if (range > static_cast<float>(max_range_)) return;
   const float v =
       (arc_tangent(p.z(), std::sqrt(level_square)) - grid_.elevation_min) * grid_.rows_per_radian;
-  if (is_adaptive && (v < 0.0F || v > static_cast<float>(grid_.rows - 1))) return;
-  if (v < -0.5F || v >= static_cast<float>(grid_.rows) - 0.5F) return;
+  if (v < 0.0F || v > static_cast<float>(grid_.rows - 1)) return;
   const float u =
       (arc_tangent(p.y(), p.x()) + kernels::kHalfTurn) * grid_.columns_per_radian - 0.5F;
-  const float seen = is_adaptive ? adaptive_range(image, u, v) : range_at(image, u, v);
+  const float seen = adaptive_range(image, u, v);
   const auto truncation = static_cast<float>(parameters_.truncation);
   if (seen == 0.0F || seen - range <= -truncation) return;
   const float added = weight_of_scan(square, seen - range);
@@ -394,9 +314,8 @@ void Oracle::touch(const Scan& scan) {
   for (const Eigen::Vector3f& point : scan.points) {
     const Eigen::Vector3d ahead = scan.T_world_sensor.linear() * point.cast<double>();
     const double range = point.cast<double>().norm();
-    if (range < parameters_.min_range) continue;
-    if (range > max_range_ && parameters_.clearing != FarReturns::kBlocks) continue;
-    const double reach = std::min(range, max_range_) + parameters_.truncation;
+    if (range < parameters_.min_range || range > max_range_) continue;
+    const double reach = range + parameters_.truncation;
     const Eigen::Vector3d end = sensor + ahead / range * reach;
     Cell low, high;
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -430,11 +349,7 @@ void Oracle::integrate(const Scan& scan) {
     for (int i = 0; is_new && i < kBlockSide * kBlockSide * kBlockSide; ++i) {
       const Cell cell = {at[0] * kBlockSide + i / 256, at[1] * kBlockSide + i / 16 % 16,
                          at[2] * kBlockSide + i % 16};
-      Voxel& voxel = found->second[cell];
-      if (parameters_.new_voxels == NewVoxels::kOccupied) {
-        voxel.last_occupied = static_cast<int>(scan.index);
-        voxel.occupied_scans = 1;
-      }
+      found->second[cell] = {};
     }
     for (auto& [cell, voxel] : found->second) update(scan, image, cell, voxel);
   }

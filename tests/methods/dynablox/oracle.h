@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "methods/dynablox/range_image.h"
+#include "methods/dynablox/integration.h"
 
 namespace raymoval::dynablox_test {
 
@@ -37,12 +37,9 @@ class Oracle {
 
  private:
   using Block = std::map<Cell, Voxel>;
-  struct Cluster {
-    std::set<Cell> voxels, own;  ///< `own`: those that it is compared and measured by.
-  };
+  using Cluster = std::set<Cell>;
 
   [[nodiscard]] Cell cell_of(const Scan& scan, std::size_t point) const;
-  [[nodiscard]] bool takes_part(const Eigen::Vector3f& point) const;
   [[nodiscard]] const Voxel* find(const Cell& cell) const;
   Voxel* find(const Cell& cell);
 
@@ -56,13 +53,10 @@ class Oracle {
   void touch(const Scan& scan);
   void update(const Scan& scan, const std::vector<float>& image, const Cell& cell, Voxel& voxel);
   [[nodiscard]] std::vector<float> image_of(const Scan& scan) const;
-  [[nodiscard]] float range_at(const std::vector<float>& image, float u, float v) const;
   /// The range of a pixel, 0 outside the image and where there is no return.
   [[nodiscard]] float pixel(const std::vector<float>& image, int column, int row) const;
   [[nodiscard]] float adaptive_range(const std::vector<float>& image, float u, float v) const;
   [[nodiscard]] float weight_of_scan(float square, float ahead) const;
-  [[nodiscard]] double extent_of(const Scan& scan, const Cluster& cluster,
-                                 const std::vector<std::size_t>& points) const;
 
   Parameters parameters_;
   ImageGrid grid_;

@@ -63,38 +63,14 @@ std::size_t removed_alike(const toy::World& scans, const std::vector<Mask>& expe
   return removed;
 }
 
-}  // namespace
-
-namespace {
-
-/// Sets of parameters that together try every choice.
+/// Sets of parameters.
 std::vector<Parameters> many_parameters() {
-  std::vector<Parameters> many(10, coarse());
+  std::vector<Parameters> many(5, coarse());
   many[1].offline = true;
-  many[2].public_boxes = many[2].public_merges = many[2].public_unmapped = true;
   many[2].separation = 0.9;
-  many[2].max_extent = 2.5;
-  many[3].free_neighbours = Neighbours::kEdges;
-  many[3].cluster_neighbours = Neighbours::kCorners;
-  many[3].clearing = FarReturns::kNothing;
-  many[3].grow_twice = true;
   many[3].frames_to_reset = 2;
-  many[4].free_neighbours = Neighbours::kFaces;
-  many[4].image = ImageSource::kFixed;
+  many[3].separation = 0.1;
   many[4].max_weight = 2;
-  many[4].extents = Extents::kPoints;
-  many[4].min_extent = 0.5;
-  many[4].max_extent = 2.0;
-  many[5].separation = 0.1;
-  many[5].min_extent = 0.6;
-  many[6].interpolation = Interpolation::kMean;
-  many[6].clearing = FarReturns::kBlocks;
-  many[7].weights = Weights::kConstant;
-  many[7].max_weight = 3;
-  many[8].new_voxels = NewVoxels::kOccupied;
-  many[8].judged = Judged::kWithin;
-  many[9].public_reset = true;
-  many[9].frames_to_reset = 2;
   return many;
 }
 

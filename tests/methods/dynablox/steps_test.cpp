@@ -16,8 +16,6 @@ using namespace raymoval::dynablox_method;
 
 namespace {
 
-constexpr double kFar = 1000.0;
-
 /// A scan with a point in the middle of each voxel.
 Scan points_in(const std::vector<VoxelIndex>& voxels) {
   Scan scan;
@@ -31,7 +29,7 @@ Scan points_in(const std::vector<VoxelIndex>& voxels) {
 BlockMap map_of(const std::vector<VoxelIndex>& ever_free) {
   BlockMap map;
   for (const VoxelIndex& voxel : ever_free) {
-    map.find_or_make(block_of(voxel), {}).ever_free[row_of(voxel)] |= bit_of(voxel);
+    insert(voxel, map.find_or_make(block_of(voxel), block_of(voxel)).ever_free);
   }
   return map;
 }
@@ -40,12 +38,11 @@ BlockMap map_of(const std::vector<VoxelIndex>& ever_free) {
 std::vector<std::size_t> sizes(const std::vector<VoxelIndex>& ever_free,
                                const std::vector<VoxelIndex>& hit, Parameters parameters) {
   parameters.min_points = 1;
-  const Scan scan = points_in(hit);
   ScanVoxels voxels;
-  find_voxels(scan, parameters.voxel_size, 0.0, kFar, voxels);
+  find_voxels(points_in(hit), parameters.voxel_size, voxels);
   std::vector<std::size_t> sizes;
-  for (const Cluster& cluster : find_clusters(scan, voxels, map_of(ever_free), parameters)) {
-    sizes.push_back(cluster.points.size());
+  for (const Cluster& cluster : find_clusters(voxels, map_of(ever_free), parameters)) {
+    sizes.push_back(cluster.size());
   }
   return sizes;
 }
@@ -74,44 +71,28 @@ TEST_CASE("dynablox: an arc tangent is right to 1e-6") {
   CHECK(dynablox_test::arc_tangent(0.0F, 0.0F) == 0.0F);
 }
 
-TEST_CASE("dynablox: points within range take part") {
-  const Scan scan = points_in({{1, 0, 0}, {5, 0, 0}, {40, 0, 0}, {200, 0, 0}});
+TEST_CASE("dynablox: the voxels of a scan's points") {
   ScanVoxels voxels;
-  find_voxels(scan, 0.2, 0.5, 20.0, voxels);
-  CHECK(voxels.points == std::vector<std::uint32_t>{1, 2});
-  CHECK(voxels.hits.contains({40, 0, 0}));
-  CHECK_FALSE(voxels.hits.contains({1, 0, 0}));
-  CHECK_FALSE(voxels.hits.contains({41, 0, 0}));
-}
-
-TEST_CASE("dynablox: the bounds of the range are exact, and belong to it") {
-  Scan scan;
-  scan.points.emplace_back(3.0F, 4.0F, 0.0F);   // 5 m.
-  scan.points.emplace_back(5.0F, 1e-4F, 0.0F);  // 1e-9 m more, which single precision loses.
-  ScanVoxels voxels;
-  find_voxels(scan, 0.2, 0.5, 5.0, voxels);
-  CHECK(voxels.points == std::vector<std::uint32_t>{0});
-  find_voxels(scan, 0.2, 5.0, 20.0, voxels);
-  CHECK(voxels.points == std::vector<std::uint32_t>{0, 1});
+  find_voxels(points_in({{1, 0, 0}, {5, 0, 0}, {40, 0, 0}}), 0.2, voxels);
+  CHECK(voxels.voxels == std::vector<VoxelIndex>{{1, 0, 0}, {5, 0, 0}, {40, 0, 0}});
+  const BlockBits& first = *voxels.hits.find({0, 0, 0});
+  CHECK(contains(first, {1, 0, 0}));
+  CHECK(contains(first, {5, 0, 0}));
+  CHECK_FALSE(contains(first, {6, 0, 0}));
+  CHECK(contains(*voxels.hits.find({2, 0, 0}), {40, 0, 0}));
+  CHECK(voxels.hits.find({1, 0, 0}) == nullptr);
 }
 
 TEST_CASE("dynablox: a cluster grows through ever-free voxels and to those beside them") {
-  // Ever free: 0 to 3. What lies beyond is taken in once, and once more.
+  // Ever free: 0 to 3. What lies beyond is taken in once.
   Parameters parameters;
   CHECK(sizes(line(0, 3), line(0, 9), parameters) == Sizes{5});
-  parameters.grow_twice = true;
-  CHECK(sizes(line(0, 3), line(0, 9), parameters) == Sizes{6});
   SECTION("not without points between") {
     CHECK(sizes(line(0, 9), joined(line(0, 3), line(5, 9)), parameters) == Sizes{4, 5});
   }
-  SECTION("not over a corner, unless corners are neighbours") {
-    const std::vector<VoxelIndex> corner = {{0, 0, 0}, {1, 1, 1}};
+  SECTION("not over an edge or a corner") {
     parameters.separation = 0.0;
-    CHECK(sizes({{0, 0, 0}}, corner, parameters) == Sizes{1});
-    parameters.cluster_neighbours = Neighbours::kEdges;
-    CHECK(sizes({{0, 0, 0}}, corner, parameters) == Sizes{1});
-    parameters.cluster_neighbours = Neighbours::kCorners;
-    CHECK(sizes({{0, 0, 0}}, corner, parameters) == Sizes{2});
+    CHECK(sizes({{0, 0, 0}}, {{0, 0, 0}, {0, 1, 1}, {1, 1, 1}}, parameters) == Sizes{1});
   }
   SECTION("nothing grows without an ever-free voxel") {
     CHECK(sizes({}, line(0, 9), parameters).empty());
@@ -136,105 +117,31 @@ TEST_CASE("dynablox: clusters near each other are one") {
   CHECK(sizes(both, both, parameters) == Sizes{4});
 }
 
-TEST_CASE("dynablox: what the public program forgets when it merges") {
-  Parameters parameters;
-  parameters.separation = 0.4;
-  // Three in a row: the first is near the second, the second near the third.
-  const std::vector<VoxelIndex> row = {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}};
-  CHECK(sizes(row, row, parameters) == Sizes{3});
-  parameters.public_merges = true;
-  CHECK(sizes(row, row, parameters) == Sizes{2, 1});
-  // The box of the first one stays that of its own voxel, 0.35 m from corner to corner; that of
-  // both were 0.66 m.
-  parameters.max_extent = 0.5;
-  CHECK(sizes(row, row, parameters) == Sizes{2, 1});
-  parameters.public_merges = false;
-  CHECK(sizes(row, row, parameters).empty());
-  parameters.max_extent = 10.0;
-  parameters.public_boxes = true;
-  CHECK(sizes(row, row, parameters) == Sizes{3});
-  // Its lower end, 1.0 m, above the other's furthest x, 0: not even looked at.
-  const std::vector<VoxelIndex> high = {{0, 0, 9}, {2, 0, 9}};
-  CHECK(sizes(high, high, parameters) == Sizes{1, 1});
-  parameters.public_boxes = false;
-  CHECK(sizes(high, high, parameters) == Sizes{2});
+TEST_CASE("dynablox: a cluster may reach outside the blocks of the map") {
+  CHECK(sizes(line(15, 15), line(15, 17), Parameters{}) == Sizes{2});
 }
 
-TEST_CASE("dynablox: points outside the map's blocks are in a cluster, but for the public one") {
-  Parameters parameters;
-  parameters.grow_twice = true;
-  CHECK(sizes(line(15, 15), line(15, 17), parameters) == Sizes{3});
-  parameters.public_unmapped = true;
-  CHECK(sizes(line(15, 15), line(15, 17), parameters) == Sizes{1});
-}
-
-TEST_CASE("dynablox: clusters of few or many points, small or large, are none") {
-  Parameters parameters;
-  const Scan scan = points_in(line(0, 9));
+TEST_CASE("dynablox: clusters of few points are none") {
   ScanVoxels voxels;
-  find_voxels(scan, 0.2, 0.0, kFar, voxels);
-  const auto is_cluster = [&] {
-    return !find_clusters(scan, voxels, map_of(line(0, 9)), parameters).empty();
-  };
+  find_voxels(points_in(line(0, 9)), 0.2, voxels);
+  Parameters parameters;
   parameters.min_points = 10;
-  parameters.max_points = 10;
-  CHECK(is_cluster());
+  CHECK(find_clusters(voxels, map_of(line(0, 9)), parameters).size() == 1);
   parameters.min_points = 11;
-  CHECK_FALSE(is_cluster());
-  parameters.min_points = 1;
-  parameters.max_points = 9;
-  CHECK_FALSE(is_cluster());
-  parameters.max_points = 10;
-  // Nine steps of 0.2 m between the points; the box of the voxels is 2.0 x 0.2 x 0.2 m.
-  for (const auto& [extents, extent] :
-       {std::pair(Extents::kPoints, 1.8), std::pair(Extents::kVoxels, std::sqrt(4.08))}) {
-    parameters.extents = extents;
-    parameters.min_extent = extent - 0.01;
-    parameters.max_extent = extent + 0.01;
-    CHECK(is_cluster());
-    parameters.min_extent = 0.0;
-    parameters.max_extent = extent - 0.01;
-    CHECK_FALSE(is_cluster());
-    parameters.max_extent = 10.0;
-    parameters.min_extent = extent + 0.01;
-    CHECK_FALSE(is_cluster());
-  }
-}
-
-TEST_CASE("dynablox: a cluster is followed from the nearest one, the closest pair first") {
-  std::vector<Cluster> last(3), now(3);
-  last[0].centroid = {0, 0, 0};
-  last[0].track = 4;
-  last[1].centroid = {0.8, 0, 0};
-  last[1].track = 7;
-  last[2].centroid = {9, 0, 0};
-  now[0].centroid = {0.9, 0, 0};  // Nearest to the second, 0.1 m.
-  now[1].centroid = {0.6, 0, 0};  // Nearest to the second too, 0.2 m, which is taken.
-  now[2].centroid = {7.9, 0, 0};  // 1.1 m from the third.
-  follow_clusters(last, 1.0, now);
-  CHECK(now[0].track == 8);
-  CHECK(now[1].track == 5);
-  CHECK(now[2].track == 0);
+  CHECK(find_clusters(voxels, map_of(line(0, 9)), parameters).empty());
 }
 
 TEST_CASE("dynablox: the image is as large as the sensor says") {
-  Parameters parameters;
-  const ImageGrid hdl64(parameters, sensor_model_named("hdl64e"));
+  const ImageGrid hdl64(sensor_model_named("hdl64e"));
   CHECK(hdl64.columns == 2083);
   CHECK(hdl64.rows == 64);
-  const ImageGrid vlp16(parameters, sensor_model_named("vlp16"));
+  const ImageGrid vlp16(sensor_model_named("vlp16"));
   CHECK(vlp16.columns == 1800);
   CHECK(vlp16.rows == 16);
-  const ImageGrid unknown(parameters, SensorModel{});
+  CHECK(vlp16.pixels_per_square_radian == Approx(1800 / kTurn * 16 / (30 * kDegree)));
+  const ImageGrid unknown(SensorModel{});
   CHECK(unknown.columns == 2048);
   CHECK(unknown.rows == 64);
-  parameters.image = ImageSource::kFixed;
-  const ImageGrid fixed(parameters, sensor_model_named("vlp16"));
-  CHECK(fixed.columns == 2048);
-  CHECK(fixed.rows == 64);
-  CHECK(fixed.elevation_min == Approx(-16.61 * kDegree));
-  CHECK(fixed.rows_per_radian == Approx(63 / (33.22 * kDegree)));
-  CHECK(fixed.pixels_per_square_radian == Approx(2048 / kTurn * 64 / (33.22 * kDegree)));
 }
 
 TEST_CASE("dynablox: the view is as published where the sensor's is unknown") {
@@ -247,13 +154,13 @@ TEST_CASE("dynablox: the view is as published where the sensor's is unknown") {
     sensor.elevation_max = high;
     sensor.azimuth_step = unknown;
     sensor.elevation_step = unknown;
-    const ImageGrid grid(Parameters{}, sensor);
+    const ImageGrid grid(sensor);
     CHECK(grid.columns == 2048);
     CHECK(grid.rows == 64);
     CHECK(grid.elevation_min == Approx(-16.61 * kDegree));
     CHECK(grid.rows_per_radian == Approx(63 / (33.22 * kDegree)));
     sensor.elevation_step = 33.22 * kDegree / 15;
-    CHECK(ImageGrid(Parameters{}, sensor).rows == 16);
+    CHECK(ImageGrid(sensor).rows == 16);
   }
   SensorModel sensor;
   for (const double range : {0.0, unknown}) {

@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "methods/erasor/ground_fit.h"
+#include "methods/erasor/polar_bins.h"
 #include "tests/methods/erasor/scenes.h"
 
 namespace raymoval::erasor_test {
@@ -125,7 +125,7 @@ class SlowErasor {
     if (higher) {
       double top = -1e9;
       for (const auto& point : of_map.points) top = std::max(top, point.z());
-      if (!(p_.version == 3 ? of_map.height() > p_.minimum_object_height : top > p_.minimum_top)) {
+      if (!(p_.version == 3 ? of_map.height() > 0.5 : top > p_.minimum_top)) {
         return;
       }
       const Mask ground = find_ground(of_map.points, p_);

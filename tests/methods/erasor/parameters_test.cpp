@@ -46,7 +46,6 @@ TEST_CASE("the authors' sets are theirs, and the general one is their median", "
       {"min_range", {2.7, 2.7, 2.7, 2.7, 2.7}},
       {"gf_th_seeds_height", {0.5, 0.5, 0.5, 0.5, 0.5}},
       {"gf_iter", {3, 3, 3, 3, 3}},
-      {"min_object_height", {0.5, 0.5, 0.5, 0.5, 0.5}},
       {"version", {3, 3, 3, 3, 3}},
   };
   for (const auto& [name, values] : published) {

@@ -12,6 +12,8 @@ using namespace raymoval::freedom_method;
 
 namespace {
 
+constexpr double kFarthest = 80.0;
+
 /// '#' is a return, '.' none.
 HoleImage drawn(const std::vector<std::string>& rows) {
   HoleImage image{static_cast<int>(rows.size()), static_cast<int>(rows[0].size()), {}, {}};
@@ -25,9 +27,8 @@ HoleImage drawn(const std::vector<std::string>& rows) {
 }
 
 /// 'o' is a hole that is open, others as they were.
-std::vector<std::string> opened(const std::vector<std::string>& rows, bool is_full_turn,
-                                const Parameters& parameters = {}) {
-  const std::vector<std::uint8_t> open = open_holes(drawn(rows), is_full_turn, parameters);
+std::vector<std::string> opened(const std::vector<std::string>& rows, bool is_full_turn) {
+  const std::vector<std::uint8_t> open = open_holes(drawn(rows), is_full_turn);
   std::vector<std::string> result = rows;
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (open[i] != 0) result[i / rows[0].size()][i % rows[0].size()] = 'o';
@@ -74,35 +75,17 @@ TEST_CASE("freedom: holes go on behind a full turn") {
   CHECK(opened(image, false) == std::vector<std::string>{"##o", ".#o", ".##"});
 }
 
-TEST_CASE("freedom: small holes and those below the margin are left out") {
-  const std::vector<std::string> image = {"#.#..", "###.#", ".####", "#####"};
-  Parameters parameters;
-  parameters.hole_area = 1;
-  CHECK(opened(image, false, parameters) ==
-        std::vector<std::string>{"#.#oo", "###o#", ".####", "#####"});
-  parameters.hole_area = 0;
-  parameters.top_margin = 2;
-  CHECK(opened(image, false, parameters) ==
-        std::vector<std::string>{"#o#oo", "###o#", "o####", "#####"});
-}
-
-TEST_CASE("freedom: the view is the sensor's, or the given one") {
-  Parameters parameters;
-  DepthView view = view_for(sensor_model_named("hdl64e"), parameters);
+TEST_CASE("freedom: the view is the sensor's") {
+  DepthView view = view_for(sensor_model_named("hdl64e"), kFarthest);
   CHECK(view.rows == 64);
   CHECK(view.columns == 844);  // 360 degrees by 26.9 / 63.
   CHECK(view.is_full_turn);
   CHECK(view.unit == Approx(80.0 / 255.0));
-  parameters.view_of_sensor = false;
-  view = view_for(four_rows(), parameters);
-  CHECK(view.rows == 64);
-  CHECK(view.resolution == Approx(26.8 / 63.0 * kDegree));
-  CHECK(view.columns == 847);
   SensorModel narrow = four_rows();
   narrow.azimuth_min = -40.0 * kDegree;
   narrow.azimuth_max = 40.0 * kDegree;
   narrow.range_max = 51.0;
-  view = view_for(narrow, Parameters{});
+  view = view_for(narrow, kFarthest);
   CHECK(view.columns == 80);
   CHECK_FALSE(view.is_full_turn);
   CHECK(view.unit == Approx(0.2));
@@ -113,19 +96,19 @@ TEST_CASE("freedom: the view is the sensor's, or the given one") {
   CHECK(view.pixel_of(point_at(0.5, -0.6, 5.0)) == -1);
   SECTION("of a sensor of unknown steps it has the given rows") {
     narrow.elevation_step = 0.0;
-    CHECK(view_for(narrow, Parameters{}).rows == 64);
+    CHECK(view_for(narrow, kFarthest).rows == 64);
   }
   SECTION("a sensor whose model makes no sense gives an image of bounded size") {
     narrow.elevation_max = narrow.elevation_min;
     narrow.elevation_step = 1e-9;
-    const DepthView flat = view_for(narrow, Parameters{});
+    const DepthView flat = view_for(narrow, kFarthest);
     CHECK(flat.rows == 2);
     CHECK(flat.columns <= 7200);
   }
 }
 
 TEST_CASE("freedom: each pixel's middle lies in it") {
-  const DepthView view = view_for(four_rows(), Parameters{});
+  const DepthView view = view_for(four_rows(), kFarthest);
   for (int row = 0; row < view.rows; ++row) {
     for (int column = 0; column < view.columns; ++column) {
       const Eigen::Vector3f middle = (7.0 * view.direction(row, column)).cast<float>();
@@ -145,7 +128,7 @@ TEST_CASE("freedom: a sensor of sparse directions has a column for each of them"
       sensor.azimuth_min = -45.0 * kDegree;
       sensor.azimuth_max = 45.0 * kDegree;
     }
-    const DepthView view = view_for(sensor, Parameters{});
+    const DepthView view = view_for(sensor, kFarthest);
     CAPTURE(is_full);
     CHECK(view.is_full_turn == is_full);
     CHECK(view.columns == directions);
@@ -162,7 +145,7 @@ TEST_CASE("freedom: a sensor of sparse directions has a column for each of them"
     }
     const HoleImage image = depth_image(scan, view);
     CHECK(std::count(image.is_hole.begin(), image.is_hole.end(), 1) == 10);
-    const std::vector<Eigen::Vector3d> ends = find_hole_ends(scan, view, Parameters{});
+    const std::vector<Eigen::Vector3d> ends = find_hole_ends(scan, view);
     REQUIRE(ends.size() == 10);
     for (int i = 0; i < 10; ++i) {
       const double azimuth = first + 3.0 * (i < 5 ? i : directions - 10 + i);
@@ -175,14 +158,14 @@ TEST_CASE("freedom: a sensor of sparse directions has a column for each of them"
 TEST_CASE("freedom: directions nearer to each other than the beams share square pixels") {
   SensorModel sensor = four_rows();
   sensor.azimuth_step = 0.9 * kDegree;
-  const DepthView view = view_for(sensor, Parameters{});
+  const DepthView view = view_for(sensor, kFarthest);
   CHECK(view.columns == 360);
   CHECK(view.column_width == view.resolution);
   CHECK(view.azimuth_min == sensor.azimuth_min);
 }
 
 TEST_CASE("freedom: the nearest return of a pixel counts, from the least range on") {
-  const DepthView view = view_for(four_rows(), Parameters{});
+  const DepthView view = view_for(four_rows(), kFarthest);
   Scan scan;
   for (const double range : {30.0, 20.0, 40.0, 0.1, 81.0}) {
     scan.points.push_back(point_at(0.5, 1.0, range));
@@ -205,31 +188,15 @@ TEST_CASE("freedom: rays go into the sky above a wall as far as the wall is away
       scan.points.push_back(point_at(azimuth, 3.0 - row, 20.0));
     }
   }
-  Parameters parameters;
-  const DepthView view = view_for(four_rows(), parameters);
-  for (const bool is_public : {true, false}) {
-    parameters.public_inpainting = is_public;
-    const std::vector<Eigen::Vector3d> ends = find_hole_ends(scan, view, parameters);
-    REQUIRE(ends.size() == 10);
-    for (const Eigen::Vector3d& end : ends) {
-      CHECK(std::asin(end.z() / end.norm()) == Approx(3.0 * kDegree));
-      // 63 units but one for the margin of 0.2 m. Bounded gradients and rounding up add up to two.
-      CHECK(std::abs(end.norm() / view.unit - 62) < (is_public ? 2.1 : 1e-6));
-    }
+  const DepthView view = view_for(four_rows(), kFarthest);
+  const std::vector<Eigen::Vector3d> ends = find_hole_ends(scan, view);
+  REQUIRE(ends.size() == 10);
+  for (const Eigen::Vector3d& end : ends) {
+    CHECK(std::asin(end.z() / end.norm()) == Approx(3.0 * kDegree));
+    // 63 units but one for the margin of 0.2 m. Gradients and rounding up add up to two.
+    CHECK(std::abs(end.norm() / view.unit - 62) < 2.1);
   }
-  SECTION("not as far with a margin") {
-    parameters.depth_margin = 1.0;  // Four units.
-    parameters.public_inpainting = false;
-    CHECK(find_hole_ends(scan, view, parameters)[0].norm() == Approx(59 * view.unit));
-    parameters.depth_margin = 30.0;
-    CHECK(find_hole_ends(scan, view, parameters).empty());
-  }
-  SECTION("not at all") {
-    parameters.enhancement = false;
-    CHECK(find_hole_ends(scan, view, parameters).empty());
-    parameters.enhancement = true;
-    CHECK(find_hole_ends(Scan{}, view, parameters).empty());  // A hole down to the last row.
-  }
+  CHECK(find_hole_ends(Scan{}, view).empty());  // A hole down to the last row.
 }
 
 }  // namespace raymoval::freedom_test

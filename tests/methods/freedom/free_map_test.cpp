@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "methods/freedom/free_rays.h"
-
 namespace raymoval::freedom_test {
 using namespace raymoval::freedom_method;
 
@@ -87,54 +85,42 @@ TEST_CASE("freedom: rays do not pass what their own scan hits") {
 }
 
 TEST_CASE("freedom: free space that is hit scan after scan is free no more") {
-  for (const bool is_public : {true, false}) {
-    Parameters parameters = counts(2, 3);
-    parameters.public_revert = is_public;
-    FreeMap map(parameters);
-    const VoxelIndex low = kMiddle - 2 * kOne, high = kMiddle + 2 * kOne;
-    passed(map, low, high);
-    CHECK(passed(map, low, high).size() == 27);
-    const VoxelIndex beside = kMiddle + VoxelIndex(1, 0, 0);
-    CHECK(hit(map, kMiddle) == Level::kConservative);
-    CHECK(hit(map, kMiddle) == Level::kConservative);
-    CHECK(map.is_free(kMiddle));
-    CHECK(hit(map, kMiddle) == Level::kConservative);  // It was classified before.
-    CHECK_FALSE(map.is_free(kMiddle));
-    CHECK_FALSE(map.is_free(beside));
-    CHECK(hit(map, kMiddle) == Level::kStatic);
-    // The voxel counts anew. Its neighbours do, too, or are as often passed as before: only they
-    // could be free after one more scan, but the middle keeps them from it.
-    CHECK(passed(map, low, high).empty());
-    CHECK(passed(map, low, high).size() == 27);
-  }
+  FreeMap map(counts(2, 3));
+  const VoxelIndex low = kMiddle - 2 * kOne, high = kMiddle + 2 * kOne;
+  passed(map, low, high);
+  CHECK(passed(map, low, high).size() == 27);
+  const VoxelIndex beside = kMiddle + VoxelIndex(1, 0, 0);
+  CHECK(hit(map, kMiddle) == Level::kConservative);
+  CHECK(hit(map, kMiddle) == Level::kConservative);
+  CHECK(map.is_free(kMiddle));
+  CHECK(hit(map, kMiddle) == Level::kConservative);  // It was classified before.
+  CHECK_FALSE(map.is_free(kMiddle));
+  CHECK_FALSE(map.is_free(beside));
+  CHECK(hit(map, kMiddle) == Level::kStatic);
+  // The voxel counts anew. Its neighbours are as often passed as before: they could be free after
+  // one more scan, but the middle keeps them from it.
+  CHECK(passed(map, low, high).empty());
+  CHECK(passed(map, low, high).size() == 27);
 }
 
-TEST_CASE("freedom: without the quirk, neighbours of a reverted voxel count anew") {
-  for (const bool is_public : {true, false}) {
-    Parameters parameters = counts(3, 1);
-    parameters.public_revert = is_public;
-    FreeMap map(parameters);
-    const VoxelIndex low = kMiddle - 2 * kOne, high = kMiddle + 2 * kOne;
-    for (int i = 0; i < 3; ++i) passed(map, low, high);
-    hit(map, kMiddle);
-    // Rays pass the middle alone three times, then all once.
-    for (int i = 0; i < 3; ++i) passed(map, kMiddle, kMiddle);
-    CHECK(passed(map, low, high).size() == (is_public ? 26 : 0));
-  }
+TEST_CASE("freedom: neighbours of a reverted voxel keep their counts") {
+  FreeMap map(counts(3, 1));
+  const VoxelIndex low = kMiddle - 2 * kOne, high = kMiddle + 2 * kOne;
+  for (int i = 0; i < 3; ++i) passed(map, low, high);
+  hit(map, kMiddle);
+  // Rays pass the middle alone three times, then all once.
+  for (int i = 0; i < 3; ++i) passed(map, kMiddle, kMiddle);
+  CHECK(passed(map, low, high).size() == 26);
 }
 
-TEST_CASE("freedom: in a block that is all free, the public program counts no passes") {
-  for (const bool is_public : {true, false}) {
-    Parameters parameters = counts(1, 2);
-    parameters.public_full_blocks = is_public;
-    FreeMap map(parameters);
-    const VoxelIndex low(-1, -1, -1), high(8, 8, 8), inside(3, 3, 3);
-    CHECK(passed(map, low, high).size() == 512);
-    hit(map, inside);
-    passed(map, low, high);  // Ends the run of hits where it counts.
-    hit(map, inside);
-    CHECK(map.is_free(inside) != is_public);
-  }
+TEST_CASE("freedom: in a block that is all free no passes count") {
+  FreeMap map(counts(1, 2));
+  const VoxelIndex low(-1, -1, -1), high(8, 8, 8), inside(3, 3, 3);
+  CHECK(passed(map, low, high).size() == 512);
+  hit(map, inside);
+  passed(map, low, high);  // Would end the run of hits.
+  hit(map, inside);
+  CHECK_FALSE(map.is_free(inside));
 }
 
 TEST_CASE("freedom: hits count only in blocks that rays have passed") {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/error.h"
-#include "methods/registry.h"
 #include "tests/methods/toy_world.h"
 
 namespace raymoval::freedom_test {
@@ -88,25 +87,6 @@ TEST_CASE("freedom: parameters that leave nothing to do are refused") {
   Parameters parameters;
   parameters.minimum_range = 80.0;
   CHECK_THROWS_AS(make_freedom(parameters), ConfigurationError);
-  parameters = {};
-  parameters.view_of_sensor = false;
-  parameters.view_bottom = 2.0;
-  CHECK_THROWS_AS(make_freedom(parameters), ConfigurationError);
-  parameters = {};
-  parameters.image_minimum = parameters.image_maximum = 30.0;
-  CHECK_THROWS_AS(make_freedom(parameters), ConfigurationError);
-  parameters.enhancement = false;  // There is no image.
-  CHECK_NOTHROW(make_freedom(parameters));
-  const auto& specs = MethodRegistry::built_in().find("freedom").parameters;
-  for (const auto& [name, text] : {std::pair{"counts_to_free", "0"},
-                                   {"counts_to_revert", "256"},
-                                   {"sub_voxels", "5"},
-                                   {"inpainting_radius", "0"},
-                                   {"aggressive_neighbours", "27"}}) {
-    CHECK_THROWS_AS(
-        checked_value_from_text("freedom", find_parameter("freedom", specs, name), text),
-        ConfigurationError);
-  }
 }
 
 }  // namespace raymoval::freedom_test

@@ -37,16 +37,12 @@ int value(const HoleImage& image, int row, int column) {
   return image.values[static_cast<std::size_t>(row * image.columns + column)];
 }
 
-/// Telea's algorithm in its plainest form, or OpenCV's: at each step all pixels are looked at for
-/// the one that the front reaches next.
+/// Telea's algorithm as OpenCV has it, in its plainest form: at each step all pixels are looked at
+/// for the one that the front reaches next.
 class SlowInpainting {
  public:
-  SlowInpainting(const HoleImage& image, int radius, bool opencv)
-      : rows_(image.rows),
-        columns_(image.columns),
-        radius_(radius),
-        opencv_(opencv),
-        hole_(image.is_hole) {
+  SlowInpainting(const HoleImage& image, int radius)
+      : rows_(image.rows), columns_(image.columns), radius_(radius), hole_(image.is_hole) {
     known_.assign(hole_.size(), 0);
     for (std::size_t i = 0; i < hole_.size(); ++i) {
       known_[i] = hole_[i] == 0 ? 1 : 0;
@@ -142,12 +138,9 @@ class SlowInpainting {
     const auto time = [&](int r, int c) { return time_at(r, c); };
     const auto grey = [&](int r, int c) { return static_cast<double>(values_[at(r, c)]); };
     const auto is_known = [&](int r, int c) { return inside(r, c) && known_[at(r, c)] != 0; };
-    const auto has_time = [&](int r, int c) {
-      return inside(r, c) ? known_[at(r, c)] != 0 : opencv_;
-    };
+    const auto has_time = [&](int r, int c) { return !inside(r, c) || known_[at(r, c)] != 0; };
     const double time_y = slope(row, column, 1, 0, 0.5, has_time, time);
     const double time_x = slope(row, column, 0, 1, 0.5, has_time, time);
-    const double both = opencv_ ? 2.0 : 0.5;
     double weights = 0.0, greys = 0.0, rise_x = 0.0, rise_y = 0.0;
     for (int r = row - radius_; r <= row + radius_; ++r) {
       for (int c = column - radius_; c <= column + radius_; ++c) {
@@ -155,22 +148,19 @@ class SlowInpainting {
         const double y = row - r, x = column - c, length = std::hypot(x, y);
         if (length > radius_ || length == 0.0) continue;
         double direction = std::abs(x * time_x + y * time_y);
-        if (direction <= (opencv_ ? 0.01 : 0.0)) direction = 1e-6;
+        if (direction <= 0.01) direction = 1e-6;
         const double weight = direction / std::pow(length, 3) /
                               (1.0 + std::abs(time_at(r, c) - time_at(row, column)));
         greys += weight * grey(r, c);
-        rise_x += weight * x * slope(r, c, 0, 1, both, is_known, grey);
-        rise_y += weight * y * slope(r, c, 1, 0, both, is_known, grey);
+        rise_x += weight * x * slope(r, c, 0, 1, 2.0, is_known, grey);
+        rise_y += weight * y * slope(r, c, 1, 0, 2.0, is_known, grey);
         weights += weight;
       }
     }
-    double value = (greys + rise_x + rise_y) / weights;
-    if (opencv_) {
-      // Against the gradient by at most the root of 2, and half a level up besides rounding.
-      value = greys / weights + 0.5;
-      if (const double length = std::hypot(rise_x, rise_y); length > 0.0) {
-        value -= rise_x / length + rise_y / length;
-      }
+    // Against the gradient by at most the root of 2, and half a level up besides rounding.
+    double value = greys / weights + 0.5;
+    if (const double length = std::hypot(rise_x, rise_y); length > 0.0) {
+      value -= rise_x / length + rise_y / length;
     }
     values_[at(row, column)] =
         static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
@@ -178,68 +168,50 @@ class SlowInpainting {
   }
 
   int rows_, columns_, radius_;
-  bool opencv_;
   std::vector<std::uint8_t> hole_, known_, values_, done_;
   std::vector<double> times_, outside_;
 };
 
 }  // namespace
 
-TEST_CASE("freedom: what is around a hole goes on in it") {
+TEST_CASE("freedom: what is around a hole goes on in it, but for a few levels") {
   SECTION("one value") {
     HoleImage image = image_of(9, 12, [](int, int) { return 80; });
     dig(image, 2, 6, 3, 8);
     dig(image, 0, 0, 11, 11);
-    inpaint(image, 3, Gradients::kExtrapolated);
-    CHECK(std::count(image.values.begin(), image.values.end(), 80) == 9 * 12);
-  }
-  SECTION("a ramp, which gradients extrapolate") {
-    HoleImage image =
-        image_of(11, 13, [](int row, int column) { return 20 + 5 * row + 7 * column; });
-    const HoleImage whole = image;
-    dig(image, 3, 6, 4, 8);
-    inpaint(image, 3, Gradients::kExtrapolated);
-    CHECK(image.values == whole.values);
-  }
-  SECTION("bounded by a byte") {
-    HoleImage image = image_of(3, 12, [](int, int column) { return 40 * column; });
-    dig(image, 0, 2, 6, 11);
-    inpaint(image, 2, Gradients::kExtrapolated);
-    CHECK(value(image, 1, 6) == 240);
-    CHECK(value(image, 1, 11) == 255);
+    inpaint(image, 3);
+    CHECK(*std::min_element(image.values.begin(), image.values.end()) >= 76);
+    CHECK(*std::max_element(image.values.begin(), image.values.end()) <= 84);
   }
   SECTION("from the nearer side") {
     HoleImage image = image_of(7, 20, [](int, int column) { return column < 10 ? 50 : 150; });
     dig(image, 0, 6, 5, 14);
-    inpaint(image, 3, Gradients::kExtrapolated);
-    CHECK(value(image, 3, 7) == 50);
-    CHECK(value(image, 3, 12) == 150);
+    inpaint(image, 3);
+    CHECK(value(image, 3, 7) == Approx(50).margin(4));
+    CHECK(value(image, 3, 12) == Approx(150).margin(4));
   }
 }
 
 TEST_CASE("freedom: gradients that are bounded add little") {
   HoleImage image = image_of(5, 12, [](int, int column) { return 20 * column; });
   dig(image, 0, 4, 8, 11);
-  inpaint(image, 3, Gradients::kBounded);
+  inpaint(image, 3);
   // Means of 100 to 140, not what the ramp would go on to (160).
   for (int row = 0; row < 5; ++row)
     CHECK((value(image, row, 8) > 100 && value(image, row, 8) < 145));
 }
 
 TEST_CASE("freedom: where nothing is known, nothing is filled in") {
-  for (const Gradients gradients : {Gradients::kExtrapolated, Gradients::kBounded}) {
-    HoleImage image = image_of(4, 5, [](int, int) { return 9; });
-    dig(image, 0, 3, 0, 4);
-    inpaint(image, 3, gradients);
-    CHECK(std::count(image.values.begin(), image.values.end(), 0) == 20);
-  }
+  HoleImage image = image_of(4, 5, [](int, int) { return 9; });
+  dig(image, 0, 3, 0, 4);
+  inpaint(image, 3);
+  CHECK(std::count(image.values.begin(), image.values.end(), 0) == 20);
 }
 
-TEST_CASE("freedom: the fast inpainting gives what the publication says, and what OpenCV does") {
+TEST_CASE("freedom: the fast inpainting gives what OpenCV does") {
   std::mt19937 random(3);
   for (int trial = 0; trial < 16; ++trial) {
     const int radius = 1 + trial % 4;
-    const bool opencv = trial / 4 % 2 == 1;
     HoleImage image = image_of(9, 14, [&](int row, int column) {
       return 60 + 4 * row + 6 * column + static_cast<int>(random() % 9);
     });
@@ -248,19 +220,14 @@ TEST_CASE("freedom: the fast inpainting gives what the publication says, and wha
       dig(image, row, std::min(8, row + static_cast<int>(random() % 4)), column,
           std::min(13, column + static_cast<int>(random() % 5)));
     }
-    const HoleImage before = image;
-    const std::vector<std::uint8_t> expected = SlowInpainting(image, radius, opencv).run();
-    inpaint(image, radius, opencv ? Gradients::kBounded : Gradients::kExtrapolated);
+    const std::vector<std::uint8_t> expected = SlowInpainting(image, radius).run();
+    inpaint(image, radius);
     int largest = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
       largest = std::max(largest, std::abs(expected[i] - image.values[i]));
     }
-    CAPTURE(trial, radius, opencv);
+    CAPTURE(trial, radius);
     CHECK(largest <= 1);  // Sums in another order may round otherwise.
-    // The two ways differ, so that one cannot stand for the other.
-    HoleImage other = before;
-    inpaint(other, radius, opencv ? Gradients::kExtrapolated : Gradients::kBounded);
-    CHECK(other.values != image.values);
   }
 }
 

@@ -13,9 +13,10 @@ Eigen::Vector3f middle(int x, int y = 0, int z = 0) {
   return ((VoxelIndex(x, y, z).cast<double>().array() + 0.625) * 0.4).matrix().cast<float>();
 }
 
-ScanMap scan_of(const std::vector<Eigen::Vector3f>& points, Parameters parameters = {}) {
+ScanMap scan_of(const std::vector<Eigen::Vector3f>& points) {
   Scan scan;
   scan.points = points;
+  Parameters parameters;
   parameters.minimum_range = 0.0;
   ScanMap voxels;
   voxels.fill(scan, parameters);
@@ -41,51 +42,15 @@ std::string levels(const StaticMap& map, int count) {
   return text;
 }
 
-Parameters without_quirks() {
-  Parameters parameters;
-  parameters.public_second_round = false;
-  return parameters;
-}
-
 }  // namespace
 
-TEST_CASE("freedom: neighbours share a face, an edge or a corner") {
-  CHECK(neighbour_offsets(26).size() == 26);
-  for (int i = 0; i < 26; ++i) {
-    const int axes = neighbour_offsets(26)[static_cast<std::size_t>(i)].cwiseAbs().sum();
-    CHECK(axes == (i < 6 ? 1 : (i < 18 ? 2 : 3)));
-  }
-}
-
-TEST_CASE("freedom: growth is that of the parameters, and in the map one round less") {
-  Parameters parameters;
-  using Rounds = std::array<int, 2>;
-  CHECK(growth_of(parameters, false).aggressive == Rounds{26, 26});
-  CHECK(growth_of(parameters, true).aggressive == Rounds{26, 0});
-  parameters.aggressive_neighbours = Neighbours::k80;
-  CHECK(growth_of(parameters, false).aggressive == Rounds{26, 6});
-  parameters.aggressive_neighbours = Neighbours::k18;
-  parameters.conservative_neighbours = Neighbours::k6;
-  CHECK(growth_of(parameters, false).aggressive == Rounds{18, 0});
-  CHECK(growth_of(parameters, false).moderate == 6);
-  parameters.aggressive_neighbours = Neighbours::k80;
-  parameters.public_second_round = false;
-  CHECK(growth_of(parameters, true).aggressive == Rounds{26, 6});
-}
-
 TEST_CASE("freedom: sub-voxels lie in their voxels on both sides of the origin") {
-  for (int per_edge = 1; per_edge <= 4; ++per_edge) {
-    Parameters parameters;
-    parameters.sub_voxels = per_edge;
-    const Lattice lattice(parameters);
-    for (int i = -9; i <= 9; ++i) {
-      const VoxelIndex sub_voxel(i, -i, i + 1), voxel = lattice.voxel_of(sub_voxel);
-      const int expected = i >= 0 ? i / per_edge : -((-i + per_edge - 1) / per_edge);
-      CHECK(voxel.x() == expected);
-      const int place = lattice.place_of(sub_voxel, voxel);
-      CHECK((place >= 0 && place < per_edge * per_edge * per_edge));
-      CHECK(lattice.sub_voxel_at(voxel, place) == sub_voxel);
-    }
+  for (int i = -9; i <= 9; ++i) {
+    const VoxelIndex sub_voxel(i, -i, i + 1), voxel = voxel_of(sub_voxel);
+    CHECK(voxel.x() == (i >= 0 ? i / 4 : -((-i + 3) / 4)));
+    const int place = place_of(sub_voxel);
+    CHECK((place >= 0 && place < 64));
+    CHECK(sub_voxel_at(voxel, place) == sub_voxel);
   }
 }
 
@@ -109,23 +74,16 @@ TEST_CASE("freedom: a scan's voxels have the mean of their points, and those in 
 TEST_CASE("freedom: in a scan levels grow over three neighbours") {
   ScanMap scan = row_of({0, 1, 2, 3, 4, 6});
   scan.voxels()[0].level = Level::kConservative;
-  Parameters parameters;
-  const auto grown = [&](const Growth& growth) {
-    ScanMap copy = scan;
-    copy.grow(growth);
-    std::string text;
-    for (const ScanVoxel& voxel : copy.voxels()) {
-      text += "SAMC-"[static_cast<std::size_t>(voxel.level)];
-    }
-    return text;
-  };
-  CHECK(grown(growth_of(parameters, false)) == "CMAASS");
-  parameters.aggressive_neighbours = Neighbours::k26;
-  CHECK(grown(growth_of(parameters, false)) == "CMASSS");
+  scan.grow();
+  std::string text;
+  for (const ScanVoxel& voxel : scan.voxels()) {
+    text += "SAMC-"[static_cast<std::size_t>(voxel.level)];
+  }
+  CHECK(text == "CMAASS");
 }
 
 TEST_CASE("freedom: a point replaces those of a higher level only") {
-  StaticMap map{Parameters{}};
+  StaticMap map;
   map.integrate(row_of({0}, Level::kModerate), 0);
   CHECK(levels(map, 1) == "M");
   map.integrate(row_of({0}, Level::kConservative), 1);
@@ -141,31 +99,24 @@ TEST_CASE("freedom: a point replaces those of a higher level only") {
   CHECK(levels(map, 3) == "S--");
 }
 
-TEST_CASE("freedom: in the map levels grow among points of one scan") {
-  StaticMap map{without_quirks()};
+TEST_CASE("freedom: in the map levels grow among points of one scan, over two neighbours") {
+  StaticMap map;
   map.integrate(row_of({0, 1, 2, 3, 4}), 0);
   map.integrate(scan_of({middle(2) + Eigen::Vector3f(0.1F, 0.0F, 0.0F)}), 1);
   map.remove({{0, 0, 0}});
   // Without a static point left a voxel is emptied; where scan 1 has one, scan 0's is aggressive.
-  CHECK(levels(map, 5) == "--A-S");
+  CHECK(levels(map, 5) == "--ASS");
   CHECK(map.level_of({4 * 2 + 3, 2, 2}) == Level::kStatic);
 
-  StaticMap other{without_quirks()};
+  StaticMap other;
   other.integrate(row_of({0, 2, 3}), 0);
   other.integrate(row_of({1}), 1);  // Another scan's: scan 0 does not go on behind it.
   other.remove({{0, 0, 0}});
   CHECK(levels(other, 4) == "-SSS");
 }
 
-TEST_CASE("freedom: in the map the public program's second aggressive round never runs") {
-  StaticMap map{Parameters{}};
-  map.integrate(row_of({0, 1, 2, 3, 4}), 0);
-  map.remove({{0, 0, 0}});
-  CHECK(levels(map, 5) == "---SS");
-}
-
 TEST_CASE("freedom: what was emptied takes any point again, and is not in the map till then") {
-  StaticMap map{Parameters{}};
+  StaticMap map;
   map.integrate(row_of({0, 5}), 0);
   map.remove({{0, 0, 0}, {9, 9, 9}});
   CHECK(levels(map, 6) == "-----S");
@@ -181,7 +132,7 @@ TEST_CASE("freedom: what was emptied takes any point again, and is not in the ma
 }
 
 TEST_CASE("freedom: sub-voxels stay in order whatever comes first") {
-  StaticMap map{Parameters{}};
+  StaticMap map;
   for (int i = 0; i < 64; ++i) {
     const int place = i * 37 % 64;
     const Eigen::Vector3f point(0.05F + 0.1F * static_cast<float>(place / 16),

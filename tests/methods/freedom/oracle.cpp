@@ -9,47 +9,37 @@
 namespace raymoval::freedom_test {
 namespace {
 
-/// The neighbours of a voxel that share a face (reach 1), an edge (2) or a corner (3) with it.
-std::vector<Cell> around(const Cell& cell, int reach) {
+/// The 26 neighbours of a voxel.
+std::vector<Cell> around(const Cell& cell) {
   std::vector<Cell> cells;
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = -1; z <= 1; ++z) {
-        const int axes = std::abs(x) + std::abs(y) + std::abs(z);
-        if (axes >= 1 && axes <= reach) cells.push_back({cell[0] + x, cell[1] + y, cell[2] + z});
+        if (x != 0 || y != 0 || z != 0) cells.push_back({cell[0] + x, cell[1] + y, cell[2] + z});
       }
     }
   }
   return cells;
 }
 
-int reach_of(Neighbours neighbours) {
-  return neighbours == Neighbours::k6 ? 1 : (neighbours == Neighbours::k18 ? 2 : 3);
-}
-
 /// Steps 2 and 5 grow alike. `take(cell, level)` says whether a cell takes the level.
-void grow(const Parameters& p, bool in_map, Cells frontier,
+void grow(const std::vector<Level>& levels, Cells frontier,
           const std::function<bool(const Cell&, Level)>& take) {
-  const auto spread = [&](int reach, Level level) {
+  for (const Level level : levels) {
     Cells taken;
     for (const Cell& cell : frontier) {
-      for (const Cell& next : around(cell, reach)) {
+      for (const Cell& next : around(cell)) {
         if (take(next, level)) taken.insert(next);
       }
     }
     frontier = taken;
-  };
-  spread(reach_of(p.conservative_neighbours), Level::kModerate);
-  spread(reach_of(p.aggressive_neighbours), Level::kAggressive);
-  if (in_map && p.public_second_round) return;
-  if (p.aggressive_neighbours == Neighbours::k80) spread(1, Level::kAggressive);
-  if (p.aggressive_neighbours == Neighbours::k124) spread(3, Level::kAggressive);
+  }
 }
 
 }  // namespace
 
 Oracle::Oracle(const Parameters& parameters, const ScanSource& scans)
-    : p_(parameters), voxel_(parameters.sub_voxel_size * parameters.sub_voxels) {
+    : p_(parameters), voxel_(parameters.sub_voxel_size * 4) {
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
     ScanVoxels voxels = voxels_of(scan);
@@ -77,7 +67,7 @@ Cell Oracle::block_of(const Cell& voxel) const {
 Cell Oracle::voxel_of(const Cell& sub_voxel) const {
   Cell voxel;
   for (std::size_t k = 0; k < 3; ++k) {
-    voxel[k] = floor_of((sub_voxel[k] + 0.5) / p_.sub_voxels);
+    voxel[k] = floor_of((sub_voxel[k] + 0.5) / 4);
   }
   return voxel;
 }
@@ -111,7 +101,7 @@ void Oracle::take_hits(ScanVoxels& voxels) {
   }
   for (const Cell& cell : reverted) {
     revert(cell);
-    for (const Cell& next : around(cell, 3)) revert(next);
+    for (const Cell& next : around(cell)) revert(next);
   }
 }
 
@@ -119,7 +109,6 @@ void Oracle::revert(const Cell& voxel) {
   const auto found = space_.find(voxel);
   if (found == space_.end() || !found->second.is_free) return;
   found->second.is_free = false;
-  if (!p_.public_revert) found->second.passes = 0;
 }
 
 void Oracle::grow_in_scan(ScanVoxels& voxels) const {
@@ -127,12 +116,13 @@ void Oracle::grow_in_scan(ScanVoxels& voxels) const {
   for (const auto& [cell, seen] : voxels) {
     if (seen.level == Level::kConservative) seeds.insert(cell);
   }
-  grow(p_, false, seeds, [&](const Cell& cell, Level level) {
-    const auto found = voxels.find(cell);
-    if (found == voxels.end() || found->second.level != Level::kStatic) return false;
-    found->second.level = level;
-    return true;
-  });
+  grow({Level::kModerate, Level::kAggressive, Level::kAggressive}, seeds,
+       [&](const Cell& cell, Level level) {
+         const auto found = voxels.find(cell);
+         if (found == voxels.end() || found->second.level != Level::kStatic) return false;
+         found->second.level = level;
+         return true;
+       });
 }
 
 Cells Oracle::passed_by_rays(const Scan& scan, const ScanVoxels& voxels,
@@ -142,7 +132,8 @@ Cells Oracle::passed_by_rays(const Scan& scan, const ScanVoxels& voxels,
   for (const auto& [cell, seen] : voxels) {
     follow(position, seen.sum / seen.points - position, voxels, passed);
   }
-  for (const Eigen::Vector3d& end : find_hole_ends(scan, view_for(sensor, p_), p_)) {
+  if (!p_.enhancement) return passed;
+  for (const Eigen::Vector3d& end : find_hole_ends(scan, view_for(sensor, p_.image_maximum))) {
     follow(position, scan.T_world_sensor.linear() * end, voxels, passed);
   }
   return passed;
@@ -186,7 +177,7 @@ bool Oracle::is_full(const Cell& block) const {
 Cells Oracle::take_passes(const Cells& passed) {
   Cells full, counted, newly_free;
   for (const Cell& block : blocks_) {
-    if (p_.public_full_blocks && is_full(block)) full.insert(block);
+    if (is_full(block)) full.insert(block);
   }
   for (const Cell& cell : passed) {
     blocks_.insert(block_of(cell));
@@ -201,7 +192,7 @@ Cells Oracle::take_passes(const Cells& passed) {
   };
   for (const Cell& cell : counted) {
     bool all = is_ready(cell) && !space_[cell].is_free;
-    for (const Cell& next : around(cell, 3)) all = all && is_ready(next);
+    for (const Cell& next : around(cell)) all = all && is_ready(next);
     if (all) newly_free.insert(cell);
   }
   for (const Cell& cell : newly_free) space_[cell].is_free = true;
@@ -222,9 +213,10 @@ void Oracle::remove_from_map(const Cells& newly_free) {
       levels[cell] = Level::kConservative;
       seeds.insert(cell);
     }
-    grow(p_, true, seeds, [&, &of_scan = voxels](const Cell& cell, Level level) {
-      return of_scan.count(cell) > 0 && levels.emplace(cell, level).second;
-    });
+    grow({Level::kModerate, Level::kAggressive}, seeds,
+         [&, &of_scan = voxels](const Cell& cell, Level level) {
+           return of_scan.count(cell) > 0 && levels.emplace(cell, level).second;
+         });
     for (const auto& [voxel, level] : levels) {
       touched.insert(voxel);
       for (const Cell& cell : voxels[voxel]) {

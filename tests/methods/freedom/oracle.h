@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "methods/freedom/levels.h"
+#include "methods/freedom/scan_map.h"
 
 namespace raymoval::freedom_test {
 

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "methods/registry.h"
 #include "tests/methods/hmm_mos/scenes.h"
 #include "tests/methods/moved_world.h"
 
@@ -106,21 +105,6 @@ TEST_CASE("a scan alone, empty scans and points that are not numbers say nothing
   }
 }
 
-TEST_CASE("hmm_mos answers the same on any number of threads", "[hmm_mos]") {
-  const toy::HeldScans scans = wall_and_mover(10, 8, 3, 0.05);
-  for (Parameters parameters : {Parameters{}, sound()}) {
-    for (const bool offline : {false, true}) {
-      parameters.offline = offline;
-      const MaskStore one = toy::masks_of(*make_hmm_mos(parameters), scans, 1);
-      CHECK(one.removed_count() > 0);
-      for (const int threads : {2, 8}) {
-        const MaskStore many = toy::masks_of(*make_hmm_mos(parameters), scans, threads);
-        CHECK(toy::different_verdicts(one, many, scans.size()) == 0);
-      }
-    }
-  }
-}
-
 TEST_CASE("a least range of hmm_mos that leaves nothing is refused", "[hmm_mos]") {
   Parameters parameters;
   parameters.min_range = 8.0;
@@ -131,24 +115,6 @@ TEST_CASE("a least range of hmm_mos that leaves nothing is refused", "[hmm_mos]"
   }
   parameters.max_range = 8.5;
   CHECK_NOTHROW(make_hmm_mos(parameters));
-}
-
-TEST_CASE("parameters of hmm_mos that are out of range are refused by name", "[hmm_mos]") {
-  const auto& specs = parameter_table().specs();
-  for (const auto& [name, value] :
-       std::vector<std::pair<std::string, std::string>>{{"voxel_size", "0"},
-                                                        {"spread", "2"},
-                                                        {"belief", "1"},
-                                                        {"window_scans", "0"},
-                                                        {"reach", "5"},
-                                                        {"bins", "1"},
-                                                        {"map_range_factor", "0.5"},
-                                                        {"max_range", "nan"}}) {
-    INFO(name);
-    CHECK_THROWS_WITH(
-        checked_value_from_text("hmm_mos", find_parameter("hmm_mos", specs, name), value),
-        Catch::Contains("hmm_mos." + name));
-  }
 }
 
 }  // namespace raymoval::hmm_mos_test

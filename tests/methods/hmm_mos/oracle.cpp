@@ -176,12 +176,13 @@ void Oracle::find_threshold() {
   const int low = *std::min_element(values.begin(), values.end());
   const int high = *std::max_element(values.begin(), values.end());
   if (low == high) return;
+  constexpr int kBins = 100;
   // Every edge between two bins, with what is up to it and what is above.
   double best = 0.0;
-  for (int i = 1; i < p_.bins; ++i) {
+  for (int i = 1; i < kBins; ++i) {
     const auto bin_of = [&](int value) {
       int bin = 0;
-      while (bin + 1 < p_.bins && value * p_.bins > low * p_.bins + (bin + 1) * (high - low)) ++bin;
+      while (bin + 1 < kBins && value * kBins > low * kBins + (bin + 1) * (high - low)) ++bin;
       return bin;
     };
     double below = 0.0, above = 0.0, below_sum = 0.0, above_sum = 0.0;
@@ -195,7 +196,7 @@ void Oracle::find_threshold() {
     if (between < best) continue;
     best = between;
     has_threshold = true;
-    threshold = low + i * static_cast<double>(high - low) / p_.bins;
+    threshold = low + i * static_cast<double>(high - low) / kBins;
   }
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "methods/hmm_mos/parameters.h"
+#include "methods/hmm_mos/hmm_mos.h"
 
 namespace raymoval::hmm_mos_test {
 

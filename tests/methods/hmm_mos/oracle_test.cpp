@@ -3,28 +3,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "methods/hmm_mos/belief_map.h"
 #include "methods/hmm_mos/hmm_mos.h"
 #include "methods/hmm_mos/moving_voxels.h"
+#include "tests/methods/grid_cells.h"
 #include "tests/methods/hmm_mos/scenes.h"
 
 namespace raymoval::hmm_mos_test {
 
 namespace {
-
-Cells cells_of(const ScanGrid& grid, std::uint64_t Column::*word) {
-  Cells cells;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    for (std::size_t column = 0; column < kColumns; ++column) {
-      for (int z = 0; z < kHeight; ++z) {
-        if ((grid[i].columns[column].*word >> z & 1U) == 0) continue;
-        const VoxelIndex voxel = voxel_at(grid[i].at, column, z);
-        cells.insert({voxel.x(), voxel.y(), voxel.z()});
-      }
-    }
-  }
-  return cells;
-}
 
 VoxelIndex voxel(const Cell& cell) {
   return {cell[0], cell[1], cell[2]};
@@ -45,7 +31,6 @@ std::vector<Parameters> settings() {
   all[3].belief = 0.95;
   all[3].map_scans = 2;
   all[4].reach = 1;
-  all[4].bins = 10;
   all[4].least_threshold = 0.0;
   all[4].min_range = 2.6;  // Leaves some of what moves out.
   all[5].public_lattice = false;
@@ -82,8 +67,8 @@ TEST_CASE("each step finds what the plain sets find", "[hmm_mos]") {
       const Scan scan = scans.load(i);
       oracle.add(scan);
       find_voxels(scan, parameters, {}, voxels);
-      CHECK(cells_of(voxels.grid, &Column::hit) == oracle.occupied);
-      CHECK(cells_of(voxels.grid, &Column::free) == oracle.observed);
+      CHECK(toy::cells_of(voxels.grid, &Column::hit) == oracle.occupied);
+      CHECK(toy::cells_of(voxels.grid, &Column::free) == oracle.observed);
       map.observe(voxels, before, {});
       map.forget(scan.T_world_sensor.translation());
       check_map(oracle, map);

@@ -14,10 +14,9 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-std::vector<double> lengths(const Points& points, double voxel_size, double fuzz = 0.0) {
+std::vector<double> lengths(const Points& points, double voxel_size) {
   Parameters parameters;
   parameters.voxel_size = voxel_size;
-  parameters.fuzz = fuzz;
   return BeamEnds(parameters).find(points);
 }
 
@@ -87,17 +86,6 @@ TEST_CASE("beams to flat ground end one voxel diagonal above it", "[peopleremove
   const std::vector<double> m = lengths(points, 0.2);
   for (std::size_t k = 0; k < points.size(); ++k) {
     REQUIRE(m[k] / points[k].norm() == Approx(1.0 - 0.2 * std::sqrt(3.0) / 1.73).epsilon(1e-6));
-  }
-}
-
-TEST_CASE("fuzz ends beams that much farther from the surface", "[peopleremover]") {
-  std::vector<double> distances;
-  for (double d = 4.0; d < 12.0; d *= 1.008) distances.push_back(d);
-  const Points points = ground(1.73, distances);
-  const std::vector<double> m = lengths(points, 0.2, 0.1);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    REQUIRE(m[k] / points[k].norm() ==
-            Approx(1.0 - (0.2 * std::sqrt(3.0) + 0.1) / 1.73).epsilon(1e-6));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/peopleremover/parameters.h"
+#include "methods/peopleremover/peopleremover.h"
 #include "methods/registry.h"
 #include "tests/methods/toy_world.h"
 

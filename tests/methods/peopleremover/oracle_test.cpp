@@ -202,7 +202,7 @@ TEST_CASE("peopleremover removes what moves on the street and keeps the rest", "
 
 TEST_CASE("peopleremover hardly depends on where the lattice lies", "[peopleremover][slow]") {
   // Measured over shifts of 0.03 to 0.15 m with and without a turn by 0.3 rad: at most 0.70 % of
-  // the verdicts change (normals), 0.84 % (reduced), 1.6 % (fine, whose voxels are half as large).
+  // the verdicts change (normals), 1.6 % (fine, whose voxels are half as large).
   // Whole beams are another matter: how much of the road they take depends on its height in its
   // voxels, 26 to 38 % of the verdicts change, and no useful bound can be given.
   const World world = street(8);

@@ -8,9 +8,6 @@
 #include <random>
 #include <set>
 
-#include "methods/peopleremover/freed_clusters.h"
-#include "methods/peopleremover/thinning.h"
-
 namespace raymoval::peopleremover_test {
 using namespace raymoval::peopleremover_method;
 
@@ -19,13 +16,9 @@ namespace {
 using Voxels = std::set<VoxelKey>;
 
 BrickMap map_of(const Voxels& voxels) {
-  VoxelMap<BrickWord> bricks;
-  for (const VoxelKey key : voxels) {
-    bricks[voxel_key(brick_of(voxel_index(key)))] |= voxel_bit(voxel_index(key));
-  }
-  BrickCollector collector;
-  collector.add(bricks);
-  return collector.take();
+  CellSet cells;
+  for (const VoxelKey key : voxels) cells.insert(key);
+  return BrickMap(cells);
 }
 
 Voxels voxels_of(const BrickMap& map, const std::vector<BrickWord>& words) {
@@ -213,38 +206,6 @@ TEST_CASE("occupied voxels that are not freed join no clusters", "[peopleremover
   std::vector<BrickWord> freed{voxel_bit(0, 0, 0) | voxel_bit(2, 0, 0)};
   discard_small_clusters(map, 2, freed);
   CHECK(freed[0] == 0);
-}
-
-TEST_CASE("thinning keeps the wanted number per cell, by seed and scan", "[peopleremover]") {
-  // 5000 directions within a hundredth of a radian, cells of caps of 0.2 rad: one cell, or a few if
-  // a border runs through.
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> side(-0.05, 0.05);
-  std::vector<Eigen::Vector3d> points;
-  for (int k = 0; k < 5000; ++k) points.emplace_back(10.0, 1.0 + side(random), 1.0 + side(random));
-  const auto count = [](const std::vector<std::uint8_t>& chosen) {
-    return std::count(chosen.begin(), chosen.end(), std::uint8_t{1});
-  };
-  const auto chosen = choose_beams(points, 3, {7, 0.2, 1});
-  CHECK(count(chosen) >= 7);
-  CHECK(count(chosen) <= 4 * 7);
-  CHECK(chosen == choose_beams(points, 3, {7, 0.2, 1}));
-  CHECK(chosen != choose_beams(points, 4, {7, 0.2, 1}));
-  CHECK(chosen != choose_beams(points, 3, {7, 0.2, 2}));
-  CHECK(count(choose_beams(points, 3, {0, 0.2, 1})) == 5000);
-  CHECK(count(choose_beams(points, 3, {100000, 0.2, 1})) == 5000);
-}
-
-TEST_CASE("thinning's cells have the solid angle of a cap", "[peopleremover]") {
-  // Directions all over the sphere, a cap of 0.1 rad has 2 pi (1 - cos 0.1) = 0.03139 sr: 400.3
-  // cells. Each of them is hit by 100,000 points, so one point stays of each.
-  std::mt19937 random(10);
-  std::normal_distribution<double> normal;
-  std::vector<Eigen::Vector3d> points;
-  for (int k = 0; k < 100000; ++k)
-    points.emplace_back(normal(random), normal(random), normal(random));
-  const auto chosen = choose_beams(points, 0, {1, 0.1, 1});
-  CHECK(std::count(chosen.begin(), chosen.end(), std::uint8_t{1}) == Approx(400).margin(12));
 }
 
 }  // namespace raymoval::peopleremover_test

@@ -52,13 +52,11 @@ constexpr Line kLines[] = {
 
     // A voxel is freed by a single beam of a scan that has no point in it, for good. Without
     // normals a beam does not depend on other points. Whole scans, not voxels, lose the points near
-    // a freed voxel, unless subvoxel_accuracy is off. reduce draws by the number of the scan and of
-    // the point.
+    // a freed voxel, unless subvoxel_accuracy is off.
     {"peopleremover:normals", "= = ? ~ ? = - = ="},
     {"peopleremover:fine", "= = ? ~ ? = - = ="},
     {"peopleremover:none", "= = ? = = = - = ="},
     {"peopleremover:plain", "= = + = = = - = ="},
-    {"peopleremover:reduced", "= ? ? ? ? = ? ? ?"},
 
     // A single scan removes a map point that it sees behind, and half a scan sees at least as far.
     // The map's points are means of all points in a cell, which other points shift, in single
@@ -96,13 +94,11 @@ constexpr Line kLines[] = {
     // that are skipped lie on a lattice of their own.
     {"freedom:published", "= = ? = = = ? ? ?"},
     {"freedom:few-counts", "= = ? = = = ? ? ?"},
-    {"freedom:sound", "= = ? = = = ? ? ?"},
 
     // A scan is a set of voxels, and scans are taken in turn. An empty one is the scan before of
     // the next. The public lattice is cut off towards the origin.
     {"hmm_mos:published", "= ? ? = = ? = ? ?"},
     {"hmm_mos:fine", "= ? ? = = ? = ? ?"},
-    {"hmm_mos:sound", "= ? ? = = = = ? ?"},
     {"hmm_mos:offline", "= ? ? = = = ? ? ?"},
 
     // Scans are counted, empty ones too. A pixel has its nearest return and a voxel is hit or not,
@@ -110,8 +106,6 @@ constexpr Line kLines[] = {
     // and free space is looked at again when an empty one comes. The boxes of public-code compare
     // heights with x, which the moved worlds do not show.
     {"dynablox:published", "= ? ? = ? ~ = ? ?"},
-    {"dynablox:public-code", "= ? ? = ? ~ = ? ?"},
-    {"dynablox:header", "= ? ? = ? ~ = ? ?"},
     {"dynablox:wide", "= ? ? = ? ~ = ? ?"},
     {"dynablox:offline", "? ? ? = = ~ ? ? ?"},
     {"dynablox:offline-wide", "? ? ? = = ~ ? ? ?"},
