@@ -68,7 +68,6 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"mapcleaner.public_height", "the sensor must be much lower (see ground_segmentation_test)"},
     {"mapcleaner.public_axes", "the sensor must turn"},
     {"mapcleaner.submap_travel", "the sensor must go farther (see votes_test)"},
-    {"octomap.ground_points", "a scan must have few points"},
     {"erasor.sparse_ground", "a bin must have as few points as are skipped as outliers"},
     {"removert.clamp_fov", "the sensor must see beyond the images' field of view"},
     {"removert.world_axes", "the sensor must be turned"},

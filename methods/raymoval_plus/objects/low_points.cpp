@@ -22,7 +22,7 @@ constexpr float kHighest = 1.0F, kHigherByRange = 0.03F;
 /// No more than so many columns to either side: a bonnet is not longer, and beams far apart must
 /// not cost more.
 constexpr float kWiderByBeams = 0.6F;
-constexpr int kMostColumns = 20;
+constexpr int kMostLowColumns = 20;
 /// Points near the ground follow the dynamic points above them if these are so many times the
 /// others, and the other way round. Between, they stay what their voxels are.
 constexpr int kMajority = 2;
@@ -58,7 +58,7 @@ class LowPoints {
         low_(static_cast<float>(parameters.object_height)),
         columns_wider_by_range_(kWiderByBeams * maps.steps.elevation /
                                 static_cast<float>(parameters.voxel_size)),
-        farthest_aside_(std::sqrt(2.0F) * (kMostColumns + 1) *
+        farthest_aside_(std::sqrt(2.0F) * (kMostLowColumns + 1) *
                         static_cast<float>(parameters.voxel_size)),
         lone_gap_(kLoneReach * static_cast<float>(parameters.cluster_gap)),
         lone_growth_(kLoneReach * static_cast<float>(parameters.cluster_growth)),
@@ -110,7 +110,7 @@ class LowPoints {
   /// where beams are farther apart.
   [[nodiscard]] int reach(std::size_t k) const { return reach_at(range(k)); }
   [[nodiscard]] int reach_at(float range) const {
-    const float wider = std::min<float>(columns_wider_by_range_ * range, kMostColumns - 1);
+    const float wider = std::min<float>(columns_wider_by_range_ * range, kMostLowColumns - 1);
     return 1 + static_cast<int>(wider);
   }
   /// Calls `visit(standing)` with the column of a point and those around it.

@@ -43,9 +43,7 @@ constexpr Line kLines[] = {
     // A scan is a set of cells, hit or crossed once. Clamping makes the order of scans count. The
     // ground plane and the outliers come from the list of points.
     {"octomap:r20", "= = ? = = = ? ? ?"},
-    {"octomap:r10", "= = ? = = = ? ? ?"},
     {"octomap:r05", "= = ? = = = ? ? ?"},
-    {"octomap:discretised", "= = ? = = = ? ? ?"},
     {"octomap:kth", "= = ? = = = ? ? ?"},
     {"octomap:ground", "= = ? ? ? = ? ? ?"},
     {"octomap:ground-noise", "= = ? ? ? = ? ? ?"},
