@@ -10,7 +10,7 @@ std::vector<std::string> notes() {
       "Patchwork++ instead of the paper's; its quirks have switches (public_...).",
       "Dynamic is what is voted dynamic. The public program saves what lies below the terrain "
       "nowhere, so that it goes (remove_below); what has no terrain it saves in a file of its "
-      "own as neither static nor dynamic, so that it stays (remove_other).",
+      "own as neither static nor dynamic, so that it stays.",
       "Scans are not thinned before they come into the map, which the public program may do.",
       "Voxels and terrain cells are those of the lattice at the world's origin.",
       "Patchwork++: variances are those of the sample; where only one plane is known, its "

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "methods/mapcleaner/parameters.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+
 namespace raymoval::mapcleaner_method {
 namespace {
 
@@ -54,17 +59,9 @@ void add_split(Table& table) {
       .number("ground_height", &P::ground_height,
               {"m", 0, 10, kKitti,
                "Points at most so far above or below the terrain are ground and stay."})
-      .flag("on_terrain_only", &P::on_terrain_only,
-            {.source = kKitti,
-             .sentence = "Where there is no terrain, nothing is judged. Else what Patchwork++ did "
-                         "not take for ground is judged there, too."})
       .flag("remove_below", &P::remove_below,
             {.source = "the public program saves them nowhere",
              .sentence = "Points farther below the terrain go."})
-      .flag("remove_other", &P::remove_other,
-            {.source = "the public program saves them in a file of their own",
-             .sentence = "Points that are not judged for want of terrain go.",
-             .acts_when = "on_terrain_only is true"})
       .number("voxel_size", &P::voxel_size,
               {"m", 0.05, 2, kPublic,
                "Edge of a voxel, whose points are judged together, where their centroid is."});
@@ -124,11 +121,42 @@ Table make_table() {
   return table;
 }
 
+/// How many times farther apart directions are than published, at least once.
+double times_farther(double step, double published) {
+  return step > 0.0 ? std::max(1.0, step / published) : 1.0;
+}
+
+/// A pixel, degrees, of which a window of `half` more to either side spans a step in radians.
+double spanning(double pixel, int half, double step) {
+  return std::max(pixel, step / kDegree / (2 * half + 1));
+}
+
+/// A number of points of a bin where only `share` of them is left.
+int fewer(int points, double share) {
+  constexpr int kPointsOfAPlane = 3;
+  const int left = static_cast<int>(std::lround(points * share));
+  return std::min(points, std::max(kPointsOfAPlane, left));
+}
+
 }  // namespace
 
 const ParameterTable<Parameters>& parameter_table() {
   static const Table table = make_table();
   return table;
+}
+
+Parameters for_sensor(const Parameters& parameters, const SensorModel& sensor) {
+  if (parameters.public_steps) return parameters;
+  const SensorModel published = sensor_model_named("hdl64e");
+  const double beams = times_farther(sensor.elevation_step, published.elevation_step);
+  const double columns = times_farther(sensor.azimuth_step, published.azimuth_step);
+  Parameters own = parameters;
+  own.row_height = spanning(parameters.row_height, parameters.window_rows, sensor.elevation_step);
+  own.column_width =
+      spanning(parameters.column_width, parameters.window_columns, sensor.azimuth_step);
+  own.bin_points = fewer(parameters.bin_points, 1.0 / (beams * columns));
+  own.lowest_points = fewer(parameters.lowest_points, 1.0 / (beams * columns));
+  return own;
 }
 
 }  // namespace raymoval::mapcleaner_method

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/scan/sensor_model.h"
 #include "methods/common/patchwork/parameters.h"
 
 namespace raymoval::mapcleaner_method {
@@ -21,9 +22,7 @@ struct Parameters : patchwork::GroundParameters {
   double refill_deviation = 0.5;
   // What is judged, and what goes unjudged.
   double ground_height = 0.172;
-  bool on_terrain_only = true;
   bool remove_below = true;
-  bool remove_other = false;
   double voxel_size = 0.2;
   // The votes.
   double column_width = 0.16;
@@ -42,5 +41,12 @@ struct Parameters : patchwork::GroundParameters {
 
 /// The one place where names, units, ranges and sources of the parameters stand.
 const ParameterTable<Parameters>& parameter_table();
+
+/// The parameters for a sensor. They are set for the HDL-64E of KITTI. Unless `public_steps`, the
+/// pixels for a sensor whose directions are far apart are as large as it takes for the window
+/// around a voxel to reach from one direction to the next, so that there is something to compare it
+/// with; and bins ask for as many points fewer as the sensor leaves there, but for no fewer than
+/// span a plane. Steps that are unknown change nothing.
+Parameters for_sensor(const Parameters& parameters, const SensorModel& sensor);
 
 }  // namespace raymoval::mapcleaner_method

@@ -8,9 +8,7 @@ namespace {
 std::vector<std::string> notes() {
   return {
       "The map is liboctomap's tree with the leaves that insertPointCloud makes of the same scans, "
-      "kept to cells in which some scan has a point, for no other is asked for; the cells of a "
-      "scan "
-      "are computed and put in by faster code of our own.",
+      "kept to cells in which some scan has a point, for no other is asked for.",
       "The tree's centre is the first scan's origin rounded to whole cells, so that coordinates "
       "stay exact in float far from the world's origin; the cells are those of the world's "
       "lattice.",
@@ -18,7 +16,6 @@ std::vector<std::string> notes() {
       "A point whose cell no scan touched stays unless remove_unknown is set; one outside the tree "
       "always stays, and its beam is left out.",
       "Scans go in by increasing index; clamping makes the answer depend on that order.",
-      "With discretise, points outside the tree are left out, where liboctomap wraps them around.",
       "kth, ground and ground-noise keep the KTH port's settings (0.1 m, clamping at 0.12 and "
       "0.97), its missing subtraction, and its dropping of unknown points; the port's map appends "
       "ground points a second time, here each point has one verdict.",
@@ -71,9 +68,7 @@ MethodEntry octomap_entry() {
   entry.confidence = confidence();
   entry.variants = {
       {"r20", "liboctomap's insertPointCloud with leaves of 0.2 m.", false, {}},
-      {"r10", "The same with leaves of 0.1 m.", false, {{"resolution", 0.1}}},
       {"r05", "The same with leaves of 0.05 m.", false, {{"resolution", 0.05}}},
-      {"discretised", "0.2 m, one beam per occupied cell.", false, {{"discretise", true}}},
       {"kth", "The KTH port's shipped setting: 0.1 m, hits do not suppress misses.", false, kth},
       {"ground", "The KTH port with its ground plane ('w G')." + needs, false, ground, kHasPcl},
       {"ground-noise", "The KTH port with ground plane and noise filter ('w GF')." + needs, false,

@@ -8,7 +8,6 @@ using Table = ParameterTable<Parameters>;
 using P = Parameters;
 constexpr const char* kLibrary = "liboctomap's default";
 constexpr const char* kKth = "KTH port of OctoMap";
-constexpr const char* kKthPcl = "PCL's default, not set by the KTH port";
 // When parameters act.
 constexpr const char* kGround = "ground is true";
 constexpr const char* kNoise = "noise is true";
@@ -29,12 +28,7 @@ void add_map(Table& table) {
               {"", 0.5, 0.9999, "liboctomap's default; KTH port: 0.97",
                "A cell's probability never rises above this."})
       .number("occupancy_threshold", &P::occupancy_threshold,
-              {"", 0.01, 0.99, kLibrary, "A cell is free, and its points go, below this."})
-      .flag("lazy_eval", &P::lazy_eval,
-            {.source = kLibrary,
-             .sentence = "Neither merges equal leaves nor fills inner nodes; changes memory and "
-                         "time, never an answer.",
-             .acts_when = "never"});
+              {"", 0.01, 0.99, kLibrary, "A cell is free, and its points go, below this."});
 }
 
 void add_beams(Table& table) {
@@ -42,12 +36,6 @@ void add_beams(Table& table) {
       .number("maximum_range", &P::maximum_range,
               {"m", -1, 1000, "maxrange, liboctomap's default",
                "Longer beams are cut here and hit nothing; -1 is unlimited."})
-      .number("minimum_range", &P::minimum_range,
-              {"m", -1, 100, "minRange, KTH port of OctoMap",
-               "Nearer points are not inserted, but still judged; off unless above 0."})
-      .flag("discretise", &P::discretise,
-            {.source = kLibrary,
-             .sentence = "One beam per occupied cell, to its centre, in place of one per point."})
       .flag("kth_nonexclusive", &P::kth_nonexclusive,
             {.source = kKth,
              .sentence = "A cell both crossed and hit in one scan gets the miss and then the hit, "
@@ -59,7 +47,7 @@ void add_beams(Table& table) {
       .flag("remove_unknown", &P::remove_unknown,
             {.source = kKth,
              .sentence = "A point whose cell no scan has touched goes.",
-             .acts_when = "minimum_range > 0 or maximum_range > 0"});
+             .acts_when = "maximum_range > 0"});
 }
 
 void add_ground(Table& table) {
@@ -72,14 +60,7 @@ void add_ground(Table& table) {
               {"m", 0.001, 1, kKth, "Points this near to the plane are ground.", kGround})
       .number("ground_angle", &P::ground_angle,
               {"rad", 0, 1.57, kKth, "The plane's normal is this near to the z axis of the world.",
-               kGround})
-      .integer("ground_iterations", &P::ground_iterations,
-               {"", 1, 100000, kKthPcl, "At most so many planes are tried.", kGround})
-      .number("ground_probability", &P::ground_probability,
-              {"", 0.01, 0.999999, kKthPcl,
-               "Tries end once a plane of inliers only was drawn this surely.", kGround})
-      .integer("ground_points", &P::ground_points,
-               {"points", 3, 1000000, kKth, "Scans with fewer points have no ground.", kGround});
+               kGround});
 }
 
 void add_noise(Table& table) {
@@ -92,13 +73,7 @@ void add_noise(Table& table) {
           {"points", 1, 1000, "KTH port (2023): K", "Neighbours of the mean distance.", kNoise})
       .number("noise_sigma", &P::noise_sigma,
               {"", 0.01, 1000, "KTH port (2023): S",
-               "Outliers are above the mean by so many standard deviations.", kNoise})
-      .choice("noise_points", &P::noise_points,
-              {{"occupied", NoisePoints::kOccupied}, {"removed", NoisePoints::kRemoved}},
-              {.source = "KTH port: 2023 and 2024",
-               .sentence = "Outliers hit their cells without a beam and are judged like other "
-                           "points, or are taken out of scan and map.",
-               .acts_when = kNoise});
+               "Outliers are above the mean by so many standard deviations.", kNoise});
 }
 
 }  // namespace

@@ -5,12 +5,6 @@
 
 namespace raymoval::octomap_method {
 
-/// What becomes of the points that the noise filter calls outliers.
-enum class NoisePoints {
-  kOccupied,  ///< Their cells are hit, but no beam is cast (KTH port, 2023).
-  kRemoved,   ///< They leave the scan and the map (KTH port, 2024).
-};
-
 /// Parameters of the octomap method. Defaults are those of liboctomap; the cell size is that of the
 /// "OctoMap 0.2" rows.
 struct Parameters {
@@ -21,11 +15,8 @@ struct Parameters {
   double clamp_min = 0.1192;
   double clamp_max = 0.971;
   double occupancy_threshold = 0.5;
-  bool lazy_eval = false;
   // Beams.
   double maximum_range = -1.0;
-  double minimum_range = -1.0;
-  bool discretise = false;
   bool kth_nonexclusive = false;
   bool cut_end_free = false;
   bool remove_unknown = false;
@@ -33,14 +24,10 @@ struct Parameters {
   bool ground = false;
   double ground_distance = 0.04;
   double ground_angle = 0.15;
-  int ground_iterations = 50;
-  double ground_probability = 0.99;
-  int ground_points = 50;
   // Noise filter.
   bool noise = false;
   int noise_neighbours = 50;
   double noise_sigma = 1.0;
-  NoisePoints noise_points = NoisePoints::kOccupied;
 };
 
 const ParameterTable<Parameters>& parameter_table();

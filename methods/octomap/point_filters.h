@@ -18,7 +18,7 @@ inline constexpr bool kHasPcl = RAYMOVAL_PCL;
 /// `ground_angle` of the z axis, refined by least squares.
 /// @param points world axes, metres
 /// @return 1 for each point within `ground_distance` of the plane; all 0 for fewer than
-/// `ground_points` points or where there is no such plane
+/// 50 points or where there is no such plane
 /// @throws ConfigurationError without PCL
 Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& parameters);
 

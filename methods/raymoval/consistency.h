@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "core/scan/sensor_model.h"
 #include "methods/raymoval/kernels/angular_grid.h"
 #include "methods/raymoval/kernels/first_hit.h"
 #include "methods/raymoval/map_reference.h"
@@ -45,12 +44,5 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
                                            const FirstHitImage& first_hit,
                                            const std::vector<float>& map_reference,
                                            const RangeMargin& margin, int threads);
-
-/// No-return evidence: bins whose whole neighbourhood has no return although the sensor looks there
-/// and the map has a surface within `maximum_range`.
-/// @param nearest_return smallest range of the scan in each bin's (wide) neighbourhood
-std::vector<int> find_no_return(const std::vector<float>& nearest_return,
-                                const FirstHitImage& first_hit, const AngularGrid& grid,
-                                const SensorModel& sensor, double maximum_range);
 
 }  // namespace raymoval::raymoval_method

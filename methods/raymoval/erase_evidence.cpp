@@ -26,32 +26,17 @@ int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
 
 EvidenceFinder::EvidenceFinder(const Parameters& parameters, const SensorModel& sensor,
                                const AngularGrid& grid)
-    : parameters_(parameters),
-      sensor_(sensor),
-      erase_rows_(rows_of_a_beam(sensor, grid, parameters)) {}
+    : parameters_(parameters), erase_rows_(rows_of_a_beam(sensor, grid, parameters)) {}
 
-Evidence EvidenceFinder::find(const ScanAgainstMap& scan, const OccupancyMap& map, int threads,
-                              StageTimes* times) {
-  Evidence evidence;
-  if (parameters_.erase) {
-    const StageScope timed(times, "erase");
-    evidence.seen_through = voxels_seen_through(scan, map, threads);
-  }
-  if (parameters_.no_return) {
-    const StageScope timed(times, "no-return evidence");
-    evidence.without_return = voxels_without_return(scan, map, threads);
-  }
-  return evidence;
-}
-
-std::vector<VoxelIndex> EvidenceFinder::voxels_seen_through(const ScanAgainstMap& scan,
-                                                            const OccupancyMap& map, int threads) {
+std::vector<VoxelIndex> EvidenceFinder::find(const ScanAgainstMap& scan, const OccupancyMap& map,
+                                             const RunContext& context) {
+  const StageScope timed(context.times, "erase");
   std::vector<VoxelIndex> voxels;
   const BinWindow neighbourhood{scan.grid(), parameters_.erase_azimuth_window, erase_rows_};
   const FirstHitImage& image = scan.first_hit();
   for (const SeenThrough& through :
        find_seen_through(scan.projected(), neighbourhood, image, scan.erase_reference(),
-                         {parameters_.erase_tau0, parameters_.erase_tau1}, threads)) {
+                         {parameters_.erase_tau0, parameters_.erase_tau1}, context.threads)) {
     const float first_hit = image.range[static_cast<std::size_t>(through.bin)];
     const bool along_surface = through.nearest_return - first_hit <
                                grazing_distance(image.ray(through.bin).direction.z(),
@@ -100,30 +85,6 @@ void EvidenceFinder::drop_own_voxels(const ScanAgainstMap& scan, const Occupancy
     return own[number_of_[slot_of(voxel)] - 1].contains(voxel.x(), voxel.y(), voxel.z());
   });
   for (const OccupancyMap::Slot slot : bricks) number_of_[slot] = 0;
-}
-
-std::vector<VoxelIndex> EvidenceFinder::voxels_without_return(const ScanAgainstMap& scan,
-                                                              const OccupancyMap& map,
-                                                              int threads) {
-  std::vector<VoxelIndex> erased;
-  windowed_minimum(scan.projected().minimum_range, scan.grid(),
-                   parameters_.no_return_azimuth_window, parameters_.no_return_elevation_window,
-                   threads, nearest_return_);
-  std::vector<VoxelKey> voxels;
-  for (const int bin : find_no_return(nearest_return_, scan.first_hit(), scan.grid(), sensor_,
-                                      parameters_.no_return_range)) {
-    const auto voxel = scan.first_hit().voxel(map, bin);
-    if (voxel) voxels.push_back(voxel_key(*voxel));
-  }
-  // However many of its bins a scan misses, it is one witness.
-  std::sort(voxels.begin(), voxels.end());
-  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
-  for (const VoxelKey voxel : voxels) {
-    if (++scans_without_return_[voxel] >= parameters_.no_return_scans) {
-      erased.push_back(voxel_index(voxel));
-    }
-  }
-  return erased;
 }
 
 }  // namespace raymoval::raymoval_method

@@ -3,12 +3,181 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
-#include "core/simd/simd.h"
-#include "methods/raymoval/kernels/image_kernels.h"
+#include "core/simd/compiled_sets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "methods/raymoval/map_reference.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+//
+#include "hwy/highway.h"
+
+#ifndef RAYMOVAL_WINDOW_ROW
+#define RAYMOVAL_WINDOW_ROW
+namespace raymoval::raymoval_method {
+
+/// One row of eqs 8-9 for windows of 3 x 3.
+struct WindowRow {
+  std::array<const float*, 3> values{};  ///< The rows above, here and below.
+  const float* wanted = nullptr;         ///< Bins with a finite value here are wanted.
+  int columns = 0;
+  /// Ranks of two percentiles among 1 .. 9 finite values.
+  std::array<std::array<int, 10>, 2> ranks{};
+  std::array<float*, 2> results{};  ///< Null where a percentile is not asked for.
+  float* scratch = nullptr;         ///< 3 x (columns + 2) numbers.
+};
+
+struct WindowKernel {
+  int lanes;  ///< Bins handled at a time; a row needs at least so many.
+  void (*percentiles)(const WindowRow& job);
+};
+
+}  // namespace raymoval::raymoval_method
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace raymoval::raymoval_method {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, 16>;
+using F = hn::Vec<Floats>;
+
+HWY_INLINE void order(F& a, F& b) {
+  const F low = hn::Min(a, b);
+  b = hn::Max(a, b);
+  a = low;
+}
+
+/// Sorts the three rows of each column into `scratch`, with one column more at either end.
+void sort_columns(const WindowRow& job) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int stride = job.columns + 2;
+  for (int next = 0; next < job.columns; next += lanes) {
+    const int i = std::min(next, job.columns - lanes);
+    F a = hn::LoadU(d, job.values[0] + i);
+    F b = hn::LoadU(d, job.values[1] + i);
+    F c = hn::LoadU(d, job.values[2] + i);
+    order(a, b);
+    order(b, c);
+    order(a, b);
+    hn::StoreU(a, d, job.scratch + i + 1);
+    hn::StoreU(b, d, job.scratch + stride + i + 1);
+    hn::StoreU(c, d, job.scratch + 2 * stride + i + 1);
+  }
+  for (int k = 0; k < 3; ++k) {
+    float* line = job.scratch + k * stride;
+    line[0] = line[job.columns];
+    line[job.columns + 1] = line[1];
+  }
+}
+
+/// Sorts nine values of which three times three are sorted (the rest of Floyd's network).
+HWY_INLINE void sort_nine(std::array<F, 9>& v) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    order(v[k], v[k + 3]);
+    order(v[k + 3], v[k + 6]);
+    order(v[k], v[k + 3]);
+  }
+  constexpr std::array<std::pair<std::size_t, std::size_t>, 7> kRest = {
+      {{1, 3}, {5, 7}, {2, 6}, {4, 6}, {2, 4}, {2, 3}, {5, 6}}};
+  for (const auto& [a, b] : kRest) order(v[a], v[b]);
+}
+
+/// The second smallest of nine values of which three times three are sorted: the second smallest of
+/// the three smallest, or a middle one, which is never smaller than its own smallest.
+HWY_INLINE F second_smallest(const std::array<F, 9>& v) {
+  const F low = hn::Min(v[0], v[3]), high = hn::Max(v[0], v[3]);
+  const F middle = hn::Min(v[1], hn::Min(v[4], v[7]));
+  return hn::Min(middle, hn::Min(high, hn::Max(low, v[6])));
+}
+
+HWY_INLINE F second_largest(const std::array<F, 9>& v) {
+  const F low = hn::Min(v[2], v[5]), high = hn::Max(v[2], v[5]);
+  const F middle = hn::Max(v[1], hn::Max(v[4], v[7]));
+  return hn::Max(middle, hn::Max(low, hn::Min(high, v[8])));
+}
+
+/// The value of each window at the rank that its number of finite values has.
+HWY_INLINE F value_at_rank(const std::array<F, 9>& sorted, const std::array<int, 10>& ranks) {
+  const F infinite = hn::Set(Floats(), std::numeric_limits<float>::infinity());
+  const auto value_of = [&](std::size_t count) {
+    return sorted[static_cast<std::size_t>(ranks[count])];
+  };
+  // The infinite ones come last: as many values are finite as the last finite one says.
+  F result = value_of(1);
+  for (std::size_t count = 2; count <= 9; ++count) {
+    result = hn::IfThenElse(hn::Lt(sorted[count - 1], infinite), value_of(count), result);
+  }
+  return result;
+}
+
+/// The percentiles of the windows around columns i .. i + Lanes - 1.
+HWY_INLINE void find_percentiles(const WindowRow& job, int i, hn::Mask<Floats> wanted) {
+  const Floats d;
+  const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+  std::array<F, 9> v;
+  for (int k = 0; k < 9; ++k) {
+    v[static_cast<std::size_t>(k)] =
+        hn::LoadU(d, job.scratch + k % 3 * (job.columns + 2) + i + k / 3);
+  }
+  const F largest = hn::Max(v[2], hn::Max(v[5], v[8]));
+  const bool is_full = hn::AllFalse(d, hn::AndNot(hn::Lt(largest, infinite), wanted));
+  std::array<F, 9> sorted = v;
+  bool is_sorted = false;
+  for (std::size_t q = 0; q < 2; ++q) {
+    if (job.results[q] == nullptr) continue;
+    F result;
+    if (is_full && job.ranks[q][9] == 1) {
+      result = second_smallest(v);
+    } else if (is_full && job.ranks[q][9] == 7) {
+      result = second_largest(v);
+    } else {
+      if (!is_sorted) sort_nine(sorted);
+      is_sorted = true;
+      result = value_at_rank(sorted, job.ranks[q]);
+    }
+    hn::StoreU(result, d, job.results[q] + i);
+  }
+}
+
+void percentiles(const WindowRow& job) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+  bool sorted = false;
+  for (int next = 0; next < job.columns; next += lanes) {
+    const int i = std::min(next, job.columns - lanes);
+    const auto wanted = hn::Lt(hn::LoadU(d, job.wanted + i), infinite);
+    if (hn::AllFalse(d, wanted)) continue;
+    if (!sorted) sort_columns(job);
+    sorted = true;
+    find_percentiles(job, i, wanted);
+  }
+}
+
+}  // namespace
+
+WindowKernel window_kernel() {
+  return {static_cast<int>(hn::Lanes(Floats())), &percentiles};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace raymoval::raymoval_method
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "core/simd/instruction_sets.h"
 
 namespace raymoval::raymoval_method {
+
+HWY_EXPORT(window_kernel);
+
 namespace {
 
 /// Calls `visit(value)` for each bin within the window around column `i`, row `j`.
@@ -59,7 +228,7 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
                           const AngularGrid& grid, int radius,
                           const std::array<std::optional<double>, 2>& quantiles, int threads,
                           WindowPercentiles& percentiles) {
-  const kernels::ImageKernels kernel = kernels::best_image_kernels();
+  const WindowKernel kernel = RAYMOVAL_BEST_KERNEL(window_kernel)();
   const std::array<std::vector<float>*, 2> results = {&percentiles.first, &percentiles.second};
   if (radius != 1 || grid.azimuth_bins < kernel.lanes) {
     for (std::size_t q = 0; q < 2; ++q) {
@@ -72,7 +241,7 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
   const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
   const auto rows = static_cast<std::size_t>(grid.elevation_bins);
   const std::vector<float> beyond(columns, kNoRange);
-  kernels::WindowRow shared;
+  WindowRow shared;
   shared.columns = grid.azimuth_bins;
   for (std::size_t q = 0; q < 2; ++q) {
     for (int count = 1; quantiles[q] && count <= 9; ++count) {
@@ -81,7 +250,7 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
   }
   parallel_chunks(threads, rows, 16, [&](std::size_t begin, std::size_t end) {
     std::vector<float> scratch(3 * (columns + 2));
-    kernels::WindowRow job = shared;
+    WindowRow job = shared;
     job.scratch = scratch.data();
     for (std::size_t row = begin; row < end; ++row) {
       const float* here = values.data() + row * columns;
@@ -104,37 +273,5 @@ float windowed_minimum(const std::vector<float>& values, const BinWindow& window
   return smallest;
 }
 
-void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
-                      int elevation_radius, int threads, std::vector<float>& minimum) {
-  const kernels::ImageKernels kernel = kernels::best_image_kernels();
-  minimum.resize(values.size());
-  if (grid.azimuth_bins < kernel.lanes + azimuth_radius) {
-    for (int bin = 0; bin < grid.size(); ++bin) {
-      minimum[static_cast<std::size_t>(bin)] =
-          windowed_minimum(values, {grid, azimuth_radius, elevation_radius}, bin);
-    }
-    return;
-  }
-  kernels::WindowMinimum shared;
-  shared.values = values.data();
-  shared.result = minimum.data();
-  shared.columns = grid.azimuth_bins;
-  shared.rows = grid.elevation_bins;
-  shared.azimuth_radius = azimuth_radius;
-  shared.elevation_radius = elevation_radius;
-  const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
-  const auto lanes = static_cast<std::size_t>(kernel.lanes);
-  const std::size_t strips = (columns + lanes - 1) / lanes;
-  parallel_chunks(threads, strips, 8, [&](std::size_t begin, std::size_t end) {
-    AlignedArray<float> scratch;
-    scratch.require(lanes * static_cast<std::size_t>(grid.elevation_bins + 2 * elevation_radius));
-    kernels::WindowMinimum job = shared;
-    job.scratch = scratch.data();
-    for (std::size_t strip = begin; strip < end; ++strip) {
-      const std::size_t first = std::min(strip * lanes, columns - lanes);
-      kernel.minimum(job, static_cast<int>(first), static_cast<int>(strip * lanes - first));
-    }
-  });
-}
-
 }  // namespace raymoval::raymoval_method
+#endif

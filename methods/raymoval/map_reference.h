@@ -34,11 +34,6 @@ void windowed_percentiles(const std::vector<float>& values, const std::vector<fl
                           const std::array<std::optional<double>, 2>& quantiles, int threads,
                           WindowPercentiles& percentiles);
 
-/// The smallest value within `azimuth_radius` columns and `elevation_radius` rows of each bin.
-/// @param minimum replaced; its memory is used again
-void windowed_minimum(const std::vector<float>& values, const AngularGrid& grid, int azimuth_radius,
-                      int elevation_radius, int threads, std::vector<float>& minimum);
-
 /// The bins around a bin of a grid.
 struct BinWindow {
   AngularGrid grid;

@@ -8,9 +8,6 @@ using Table = ParameterTable<Parameters>;
 using P = Parameters;
 constexpr const char* kOurs = "not in the paper";
 // When parameters act.
-constexpr const char* kForward = "forward_test is true and map_source is not naive";
-constexpr const char* kErase = "erase is true";
-constexpr const char* kNoReturn = "no_return is true";
 constexpr const char* kValidate = "validate is true";
 
 void add_grid(Table& table) {
@@ -31,93 +28,42 @@ void add_grid(Table& table) {
               {"m", 1, 500, "eq. 7, Table 1", "Rays end here; points beyond stay static."})
       .number("minimum_range", &P::minimum_range,
               {"m", 0, 20, kOurs,
-               "Ego radius: nearer points go to no bin and nearer map voxels stop no ray."})
-      .choice("map_source", &P::map_source,
-              {{"prior", MapSource::kPrior},
-               {"growing", MapSource::kGrowing},
-               {"naive", MapSource::kNaive}},
-              {.source = "section 3, 'prior map' and 'static map'",
-               .sentence = "The map that each scan is tested against: what all scans leave of the "
-                           "map of all their points (prior), the static points of earlier scans "
-                           "(growing), or all points of all scans, where eq. 11 says nothing "
-                           "(naive). Only growing works online."});
+               "Ego radius: nearer points go to no bin and nearer map voxels stop no ray."});
 }
 
 void add_tests(Table& table) {
   table
       .integer("neighbourhood", &P::neighbourhood,
                {"bins", 0, 10, "eq. 8, Table 1", "Radius r_n of the window of first hits."})
-      .number(
-          "percentile", &P::percentile,
-          {"", 0, 1, "eq. 9, Table 1", "Quantile q of the window in the forward test.", kForward})
-      .flag("forward_test", &P::forward_test,
-            {.source = "eq. 11",
-             .sentence = "Flag points that stand in front of the map.",
-             .acts_when = "map_source is not naive"})
-      .number(
-          "tau0", &P::tau0,
-          {"m", 0, 10, "eq. 11, Table 1", "Constant part of the forward test's margin.", kForward})
+      .number("percentile", &P::percentile,
+              {"", 0, 1, "eq. 9, Table 1", "Quantile q of the window in the forward test."})
+      .number("tau0", &P::tau0,
+              {"m", 0, 10, "eq. 11, Table 1", "Constant part of the forward test's margin."})
       .number("tau1", &P::tau1,
               {"", 0, 2, "eq. 11, Table 1 (printed in m, but a ratio)",
-               "Part of the forward test's margin that grows with the point's range.", kForward})
-      .flag("erase", &P::erase,
-            {.source = "Fig. 1 ('erase cases')",
-             .sentence = "Erase map voxels that a scan sees through."})
+               "Part of the forward test's margin that grows with the point's range."})
       .number("erase_tau0", &P::erase_tau0,
-              {"m", 0, 10, kOurs, "Constant part of the erase test's margin.", kErase})
+              {"m", 0, 10, kOurs, "Constant part of the erase test's margin."})
       .number("erase_tau1", &P::erase_tau1,
-              {"", 0, 2, kOurs, "Part of the erase test's margin that grows with the map's range.",
-               kErase})
+              {"", 0, 2, kOurs, "Part of the erase test's margin that grows with the map's range."})
       .number("erase_height", &P::erase_height,
               {"voxels", 0, 10, kOurs,
                "The ray must have changed its height by this much between the first hit and the "
-               "return behind it; less may be one surface seen at a grazing angle.",
-               kErase})
+               "return behind it; less may be one surface seen at a grazing angle."})
       .number("erase_height_limit", &P::erase_height_limit,
               {"m", 0, 100, kOurs,
                "Beyond this distance behind the first hit no change of height is asked for.",
-               "erase is true and erase_height > 0"})
+               "erase_height > 0"})
       .number("erase_percentile", &P::erase_percentile,
               {"", 0, 1, "eq. 9 ('lower quantile' in the text)",
-               "Quantile of the window of first hits in the erase test.", kErase})
+               "Quantile of the window of first hits in the erase test."})
       .integer("erase_azimuth_window", &P::erase_azimuth_window,
                {"bins", 0, 30, kOurs,
-                "A voxel is erased only if no return within so many columns supports it.", kErase})
+                "A voxel is erased only if no return within so many columns supports it."})
       .integer("erase_elevation_window", &P::erase_elevation_window,
                {"bins", -1, 100, kOurs,
                 "A voxel is erased only if no return within so many rows supports it; -1 reaches "
-                "the neighbouring beam, but at most 0.5 degrees.",
-                kErase})
-      .flag("permanent_erase", &P::permanent_erase,
-            {.source = kOurs,
-             .sentence = "A voxel once seen through is never filled again.",
-             .acts_when = "map_source is growing"})
-      .flag("erased_points", &P::erased_points,
-            {.source = "Fig. 1 ('erase cases')",
-             .sentence = "Points in voxels that were seen through are candidates for removal, as "
-                         "those are that eq. 11 flags.",
-             .acts_when =
-                 "map_source is prior or map_source is growing and permanent_erase is true"});
-}
-
-void add_no_return(Table& table) {
-  table
-      .flag("no_return", &P::no_return,
-            {.source = "runtime table ('no-return evidence')",
-             .sentence = "Directions without return count as seeing through the first hit; needs a "
-                         "sensor whose missing returns mean something."})
-      .integer(
-          "no_return_azimuth_window", &P::no_return_azimuth_window,
-          {"bins", 0, 30, kOurs, "Half width of the neighbourhood that must be empty.", kNoReturn})
-      .integer("no_return_elevation_window", &P::no_return_elevation_window,
-               {"bins", 0, 100, kOurs, "Half height of the neighbourhood that must be empty.",
-                kNoReturn})
-      .number("no_return_range", &P::no_return_range,
-              {"m", 0, 200, kOurs,
-               "Only map voxels nearer than this are erased for want of return.", kNoReturn})
-      .integer(
-          "no_return_scans", &P::no_return_scans,
-          {"scans", 1, 1000, kOurs, "Scans without return it takes to erase a voxel.", kNoReturn});
+                "the neighbouring beam, but at most 0.5 degrees."});
 }
 
 void add_validation(Table& table) {
@@ -172,14 +118,9 @@ void add_validation(Table& table) {
 }
 
 void add_answer(Table& table) {
-  table
-      .flag("offline", &P::offline,
-            {.source = kOurs,
-             .sentence = "Answer for all points from the final map instead of scan by scan."})
-      .flag("backward_pass", &P::backward_pass,
-            {.source = kOurs,
-             .sentence = "Offline: go through the scans a second time, last to first.",
-             .acts_when = "offline is true"});
+  table.flag("offline", &P::offline,
+             {.source = kOurs,
+              .sentence = "Answer for all points from the final map instead of scan by scan."});
 }
 
 }  // namespace
@@ -189,7 +130,6 @@ const ParameterTable<Parameters>& parameter_table() {
     Table t;
     add_grid(t);
     add_tests(t);
-    add_no_return(t);
     add_validation(t);
     add_answer(t);
     return t;

@@ -5,14 +5,6 @@
 
 namespace raymoval::raymoval_method {
 
-/// Which map a scan is tested against by eq. 11 (the paper says "prior map" and "static map").
-enum class MapSource {
-  kPrior,    ///< All points of all scans without what any scan sees through; offline only.
-  kGrowing,  ///< The points of earlier scans that were judged static.
-  kNaive,  ///< All points of all scans: each is its own first hit, so eq. 11 says nothing, and the
-           ///< answer is what the scans see through; offline only.
-};
-
 /// Parameters of the paper's method. What the paper prints is named in the table of
 /// parameters.cpp; every other member settles something the paper leaves open.
 struct Parameters {
@@ -24,16 +16,13 @@ struct Parameters {
   double voxel_size = 0.2;
   double maximum_range = 60.0;
   double minimum_range = 2.7;
-  MapSource map_source = MapSource::kPrior;
   // Map reference (eqs 8-9).
   int neighbourhood = 1;
   double percentile = 0.9;
   // Forward test: the scan stands in front of the map (eq. 11).
-  bool forward_test = true;
   double tau0 = 0.30;
   double tau1 = 0.35;
   // Erase test: the scan sees through the map.
-  bool erase = true;
   double erase_tau0 = 0.30;
   double erase_tau1 = 0.10;
   double erase_percentile = 0.1;
@@ -41,14 +30,6 @@ struct Parameters {
   double erase_height_limit = 5.0;
   int erase_azimuth_window = 1;
   int erase_elevation_window = -1;
-  bool permanent_erase = true;
-  bool erased_points = true;
-  // No-return evidence.
-  bool no_return = false;
-  int no_return_azimuth_window = 2;
-  int no_return_elevation_window = 8;
-  double no_return_range = 20.0;
-  int no_return_scans = 3;
   // Spatial consistency validation of a scan's candidates (eqs 12-15).
   bool validate = true;
   double cluster_gap = 0.3;
@@ -66,7 +47,6 @@ struct Parameters {
   double minimum_width = 0.0;
   // Answer.
   bool offline = true;
-  bool backward_pass = false;
 };
 
 /// Names, units, legal ranges, sources and a sentence for each parameter.

@@ -8,7 +8,7 @@
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/common/side_by_side.h"
-#include "methods/raymoval/answers.h"
+#include "methods/common/workspaces.h"
 #include "methods/raymoval/erase_evidence.h"
 #include "methods/raymoval/scan_against_map.h"
 #include "methods/raymoval/static_map.h"
@@ -20,10 +20,9 @@ namespace {
 class RaymovalRun {
  public:
   RaymovalRun(const Parameters& parameters, const ScanSource& scans, const RunContext& context)
-      : parameters_(parameters),
-        scans_(scans),
+      : scans_(scans),
         context_(context),
-        map_(parameters.voxel_size, parameters.permanent_erase),
+        map_(parameters.voxel_size),
         test_(parameters, scans.sensor()),
         evidence_finder_(parameters, scans.sensor(), test_.grid()) {}
 
@@ -35,15 +34,11 @@ class RaymovalRun {
     });
   }
 
-  /// The map from which an offline run answers: one that has grown from scan to scan, or one of all
-  /// points that has lost what any scan sees through.
-  StaticMap& build_map() {
-    if (parameters_.map_source == MapSource::kGrowing) {
-      pass_over([this](Scan scan) { process(std::move(scan)); });
-    } else {
-      collect_all_points();
-      pass_over([this](Scan scan) { erase_seen_through(std::move(scan)); });
-    }
+  /// The prior map of an offline run: all points, less what any scan sees through.
+  StaticMap& build_prior_map() {
+    collect_all_points();
+    for_each_scan("raymoval", scans_, context_,
+                  [this](Scan scan) { erase_seen_through(std::move(scan)); });
     update_map(context_);
     return map_;
   }
@@ -57,12 +52,16 @@ class RaymovalRun {
     test_.find_references(map_, context_);                    // eqs 8-9
     const Mask candidates = test_.find_candidates(context_);  // eq. 11
     Mask dynamic;                                             // eqs 12-15
-    Evidence evidence;                                        // the erase cases of Fig. 1
+    std::vector<VoxelIndex> seen_through;                     // the erase cases of Fig. 1
     side_by_side(
         context_, "validation and erase",
-        [&](const RunContext& context) { dynamic = validate(candidates, context.times); },
-        [&](const RunContext& context) { evidence = find_evidence(context); });
-    left_over_ = {std::move(evidence), dynamic};  // The map takes it in before the next cast.
+        [&](const RunContext& context) {
+          dynamic = test_.validate(candidates, map_.occupied(), context);
+        },
+        [&](const RunContext& context) {
+          seen_through = evidence_finder_.find(test_, map_.occupied(), context);
+        });
+    left_over_ = {std::move(seen_through), dynamic};  // The map takes it in before the next cast.
     return dynamic;
   }
 
@@ -71,31 +70,17 @@ class RaymovalRun {
     project(std::move(scan));                              // eqs 1-3, 10
     test_.cast_first_hits(map_.occupied(), context_);      // eqs 4-7
     test_.find_references(map_, context_, Tests::kErase);  // eqs 8-9
-    left_over_ = {find_evidence(context_), {}};
+    left_over_ = {evidence_finder_.find(test_, map_.occupied(), context_), {}};
   }
 
   /// Projects a scan, and beside it brings the map up to date with the scan before, whose answer
   /// did not have to wait for that.
   void project(Scan scan) {
-    const Pose pose = scan.T_world_sensor;
     side_by_side(
         context_, "binning and integration",
-        [&](const RunContext& context) {
-          update_map(context);
-          const StageScope timed(context.times, "raycasting");
-          test_.prepare_cast(map_.occupied(), pose, context);
-        },
+        [&](const RunContext& context) { update_map(context); },
         [&](const RunContext& context) { test_.project_next(std::move(scan), context); });
     test_.take_next();
-  }
-
-  Mask validate(const Mask& candidates, StageTimes* times) const {
-    const StageScope timed(parameters_.validate ? times : nullptr, "validation");
-    return test_.validate(candidates, map_.occupied());
-  }
-
-  Evidence find_evidence(const RunContext& context) {
-    return evidence_finder_.find(test_, map_.occupied(), context.threads, context.times);
   }
 
   /// Takes out of the map what the scan at hand saw through, and adds its points that are not
@@ -104,8 +89,7 @@ class RaymovalRun {
     {
       const StageScope timed(context.times, "integration");
       const LeftOver left_over = std::exchange(left_over_, {});
-      for (const VoxelIndex& voxel : left_over.evidence.seen_through) map_.erase(voxel);
-      for (const VoxelIndex& voxel : left_over.evidence.without_return) map_.erase(voxel);
+      for (const VoxelIndex& voxel : left_over.seen_through) map_.erase(voxel);
       if (!left_over.dynamic.empty()) {
         map_.integrate(test_.voxels().voxels, test_.known(),
                        runs_within(test_.voxels(), left_over.dynamic));
@@ -115,14 +99,14 @@ class RaymovalRun {
     map_.occupied().update_boxes(context.threads);
   }
 
-  /// Makes the naive map: each scan is added to it beside the search for the next one's voxels.
+  /// Each scan is added to the map beside the search for the next one's voxels.
   void collect_all_points() {
     VoxelRuns at_hand, next;
     const auto integrate = [&](const RunContext& context) {
       const StageScope timed(context.times, "integration");
       map_.integrate(at_hand.voxels);
     };
-    for_each_scan("raymoval, naive map", scans_, context_, [&](const Scan& scan) {
+    for_each_scan("raymoval, all points", scans_, context_, [&](const Scan& scan) {
       side_by_side(context_, "integration", integrate, [&](const RunContext& context) {
         const StageScope timed(context.times, "binning");
         find_voxels(scan, map_.occupied().inverse_voxel_size(), context.threads, next);
@@ -132,33 +116,70 @@ class RaymovalRun {
     integrate(context_);
   }
 
-  /// Visits the scans from the first to the last, and back if a backward pass is asked for.
-  template <class Visit>
-  void pass_over(Visit&& visit) {
-    for_each_scan("raymoval", scans_, context_, visit);
-    if (!parameters_.backward_pass) return;
-    for_each_scan("raymoval, backward", scans_, all_scans_backward(scans_), context_, visit);
-  }
-
-  const Parameters& parameters_;
   const ScanSource& scans_;
   const RunContext& context_;
   StaticMap map_;
   ScanAgainstMap test_;
   EvidenceFinder evidence_finder_;
-  /// What the scan at hand says about the map, until the map has taken it in.
+  /// What the map has not taken in yet of the scan at hand.
   struct LeftOver {
-    Evidence evidence;
+    std::vector<VoxelIndex> seen_through;
     Mask dynamic;  ///< Empty if no points are to be added.
   };
   LeftOver left_over_;
 };
 
+/// Why a point is kept or removed: the codes of `ReasonSink`.
+enum Reason : std::uint8_t { kNeverContradicted, kSeenThrough, kInFrontOfMap, kRestored };
+
+std::vector<std::string> reason_sentences() {
+  return {"no scan contradicts its voxel, which stays in the map", "a scan saw through its voxel",
+          "it stands in front of the map (eq. 11)",
+          "it was a candidate, and validation found that it belongs to the static map"};
+}
+
+std::vector<std::uint8_t> reasons_for(const Mask& candidates, const Mask& dynamic,
+                                      const std::vector<VoxelState>& states) {
+  std::vector<std::uint8_t> codes(states.size(), kNeverContradicted);
+  for (std::size_t k = 0; k < codes.size(); ++k) {
+    if (candidates[k] == 0) continue;
+    const Reason reason = states[k] == VoxelState::kErased ? kSeenThrough : kInFrontOfMap;
+    codes[k] = dynamic[k] == 0 ? kRestored : reason;
+  }
+  return codes;
+}
+
+/// The offline answer: tests every scan against the finished map, as many scans at a time as there
+/// are threads.
+void answer_from_map(StaticMap& map, const Parameters& parameters, const ScanSource& scans,
+                     RemovalSink& sink, const RunContext& context) {
+  if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
+  RunContext of_scan = context;
+  of_scan.threads = 1;
+  if (context.threads > 1) of_scan.times = nullptr;
+  Workspaces<ScanAgainstMap> workspaces(
+      [&] { return std::make_unique<ScanAgainstMap>(parameters, scans.sensor()); });
+  for_scans_at_once("raymoval, answers", "answer and validation", scans, context, [&](Scan& scan) {
+    const std::size_t index = scan.index;
+    workspaces.with_one([&](ScanAgainstMap& test) {
+      test.project_scan(std::move(scan), of_scan);                              // eqs 1-3, 10
+      test.cast_first_hits(map.occupied(), of_scan);                            // eqs 4-7
+      test.find_references(map, of_scan, Tests::kForward);                      // eqs 8-9
+      const Mask candidates = test.find_candidates(of_scan);                    // eq. 11
+      const Mask dynamic = test.validate(candidates, map.occupied(), of_scan);  // eqs 12-15
+      sink.accept(index, dynamic);
+      if (context.reasons == nullptr) return;
+      context.reasons->accept(
+          index, reasons_for(candidates, dynamic, test.voxels().of_points(test.known().states)));
+    });
+  });
+}
+
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   RaymovalRun raymoval_run(parameters, scans, context);
   if (parameters.offline) {
-    answer_from_map(raymoval_run.build_map(), parameters, scans, sink, context);
+    answer_from_map(raymoval_run.build_prior_map(), parameters, scans, sink, context);
   } else {
     raymoval_run.answer_online(sink);
   }
@@ -167,11 +188,6 @@ void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sin
 }  // namespace
 
 std::unique_ptr<Remover> make_raymoval(const Parameters& parameters) {
-  if (!parameters.offline && parameters.map_source != MapSource::kGrowing) {
-    throw ConfigurationError(
-        "raymoval.map_source = prior and naive need all scans, which an online run (offline = "
-        "false) does not have; use map_source = growing.");
-  }
   return remover_from(parameters, run);
 }
 

@@ -10,7 +10,6 @@ namespace raymoval {
 namespace raymoval_method {
 
 /// "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping".
-/// @throws ConfigurationError if the map that is asked for needs all scans, but the run is online
 std::unique_ptr<Remover> make_raymoval(const Parameters& parameters);
 
 }  // namespace raymoval_method

@@ -44,7 +44,6 @@ ScanAgainstMap::ScanAgainstMap(const Parameters& parameters, const SensorModel& 
       grid_(grid_for(sensor, parameters)),
       caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {
   known_.remembers = true;
-  for (ScanInGrid* scan : {&at_hand_, &next_}) scan->wanted.ask_for_all(grid_);  // For no_return.
 }
 
 void ScanAgainstMap::project_next(Scan scan, const RunContext& context) {
@@ -52,10 +51,8 @@ void ScanAgainstMap::project_next(Scan scan, const RunContext& context) {
   next_.scan = std::move(scan);
   find_voxels(next_.scan, 1.0 / parameters_.voxel_size, context.threads, next_.voxels);
   project(next_.scan, grid_, parameters_.minimum_range, context.threads, next_.projected);
-  if (!parameters_.no_return) {
-    // Eq. 8 is asked for where the scan has a return.
-    next_.wanted.ask_around(next_.projected.minimum_range, grid_, parameters_.neighbourhood);
-  }
+  // Eq. 8 is asked for where the scan has a return.
+  next_.wanted.ask_around(next_.projected.minimum_range, grid_, parameters_.neighbourhood);
 }
 
 void ScanAgainstMap::cast_first_hits(OccupancyMap& map, const RunContext& context) {
@@ -66,29 +63,17 @@ void ScanAgainstMap::cast_first_hits(OccupancyMap& map, const RunContext& contex
 void ScanAgainstMap::find_references(const StaticMap& map, const RunContext& context, Tests tests) {
   const StageScope timed(context.times, "classification");
   std::array<std::optional<double>, 2> quantiles;
-  if (tests != Tests::kErase && parameters_.forward_test) quantiles[0] = parameters_.percentile;
-  if (tests != Tests::kForward && parameters_.erase) quantiles[1] = parameters_.erase_percentile;
+  if (tests != Tests::kErase) quantiles[0] = parameters_.percentile;
+  if (tests != Tests::kForward) quantiles[1] = parameters_.erase_percentile;
   windowed_percentiles(first_hit_.range, at_hand_.projected.minimum_range, grid_,
                        parameters_.neighbourhood, quantiles, context.threads, references_);
   map.look_up(at_hand_.voxels.voxels, context.threads, known_);
 }
 
-bool ScanAgainstMap::erased_points_are_candidates() const {
-  // What may be filled again says nothing for good.
-  const bool for_good = parameters_.map_source == MapSource::kPrior || parameters_.permanent_erase;
-  return parameters_.erased_points && for_good;
-}
-
 Mask ScanAgainstMap::find_candidates(const RunContext& context) const {
   const StageScope timed(context.times, "classification");
-  Mask candidates;
-  if (parameters_.forward_test) {
-    candidates = check_consistency(at_hand_.projected, references_.first,
-                                   {parameters_.tau0, parameters_.tau1}, context.threads);
-  } else {
-    candidates.assign(at_hand_.scan.size(), 0);
-  }
-  if (!erased_points_are_candidates()) return candidates;
+  Mask candidates = check_consistency(at_hand_.projected, references_.first,
+                                      {parameters_.tau0, parameters_.tau1}, context.threads);
   for (std::size_t run = 0; run < at_hand_.voxels.size(); ++run) {
     if (known_.states[run] != VoxelState::kErased) continue;
     std::fill(candidates.begin() + at_hand_.voxels.first[run],
@@ -97,22 +82,10 @@ Mask ScanAgainstMap::find_candidates(const RunContext& context) const {
   return candidates;
 }
 
-Mask ScanAgainstMap::find_off_map(Scan scan, const StaticMap& map, const RunContext& context) {
-  const StageScope timed(context.times, "answer");
-  at_hand_.scan = std::move(scan);
-  find_voxels(at_hand_.scan, 1.0 / parameters_.voxel_size, context.threads, at_hand_.voxels);
-  map.look_up(at_hand_.voxels.voxels, context.threads, known_);
-  Mask off(at_hand_.scan.size(), 0);
-  for (std::size_t run = 0; run < at_hand_.voxels.size(); ++run) {
-    if (known_.states[run] == VoxelState::kOccupied) continue;
-    std::fill(off.begin() + at_hand_.voxels.first[run],
-              off.begin() + at_hand_.voxels.first[run + 1], std::uint8_t{1});
-  }
-  return off;
-}
-
-Mask ScanAgainstMap::validate(const Mask& candidates, const OccupancyMap& static_map) const {
+Mask ScanAgainstMap::validate(const Mask& candidates, const OccupancyMap& static_map,
+                              const RunContext& context) const {
   if (!parameters_.validate) return candidates;
+  const StageScope timed(context.times, "validation");
   std::vector<std::size_t> chosen;
   ScanPoints points;
   for_each_set(candidates, [&](std::size_t k) {

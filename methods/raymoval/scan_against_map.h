@@ -43,11 +43,6 @@ class ScanAgainstMap {
   void project_next(Scan scan, const RunContext& context);
   /// Makes the scan projected last the one at hand.
   void take_next() { std::swap(at_hand_, next_); }
-  /// Does the part of the next `cast_first_hits` that asks for the scan's pose only. The map must
-  /// not change in between.
-  void prepare_cast(OccupancyMap& map, const Pose& T_world_sensor, const RunContext& context) {
-    caster_.prepare(map, T_world_sensor, context.threads);
-  }
   /// Eqs 4-7. It changes nothing of a map whose boxes are up to date.
   void cast_first_hits(OccupancyMap& map, const RunContext& context);
   /// Eqs 8-9 where the scan has a return, for the tests to come. It also looks the points' voxels
@@ -55,10 +50,9 @@ class ScanAgainstMap {
   void find_references(const StaticMap& map, const RunContext& context, Tests tests = Tests::kBoth);
   /// Eq. 11, and the erase cases of Fig. 1: points in voxels that a scan saw through.
   [[nodiscard]] Mask find_candidates(const RunContext& context) const;
-  /// Takes a scan and finds its points whose voxel is not in the map.
-  [[nodiscard]] Mask find_off_map(Scan scan, const StaticMap& map, const RunContext& context);
   /// Eqs 12-15. It gives back the candidates themselves if they are not to be validated.
-  [[nodiscard]] Mask validate(const Mask& candidates, const OccupancyMap& static_map) const;
+  [[nodiscard]] Mask validate(const Mask& candidates, const OccupancyMap& static_map,
+                              const RunContext& context) const;
 
   [[nodiscard]] const Scan& scan() const { return at_hand_.scan; }
   [[nodiscard]] const AngularGrid& grid() const { return grid_; }
@@ -79,9 +73,6 @@ class ScanAgainstMap {
     ProjectedScan projected;
     WantedBins wanted;  ///< Where the steps below look at first hits.
   };
-  /// Whether what was seen through says something about the points that lie there.
-  [[nodiscard]] bool erased_points_are_candidates() const;
-
   const Parameters& parameters_;
   AngularGrid grid_;
   FirstHitCaster caster_;

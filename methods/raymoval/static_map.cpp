@@ -67,12 +67,7 @@ VoxelState StaticMap::state(Slot slot, const VoxelIndex& voxel) const {
 }
 
 void StaticMap::integrate(Slot slot, const VoxelIndex& voxel) {
-  if (was_erased(slot, voxel)) {
-    if (permanent_erase_) return;
-    erased_[erased_of_[slot]].occupied[static_cast<std::size_t>(voxel.x() & Brick::kMask)] &=
-        ~Brick::bit(voxel.y(), voxel.z());
-  }
-  occupied_.insert(slot, voxel);
+  if (!was_erased(slot, voxel)) occupied_.insert(slot, voxel);
 }
 
 void StaticMap::integrate(const std::vector<VoxelIndex>& voxels, const VoxelLookup& found,
@@ -81,8 +76,7 @@ void StaticMap::integrate(const std::vector<VoxelIndex>& voxels, const VoxelLook
   Slot last_slot = OccupancyMap::kNoBrick;
   const VoxelIndex* present = nullptr;  // Neighbours often share a voxel.
   for (std::size_t k = 0; k < voxels.size(); ++k) {
-    // What was erased since was occupied before, and for good.
-    if (dynamic[k] != 0 || (permanent_erase_ && found.states[k] != VoxelState::kEmpty)) continue;
+    if (dynamic[k] != 0 || found.states[k] != VoxelState::kEmpty) continue;
     if (present != nullptr && voxels[k] == *present) continue;
     present = &voxels[k];
     Slot slot = found.slots[k];

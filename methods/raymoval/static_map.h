@@ -10,7 +10,7 @@ namespace raymoval::raymoval_method {
 enum class VoxelState : std::uint8_t {
   kEmpty,
   kOccupied,
-  kErased,  ///< A scan saw through it, and it was not filled again.
+  kErased,  ///< A scan saw through it.
 };
 
 /// What a map knows of the voxels of a scan's points.
@@ -29,15 +29,13 @@ struct VoxelLookup {
       bricks;  ///< The bricks found before, by part of the scan, then by place.
 };
 
-/// The map M of the paper with what it must remember: which voxels were seen
-/// through. Memory is bounded by the number of observed voxels.
+/// The map M of the paper, and the voxels that were seen through, which are never filled again.
+/// Memory is bounded by the number of observed voxels.
 class StaticMap {
  public:
   using Slot = OccupancyMap::Slot;
 
-  /// @param permanent_erase a voxel once seen through is never filled again
-  StaticMap(double voxel_size, bool permanent_erase)
-      : occupied_(voxel_size), permanent_erase_(permanent_erase) {}
+  explicit StaticMap(double voxel_size) : occupied_(voxel_size) {}
 
   [[nodiscard]] const OccupancyMap& occupied() const { return occupied_; }
   [[nodiscard]] OccupancyMap& occupied() { return occupied_; }
@@ -53,7 +51,7 @@ class StaticMap {
   /// Brick and state of each voxel, in one pass. Quick where neighbours follow each other.
   void look_up(const std::vector<VoxelIndex>& voxels, int threads, VoxelLookup& found) const;
 
-  /// Adds a static point's voxel, unless it was erased for good.
+  /// Adds a static point's voxel, unless it was erased.
   void integrate(const VoxelIndex& voxel) {
     integrate(occupied_.make_brick(OccupancyMap::brick_of(voxel)), voxel);
   }
@@ -84,7 +82,6 @@ class StaticMap {
   }
 
   OccupancyMap occupied_;
-  bool permanent_erase_;
   /// Where the erased voxels of each brick are in `erased_`. Few bricks have any.
   std::vector<std::uint32_t> erased_of_;
   std::vector<Brick> erased_;

@@ -26,8 +26,8 @@ std::vector<MethodVariant> variants() {
       {"code", "As the public code answers, its faults included.", false,
        with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
       {"port",
-       "As the ROS-free port answers, which tests the same map in every pass (its images along the "
-       "world's axes are an option).",
+       "As the ROS-free port answers, which tests the same map in every pass, with images along the "
+       "sensor's axes.",
        false, with(code, {{"update_between_passes", false}})},
   };
 }
@@ -54,7 +54,7 @@ MethodEntry removert_entry() {
       "relative margin as in the remove passes.",
       "RM3's resolutions are those of the ROS-free port, which names them the published "
       "comparison's; RV1's 0.55 degrees is unverified.",
-      "A single scan removes a map point; the vote of the design note is an option.",
+      "A single scan removes a map point.",
       "The map's cells lie on the lattice at the world's origin, and a point is removed iff its "
       "cell is; the public code's lattice depends on the cloud, and its points ask the nearest "
       "neighbour.",

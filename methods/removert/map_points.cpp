@@ -5,13 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
 #include "core/parallel.h"
 
 namespace raymoval::removert_method {
 namespace {
 
-constexpr double kBlockEdge = 0.8;  ///< Metres, at most (or one cell).
 constexpr int kGroupBits = 3;
 constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
 
@@ -119,11 +117,6 @@ MapPoints united(const MapPoints& a, const MapPoints& b) {
   return both;
 }
 
-CellLattice::CellLattice(double voxel)
-    : merges_(voxel > 0.0), edge_(merges_ ? voxel : kBlockEdge), inverse_edge_(1.0 / edge_) {
-  while (edge_ * (2 << bits_) <= kBlockEdge * 1.0001) ++bits_;
-}
-
 CellLattice::Place CellLattice::place_of(const Eigen::Vector3d& world) const {
   const VoxelIndex index = voxel_index(world, inverse_edge_);
   const int mask = (1 << bits_) - 1;
@@ -149,23 +142,18 @@ Eigen::Vector3d CellLattice::block_centre(VoxelKey block) const {
   return (voxel_index(block).cast<double>().array() + 0.5).matrix() * (edge_ * cells);
 }
 
-MapBuilder::MapBuilder(const CellLattice& lattice) : lattice_(lattice) {
-  if (lattice.merges()) slot_.assign(lattice.cells_per_block(), kNoSlot);
-}
+MapBuilder::MapBuilder(const CellLattice& lattice)
+    : lattice_(lattice), slot_(lattice.cells_per_block(), kNoSlot) {}
 
 void MapBuilder::add(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_sensor,
-                     std::uint64_t first_number, int threads) {
-  if (!lattice_.merges() && first_number + points.size() >= kNoSlot) {
-    throw DataError("removert.map_voxel = 0 keeps every point, at most " + std::to_string(kNoSlot) +
-                    " of them; give a voxel size, such as 0.05, or fewer scans.");
-  }
+                     int threads) {
   std::vector<VoxelKey> keys(points.size());
   std::vector<Entry> entries(points.size());
   parallel_for(threads, points.size(), 8192, [&](std::size_t i) {
     const Eigen::Vector3d world = T_world_sensor * points[i].cast<double>();
     const CellLattice::Place place = lattice_.place_of(world);
     keys[i] = place.block;
-    entries[i].id = lattice_.merges() ? place.cell : static_cast<std::uint32_t>(first_number + i);
+    entries[i].id = place.cell;
     entries[i].sum = (world - lattice_.cell_centre(place.index)).cast<float>();
     entries[i].count = 1;
   });
@@ -178,9 +166,7 @@ void MapBuilder::append(VoxelKey key, const Entry& entry) {
   if (is_new) blocks_.push_back({key, {}, 0});
   OpenBlock& block = blocks_[found->second];
   block.entries.push_back(entry);
-  if (lattice_.merges() && block.entries.size() > block.merged + block.merged / 2 + 32) {
-    merge(block);
-  }
+  if (block.entries.size() > block.merged + block.merged / 2 + 32) merge(block);
 }
 
 void MapBuilder::merge(OpenBlock& block) {
@@ -210,8 +196,7 @@ void MapBuilder::move_block(OpenBlock& from, MapPoints& to) const {
   std::sort(from.entries.begin(), from.entries.end(),
             [](const Entry& a, const Entry& b) { return a.id < b.id; });
   for (const Entry& entry : from.entries) {
-    const Eigen::Vector3d cell =
-        lattice_.cell_centre(lattice_.cell_index(from.key, lattice_.merges() ? entry.id : 0));
+    const Eigen::Vector3d cell = lattice_.cell_centre(lattice_.cell_index(from.key, entry.id));
     const Eigen::Vector3d offset =
         cell - block.centre + entry.sum.cast<double>() / static_cast<double>(entry.count);
     to.x.push_back(static_cast<float>(offset.x()));
@@ -224,9 +209,7 @@ void MapBuilder::move_block(OpenBlock& from, MapPoints& to) const {
 }
 
 MapPoints MapBuilder::finish() {
-  if (lattice_.merges()) {
-    for (OpenBlock& block : blocks_) merge(block);
-  }
+  for (OpenBlock& block : blocks_) merge(block);
   std::sort(blocks_.begin(), blocks_.end(),
             [](const OpenBlock& a, const OpenBlock& b) { return comes_first(a.key, b.key); });
   std::size_t count = 0;

@@ -36,7 +36,7 @@ struct MapPoints {
   std::vector<Block> blocks;
   std::vector<BlockGroup> groups;
   std::vector<float> x, y, z;     ///< Metres from the block's centre.
-  std::vector<std::uint32_t> id;  ///< Cell within the block, or number of the point in the input.
+  std::vector<std::uint32_t> id;  ///< Cell within the block.
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
   [[nodiscard]] Eigen::Vector3d position(const Block& block, std::size_t i) const {
@@ -55,14 +55,15 @@ MapPoints take_points(MapPoints& points, const std::vector<std::uint8_t>& taken)
 MapPoints united(const MapPoints& a, const MapPoints& b);
 
 /// Cells of the map: cubes of `voxel` metres of the world lattice, in blocks of about 0.8 m.
-/// With voxel = 0 each point is a cell of its own.
 class CellLattice {
  public:
-  explicit CellLattice(double voxel);
+  explicit CellLattice(double voxel) : edge_(voxel), inverse_edge_(1.0 / voxel) {
+    while (edge_ * (2 << bits_) <= kBlockEdge * 1.0001) ++bits_;
+  }
 
   struct Place {
     VoxelKey block;
-    std::uint32_t cell;  ///< The cell within the block; 0 if each point is a cell of its own.
+    std::uint32_t cell;  ///< The cell within the block.
     VoxelIndex index;    ///< The cell in the world lattice.
   };
   /// @throws DataError beyond the lattice
@@ -70,27 +71,22 @@ class CellLattice {
   [[nodiscard]] VoxelIndex cell_index(VoxelKey block, std::uint32_t cell) const;
   [[nodiscard]] Eigen::Vector3d cell_centre(const VoxelIndex& index) const;
   [[nodiscard]] Eigen::Vector3d block_centre(VoxelKey block) const;
-  [[nodiscard]] double voxel() const { return edge_; }
-  [[nodiscard]] bool merges() const { return merges_; }
   [[nodiscard]] std::uint32_t cells_per_block() const { return 1U << (3 * bits_); }
 
  private:
-  bool merges_;
+  static constexpr double kBlockEdge = 0.8;  ///< Metres, at most (or one cell).
   double edge_, inverse_edge_;
   int bits_ = 0;  ///< A block has 2^bits cells along an edge.
 };
 
-/// Collects points into the map: one centroid per cell (or each point). An entry takes 20 bytes; at
+/// Collects points into the map: one centroid per cell. An entry takes 20 bytes; at
 /// most half as many again as there are cells, and 32 a block, wait to be merged.
 class MapBuilder {
  public:
   explicit MapBuilder(const CellLattice& lattice);
   /// @param points sensor frame, metres
-  /// @param first_number number of the first point in the input
-  /// @throws DataError if the map has more points than can be numbered, or they are beyond the
-  /// lattice
-  void add(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_sensor,
-           std::uint64_t first_number, int threads);
+  /// @throws DataError if a point is beyond the lattice
+  void add(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_sensor, int threads);
   /// The map; the builder is empty afterwards.
   MapPoints finish();
 

@@ -15,8 +15,7 @@ namespace removert_method {
 ///
 /// What was decided where the paper's programs disagree or are silent is listed in the entry's
 /// `notes`. Of the map only centroids are held, at the peak about 75 bytes per cell of `map_voxel`;
-/// scans are read once per pass. `map_voxel` = 0 holds every point.
-/// @throws ConfigurationError if two parameters contradict each other
+/// scans are read once per pass.
 std::unique_ptr<Remover> make_removert(const Parameters& parameters);
 
 }  // namespace removert_method

@@ -81,20 +81,8 @@ float MaximumPyramid::bound(int row_from, int row_to, int column_from, int colum
   return largest;
 }
 
-std::vector<Eigen::Vector3f> points_in_image_axes(const Scan& scan, bool world_axes) {
-  if (!world_axes) return scan.points;
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(scan.size());
-  const Eigen::Matrix3d rotation = scan.T_world_sensor.linear();
-  for (const Eigen::Vector3f& point : scan.points) {
-    points.emplace_back((rotation * point.cast<double>()).cast<float>());
-  }
-  return points;
-}
-
 float threshold(float range, const Parameters& parameters) {
-  return std::max(static_cast<float>(parameters.tau_abs),
-                  static_cast<float>(parameters.gamma) * range);
+  return static_cast<float>(parameters.gamma) * range;
 }
 
 ScanImage::ScanImage(const std::vector<Eigen::Vector3f>& points, const PixelGrid& pixel_grid,

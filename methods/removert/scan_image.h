@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "core/scan/scan.h"
 #include "methods/removert/pixel_grid.h"
 
 namespace raymoval::removert_method {
@@ -32,10 +31,6 @@ enum class Candidates {
   kInFront,  ///< The points clearly in front of the scan, which suffice to find the dynamic ones.
   kAll,      ///< All points in pixels where the scan has a return.
 };
-
-/// The points of a scan in the axes in which it is projected: the scan's own axes, or the world's.
-/// @param world_axes turn them by the scan's rotation
-std::vector<Eigen::Vector3f> points_in_image_axes(const Scan& scan, bool world_axes);
 
 /// Range image I_Q of a scan.
 struct ScanImage {

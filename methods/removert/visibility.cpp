@@ -11,8 +11,6 @@
 namespace raymoval::removert_method {
 namespace {
 
-constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
-
 /// Single precision is never wrong by more than this share of a range.
 constexpr float kRangeSlack = 1e-5F;
 
@@ -84,11 +82,6 @@ float limit_around(const PixelGrid& grid, const MaximumPyramid& limits,
   return nearest < limit ? limit : -1.0F;
 }
 
-/// Counts one more scan. The sum does not depend on the order.
-void count_scan(std::uint32_t& counter) {
-  std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
-}
-
 }  // namespace
 
 /// A scan's image with the motion into its frame, in both precisions.
@@ -120,32 +113,34 @@ struct VisibilityPass::View {
 
 VisibilityPass::VisibilityPass(const MapPoints& map, const Parameters& parameters,
                                Candidates candidates)
-    : map_(map), parameters_(parameters), candidates_(candidates) {
-  votes_.dynamic.assign(map.size(), 0);
-  if (candidates == Candidates::kAll) votes_.still.assign(map.size(), 0);
-}
+    : map_(map),
+      parameters_(parameters),
+      candidates_(candidates),
+      votes_(map.size(), 0),
+      images_([] { return std::make_unique<Image>(); }) {}
 
 void VisibilityPass::show(const ScanImage& scan, const Pose& T_image_world) {
   View view(scan, T_image_world);
-  std::unique_ptr<Image> image = borrow_image(scan.grid.size());
-  std::size_t looked_at = 0;
-  for (const std::size_t g : order_of_groups(T_image_world)) {
-    const BlockGroup& group = map_.groups[g];
-    if (view.limit_around_ball(group.ball) < 0.0F) continue;
-    for (std::size_t b = group.begin; b < group.end; ++b) {
-      const Block& block = map_.blocks[b];
-      const float limit = view.limit_around_ball(block.ball);
-      if (limit < 0.0F) continue;
-      look_at_block(view, block, limit, *image);
-      looked_at += block.end - block.begin;
+  images_.with_one([&](Image& image) {
+    image.pixels.resize(static_cast<std::size_t>(scan.grid.size()), kEmpty);
+    std::size_t looked_at = 0;
+    for (const std::size_t g : order_of_groups(T_image_world)) {
+      const BlockGroup& group = map_.groups[g];
+      if (view.limit_around_ball(group.ball) < 0.0F) continue;
+      for (std::size_t b = group.begin; b < group.end; ++b) {
+        const Block& block = map_.blocks[b];
+        const float limit = view.limit_around_ball(block.ball);
+        if (limit < 0.0F) continue;
+        look_at_block(view, block, limit, image);
+        looked_at += block.end - block.begin;
+      }
+      if (candidates_ == Candidates::kAll && looked_at > 2 * image.pixels.size()) {
+        view.hide_behind(image.pixels);
+        looked_at = 0;
+      }
     }
-    if (candidates_ == Candidates::kAll && looked_at > 2 * image->pixels.size()) {
-      view.hide_behind(image->pixels);
-      looked_at = 0;
-    }
-  }
-  vote(scan, *image);
-  give_back(std::move(image));
+    vote(scan, image);
+  });
 }
 
 /// The map's own order, or near groups first if near points can hide far ones.
@@ -202,7 +197,7 @@ void VisibilityPass::take_if_nearest(const View& view, const Eigen::Vector3d& po
   if (!(range < view.scan.limit[u])) return;
   // Of two at the same range the first in the map's order is it.
   if (std::pair(range, id) >= std::pair(image.pixels[u].range, image.pixels[u].point)) return;
-  if (image.pixels[u].point == kNoPoint) image.touched.push_back(pixel);
+  if (image.pixels[u].point == kEmpty.point) image.touched.push_back(pixel);
   image.pixels[u] = {range, id};
 }
 
@@ -211,39 +206,17 @@ void VisibilityPass::vote(const ScanImage& scan, Image& image) {
   for (const int pixel : image.touched) {
     const auto u = static_cast<std::size_t>(pixel);
     const Nearest nearest = image.pixels[u];
-    image.pixels[u] = {std::numeric_limits<double>::infinity(), kNoPoint};
+    image.pixels[u] = kEmpty;
     double difference = static_cast<double>(scan.nearest[u]) - nearest.range;
     if (parameters_.difference == DifferenceRule::kAbsolute) difference = std::abs(difference);
     const bool dynamic =
         difference > static_cast<double>(threshold(scan.nearest[u], parameters_)) &&
         difference < parameters_.diff_upper;
-    if (dynamic) {
-      count_scan(votes_.dynamic[nearest.point]);
-    } else if (candidates_ == Candidates::kAll) {
-      count_scan(votes_.still[nearest.point]);
-    }
+    // The sum does not depend on the order of scans.
+    std::atomic_ref<std::uint32_t> votes(votes_[nearest.point]);
+    if (dynamic) votes.fetch_add(1, std::memory_order_relaxed);
   }
   image.touched.clear();
-}
-
-std::unique_ptr<VisibilityPass::Image> VisibilityPass::borrow_image(int pixels) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!idle_images_.empty()) {
-      std::unique_ptr<Image> image = std::move(idle_images_.back());
-      idle_images_.pop_back();
-      return image;
-    }
-  }
-  auto image = std::make_unique<Image>();
-  image->pixels.assign(static_cast<std::size_t>(pixels),
-                       {std::numeric_limits<double>::infinity(), kNoPoint});
-  return image;
-}
-
-void VisibilityPass::give_back(std::unique_ptr<Image> image) {
-  const std::lock_guard lock(mutex_);
-  idle_images_.push_back(std::move(image));
 }
 
 }  // namespace raymoval::removert_method

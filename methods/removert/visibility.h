@@ -2,22 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <mutex>
+#include <limits>
 #include <vector>
 
+#include "methods/common/workspaces.h"
 #include "methods/removert/map_points.h"
 #include "methods/removert/scan_image.h"
 
 namespace raymoval::removert_method {
-
-/// How many scans of a pass say what of each map point.
-struct Votes {
-  std::vector<std::uint32_t>
-      dynamic;  ///< n_DM: scans in which it is the nearest in its pixel and dynamic.
-  std::vector<std::uint32_t> still;  ///< n_SM: scans with a return there, in which it is the
-                                     ///< nearest and not dynamic.
-};
 
 /// Compares a frozen map with scans, one range image each. The votes are the same in whatever order
 /// and from however many threads scans are shown.
@@ -32,13 +24,16 @@ class VisibilityPass {
   /// @param image made with the candidates of this pass
   void show(const ScanImage& image, const Pose& T_image_world);
 
-  [[nodiscard]] const Votes& votes() const { return votes_; }
+  /// Of each map point: scans in which it is the nearest in its pixel and dynamic (n_DM).
+  [[nodiscard]] const std::vector<std::uint32_t>& dynamic_votes() const { return votes_; }
 
  private:
   struct Nearest {
     double range;
     std::size_t point;
   };
+  static constexpr Nearest kEmpty{std::numeric_limits<double>::infinity(),
+                                  std::numeric_limits<std::size_t>::max()};
   /// Range image of the map (I_M), only where something was found.
   struct Image {
     std::vector<Nearest> pixels;
@@ -51,15 +46,12 @@ class VisibilityPass {
   static void take_if_nearest(const View& view, const Eigen::Vector3d& point, std::size_t id,
                               Image& image);
   void vote(const ScanImage& scan, Image& image);
-  [[nodiscard]] std::unique_ptr<Image> borrow_image(int pixels);
-  void give_back(std::unique_ptr<Image> image);
 
   const MapPoints& map_;
   const Parameters& parameters_;
   Candidates candidates_;
-  Votes votes_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Image>> idle_images_;
+  std::vector<std::uint32_t> votes_;
+  Workspaces<Image> images_;
 };
 
 }  // namespace raymoval::removert_method

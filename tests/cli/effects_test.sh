@@ -6,8 +6,8 @@ set -uo pipefail
 raymoval=$(readlink -f "$1")
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 short=(--sequence street --frames 0:2 --quiet)
-naive=raymoval:offline-naive
-when="it acts when forward_test is true and map_source is not naive"
+general=erasor:general
+when="it acts when version is 2"
 
 # silent COMMAND...: done, without a warning.
 silent() {
@@ -16,34 +16,32 @@ silent() {
 }
 
 # describe marks them in the variant that is described, and gives conditions otherwise.
-expect 0 "NO EFFECT in this variant: $when." describe $naive
-expect 0 "It acts when forward_test is true" describe raymoval
-holds "raymoval:offline has eq. 11" test -z "$("$raymoval" describe raymoval:offline | grep -A1 '^  tau[01] ' | grep 'NO EFFECT')"
-expect 0 '"acts": false' describe $naive --json
-expect 0 "NO EFFECT in this variant: $when." describe $naive --markdown
-expect 0 "It changes time or memory only." describe octomap
+expect 0 "NO EFFECT in this variant: $when." describe $general
+expect 0 "It acts when version is 2" describe erasor
+holds "th_bin_max_h acts in erasor:version2" test -z "$("$raymoval" describe erasor:version2 | grep -A1 '^  th_bin_max_h ' | grep 'NO EFFECT')"
+expect 0 '"acts": false' describe $general --json
+expect 0 "NO EFFECT in this variant: $when." describe $general --markdown
 
 # --set warns in run, plan and clean, once for each variant without effect.
-warning="raymoval: warning: $naive.tau1 has no effect here: $when."
-expect 0 "$warning" run "${short[@]}" --method $naive --set raymoval.tau1=0.2 --out naive
-expect 0 "$warning" run "${short[@]}" --method $naive --method raymoval:offline \
-  --set raymoval.tau1=0.2 --explain --out o
-"$raymoval" plan --sequence street --frames 0:2 --method $naive --method raymoval:offline \
-  --set raymoval.tau1=0.2 >out.txt 2>plan.txt
+warning="raymoval: warning: $general.th_bin_max_h has no effect here: $when."
+set=(--set erasor.th_bin_max_h=0.3)
+expect 0 "$warning" run "${short[@]}" --method $general "${set[@]}" --out general
+expect 0 "$warning" run "${short[@]}" --method $general --method erasor:version2 "${set[@]}" --explain --out o
+"$raymoval" plan --sequence street --frames 0:2 --method $general --method erasor:version2 "${set[@]}" >out.txt 2>plan.txt
 holds "plan warns of one variant of two" test "$(grep -c warning plan.txt)" -eq 1
-expect 0 "$warning" clean street --frames 0:2 --quiet --method $naive --set raymoval.tau1=0.2 -o map.pcd
-silent plan "${short[@]}" --method raymoval:offline --set raymoval.tau1=0.2
-silent plan "${short[@]}" --method $naive --set raymoval.erase_tau1=0.2
-silent plan "${short[@]}" --method $naive
+expect 0 "$warning" clean street --frames 0:2 --quiet --method $general "${set[@]}" -o map.pcd
+silent plan "${short[@]}" --method erasor:version2 "${set[@]}"
+silent plan "${short[@]}" --method $general --set erasor.scan_ratio_threshold=0.3
+silent plan "${short[@]}" --method $general
 
 # A sweep without effect is told before it runs, and in its table after.
 cat >sweep.json <<'END'
 {"sequences": [{"path": "street", "frames": "0:4"}], "controls": false, "methods": [
-  {"method": "raymoval:offline-naive", "set": {"tau1": {"sweep": [0, 0.35]}}}]}
+  {"method": "erasor:general", "set": {"th_bin_max_h": {"sweep": [0, 0.3]}}}]}
 END
-flat="tau1 made no difference: with each of its 2 values exactly the same points were removed."
+flat="th_bin_max_h made no difference: with each of its 2 values exactly the same points were removed."
 expect 0 "$warning" run sweep.json --quiet --out sweep
-expect 0 "raymoval: warning: sweep of $naive over tau1: $flat" run sweep.json --quiet --out sweep
+expect 0 "raymoval: warning: sweep of $general over th_bin_max_h: $flat" run sweep.json --quiet --out sweep
 expect 0 "$flat" table sweep
 
 finish effects

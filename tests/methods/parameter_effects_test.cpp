@@ -16,11 +16,7 @@ namespace {
 
 /// Parameters that act on data only that the scenes here do not have, and why.
 const std::map<std::string, std::string> kNeedOtherData = {
-    {"raymoval.no_return", "something must vanish that stood before nothing (see raymoval_test)"},
     {"raymoval:online.group_gap", "clusters of one scan must stand a voxel apart"},
-    {"raymoval:offline-growing.erased_points", "something must come back where it was erased"},
-    {"raymoval:offline-naive.neighbourhood", "a voxel must be seen through beside a nearer one"},
-    {"raymoval:offline-naive.thin_side", "a thin group must be covered to nine tenths"},
     {"raymoval_plus.run_range", "a voxel must be seen through in a row by few scans only"},
     {"raymoval_plus.height_scans", "beams must be even and far apart (see evidence_test)"},
     {"raymoval_plus.track_slack", "an object must stand still for long and then move"},
@@ -49,9 +45,7 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"mapcleaner.public_height", "the sensor must be much lower (see ground_segmentation_test)"},
     {"mapcleaner.public_axes", "the sensor must turn"},
     {"mapcleaner.submap_travel", "the sensor must go farther (see votes_test)"},
-    {"octomap.ground_points", "a scan must have few points"},
     {"removert.clamp_fov", "the sensor must see beyond the images' field of view"},
-    {"removert.world_axes", "the sensor must be turned"},
 };
 
 bool needs_other_data(const ConfiguredMethod& method, const std::string& parameter) {

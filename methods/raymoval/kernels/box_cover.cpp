@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiled for each instruction set for one instruction only, the one that counts bits.
-#include "methods/raymoval/kernels/box_cover.h"
+#include "methods/raymoval/kernels/occupancy_map.h"
 
 #include "core/simd/compiled_sets.h"
 
@@ -87,58 +87,23 @@ Candidate better_box(const Brick& brick, const Brick& left, int x) {
   return newly_covered(left, other) > newly_covered(left, one) ? other : one;
 }
 
-Candidate candidate_of(BrickBox box) {
-  const std::uint64_t column =
-      (std::uint64_t{2} << box.last(2)) - (std::uint64_t{1} << box.first(2));
-  return {box.first(0), box.last(0), box.first(1), box.last(1), column};
-}
-
 void take_out(const Candidate& box, Brick& left) {
   const std::uint64_t slice = box.slice();
   for (int x = box.x0; x <= box.x1; ++x) left.occupied[static_cast<std::size_t>(x)] &= ~slice;
 }
 
-/// Drops the boxes that are not full.
-void keep_full_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
-  std::erase_if(boxes, [&](BrickBox box) {
-    const Candidate kept = candidate_of(box);
-    const std::uint64_t slice = kept.slice();
-    for (int x = kept.x0; x <= kept.x1; ++x) {
-      if (!holds(brick, x, slice)) return true;
-    }
-    return false;
-  });
-}
+}  // namespace
 
-/// Appends boxes for `left`, voxels of `brick`, chosen by `choose(brick, left, x)`.
-template <class Choose>
-void cover_left(const Brick& brick, Brick left, Choose&& choose, std::vector<BrickBox>& boxes) {
+void cover_all(const Brick& brick, std::vector<BrickBox>& boxes) {
+  Brick left = brick;
   for (int x = 0; x < Brick::kSide; ++x) {
     while (left.occupied[static_cast<std::size_t>(x)] != 0) {
-      const Candidate box = choose(brick, left, x);
+      const Candidate box = better_box(brick, left, x);
       take_out(box, left);
       boxes.push_back(BrickBox::from({box.x0, box.y0, std::countr_zero(box.column)},
                                      {box.x1, box.y1, 63 - std::countl_zero(box.column)}));
     }
   }
-}
-
-}  // namespace
-
-void cover_all(const Brick& brick, std::vector<BrickBox>& boxes) {
-  cover_left(brick, brick, better_box, boxes);
-}
-
-/// What is added to a cover is small: there is nothing to choose.
-void cover_more(const Brick& brick, const Brick& added, std::vector<BrickBox>& boxes) {
-  cover_left(brick, added, box_along_x, boxes);
-}
-
-void keep_and_cover(const Brick& brick, std::vector<BrickBox>& boxes) {
-  keep_full_boxes(brick, boxes);
-  Brick left = brick;
-  for (const BrickBox box : boxes) take_out(candidate_of(box), left);
-  cover_left(brick, left, better_box, boxes);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -151,20 +116,10 @@ HWY_AFTER_NAMESPACE();
 namespace raymoval::raymoval_method {
 
 HWY_EXPORT(cover_all);
-HWY_EXPORT(cover_more);
-HWY_EXPORT(keep_and_cover);
 
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes) {
   boxes.clear();
   RAYMOVAL_BEST_KERNEL(cover_all)(brick, boxes);
-}
-
-void cover_added(const Brick& brick, const Brick& added, std::vector<BrickBox>& boxes) {
-  RAYMOVAL_BEST_KERNEL(cover_more)(brick, added, boxes);
-}
-
-void mend_cover(const Brick& brick, std::vector<BrickBox>& boxes) {
-  RAYMOVAL_BEST_KERNEL(keep_and_cover)(brick, boxes);
 }
 
 BrickBox tight_box(const Brick& brick) {

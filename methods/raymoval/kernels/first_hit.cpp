@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "hwy/cache_control.h"
 #include "methods/common/workspaces.h"
 #include "methods/raymoval/kernels/first_hit_sweep.h"
 
@@ -14,6 +13,8 @@ namespace raymoval::raymoval_method {
 namespace {
 
 using sweep::BrickList;
+using sweep::ColumnEntry;
+using sweep::ColumnLists;
 using sweep::Frame;
 using sweep::GridTables;
 using sweep::kGroup;
@@ -160,22 +161,41 @@ void sort_by_distance(const BrickList& bricks, std::vector<std::uint32_t>& start
   }
 }
 
-/// Groups of boxes that all bricks together have at most.
-std::size_t most_groups(const OccupancyMap& map, const BrickList& bricks,
-                        const std::vector<std::uint32_t>& order) {
-  std::size_t most = 0;
-  for (const std::uint32_t brick : order) {
-    bool beside = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      beside |= bricks.low[k][brick] < 0.0F && bricks.high[k][brick] > 0.0F;
-    }
-    // Boxes beside the sensor are cut. They are rare; a bound that is too high costs address space
-    // only.
-    const auto boxes = map.boxes(bricks.slot[brick]);
-    most += ((beside ? 8 : 1) * boxes.size() + kGroup - 1) / kGroup;
-    hwy::Prefetch(boxes.data());  // Most of them are looked at soon.
+/// Calls `visit(column)` for the brick's columns within begin .. end - 1.
+template <class Visit>
+void for_columns(const Frame& frame, std::size_t brick, int begin, int end, Visit&& visit) {
+  const int columns = frame.grid->columns;
+  const int first = frame.bricks->first_column[brick], last = frame.bricks->last_column[brick];
+  if (first >= begin && last < end) {  // As nearly all do.
+    for (int i = first; i <= last; ++i) visit(i - begin);
+    return;
   }
-  return most;
+  for (int turn = -columns; turn <= columns; turn += columns) {
+    const int to = std::min(last + turn, end - 1);
+    for (int i = std::max(first + turn, begin); i <= to; ++i) visit(i - begin);
+  }
+}
+
+/// Sorts the bricks into the columns they are seen in, nearest first.
+void list_columns(const Frame& frame, int begin, int end, ColumnLists& lists) {
+  const BrickList& bricks = *frame.bricks;
+  auto& starts = lists.starts;
+  lists.begin = begin;
+  lists.end = end;
+  starts.assign(static_cast<std::size_t>(end - begin) + 2, 0);
+  for (const std::uint32_t brick : *frame.order) {
+    for_columns(frame, brick, begin, end,
+                [&](int i) { ++starts[static_cast<std::size_t>(i) + 2]; });
+  }
+  for (std::size_t i = 2; i < starts.size(); ++i) starts[i] += starts[i - 1];
+  if (lists.entries.size() < starts.back()) lists.entries.resize(starts.back());
+  for (const std::uint32_t brick : *frame.order) {
+    const ColumnEntry entry{brick, static_cast<std::uint16_t>(bricks.first_row[brick]),
+                            static_cast<std::uint16_t>(bricks.last_row[brick]),
+                            bricks.nearest[brick]};
+    for_columns(frame, brick, begin, end,
+                [&](int i) { lists.entries[starts[static_cast<std::size_t>(i) + 1]++] = entry; });
+  }
 }
 
 /// The two world axes that are the farthest from the sensor's up axis.
@@ -192,38 +212,28 @@ std::array<int, 2> level_axes(const std::array<double, 3>& up) {
 class FirstHitCaster::State {
  public:
   State(const AngularGrid& grid, const RayLimits& limits)
-      : grid_(grid), limits_(limits), tables_(tables_for(grid)), kernels_(sweep::best_kernels()) {
+      : grid_(grid), limits_(limits), tables_(tables_for(grid)) {
     all_.ask_for_all(grid);
   }
 
   [[nodiscard]] const WantedBins& all() const { return all_; }
 
-  /// Finds the bricks that are seen, the nearest first.
-  void prepare(OccupancyMap& map, const Pose& T_world_sensor, int threads) {
-    map.update_boxes(threads);
-    frame_ = start_frame(map, T_world_sensor);
-    gather_bricks(map, walls_, frame_.maximum_range, bricks_);
-    parallel_chunks(threads, bricks_.count, 32 * kGroup, [&](std::size_t begin, std::size_t end) {
-      kernels_.measure_bricks(frame_, begin, end);
-    });
-    sort_by_distance(bricks_, starts_, order_);
-    frame_.most_groups = most_groups(map, bricks_, order_);
-    prepared_for_ = T_world_sensor;
-  }
-
   void cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted, int threads,
             FirstHitImage& image) {
-    const bool is_prepared = prepared_for_ && frame_.map == &map && !map.has_changed() &&
-                             prepared_for_->matrix() == T_world_sensor.matrix();
-    if (!is_prepared) prepare(map, T_world_sensor, threads);
-    prepared_for_.reset();
+    map.update_boxes(threads);
+    Frame frame = start_frame(map, T_world_sensor);
+    frame.wanted = &wanted;
+    gather_bricks(map, walls_, frame.maximum_range, bricks_);
+    parallel_chunks(threads, bricks_.count, 32 * kGroup, [&](std::size_t begin, std::size_t end) {
+      sweep::measure_bricks(frame, begin, end);
+    });
+    sort_by_distance(bricks_, starts_, order_);
     image.grid = grid_;
     image.T_world_sensor = T_world_sensor;
     image.limits = limits_;
     image.directions = directions_;
     image.range.resize(static_cast<std::size_t>(grid_.size()));
-    frame_.wanted = &wanted;
-    sweep(frame_, threads, image.range.data());
+    sweep(frame, threads, image.range.data());
   }
 
  private:
@@ -258,14 +268,13 @@ class FirstHitCaster::State {
     const std::size_t width = (columns / parts / kPiece + 1) * kPiece;
     lists_.resize((columns + width - 1) / width);
     parallel_chunks(threads, columns, width, [&](std::size_t begin, std::size_t end) {
-      kernels_.list_columns(frame, static_cast<int>(begin), static_cast<int>(end),
-                            lists_[begin / width]);
+      list_columns(frame, static_cast<int>(begin), static_cast<int>(end), lists_[begin / width]);
     });
     const std::size_t piece = threads <= 1 ? width : kPiece;
     parallel_chunks(threads, columns, piece, [&](std::size_t begin, std::size_t end) {
       scratch_.with_one([&](sweep::Scratch& scratch) {
-        kernels_.sweep_columns(frame, lists_[begin / width], static_cast<int>(begin),
-                               static_cast<int>(end), scratch, range);
+        sweep::sweep_columns(frame, lists_[begin / width], static_cast<int>(begin),
+                             static_cast<int>(end), scratch, range);
       });
     });
   }
@@ -275,12 +284,9 @@ class FirstHitCaster::State {
   WantedBins all_;
   std::shared_ptr<const DirectionTable> directions_ = std::make_shared<DirectionTable>(grid_);
   GridTables tables_;
-  sweep::Kernels kernels_;
   WallTables walls_;
   BrickList bricks_;
   std::vector<std::uint32_t> starts_, order_;
-  Frame frame_;
-  std::optional<Pose> prepared_for_;  ///< The pose that `frame_` and the bricks are those of.
   std::vector<sweep::ColumnLists> lists_;
   Workspaces<sweep::Scratch> scratch_{[] { return std::make_unique<sweep::Scratch>(); }};
   std::uint64_t images_ = 0;
@@ -295,10 +301,6 @@ FirstHitCaster& FirstHitCaster::operator=(FirstHitCaster&&) noexcept = default;
 void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, int threads,
                           FirstHitImage& image) {
   state_->cast(map, T_world_sensor, state_->all(), threads, image);
-}
-
-void FirstHitCaster::prepare(OccupancyMap& map, const Pose& T_world_sensor, int threads) {
-  state_->prepare(map, T_world_sensor, threads);
 }
 
 void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The brick-column sweep's second part: a brick's boxes as the sweep wants them, in groups.
+// The boxes of a brick in the form that the sweep needs. Included by first_hit_sweep.cpp once for
+// each instruction set.
 #if defined(RAYMOVAL_FIRST_HIT_BOXES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAYMOVAL_FIRST_HIT_BOXES_INL
 #undef RAYMOVAL_FIRST_HIT_BOXES_INL
@@ -13,12 +14,21 @@
 
 #include "hwy/highway.h"
 #include "methods/raymoval/kernels/first_hit_sweep.h"
-#include "methods/raymoval/kernels/first_hit_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymoval::raymoval_method::sweep {
 namespace HWY_NAMESPACE {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, kGroup>;
+using Ints = hn::RebindToSigned<Floats>;
+using F = hn::Vec<Floats>;
+
+F number(double value) {
+  return hn::Set(Floats(), static_cast<float>(value));
+}
 
 /// Fields of a group of boxes as the sweep wants them, each of kGroup numbers.
 enum Field : std::size_t {
@@ -117,7 +127,7 @@ Interval scaled(double factor, F low, F high) {
   return {hn::Min(a, b), hn::Max(a, b)};
 }
 
-/// Section "Safe bounds" of first_hit.h: pieces i .. i + Lanes - 1 into one group.
+/// Section "Safe bounds" of README.md: pieces i .. i + Lanes - 1 into one group.
 void store_group(const Frame& frame, const Pieces& pieces, std::size_t i, float* group) {
   const Floats d;
   const F slack = hn::Set(d, frame.slack);
@@ -164,6 +174,7 @@ void expand(const Frame& frame, std::size_t brick, Scratch& scratch) {
   const std::size_t groups = (pieces.count + kGroup - 1) / kGroup;
   scratch.expanded[brick] = {static_cast<std::uint32_t>(scratch.boxes_used),
                              static_cast<std::uint32_t>(pieces.count), true};
+  scratch.boxes.require(scratch.boxes_used + groups * kGroupFloats);
   const std::size_t step = hn::Lanes(Floats());
   for (std::size_t g = 0; g < groups; ++g) {
     float* group = scratch.boxes.data() + scratch.boxes_used;

@@ -52,9 +52,8 @@ struct Frame {
   std::array<int, 2> level_axes{};       ///< The two world axes that are the least upright.
   std::array<const float*, 3> planes{};  ///< Voxel walls along each axis from the sensor, metres.
   float minimum_range = 0.0F, maximum_range = 0.0F;
-  float slack = 0.0F;           ///< Bounds are widened by this, metres.
-  std::uint64_t number = 0;     ///< The number of the image among those of its caster, from 1.
-  std::size_t most_groups = 0;  ///< Groups of boxes, if all bricks were expanded.
+  float slack = 0.0F;        ///< Bounds are widened by this, metres.
+  std::uint64_t number = 0;  ///< The number of the image among those of its caster, from 1.
 };
 
 /// A brick in the list of a column.
@@ -94,20 +93,13 @@ struct Scratch {
   AlignedArray<float> depth;          ///< Ranges.
 };
 
-/// The kernels of one instruction set.
-struct Kernels {
-  /// Fills what `BrickList` says it finds for bricks begin .. end - 1; `begin` is a multiple of
-  /// kGroup, and so is `end` or it is the end of the list.
-  void (*measure_bricks)(const Frame& frame, std::size_t begin, std::size_t end);
-  /// Fills the lists of the columns begin .. end - 1.
-  void (*list_columns)(const Frame& frame, int begin, int end, ColumnLists& lists);
-  /// First hits of columns begin .. end - 1, which are all in `lists`, into `range` (row by row,
-  /// all columns), where they are wanted.
-  void (*sweep_columns)(const Frame& frame, const ColumnLists& lists, int begin, int end,
-                        Scratch& scratch, float* range);
-};
+/// Fills the properties that `BrickList` lists as found for the bricks begin .. end - 1; `begin` is
+/// a multiple of kGroup, and so is `end` or it is the end of the list.
+void measure_bricks(const Frame& frame, std::size_t begin, std::size_t end);
 
-/// The kernels of the best instruction set that this processor has.
-Kernels best_kernels();
+/// First hits of columns begin .. end - 1, which are all in `lists`, into `range` (row by row, all
+/// columns), where they are wanted.
+void sweep_columns(const Frame& frame, const ColumnLists& lists, int begin, int end,
+                   Scratch& scratch, float* range);
 
 }  // namespace raymoval::raymoval_method::sweep

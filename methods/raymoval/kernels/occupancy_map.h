@@ -1,16 +1,64 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/scan/voxel_key.h"
-#include "methods/raymoval/kernels/box_cover.h"
 
 namespace raymoval::raymoval_method {
+
+/// Voxels of one brick of 8 x 8 x 8: word = x, byte of the word = y, bit of the byte = z.
+struct Brick {
+  static constexpr int kBits = 3;
+  static constexpr int kSide = 1 << kBits;
+  static constexpr int kMask = kSide - 1;
+
+  std::array<std::uint64_t, kSide> occupied{};
+
+  /// Coordinates may be those of the world's lattice.
+  [[nodiscard]] bool contains(int x, int y, int z) const {
+    return (occupied[static_cast<std::size_t>(x & kMask)] & bit(y, z)) != 0;
+  }
+  void add(int x, int y, int z) { occupied[static_cast<std::size_t>(x & kMask)] |= bit(y, z); }
+  static std::uint64_t bit(int y, int z) {
+    return std::uint64_t{1} << ((y & kMask) * kSide + (z & kMask));
+  }
+};
+
+/// Box of voxels within a brick in 18 bits: first and last voxel (inclusive), 3 bits an axis.
+struct BrickBox {
+  std::uint32_t packed = 0;
+
+  static BrickBox from(const std::array<int, 3>& first, const std::array<int, 3>& last) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits |= static_cast<std::uint32_t>(first[k]) << (3 * k);
+      bits |= static_cast<std::uint32_t>(last[k]) << (9 + 3 * k);
+    }
+    return {bits};
+  }
+  [[nodiscard]] int first(std::size_t axis) const {
+    return static_cast<int>(packed >> (3 * axis) & 7U);
+  }
+  [[nodiscard]] int last(std::size_t axis) const {
+    return static_cast<int>(packed >> (9 + 3 * axis) & 7U);
+  }
+};
+
+/// Boxes that together hold each occupied voxel of `brick` and no empty one; they may overlap. A
+/// ray meets the boxes first where it meets the voxels first, and there are about five times fewer
+/// of them. Greedy: from the lowest voxel that is in no box yet, the voxel and the run of voxels
+/// above and below it are grown over occupied voxels in either order of axes, and the box that
+/// covers more of what is not covered yet is kept.
+/// @param boxes replaced
+void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes);
+
+/// The smallest box that holds all occupied voxels of a brick that has one.
+BrickBox tight_box(const Brick& brick);
 
 /// Voxels of a brick that lie within a box of the lattice.
 struct BrickPart {
@@ -33,9 +81,9 @@ struct BrickPart {
 /// Occupied voxels in sparse bricks of 8 x 8 x 8, one bit each. Insert, erase and look-up take
 /// constant time; memory grows with the occupied part only (`memory_bytes`).
 ///
-/// For the raycasting each brick also keeps boxes that cover its voxels (see box_cover.h), and each
-/// tile of 8 x 8 bricks seen from above knows its bricks. The boxes of changed bricks are made anew
-/// by `update_boxes`, at a cost that depends on what changed and not on the map.
+/// For the raycasting each brick also keeps boxes that cover its voxels, and each
+/// tile of 8 x 8 bricks seen from above has a list of its bricks. The boxes of changed bricks are
+/// made anew by `update_boxes`, at a cost that depends on what changed and not on the map.
 class OccupancyMap {
  public:
   static constexpr int kBrickBits = Brick::kBits;
@@ -71,7 +119,7 @@ class OccupancyMap {
     std::uint64_t& word = word_of(slot, voxel);
     const std::uint64_t bit = Brick::bit(voxel.y(), voxel.z());
     if ((word & bit) != 0) return false;
-    mark_changed(slot, Change::kGrown);
+    mark_changed(slot);
     word |= bit;
     ++size_;
     return true;
@@ -104,12 +152,8 @@ class OccupancyMap {
   /// Brings boxes and heads of the bricks changed since the last call up to date; writes nothing if
   /// there are none.
   void update_boxes(int threads);
-  /// Whether voxels were added or removed since then.
-  [[nodiscard]] bool has_changed() const { return !changed_.empty(); }
   /// Boxes that cover the brick's voxels, as of the last `update_boxes`.
-  [[nodiscard]] std::span<const BrickBox> boxes(Slot slot) const {
-    return {boxes_.data() + covers_[slot].begin, covers_[slot].count};
-  }
+  [[nodiscard]] std::span<const BrickBox> boxes(Slot slot) const { return boxes_[slot]; }
 
   [[nodiscard]] static Eigen::Vector2i tile_of(const Eigen::Vector3i& brick) {
     return {brick.x() >> kTileBits, brick.y() >> kTileBits};
@@ -126,71 +170,29 @@ class OccupancyMap {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  /// A brick's part of `boxes_` and its place among the tiles.
-  struct Cover {
-    std::uint32_t begin = 0;
-    std::uint16_t count = 0;
-    std::uint16_t capacity = 0;
-    std::uint16_t fresh_count = 0;  ///< When the brick was last covered from scratch.
-    std::uint32_t tile = 0;
-    std::uint32_t head = 0;
+  struct Place {
+    std::uint32_t tile = 0, head = 0;  ///< Of the brick's head.
+    bool is_changed = false;           ///< It is in `changed_`.
   };
 
   std::uint64_t& word_of(Slot slot, const VoxelIndex& voxel) {
     return bricks_[slot].occupied[static_cast<std::size_t>(voxel.x() & Brick::kMask)];
   }
-  /// What happened to a brick since its cover was made.
-  enum class Change : std::uint8_t {
-    kNone,
-    kGrown,   ///< Voxels were added.
-    kShrunk,  ///< Voxels were removed; others may have been added.
-  };
-  struct ChangedBrick {
-    Slot slot;
-    std::uint32_t before;  ///< Where `before_` has the voxels of its cover, if it has one.
-  };
-  /// To be called before the brick is changed.
-  void mark_changed(Slot slot, Change change) {
-    Change& mark = changes_[slot];
-    if (mark == Change::kNone) {
-      changed_.push_back({slot, static_cast<std::uint32_t>(before_.size())});
-      if (covers_[slot].count > 0) before_.push_back(bricks_[slot]);
-    }
-    mark = std::max(mark, change);
+  void mark_changed(Slot slot) {
+    if (!places_[slot].is_changed) changed_.push_back(slot);
+    places_[slot].is_changed = true;
   }
-
-  /// The boxes found for some of the changed bricks, one brick after the other.
-  struct NewBoxes {
-    enum class Kind : std::uint8_t {
-      kAdded,   ///< They come after those that are there.
-      kMended,  ///< They take the place of those.
-      kFresh,   ///< The same, and they were found from scratch.
-    };
-    std::vector<BrickBox> boxes;
-    std::vector<std::size_t> ends;  ///< Of each brick.
-    std::vector<Kind> kinds;
-    std::vector<BrickBox> cover;  ///< Of the brick at hand.
-  };
-  void find_boxes(std::span<const ChangedBrick> changed, NewBoxes& found) const;
-  NewBoxes::Kind cover_again(const ChangedBrick& changed, NewBoxes& found) const;
-  void store_boxes(std::span<const ChangedBrick> changed, const NewBoxes& found);
-  /// Makes `boxes` those of the brick, after the `kept` first of its present ones.
-  void store_boxes(Slot slot, std::size_t kept, std::span<const BrickBox> boxes);
 
   double voxel_size_;
   double inverse_voxel_size_;
   std::size_t size_ = 0;
   VoxelMap<Slot> index_;
   std::vector<Brick> bricks_;
-  std::vector<Cover> covers_;
-  std::vector<Change> changes_;        ///< Of each brick.
-  std::vector<ChangedBrick> changed_;  ///< In the order of their first change.
-  std::vector<Brick> before_;
+  std::vector<Place> places_;                 ///< Of each brick.
+  std::vector<std::vector<BrickBox>> boxes_;  ///< Of each brick.
+  std::vector<Slot> changed_;                 ///< Bricks, in the order of their first change.
   VoxelMap<std::uint32_t> tile_index_;
   std::vector<std::vector<BrickHead>> tiles_;
-  std::vector<BrickBox> boxes_;
-  /// Unused parts of `boxes_` by capacity / kBoxGrain.
-  std::vector<std::vector<std::uint32_t>> free_boxes_;
 };
 
 }  // namespace raymoval::raymoval_method

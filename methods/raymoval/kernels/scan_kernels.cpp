@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval/kernels/scan_kernels.h"
 
-#include <algorithm>
 #include <array>
-#include <limits>
 
 #include "core/simd/compiled_sets.h"
 
@@ -11,7 +9,6 @@
 #define HWY_TARGET_INCLUDE "methods/raymoval/kernels/scan_kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 //
-#include "hwy/cache_control.h"
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
 
@@ -131,6 +128,7 @@ bool voxelise(const Voxelisation& job, std::size_t begin, std::size_t end) {
   auto inside = hn::Eq(hn::Zero(d), hn::Zero(d));
   for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
     const Points p = load_points(job.points + 3 * k);
+    std::array<hn::Vec<HalfInts>, 3> cells;
     for (std::size_t row = 0; row < 3; ++row) {
       const D x = hn::Mul(number(job.rotation[3 * row]), p.x);
       const D y = hn::Mul(number(job.rotation[3 * row + 1]), p.y);
@@ -138,72 +136,17 @@ bool voxelise(const Voxelisation& job, std::size_t begin, std::size_t end) {
       const D world = hn::Add(hn::Add(hn::Add(x, y), z), number(job.translation[row]));
       const D cell = hn::Floor(hn::Mul(world, number(job.inverse_voxel_size)));
       inside = hn::And(inside, hn::Le(hn::Abs(cell), number(job.limit)));
-      hn::StoreU(hn::DemoteTo(HalfInts(), cell), HalfInts(), job.voxels[row] + k);
+      cells[row] = hn::DemoteTo(HalfInts(), cell);
     }
+    hn::StoreInterleaved3(cells[0], cells[1], cells[2], HalfInts(), job.voxels + 3 * k);
   }
   return hn::AllTrue(d, inside);
-}
-
-std::size_t find_runs(const RunSearch& job) {
-  const hn::RebindToSigned<Floats> d;
-  const hn::RebindToUnsigned<Floats> numbers;
-  std::size_t runs = 0;
-  for (std::size_t k = 0; k < job.count; k += hn::Lanes(d)) {
-    std::array<hn::Vec<decltype(d)>, 3> here;
-    auto differs = hn::Zero(d);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      here[axis] = hn::LoadU(d, job.voxels[axis] + k + 1);
-      differs = hn::Or(differs, hn::Xor(here[axis], hn::LoadU(d, job.voxels[axis] + k)));
-    }
-    const auto begins = hn::Ne(differs, hn::Zero(d));
-    hn::StoreInterleaved3(hn::Compress(here[0], begins), hn::Compress(here[1], begins),
-                          hn::Compress(here[2], begins), d, job.run_voxels + 3 * runs);
-    const auto number = hn::Iota(numbers, job.first_point + static_cast<std::uint32_t>(k));
-    hn::StoreU(hn::Compress(number, hn::RebindMask(numbers, begins)), numbers,
-               job.run_first + runs);
-    runs += hn::CountTrue(d, begins);
-  }
-  return runs;
-}
-
-/// Eq. 11 for a few points: the difference in float, the margin in double, as `check_consistency`
-/// says.
-HWY_NOINLINE void check_exactly(const ConsistencyCheck& job, std::size_t begin, std::size_t end) {
-  for (std::size_t k = begin; k < end; ++k) {
-    if (job.bin[k] < 0) continue;
-    const float reference = job.reference[job.bin[k]], range = job.range[k];
-    const bool has_reference = reference < std::numeric_limits<float>::infinity();
-    const double ahead = reference - range, margin = job.tau0 + job.tau1 * double{range};
-    job.dynamic[k] = has_reference && ahead > margin ? 1 : 0;
-  }
-}
-
-void check(const ConsistencyCheck& job, std::size_t begin, std::size_t end) {
-  const Floats d;
-  const hn::RebindToSigned<Floats> ints;
-  const std::size_t lanes = hn::Lanes(d);
-  const F infinite = hn::Set(d, std::numeric_limits<float>::infinity());
-  // In single precision first, with a margin that is a little too small: few points come near it.
-  constexpr double kLess = 1.0 - 1e-5;
-  constexpr std::size_t kAhead = 96;  // Points whose references are fetched beforehand.
-  const F tau0 = float_number(job.tau0 * kLess), tau1 = float_number(job.tau1 * kLess);
-  std::fill(job.dynamic + begin, job.dynamic + end, std::uint8_t{0});
-  for (std::size_t k = begin; k < end; k += lanes) {
-    const auto bin = hn::LoadU(ints, job.bin + k);
-    const F range = hn::LoadU(d, job.range + k);
-    if (k + kAhead < end) hwy::Prefetch(job.reference + job.bin[k + kAhead]);
-    const F reference = hn::GatherIndex(d, job.reference, hn::Max(bin, hn::Zero(ints)));
-    const auto in_bin = hn::RebindMask(d, hn::Gt(bin, hn::Set(ints, -1)));
-    const auto ahead = hn::Gt(hn::Sub(reference, range), hn::Add(tau0, hn::Mul(tau1, range)));
-    const auto has_reference = hn::And(in_bin, hn::Lt(reference, infinite));
-    if (!hn::AllFalse(d, hn::And(ahead, has_reference))) check_exactly(job, k, k + lanes);
-  }
 }
 
 }  // namespace
 
 ScanKernels scan_kernels() {
-  return {hn::Lanes(Floats()), &project, &voxelise, &find_runs, &check};
+  return {hn::Lanes(Floats()), &project, &voxelise};
 }
 
 }  // namespace HWY_NAMESPACE

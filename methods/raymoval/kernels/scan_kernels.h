@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Loops over the points of a scan, compiled for each instruction set. `angular_grid`, `voxel_runs`
-/// and `consistency` are the way to them.
+/// Loops over the points of a scan, compiled for each instruction set, that `angular_grid` and
+/// `voxel_runs` call.
 namespace raymoval::raymoval_method::kernels {
 
 /// Eqs 1-3 for points (x y z, x y z, ...) of a scan.
@@ -30,29 +30,8 @@ struct Voxelisation {
   std::array<double, 9> rotation{};  ///< Row by row.
   std::array<double, 3> translation{};
   double inverse_voxel_size = 0.0;
-  double limit = 0.0;                     ///< Largest magnitude of an index.
-  std::array<std::int32_t*, 3> voxels{};  ///< x, y and z of the points.
-};
-
-/// The search for the runs of points that share a voxel.
-struct RunSearch {
-  /// x, y and z of the points, behind that of the point before them. Behind the last point its
-  /// voxel stands again, up to a multiple of `lanes`.
-  std::array<const std::int32_t*, 3> voxels{};
-  std::size_t count = 0;          ///< Points.
-  std::uint32_t first_point = 0;  ///< The number of the first of them.
-  /// The x y z of each run's voxel, and its first point; `lanes` more of each are written over.
-  std::int32_t* run_voxels = nullptr;
-  std::uint32_t* run_first = nullptr;
-};
-
-/// Eq. 11 for points.
-struct ConsistencyCheck {
-  const float* range = nullptr;       ///< The range of each point, metres.
-  const std::int32_t* bin = nullptr;  ///< The bin of each point; below 0 it is in none.
-  const float* reference = nullptr;   ///< The map reference of each bin; infinite if it has none.
-  double tau0 = 0.0, tau1 = 0.0;
-  std::uint8_t* dynamic = nullptr;
+  double limit = 0.0;              ///< Largest magnitude of an index.
+  std::int32_t* voxels = nullptr;  ///< x y z of each point.
 };
 
 struct ScanKernels {
@@ -62,10 +41,6 @@ struct ScanKernels {
   bool (*project)(const Projection& job, std::size_t begin, std::size_t end);
   /// The same. @return false if an index is beyond the limit
   bool (*voxelise)(const Voxelisation& job, std::size_t begin, std::size_t end);
-  /// @return how many runs begin with one of the points
-  std::size_t (*find_runs)(const RunSearch& job);
-  /// Points begin .. end - 1, a multiple of `lanes`.
-  void (*check)(const ConsistencyCheck& job, std::size_t begin, std::size_t end);
 };
 
 /// The kernels of the best instruction set that this processor has.

@@ -2,7 +2,6 @@
 #include "methods/raymoval/kernels/voxel_runs.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/parallel.h"
 #include "methods/raymoval/kernels/scan_kernels.h"
@@ -10,8 +9,7 @@
 namespace raymoval::raymoval_method {
 namespace {
 
-constexpr std::size_t kPart = 8192;   ///< Points of a part.
-constexpr std::size_t kPiece = 1024;  ///< Points whose voxels are held at a time.
+constexpr std::size_t kPart = 8192;  ///< Points of a part.
 
 kernels::Voxelisation voxelisation_of(const Scan& scan, double inverse_voxel_size) {
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
@@ -31,53 +29,27 @@ kernels::Voxelisation voxelisation_of(const Scan& scan, double inverse_voxel_siz
   return job;
 }
 
-/// x, y and z of some points' voxels, behind that of the point before them.
-struct Piece {
-  static constexpr std::size_t kSlack = 16;  ///< What vectors may need beyond the end.
-  std::array<std::array<std::int32_t, 1 + kPiece + kSlack>, 3> at;
-};
-
-/// Finds the voxels of the points begin .. end - 1.
-void find_piece(const Scan& scan, kernels::Voxelisation job, std::size_t begin, std::size_t end,
-                Piece& piece) {
+/// Finds the voxels of the points begin .. end - 1 and the runs among them.
+void find_part(const Scan& scan, kernels::Voxelisation job, std::size_t begin, std::size_t end,
+               VoxelRuns::Part& part) {
   const kernels::ScanKernels kernel = kernels::best_scan_kernels();
   const std::size_t count = end - begin, whole = count / kernel.lanes * kernel.lanes;
+  part.of_points.resize(count);
   job.points += 3 * begin;
-  for (std::size_t axis = 0; axis < 3; ++axis) job.voxels[axis] = piece.at[axis].data() + 1;
+  job.voxels = part.of_points.front().data();
   const bool on_lattice = kernel.voxelise(job, 0, whole);
   // If one of them is beyond the lattice, its error says where.
   for (std::size_t k = on_lattice ? whole : 0; k < count; ++k) {
     const Eigen::Vector3d world = scan.T_world_sensor * scan.points[begin + k].cast<double>();
-    const VoxelIndex voxel = voxel_index(world, job.inverse_voxel_size);
-    for (int axis = 0; axis < 3; ++axis) {
-      job.voxels[static_cast<std::size_t>(axis)][k] = voxel[axis];
-    }
+    part.of_points[k] = voxel_index(world, job.inverse_voxel_size);
   }
-  for (std::int32_t* values : job.voxels)
-    std::fill_n(values + count, Piece::kSlack, values[count - 1]);
-}
-
-void find_part(const Scan& scan, const kernels::Voxelisation& job, std::size_t begin,
-               std::size_t end, VoxelRuns::Part& part) {
-  part.voxels.resize(kPart + Piece::kSlack);
-  part.first.resize(kPart + Piece::kSlack);
-  part.count = 0;
-  Piece piece;
-  for (std::size_t from = begin; from < end; from += kPiece) {
-    const std::size_t to = std::min(from + kPiece, end);
-    kernels::RunSearch search;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // The last voxel of the piece before.
-      piece.at[axis][0] = from == begin ? 0 : piece.at[axis][kPiece];
-      search.voxels[axis] = piece.at[axis].data();
-    }
-    find_piece(scan, job, from, to, piece);
-    if (from == begin) piece.at[0][0] = piece.at[0][1] ^ 1;  // The first point begins a run.
-    search.count = to - from;
-    search.first_point = static_cast<std::uint32_t>(from);
-    search.run_voxels = part.voxels.data()->data() + 3 * part.count;
-    search.run_first = part.first.data() + part.count;
-    part.count += kernels::best_scan_kernels().find_runs(search);
+  part.of_runs.clear();
+  part.first.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    const VoxelIndex& voxel = part.of_points[k];
+    if (k > 0 && voxel == part.of_points[k - 1]) continue;
+    part.of_runs.push_back(voxel);
+    part.first.push_back(static_cast<std::uint32_t>(begin + k));
   }
 }
 
@@ -96,9 +68,8 @@ void find_voxels(const Scan& scan, double inverse_voxel_size, int threads, Voxel
   }
   for (std::size_t p = 0; p < parts; ++p) {
     const VoxelRuns::Part& part = runs.parts[p];
-    const auto count = static_cast<std::ptrdiff_t>(part.count);
-    runs.voxels.insert(runs.voxels.end(), part.voxels.begin(), part.voxels.begin() + count);
-    runs.first.insert(runs.first.end(), part.first.begin(), part.first.begin() + count);
+    runs.voxels.insert(runs.voxels.end(), part.of_runs.begin(), part.of_runs.end());
+    runs.first.insert(runs.first.end(), part.first.begin(), part.first.end());
   }
   runs.first.push_back(static_cast<std::uint32_t>(scan.size()));
 }

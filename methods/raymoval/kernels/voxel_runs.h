@@ -28,11 +28,10 @@ struct VoxelRuns {
     return values;
   }
 
-  /// The runs of one thread's part of the scan, kept for their memory.
+  /// What one thread finds in a part of the scan, kept for its memory.
   struct Part {
-    std::vector<VoxelIndex> voxels;
+    std::vector<VoxelIndex> of_points, of_runs;
     std::vector<std::uint32_t> first;
-    std::size_t count = 0;
   };
   std::vector<Part> parts;
 };

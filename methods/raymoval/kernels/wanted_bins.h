@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,14 +31,9 @@ class WantedBins {
   }
 
  private:
-  void resize(const AngularGrid& grid);
-
   std::size_t words_ = 0;
   std::vector<std::uint64_t> columns_;
-  std::vector<std::uint64_t> rows_, widened_;  ///< The same row by row, while they are found.
+  std::vector<std::uint64_t> finite_;  ///< Kept for its memory.
 };
-
-/// Turns a square of bits: bit b of word a becomes bit a of word b.
-void transpose_bits(std::array<std::uint64_t, 64>& words);
 
 }  // namespace raymoval::raymoval_method

@@ -4,7 +4,6 @@
 #include <oneapi/tbb/global_control.h>
 #include <catch2/catch.hpp>
 
-#include "methods/mapcleaner/sensor_settings.h"
 #include "tests/methods/mapcleaner/oracle.h"
 #include "tests/methods/mapcleaner/scenes.h"
 #include "tests/methods/moved_world.h"
@@ -97,35 +96,13 @@ TEST_CASE("mapcleaner: below the terrain, and without terrain, nothing is voted"
   for (int i = 0; i < 5; ++i) points.emplace_back(20.0, 0.1 * i, 1.0);
   const toy::HeldScans scans = passing(points);
   for (const bool below : {false, true}) {
-    for (const bool other : {false, true}) {
-      Parameters parameters = here();
-      parameters.remove_below = below;
-      parameters.remove_other = other;
-      const Mask mask = toy::masks_of(*make_mapcleaner(parameters), scans).get(0);
-      const auto last = mask.end() - 10;
-      for (int i = 0; i < 5; ++i) CHECK((last[i] != 0) == below);
-      for (int i = 5; i < 10; ++i) CHECK((last[i] != 0) == other);
-    }
+    Parameters parameters = here();
+    parameters.remove_below = below;
+    const Mask mask = toy::masks_of(*make_mapcleaner(parameters), scans).get(0);
+    const auto last = mask.end() - 10;
+    for (int i = 0; i < 5; ++i) CHECK((last[i] != 0) == below);
+    for (int i = 5; i < 10; ++i) CHECK(last[i] == 0);
   }
-}
-
-TEST_CASE("mapcleaner: where there is no terrain, what is no ground may be judged as well") {
-  // Ground that rises by 20 degrees from x = 3 on is no terrain; the box stands on it.
-  const WorldPoints hill =
-      ground([](double x, double) { return x < 3.0 ? 0.0 : (x - 3.0) * std::tan(20 * kDegree); });
-  WorldPoints box;
-  add_face(8.0, 2.5, 3.5, box);
-  Parameters parameters = here();
-  parameters.refill_radius = 0.0;
-  toy::HeldScans scans;
-  scans.add_world(kSensor, street_with(box, hill));
-  for (int i = 0; i < 2; ++i) scans.add_world(kSensor, street_with({}, hill));
-  CHECK(removed_of_last(scans, box.size(), parameters) == 0);
-  parameters.on_terrain_only = false;
-  const MaskStore masks = toy::masks_of(*make_mapcleaner(parameters), scans);
-  CHECK(removed_of_last(scans, box.size(), parameters) == static_cast<int>(box.size()));
-  // The hill is ground and stays, but for points at its edge in bins that have fewer than ten.
-  CHECK(masks.removed_count() < box.size() + 10);
 }
 
 TEST_CASE("mapcleaner: one scan, empty scans, no ground at all") {
@@ -256,8 +233,7 @@ TEST_CASE("mapcleaner: the fast way gives what the description says") {
     if (variant > 1) {
       for (bool Parameters::*flag :
            {&Parameters::public_overwrite, &Parameters::public_field_of_view,
-            &Parameters::on_terrain_only, &Parameters::remove_below, &Parameters::remove_other,
-            &Parameters::public_steps}) {
+            &Parameters::remove_below, &Parameters::public_steps}) {
         parameters.*flag = random() % 2 == 0;
       }
       parameters.submap_radius = variant == 3 ? 6.0 : 70.0;

@@ -221,7 +221,7 @@ Oracle::Cells Oracle::smoothed(const Cells& cells) {
 char Oracle::part(std::size_t scan, std::size_t point) const {
   const Eigen::Vector3d place = world(scan, point);
   const double terrain = at(terrain_, cell(place.x()), cell(place.y()));
-  if (std::isnan(terrain)) return p_.on_terrain_only ? 'o' : grounds_[scan][point] != 0 ? 'g' : 'c';
+  if (std::isnan(terrain)) return 'o';
   if (std::abs(place.z() - terrain) <= p_.ground_height) return 'g';
   return place.z() < terrain ? 'b' : 'c';
 }
@@ -318,7 +318,6 @@ Mask Oracle::mask(std::size_t i) const {
     bool removed =
         own == 'c' && votes_.contains(voxel(world(i, k))) && votes_.at(voxel(world(i, k))) > 0;
     if (own == 'b') removed = p_.remove_below;
-    if (own == 'o') removed = p_.remove_other;
     mask.push_back(removed ? 1 : 0);
   }
   return mask;

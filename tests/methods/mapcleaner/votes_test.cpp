@@ -5,7 +5,6 @@
 #include <random>
 
 #include "core/angle.h"
-#include "methods/mapcleaner/sensor_settings.h"
 #include "tests/methods/mapcleaner/scenes.h"
 
 namespace raymoval::mapcleaner_test {

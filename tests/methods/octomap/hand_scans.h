@@ -3,12 +3,9 @@
 
 #include <octomap/OcTree.h>
 
-#include <sstream>
-#include <string>
 #include <vector>
 
-#include "methods/octomap/occupancy_tree.h"
-#include "methods/octomap/scan_cells.h"
+#include "methods/octomap/occupancy_map.h"
 #include "tests/methods/moved_world.h"
 
 namespace raymoval::octomap_test {
@@ -38,21 +35,22 @@ inline std::vector<octomap::point3d> rounded(const Points& points) {
   return all;
 }
 
-/// The map alone, a scan at a time.
+/// The map alone, a scan at a time, kept to the cells around the line on which tests happen.
 class HandMap {
  public:
-  explicit HandMap(const Parameters& parameters, int threads = 1)
-      : parameters_(parameters),
-        context_{.threads = threads},
-        cells_(parameters_, context_),
-        map_(parameters_) {}
+  explicit HandMap(const Parameters& parameters) : parameters_(parameters), map_(parameters_) {
+    for (double x = -0.5; x < 3.6; x += 0.2) {
+      for (double y = -0.5; y < 0.6; y += 0.2) {
+        for (double z = -0.5; z < 1.6; z += 0.2) map_.keep(*map_.cell_of(rounded({x, y, z})));
+      }
+    }
+  }
   HandMap(const HandMap&) = delete;
   HandMap& operator=(const HandMap&) = delete;
 
   HandMap& insert(const Points& points, const Eigen::Vector3d& origin = {0.1, 0.1, 0.1},
                   PointRole role = PointRole::kSurface) {
-    cells_.compute(rounded(points), std::vector<PointRole>(points.size(), role), rounded(origin));
-    map_.update(cells_.parts());
+    map_.insert(rounded(points), std::vector<PointRole>(points.size(), role), rounded(origin), {});
     return *this;
   }
   [[nodiscard]] const octomap::OcTree& tree() const { return map_.tree(); }
@@ -69,16 +67,7 @@ class HandMap {
 
  private:
   Parameters parameters_;
-  RunContext context_;
-  ScanCells cells_;
-  OccupancyTree map_;
+  OccupancyMap map_;
 };
-
-/// Every node of a tree with its value, and what it consists of.
-inline std::string tree_bytes(const octomap::OcTree& tree) {
-  std::ostringstream bytes;
-  tree.write(bytes);
-  return bytes.str();
-}
 
 }  // namespace raymoval::octomap_test

@@ -124,28 +124,7 @@ TEST_CASE("a scan of no more points than neighbours has no noise") {
   CHECK(find_noise({}, parameters, 1).empty());
 }
 
-TEST_CASE("outliers hit without a beam, or leave the scan and the map") {
-  // Scans of 60 points of a wall, and one loner at (5.1, 0.1, 0.1) in the last.
-  const auto scans_with = [](NoisePoints what) {
-    HandScans scans;
-    Points wall;
-    for (int i = 0; i < 60; ++i) wall.emplace_back(30.1, 0.05 * i - 1.5, 0.11);
-    const Eigen::Vector3d loner(5.1, 0.1, 0.1);
-    wall.push_back(loner);
-    scans.add(wall);
-    Parameters parameters;
-    parameters.noise = true;
-    parameters.noise_points = what;
-    const auto method = MethodRegistry::built_in().configure("octomap:r20");
-    Configuration configuration = method.configuration;
-    set_parameter(configuration, "noise", true);
-    set_parameter(configuration, "noise_points",
-                  std::string(what == NoisePoints::kRemoved ? "removed" : "occupied"));
-    return masks_of(*method.entry->make(configuration), scans).get(0);
-  };
-  CHECK(scans_with(NoisePoints::kOccupied).back() == 0);
-  CHECK(scans_with(NoisePoints::kRemoved).back() == 1);
-  // No beam: the cells before it stay unknown.
+TEST_CASE("an outlier hits its cell without a beam") {
   HandMap map({});
   map.insert({{2.1, 0.1, 0.1}}, {0.1, 0.1, 0.1}, PointRole::kNoise);
   CHECK(map.log_odds({2.1, 0.1, 0.1}) == Approx(0.847298));

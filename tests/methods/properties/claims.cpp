@@ -23,14 +23,7 @@ constexpr Line kLines[] = {
     // is gone for the next.
     {"raymoval:offline", "= = ? = ? = ? ? ?"},
     {"raymoval:online", "= = ? = ? = = ? ?"},
-    {"raymoval:offline-growing", "= = ? = ? = ? ? ?"},
-    {"raymoval:offline-naive", "= = ? = ? = ? ? ?"},
-    {"raymoval:offline-eq11", "= = ? = ? = ? ? ?"},
     {"raymoval:table1", "= = ? = ? = ? ? ?"},
-    {"raymoval:table1-online", "= = ? = ? = = ? ?"},
-    {"raymoval:table1-growing", "= = ? = ? = ? ? ?"},
-    {"raymoval:table1-naive", "= = ? = ? = ? ? ?"},
-    {"raymoval:table1-eq11", "= = ? = ? = ? ? ?"},
 
     // Runs of scans, gaps of tracks, kept scans and the ground's period count scans, empty ones
     // too. Means of voxels and of objects are sums, which round.
@@ -43,9 +36,7 @@ constexpr Line kLines[] = {
     // A scan is a set of cells, hit or crossed once. Clamping makes the order of scans count. The
     // ground plane and the outliers come from the list of points.
     {"octomap:r20", "= = ? = = = ? ? ?"},
-    {"octomap:r10", "= = ? = = = ? ? ?"},
     {"octomap:r05", "= = ? = = = ? ? ?"},
-    {"octomap:discretised", "= = ? = = = ? ? ?"},
     {"octomap:kth", "= = ? = = = ? ? ?"},
     {"octomap:ground", "= = ? ? ? = ? ? ?"},
     {"octomap:ground-noise", "= = ? ? ? = ? ? ?"},

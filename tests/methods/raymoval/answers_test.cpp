@@ -85,14 +85,12 @@ TEST_CASE("each point's reason fits its answer", "[raymoval]") {
   ConfiguredMethod method = on_toy_grid("offline");
   CHECK(reasons_of(method, world, kOtherIndex)["a scan saw t"] > 80);
   CHECK(reasons_of(method, world, kWallIndex)["no scan cont"] > 99);
-  set_parameter(method.configuration, "erased_points", false);  // Only eq. 11 is left.
-  CHECK(reasons_of(method, world, kOtherIndex)["it stands in"] > 95);
   // Validation gives all back where a cluster needs more points than the box has: at 6 m 1,000
   // times (10 / 6)^2. Without validation all is removed.
   set_parameter(method.configuration, "cluster_points", 1000.0);
   CHECK(reasons_of(method, world, kOtherIndex)["it was a can"] > 95);
   set_parameter(method.configuration, "validate", false);
-  CHECK(reasons_of(method, world, kOtherIndex)["it stands in"] > 95);
+  CHECK(reasons_of(method, world, kOtherIndex)["a scan saw t"] > 80);
 }
 
 TEST_CASE("a point that eq. 11 alone speaks against is not told to have been seen through",
@@ -102,12 +100,6 @@ TEST_CASE("a point that eq. 11 alone speaks against is not told to have been see
   auto shares = reasons_of(on_toy_grid("offline"), world, kOtherIndex);
   CHECK(shares["a scan saw t"] > 20);
   CHECK(shares["it stands in"] > 0.5);
-  // Against the map of all points eq. 11 says nothing, whatever else is asked for.
-  ConfiguredMethod naive = on_toy_grid("offline-naive");
-  set_parameter(naive.configuration, "erased_points", false);
-  shares = reasons_of(naive, world, kOtherIndex);
-  CHECK(shares["a scan saw t"] > 20);
-  CHECK(shares["it stands in"] == 0);
 }
 
 TEST_CASE("the first point of a scan has its answer and its reason, too", "[raymoval]") {
@@ -116,9 +108,7 @@ TEST_CASE("the first point of a scan has its answer and its reason, too", "[raym
   REQUIRE(world.owner[0][0] == kOtherIndex);
   ConfiguredMethod method = on_toy_grid("offline");
   CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
-  set_parameter(method.configuration, "forward_test", false);  // It was seen through.
-  CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
-  CHECK(reasons_of(on_toy_grid("offline"), world, kOtherIndex)["a scan saw t"] > 80);
+  CHECK(reasons_of(method, world, kOtherIndex)["a scan saw t"] > 80);
 }
 
 namespace {
@@ -136,7 +126,7 @@ class Said : public RemovalSink {
 
 TEST_CASE("masks say 0 or 1, validated or not", "[raymoval]") {
   const World world = box_before_wall();
-  for (const char* variant : {"offline", "offline-growing", "offline-naive", "online"}) {
+  for (const char* variant : {"offline", "online"}) {
     for (const bool validate : {false, true}) {
       ConfiguredMethod method = on_toy_grid(variant);
       set_parameter(method.configuration, "validate", validate);
@@ -176,25 +166,15 @@ TEST_CASE("a run is timed by the steps that it takes", "[raymoval]") {
                        "erase",   "validation", "integration"};
   CHECK(stages_of(on_toy_grid("online"), 1) == steps);
   CHECK(stages_of(on_toy_grid("offline"), 1) == steps);
-  ConfiguredMethod method = on_toy_grid("offline-naive");
-  Names naive = steps;
-  naive.insert("answer");
-  CHECK(stages_of(method, 1) == naive);
   // What several threads do side by side is one stage.
-  Names side_by_side = stages_of(method, 2);
+  const Names side_by_side = stages_of(on_toy_grid("offline"), 2);
   CHECK(side_by_side.count("answer and validation") == 1);
-  CHECK(side_by_side.count("answer") == 0);
   CHECK(side_by_side.count("validation") == 0);
   // A step that is left out has no time.
+  ConfiguredMethod method = on_toy_grid("online");
   set_parameter(method.configuration, "validate", false);
-  naive.erase("validation");
-  CHECK(stages_of(method, 1) == naive);
-  method = on_toy_grid("online");
-  set_parameter(method.configuration, "validate", false);
-  set_parameter(method.configuration, "erase", false);
-  set_parameter(method.configuration, "no_return", true);
   CHECK(stages_of(method, 1) ==
-        Names{"binning", "raycasting", "classification", "no-return evidence", "integration"});
+        Names{"binning", "raycasting", "classification", "erase", "integration"});
 }
 
 }  // namespace raymoval::raymoval_test

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <numbers>
 #include <random>
 
 #include "core/simd/instruction_set_scope.h"
@@ -84,24 +83,6 @@ TEST_CASE("flat ground seen at a grazing angle is not seen through") {
   CHECK(grazing_distance(-0.001, 0.2, 5.0) == Approx(5.0));
   CHECK(grazing_distance(0.0, 0.2, 5.0) == Approx(5.0));
   CHECK(grazing_distance(-1.0, 0.2, 5.0) == Approx(0.2));
-}
-
-TEST_CASE("no return counts only within the sensor's view and the range asked for") {
-  const AngularGrid grid{4, 1, -0.1, 0.1};  // Columns at -135, -45, 45 and 135 degrees.
-  SensorModel sensor;
-  sensor.azimuth_min = -std::numbers::pi / 2;
-  sensor.azimuth_max = std::numbers::pi / 2;
-  FirstHitImage hits;
-  hits.range = {5, 5, 5, 5};
-  const std::vector<float> silent(4, kNoRange);
-  CHECK(find_no_return(silent, hits, grid, sensor, 20.0) == std::vector<int>{1, 2});
-  CHECK(find_no_return({kNoRange, 6, kNoRange, kNoRange}, hits, grid, sensor, 20.0) ==
-        std::vector<int>{2});
-  CHECK(find_no_return(silent, hits, grid, sensor, 4.0).empty());
-  // A view of the back: from 90 degrees over 180 to 270.
-  sensor.azimuth_min = std::numbers::pi / 2;
-  sensor.azimuth_max = 3 * std::numbers::pi / 2;
-  CHECK(find_no_return(silent, hits, grid, sensor, 20.0) == std::vector<int>{0, 3});
 }
 
 }  // namespace raymoval::raymoval_test

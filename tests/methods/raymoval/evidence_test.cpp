@@ -32,27 +32,23 @@ class Lookout {
   };
 
   /// Takes a scan, and gives what it erases of a map of `voxel` alone.
-  Evidence evidence_of(const std::vector<Return>& returns, const VoxelIndex& voxel, int scans = 1) {
-    StaticMap map(parameters.voxel_size, true);
+  std::vector<VoxelIndex> seen_through(const std::vector<Return>& returns,
+                                       const VoxelIndex& voxel) {
+    StaticMap map(parameters.voxel_size);
     map.integrate(voxel);
     ScanAgainstMap test(parameters, sensor);
     EvidenceFinder finder(parameters, sensor, test.grid());
-    Evidence evidence;
-    for (int scan = 0; scan < scans; ++scan) {
-      test.project_scan(scan_of(returns, test.grid()), {});
-      test.cast_first_hits(map.occupied(), {});
-      test.find_references(map, {});
-      evidence = finder.find(test, map.occupied(), 1, nullptr);
-    }
-    return evidence;
+    test.project_scan(scan_of(returns, test.grid()), {});
+    test.cast_first_hits(map.occupied(), {});
+    test.find_references(map, {});
+    return finder.find(test, map.occupied(), {});
   }
 
   /// Whether the voxel 9.5 m ahead is erased by a return far behind it, while a return at its front
   /// lies so many columns and rows beside that one.
   bool is_erased_beside(int columns, int rows) {
     const VoxelIndex ahead(10, 0, 0);
-    const auto seen =
-        evidence_of({{180, 60, 30.0}, {180 + columns, 60 + rows, 9.4}}, ahead).seen_through;
+    const auto seen = seen_through({{180, 60, 30.0}, {180 + columns, 60 + rows, 9.4}}, ahead);
     CHECK((seen.empty() || seen == std::vector<VoxelIndex>{ahead}));
     return !seen.empty();
   }
@@ -109,8 +105,7 @@ TEST_CASE("a return at the front saves a voxel at most a hundred rows beside it"
   lookout.sensor.elevation_min = -4.5 * kDegree;
   lookout.sensor.elevation_max = 4.5 * kDegree;
   const auto erases_beside = [&](int rows) {
-    return !lookout.evidence_of({{180, 1800, 30.0}, {180, 1800 + rows, 9.4}}, {10, 0, 0})
-                .seen_through.empty();
+    return !lookout.seen_through({{180, 1800, 30.0}, {180, 1800 + rows, 9.4}}, {10, 0, 0}).empty();
   };
   CHECK_FALSE(erases_beside(100));
   CHECK(erases_beside(101));
@@ -130,12 +125,12 @@ TEST_CASE("a voxel in which the scan has a point itself is not seen through", "[
   Lookout lookout;
   // Its columns are 3.5 to 8.5 degrees to the left; beside the ray, no window reaches the other.
   const VoxelIndex aside(10, 1, 0);
-  CHECK(lookout.evidence_of({{184, 60, 30.0}}, aside).seen_through.size() == 1);
-  CHECK(lookout.evidence_of({{184, 60, 30.0}, {187, 60, 9.885}}, aside).seen_through.empty());
+  CHECK(lookout.seen_through({{184, 60, 30.0}}, aside).size() == 1);
+  CHECK(lookout.seen_through({{184, 60, 30.0}, {187, 60, 9.885}}, aside).empty());
   // In the voxel behind it, which is of the same brick.
-  CHECK(lookout.evidence_of({{184, 60, 30.0}, {187, 60, 10.8}}, aside).seen_through.size() == 1);
+  CHECK(lookout.seen_through({{184, 60, 30.0}, {187, 60, 10.8}}, aside).size() == 1);
   // At the same place of another brick, in which the map has nothing.
-  CHECK(lookout.evidence_of({{180, 60, 26.0}}, {10, 0, 0}).seen_through.size() == 1);
+  CHECK(lookout.seen_through({{180, 60, 26.0}}, {10, 0, 0}).size() == 1);
 }
 
 TEST_CASE("a falling ray has to cross a voxel's height behind the first hit", "[raymoval]") {
@@ -150,7 +145,7 @@ TEST_CASE("a falling ray has to cross a voxel's height behind the first hit", "[
   map.insert(hit);
   const double first = cast_ray(map, {lookout.pose.translation(), direction}, {2.7, 60})->range;
   const auto erases = [&](double behind) {
-    return !lookout.evidence_of({{180, 21, first + behind}}, hit).seen_through.empty();
+    return !lookout.seen_through({{180, 21, first + behind}}, hit).empty();
   };
   CHECK_FALSE(erases(4.9));
   CHECK(erases(5.1));
@@ -160,20 +155,6 @@ TEST_CASE("a falling ray has to cross a voxel's height behind the first hit", "[
   lookout.parameters.erase_height_limit = 6.0;
   CHECK_FALSE(erases(5.9));
   CHECK(erases(6.1));
-}
-
-TEST_CASE("it takes as many scans without return as asked for to erase a voxel", "[raymoval]") {
-  Lookout lookout;
-  lookout.parameters.erase = false;
-  lookout.parameters.no_return = true;
-  lookout.parameters.no_return_scans = 3;
-  const VoxelIndex ahead(10, 0, 0);
-  const auto erased = [&](int scans) {
-    return lookout.evidence_of({{0, 60, 30.0}}, ahead, scans).without_return;
-  };
-  CHECK(erased(1).empty());
-  CHECK(erased(2).empty());
-  CHECK(erased(3) == std::vector<VoxelIndex>{ahead});
 }
 
 }  // namespace raymoval::raymoval_test

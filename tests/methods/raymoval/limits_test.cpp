@@ -182,15 +182,6 @@ TEST_CASE("what lies behind the last bin in memory is not looked at", "[raymoval
   }
 }
 
-TEST_CASE("no-return evidence reaches to its range, and any return speaks against it",
-          "[raymoval]") {
-  const AngularGrid grid{4, 1, -0.1, 0.1};
-  FirstHitImage hits;
-  hits.range = {5, 5, 5.0625F, kNoRange};
-  const std::vector<float> nearest = {kNoRange, 30, kNoRange, kNoRange};
-  CHECK(find_no_return(nearest, hits, grid, SensorModel(), 5.0) == std::vector<int>{0});
-}
-
 TEST_CASE("points as far apart as the reach are one cluster, and no farther", "[raymoval]") {
   const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0.5, 0, 0}, {1.0009765625, 0, 0}};
   CHECK(range_adaptive_clusters(points, {8, 8, 8}, 0.25, 0.03125) == std::vector<int>{0, 0, 1});

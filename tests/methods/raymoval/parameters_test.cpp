@@ -34,13 +34,10 @@ TEST_CASE("raymoval's parameters have the paper's values, or ours, and their lim
       {"voxel_size", "0.2, 0.02 to 2 m"},
       {"maximum_range", "60, 1 to 500 m"},
       {"minimum_range", "2.7, 0 to 20 m"},
-      {"map_source", "prior, " + join({"prior", "growing", "naive"})},
       {"neighbourhood", "1, 0 to 10 bins"},
       {"percentile", "0.9, 0 to 1"},
-      {"forward_test", "true"},
       {"tau0", "0.3, 0 to 10 m"},
       {"tau1", "0.35, 0 to 2"},
-      {"erase", "true"},
       {"erase_tau0", "0.3, 0 to 10 m"},
       {"erase_tau1", "0.1, 0 to 2"},
       {"erase_height", "1, 0 to 10 voxels"},
@@ -48,13 +45,6 @@ TEST_CASE("raymoval's parameters have the paper's values, or ours, and their lim
       {"erase_percentile", "0.1, 0 to 1"},
       {"erase_azimuth_window", "1, 0 to 30 bins"},
       {"erase_elevation_window", "-1, -1 to 100 bins"},
-      {"permanent_erase", "true"},
-      {"erased_points", "true"},
-      {"no_return", "false"},
-      {"no_return_azimuth_window", "2, 0 to 30 bins"},
-      {"no_return_elevation_window", "8, 0 to 100 bins"},
-      {"no_return_range", "20, 0 to 200 m"},
-      {"no_return_scans", "3, 1 to 1000 scans"},
       {"validate", "true"},
       {"cluster_gap", "0.3, 0.01 to 5 m"},
       {"cluster_gap_growth", "0.02, 0 to 0.2"},
@@ -70,7 +60,6 @@ TEST_CASE("raymoval's parameters have the paper's values, or ours, and their lim
       {"minimum_points", "1, 0 to 1000 points"},
       {"minimum_width", "0, 0 to 5 m"},
       {"offline", "true"},
-      {"backward_pass", "false"},
   };
   std::map<std::string, std::string> found;
   for (const ParameterSpec& spec : raymoval_entry_of_registry().parameters) {
@@ -80,19 +69,10 @@ TEST_CASE("raymoval's parameters have the paper's values, or ours, and their lim
 }
 
 TEST_CASE("raymoval's variants change what their names say", "[raymoval]") {
-  const std::string printed = " erase_tau1=0.35 erase_percentile=0.9";
-  const std::string online = "online: offline=false map_source=growing";
   const std::vector<std::pair<std::string, std::string>> expected = {
       {"offline", "offline:"},
-      {"online", online},
-      {"offline-growing", "offline: map_source=growing"},
-      {"offline-naive", "offline: map_source=naive"},
-      {"offline-eq11", "offline: erased_points=false"},
-      {"table1", "offline:" + printed},
-      {"table1-online", online + printed},
-      {"table1-growing", "offline: map_source=growing" + printed},
-      {"table1-naive", "offline: map_source=naive" + printed},
-      {"table1-eq11", "offline: erased_points=false" + printed},
+      {"online", "online: offline=false"},
+      {"table1", "offline: erase_tau1=0.35 erase_percentile=0.9"},
   };
   const MethodEntry& entry = raymoval_entry_of_registry();
   std::vector<std::pair<std::string, std::string>> found;
@@ -110,17 +90,6 @@ TEST_CASE("raymoval's variants change what their names say", "[raymoval]") {
   CHECK_FALSE(entry.sentence.empty());
   CHECK(entry.source.rfind("Raymoval: ", 0) == 0);
   CHECK(entry.notes.size() == 3);
-}
-
-TEST_CASE("raymoval answers online from a growing map only", "[raymoval]") {
-  for (const char* source : {"prior", "naive"}) {
-    ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval");
-    set_parameter(method.configuration, "offline", false);
-    set_parameter(method.configuration, "map_source", std::string(source));
-    CHECK_THROWS_WITH(method.make(), Catch::Contains("need all scans") &&
-                                         Catch::Contains("use map_source = growing"));
-  }
-  CHECK_NOTHROW(MethodRegistry::built_in().configure("raymoval:online").make());
 }
 
 }  // namespace raymoval::raymoval_test

@@ -51,6 +51,12 @@ ConfiguredMethod configured(const std::string& variant) {
   return method;
 }
 
+/// Margins so wide that eq. 11 flags nothing.
+void switch_eq11_off(ConfiguredMethod& method) {
+  set_parameter(method.configuration, "tau0", 10.0);
+  set_parameter(method.configuration, "tau1", 2.0);
+}
+
 MaskStore run(const std::string& variant, const World& world, int threads = 1) {
   return toy::masks_of(*configured(variant).make(), world, threads);
 }
@@ -103,8 +109,7 @@ TEST_CASE("beams far apart are no witnesses for each other") {
 TEST_CASE("a box that stays is static") {
   World world{toy::Scanner{}};
   for (int i = 0; i < 8; ++i) world.scan({kWall, kCar}, pose_at(0.013 * i + 0.01, 0.02, 0.03));
-  for (const char* variant :
-       {"offline", "online", "offline-growing", "offline-naive", "table1", "table1-growing"}) {
+  for (const char* variant : {"offline", "online", "table1"}) {
     INFO(variant);
     const MaskStore masks = run(variant, world);
     CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 7) < 0.01);
@@ -133,26 +138,19 @@ TEST_CASE("a road that lies low in its voxels stays whole while the sensor drive
   CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 0, 19) > 0.05);
 }
 
-TEST_CASE("against the prior map eq. 11 decides by its margin") {
-  // Once the box has left, the scans see the wall through where it stood: the prior has the wall
-  // only. The box's front is at about 6 m, the wall twice as far, so the rays would go on for
-  // about as far as they went. That is more than 0.3 + 0.35 * 6 and less than 0.3 + 1 * 6.
-  const World world = box_that(true);
-  ConfiguredMethod method = configured("offline");
-  set_parameter(method.configuration, "erased_points", false);  // Nothing but eq. 11.
-  const auto share = [&](int owner) {
-    return toy::removed_share(world, toy::masks_of(*method.make(), world), owner, 0, 4);
+TEST_CASE("eq. 11 decides by its margin") {
+  // The box's front arrives at 6 m, and the wall of the map is twice as far: the rays would go on
+  // for as far as they went. That is more than 0.3 + 0.35 * 6 and less than 0.3 + 1 * 6.
+  const World world = box_that(false);
+  const auto share = [&](double tau0, double tau1) {
+    ConfiguredMethod method = configured("online");
+    set_parameter(method.configuration, "tau0", tau0);
+    set_parameter(method.configuration, "tau1", tau1);
+    return toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 5, 9);
   };
-  CHECK(share(kOtherOwner) > 0.95);
-  CHECK(share(kWallOwner) < 0.01);
-  set_parameter(method.configuration, "tau1", 1.0);
-  CHECK(share(kOtherOwner) == 0.0);
-  set_parameter(method.configuration, "tau1", 0.35);
-  set_parameter(method.configuration, "tau0", 6.0);
-  CHECK(share(kOtherOwner) == 0.0);
-  set_parameter(method.configuration, "tau0", 0.3);
-  set_parameter(method.configuration, "forward_test", false);
-  CHECK(share(kOtherOwner) == 0.0);
+  CHECK(share(0.3, 0.35) > 0.95);
+  CHECK(share(0.3, 1.0) == 0.0);
+  CHECK(share(6.0, 0.35) == 0.0);
 }
 
 TEST_CASE("eq. 11 finds what is left of a box that was seen through in part") {
@@ -169,29 +167,11 @@ TEST_CASE("eq. 11 finds what is left of a box that was seen through in part") {
   const auto share = [&] {
     return toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 0, 4);
   };
-  const double with_forward_test = share();
-  set_parameter(method.configuration, "forward_test", false);
+  const double with_eq11 = share();
+  switch_eq11_off(method);
   const double without = share();
   CHECK(without > 0.3);
-  CHECK(with_forward_test > without);
-  // Against the map of all points eq. 11 says nothing.
-  CHECK(toy::removed_share(world, run("offline-naive", world), kOtherOwner, 0, 4) == without);
-}
-
-TEST_CASE("without eq. 11 the prior map gives what the naive one does") {
-  const World world = box_that(true);
-  ConfiguredMethod prior = configured("offline");
-  set_parameter(prior.configuration, "forward_test", false);
-  const MaskStore masks = toy::masks_of(*prior.make(), world), naive = run("offline-naive", world);
-  for (std::size_t i = 0; i < world.size(); ++i) REQUIRE(masks.get(i) == naive.get(i));
-}
-
-TEST_CASE("a prior map is seen through for good, whatever a growing one may do") {
-  const World world = box_that(true);
-  ConfiguredMethod method = configured("offline");
-  set_parameter(method.configuration, "forward_test", false);
-  set_parameter(method.configuration, "permanent_erase", false);
-  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 0, 4) > 0.95);
+  CHECK(with_eq11 > without);
 }
 
 TEST_CASE("online, what stands where a scan has seen through is removed") {
@@ -203,18 +183,8 @@ TEST_CASE("online, what stands where a scan has seen through is removed") {
     world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
   }
   ConfiguredMethod method = configured("online");
-  set_parameter(method.configuration, "forward_test", false);
-  const auto share = [&] {
-    return toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11);
-  };
-  CHECK(share() > 0.95);
-  set_parameter(method.configuration, "erased_points", false);
-  CHECK(share() == 0.0);
-}
-
-TEST_CASE("what never came into a growing map is removed from it") {
-  const World world = box_that(false);
-  CHECK(toy::removed_share(world, run("offline-growing", world), kOtherOwner, 5, 9) > 0.95);
+  switch_eq11_off(method);
+  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11) > 0.95);
 }
 
 TEST_CASE("a sensor that sees only ahead judges only what it sees") {
@@ -253,8 +223,8 @@ TEST_CASE("far from the origin nothing changes") {
   CHECK(different * 1000 < points);
 }
 
-TEST_CASE("empty directions erase only where they are asked to, and not at the first time") {
-  // The box stands before nothing at all; when it leaves, its directions fall silent.
+TEST_CASE("directions without return erase nothing") {
+  // The box stands before nothing at all; when it leaves, its directions have no returns.
   World world{toy::Scanner{}};
   const Box side{{-9, 6.03, -3}, {9, 6.5, 3}};
   for (int i = 0; i < 10; ++i) {
@@ -263,65 +233,10 @@ TEST_CASE("empty directions erase only where they are asked to, and not at the f
     world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
   }
   CHECK(toy::removed_share(world, run("offline", world), kOtherOwner, 0, 3) == 0.0);
-  ConfiguredMethod method = configured("offline");
-  set_parameter(method.configuration, "no_return", true);
-  set_parameter(method.configuration, "no_return_scans", std::int64_t{3});
-  const auto share = [&] {
-    const MaskStore masks = toy::masks_of(*method.make(), world);
-    CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
-    return toy::removed_share(world, masks, kOtherOwner, 0, 3);
-  };
-  CHECK(share() > 0.8);
-  set_parameter(method.configuration, "no_return_scans", std::int64_t{7});  // Only six are silent.
-  CHECK(share() == 0.0);
-  // So it is in a growing map, where validation runs beside the search for evidence.
-  method = configured("offline-growing");
-  set_parameter(method.configuration, "no_return", true);
-  set_parameter(method.configuration, "no_return_scans", std::int64_t{7});
-  CHECK(share() == 0.0);
-  set_parameter(method.configuration, "no_return_scans", std::int64_t{3});
-  CHECK(share() > 0.8);
-}
-
-TEST_CASE("an erased voxel stays erased, or may be filled again") {
-  // The box comes back after the map was seen through where it stood.
-  World world{toy::Scanner{}};
-  for (int i = 0; i < 12; ++i) {
-    std::vector<Box> boxes = {kWall};
-    if (i < 4 || i >= 8) boxes.push_back(kCar);
-    world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
-  }
-  ConfiguredMethod method = configured("offline");
-  set_parameter(method.configuration, "map_source", std::string("growing"));
-  set_parameter(method.configuration, "forward_test", false);
-  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11) > 0.95);
-  set_parameter(method.configuration, "permanent_erase", false);
-  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11) < 0.05);
-}
-
-TEST_CASE("a backward pass sees what arrives as something that leaves") {
-  // Growing map without the forward test: the box that arrives is never seen through forwards.
-  const World world = box_that(false);
-  ConfiguredMethod method = configured("offline");
-  set_parameter(method.configuration, "map_source", std::string("growing"));
-  set_parameter(method.configuration, "forward_test", false);
-  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 5, 9) == 0.0);
-  set_parameter(method.configuration, "backward_pass", true);
-  CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 5, 9) > 0.95);
-}
-
-TEST_CASE("an online run cannot have a map of all scans") {
-  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:online");
-  for (const char* source : {"naive", "prior"}) {
-    set_parameter(method.configuration, "map_source", std::string(source));
-    CHECK_THROWS_WITH(method.make(), Catch::Contains("growing"));
-  }
 }
 
 TEST_CASE("table1 uses every printed value in both tests") {
-  const auto variant =
-      GENERATE(as<std::string>(), "table1", "table1-online", "table1-growing", "table1-naive");
-  const auto method = MethodRegistry::built_in().configure("raymoval:" + variant);
+  const auto method = MethodRegistry::built_in().configure("raymoval:table1");
   const Parameters p = parameter_table().read(method.configuration);
   CHECK(p.azimuth_bins == 720);
   CHECK(p.elevation_bins == 450);

@@ -5,7 +5,7 @@
 
 #include "core/angle.h"
 #include "core/simd/instruction_set_scope.h"
-#include "methods/raymoval/clusters.h"
+#include "methods/raymoval/validation.h"
 #include "methods/raymoval/consistency.h"
 #include "methods/raymoval/map_reference.h"
 #include "methods/raymoval/static_map.h"
@@ -154,54 +154,28 @@ TEST_CASE("components join all voxels within the gap, and no others", "[raymoval
 
 TEST_CASE("a map takes many voxels as it takes them one by one", "[raymoval]") {
   Random random(53);
-  for (const bool permanent : {false, true}) {
-    StaticMap one_by_one(0.2, permanent), at_once(0.2, permanent);
-    for (int round = 0; round < 5; ++round) {
-      std::vector<VoxelIndex> voxels;
-      for (int k = 0; k < 300; ++k) {
-        voxels.emplace_back(random.integer(-9, 9), random.integer(-9, 9), random.integer(-9, 9));
-      }
-      for (const VoxelIndex& voxel : voxels) one_by_one.integrate(voxel);
-      at_once.integrate(voxels);
-      for (int k = 0; k < 50; ++k) {
-        for (StaticMap* map : {&one_by_one, &at_once})
-          map->erase(voxels[static_cast<std::size_t>(k)]);
-      }
-      REQUIRE(at_once.occupied().size() == one_by_one.occupied().size());
-      for (int x = -9; x <= 9; ++x) {
-        for (int y = -9; y <= 9; ++y) {
-          for (int z = -9; z <= 9; ++z) {
-            REQUIRE(at_once.occupied().contains({x, y, z}) ==
-                    one_by_one.occupied().contains({x, y, z}));
-            REQUIRE(at_once.was_erased({x, y, z}) == one_by_one.was_erased({x, y, z}));
-          }
+  StaticMap one_by_one(0.2), at_once(0.2);
+  for (int round = 0; round < 5; ++round) {
+    std::vector<VoxelIndex> voxels;
+    for (int k = 0; k < 300; ++k) {
+      voxels.emplace_back(random.integer(-9, 9), random.integer(-9, 9), random.integer(-9, 9));
+    }
+    for (const VoxelIndex& voxel : voxels) one_by_one.integrate(voxel);
+    at_once.integrate(voxels);
+    for (int k = 0; k < 50; ++k) {
+      for (StaticMap* map : {&one_by_one, &at_once})
+        map->erase(voxels[static_cast<std::size_t>(k)]);
+    }
+    REQUIRE(at_once.occupied().size() == one_by_one.occupied().size());
+    for (int x = -9; x <= 9; ++x) {
+      for (int y = -9; y <= 9; ++y) {
+        for (int z = -9; z <= 9; ++z) {
+          REQUIRE(at_once.occupied().contains({x, y, z}) ==
+                  one_by_one.occupied().contains({x, y, z}));
+          REQUIRE(at_once.was_erased({x, y, z}) == one_by_one.was_erased({x, y, z}));
         }
       }
     }
-  }
-}
-
-TEST_CASE("an image does not depend on what was prepared for it", "[raymoval]") {
-  Random random(59);
-  OccupancyMap map(0.2);
-  random_map::fill(map, {0, 0, 0}, 30, random);
-  const AngularGrid grid{90, 40, -30 * kDegree, 20 * kDegree};
-  const RayLimits limits{0.5, 9.0};
-  WantedBins all;
-  all.ask_for_all(grid);
-  FirstHitCaster caster(grid, limits);
-  FirstHitImage image;
-  for (int round = 0; round < 12; ++round) {
-    const Pose pose = random_map::pose({random.real(-2, 2), random.real(-2, 2), 0}, random, 0.2);
-    const Pose other = random_map::pose({random.real(-2, 2), random.real(-2, 2), 0}, random, 0.2);
-    if (round % 4 != 0) caster.prepare(map, round % 4 == 1 ? other : pose, 2);
-    if (round % 4 == 3) {
-      for (int k = 0; k < 500; ++k) {
-        map.insert({random.integer(-20, 20), random.integer(-20, 20), random.integer(-9, 9)});
-      }
-    }
-    caster.cast(map, pose, all, round % 3 + 1, image);
-    REQUIRE(image.range == cast_first_hits(map, pose, grid, limits, 1).range);
   }
 }
 

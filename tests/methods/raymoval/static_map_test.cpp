@@ -7,25 +7,19 @@
 namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
-TEST_CASE("a map forgets what it erased if it is filled again, unless erasing is for good",
-          "[raymoval]") {
+TEST_CASE("a voxel that was erased is never filled again", "[raymoval]") {
   const VoxelIndex voxel(1, 2, 3), never(1, 2, 4);
-  for (const bool permanent : {false, true}) {
-    StaticMap map(0.2, permanent);
-    map.integrate(voxel);
-    map.erase(never);  // Nothing stands there.
-    CHECK_FALSE(map.was_erased(never));
-    map.erase(voxel);
-    CHECK(map.was_erased(voxel));
-    map.integrate(voxel);
-    CHECK(map.occupied().contains(voxel) == !permanent);
-    CHECK(map.was_erased(voxel) == permanent);
-    VoxelLookup found;
-    map.look_up({voxel, never}, 1, found);
-    CHECK(found.states ==
-          std::vector<VoxelState>{permanent ? VoxelState::kErased : VoxelState::kOccupied,
-                                  VoxelState::kEmpty});
-  }
+  StaticMap map(0.2);
+  map.integrate(voxel);
+  map.erase(never);  // Nothing stands there.
+  CHECK_FALSE(map.was_erased(never));
+  map.erase(voxel);
+  map.integrate(voxel);
+  CHECK_FALSE(map.occupied().contains(voxel));
+  CHECK(map.was_erased(voxel));
+  VoxelLookup found;
+  map.look_up({voxel, never}, 1, found);
+  CHECK(found.states == std::vector<VoxelState>{VoxelState::kErased, VoxelState::kEmpty});
 }
 
 TEST_CASE("a map tells bricks apart that a look-up keeps in one place", "[raymoval]") {
@@ -36,7 +30,7 @@ TEST_CASE("a map tells bricks apart that a look-up keeps in one place", "[raymov
       for (const int z : {0, 1, 3, 4, -1, -4}) places.emplace_back(8 * x + 3, 8 * y + 5, 8 * z + 6);
     }
   }
-  StaticMap map(0.2, true);
+  StaticMap map(0.2);
   VoxelLookup found;
   found.remembers = true;
   for (int round = 0; round < 3; ++round) {
@@ -63,26 +57,24 @@ TEST_CASE("points of new and old bricks in any order come into the map, dynamic 
           "[raymoval]") {
   const VoxelIndex origin(0, 0, 0), beside(1, 0, 0), far(80, 0, 0), farther(81, 0, 0);
   const std::vector<VoxelIndex> voxels = {far, origin, origin, farther, beside, {0, 0, 80}};
-  for (const bool permanent : {false, true}) {
-    StaticMap map(0.2, permanent);
-    VoxelLookup found;
-    map.look_up(voxels, 1, found);
-    map.integrate(voxels, found, {0, 0, 0, 1, 0, 0});
-    CHECK(map.occupied().size() == 4);
-    for (const VoxelIndex& voxel : {far, origin, beside, VoxelIndex(0, 0, 80)}) {
-      CHECK(map.occupied().contains(voxel));
-    }
-    // What is erased comes back only where erasing is not for good.
-    map.erase(origin);
-    map.look_up(voxels, 1, found);
-    CHECK(found.states == std::vector<VoxelState>{VoxelState::kOccupied, VoxelState::kErased,
-                                                  VoxelState::kErased, VoxelState::kEmpty,
-                                                  VoxelState::kOccupied, VoxelState::kOccupied});
-    map.integrate(voxels, found, Mask(6, 0));
-    CHECK(map.occupied().contains(origin) == !permanent);
-    CHECK(map.was_erased(origin) == permanent);
-    CHECK(map.occupied().contains(farther));
+  StaticMap map(0.2);
+  VoxelLookup found;
+  map.look_up(voxels, 1, found);
+  map.integrate(voxels, found, {0, 0, 0, 1, 0, 0});
+  CHECK(map.occupied().size() == 4);
+  for (const VoxelIndex& voxel : {far, origin, beside, VoxelIndex(0, 0, 80)}) {
+    CHECK(map.occupied().contains(voxel));
   }
+  // What is erased does not come back.
+  map.erase(origin);
+  map.look_up(voxels, 1, found);
+  CHECK(found.states == std::vector<VoxelState>{VoxelState::kOccupied, VoxelState::kErased,
+                                                VoxelState::kErased, VoxelState::kEmpty,
+                                                VoxelState::kOccupied, VoxelState::kOccupied});
+  map.integrate(voxels, found, Mask(6, 0));
+  CHECK_FALSE(map.occupied().contains(origin));
+  CHECK(map.was_erased(origin));
+  CHECK(map.occupied().contains(farther));
 }
 
 }  // namespace raymoval::raymoval_test

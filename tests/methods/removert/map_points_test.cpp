@@ -16,11 +16,7 @@ namespace {
 
 MapPoints map_of(const CellLattice& lattice, const std::vector<Points>& scans) {
   MapBuilder builder(lattice);
-  std::uint64_t number = 0;
-  for (const Points& points : scans) {
-    builder.add(points, Pose::Identity(), number, 1);
-    number += points.size();
-  }
+  for (const Points& points : scans) builder.add(points, Pose::Identity(), 1);
   return builder.finish();
 }
 
@@ -80,19 +76,6 @@ TEST_CASE("removert: centroids are those of a plain table of cells") {
   }
 }
 
-TEST_CASE("removert: with voxel 0 each point is in the map under its number") {
-  const std::vector<Points> scans = {random_points(100, 1), {}, random_points(50, 2)};
-  const MapPoints map = map_of(CellLattice(0.0), scans);
-  REQUIRE(map.size() == 150);
-  for (const Block& block : map.blocks) {
-    for (std::size_t i = block.begin; i < block.end; ++i) {
-      const Eigen::Vector3f& point =
-          map.id[i] < 100 ? scans[0][map.id[i]] : scans[2][map.id[i] - 100];
-      CHECK((map.position(block, i) - point.cast<double>()).norm() < 1e-6);
-    }
-  }
-}
-
 TEST_CASE("removert: what is taken out of a map and put back gives the same map") {
   const CellLattice lattice(0.05);
   MapPoints map = map_of(lattice, {random_points(3000, 4)});
@@ -139,7 +122,7 @@ TEST_CASE("removert: balls hold their points") {
 TEST_CASE("removert: a point beyond the lattice is an error") {
   const CellLattice lattice(0.05);
   MapBuilder builder(lattice);
-  CHECK_THROWS_AS(builder.add({{1e7F, 0, 0}}, Pose::Identity(), 0, 1), DataError);
+  CHECK_THROWS_AS(builder.add({{1e7F, 0, 0}}, Pose::Identity(), 1), DataError);
 }
 
 }  // namespace raymoval::removert_test

@@ -54,15 +54,14 @@ inline ConfiguredMethod removert(
 }
 
 /// Only the passes named.
-inline std::vector<std::pair<std::string, std::string>> passes(
-    const std::vector<double>& remove, const std::vector<double>& revert = {}) {
+inline std::vector<std::pair<std::string, std::string>> passes(const std::vector<double>& remove,
+                                                               double revert = 0.0) {
   std::vector<std::pair<std::string, std::string>> settings;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     settings.emplace_back("remove_resolution_" + std::to_string(i + 1),
                           number_text(i < remove.size() ? remove[i] : 0.0));
-    settings.emplace_back("revert_resolution_" + std::to_string(i + 1),
-                          number_text(i < revert.size() ? revert[i] : 0.0));
   }
+  settings.emplace_back("revert_resolution_1", number_text(revert));
   return settings;
 }
 

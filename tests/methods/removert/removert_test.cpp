@@ -14,11 +14,6 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-Settings operator+(Settings a, const Settings& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 std::string verdicts_with(const Settings& settings, const ScanSource& scans) {
   return verdicts(removert("rm3", settings), scans);
 }
@@ -55,7 +50,6 @@ TEST_CASE("removert: all points of a cell share its verdict") {
                           {{10.02F, 0.01F, 0.02F}, aside(20)},
                           {{20, 0.02F, 0.02F}}});
   CHECK(verdicts_with(passes({2.5}), world) == "110 10 0");
-  CHECK(verdicts_with(passes({2.5}) + Settings{{"map_voxel", "0"}}, world) == "100 00 0");
 }
 
 TEST_CASE("removert: revert brings back ground that was removed at a grazing angle") {
@@ -63,33 +57,20 @@ TEST_CASE("removert: revert brings back ground that was removed at a grazing ang
   // Pixels of 1 degree: all three are in row 30, whose nearest return is at 18.6 m.
   const PointWorld world({{polar(20.0, -5.0), polar(18.6, -5.45)}, {polar(18.5, -5.05)}});
   CHECK(verdicts_with(passes({2.5}), world) == "00 1");
-  CHECK(verdicts_with(passes({2.5}, {1.0}), world) == "00 0");
-  CHECK(verdicts_with(passes({2.5}, {2.375}), world) == "00 0");
+  CHECK(verdicts_with(passes({2.5}, 1.0), world) == "00 0");
+  CHECK(verdicts_with(passes({2.5}, 2.375), world) == "00 0");
 }
 
 TEST_CASE("removert: revert also brings back what other removed points hide") {
   const PointWorld world({{ahead(9.9), ahead(10)}, {ahead(20)}});
   CHECK(verdicts_with(passes({2.5, 2.2}), world) == "11 0");
-  CHECK(verdicts_with(passes({2.5, 2.2}, {1.0}), world) == "10 0");
-  CHECK(verdicts_with(passes({2.5, 2.2}, {1.0}) + Settings{{"revert_needs_view", "true"}}, world) ==
-        "11 0");
-  // A second revert pass tests what the first left; nothing hides the point at 9.9 m, so it stays.
-  CHECK(verdicts_with(passes({2.5, 2.2}, {1.0, 0.9}), world) == "10 0");
+  CHECK(verdicts_with(passes({2.5, 2.2}, 1.0), world) == "10 0");
 }
 
 TEST_CASE("removert: rm3-rv1 is rm3 with a revert pass of 0.55 degrees") {
   const auto method = removert("rm3-rv1");
-  CHECK(verdicts(method, kTwoLayers) ==
-        verdicts_with(passes({2.5, 2.2, 2.0}, {1.8182}), kTwoLayers));
+  CHECK(verdicts(method, kTwoLayers) == verdicts_with(passes({2.5, 2.2, 2.0}, 1.8182), kTwoLayers));
   CHECK(verdicts(method, kTwoLayers) == "10 0");
-}
-
-TEST_CASE("removert: by score one scan against many does not remove a point") {
-  // The point at 10 m is seen by all but the last scan: 0.3 n - 0.7 >= -0.1 from n = 2 on.
-  const Settings score{{"decision", "score"}};
-  CHECK(verdicts_with(score, PointWorld({{ahead(10)}, {ahead(20)}})) == "1 0");
-  CHECK(verdicts_with(score, PointWorld({{ahead(10)}, {ahead(10)}, {ahead(20)}})) == "0 0 0");
-  CHECK(verdicts_with({}, PointWorld({{ahead(10)}, {ahead(10)}, {ahead(20)}})) == "1 1 0");
 }
 
 TEST_CASE("removert: poses are used in full") {
@@ -104,62 +85,13 @@ TEST_CASE("removert: poses are used in full") {
   PointWorld world({{before}});
   world.add({ahead(20)}, pose);
   CHECK(verdicts_with({}, world) == "1 0");
-  CHECK(verdicts_with({{"world_axes", "true"}}, world) == "1 0");
-}
-
-TEST_CASE("removert: points of scans that are left out follow their cell, or the nearest one") {
-  // Scan 1 is no key frame: its points are in a removed cell, 0.02 m beside one, 0.1 m beside one,
-  // and in a kept cell.
-  const PointWorld world({{{10.01F, 0.01F, 0.01F}},
-                          {{10.02F, 0.02F, 0.01F},
-                           {9.995F, 0.01F, 0.01F},
-                           {9.91F, 0.01F, 0.01F},
-                           {20.01F, 0.01F, 0.01F}},
-                          {{20, 0.02F, 0.02F}}});
-  CHECK(verdicts_with({{"keyframe_gap", "2"}}, world) == "1 1100 0");
-}
-
-TEST_CASE("removert: a thinned scan stands for its points") {
-  // The two returns at 20 m are one centroid; the image and the map see it alone. The second lies
-  // 0.06 m from it, farther than half a cell's diagonal: it is in no cell and static.
-  const PointWorld world({{{10, 0.01F, 0.01F}}, {{20, 0.01F, 0.01F}, {20.08F, 0.01F, 0.01F}}});
-  CHECK(verdicts_with({{"scan_voxel", "0.4"}}, world) == "1 00");
-}
-
-TEST_CASE("removert: batches know nothing of each other") {
-  const PointWorld world({{ahead(10)}, {ahead(10)}, {ahead(20)}});
-  CHECK(verdicts_with({{"batch_scans", "2"}}, world) == "0 0 0");
-  CHECK(verdicts_with({{"batch_scans", "3"}}, world) == "1 1 0");
-}
-
-TEST_CASE("removert: the scan-side step compares distances to neighbours") {
-  // k = 2, 0.1 m^2. The static map is the wall and the point below the sensor, which no image
-  // covers. Point at 10 m: (0 + 125) / 2 in its scan, about 100 in the map: dynamic. Wall: the same
-  // neighbours at the same distances in scan and map: static.
-  const Points wall{{20, -0.1F, 0}, ahead(20), {20, 0.1F, 0}};
-  const PointWorld world({{ahead(10), {0, 0, -5}}, wall});
-  const Settings scan_side = passes({2.5}) + Settings{{"scan_side", "true"}};
-  CHECK(verdicts_with(passes({2.5}), world) == "10 000");
-  const std::string found = verdicts_with(scan_side, world);
-  CHECK(found.front() == '1');
-  CHECK(found.substr(3) == "000");
 }
 
 TEST_CASE("removert: nothing in, nothing out") {
   for (const char* variant : {"rm3", "rm3-rv1", "code", "port"}) {
     INFO(variant);
-    CHECK(verdicts(removert(variant, {{"scan_side", "true"}}), PointWorld({{{1, 2, 3}}, {}})) ==
-          "0 ");
-    CHECK(verdicts(removert(variant, {{"map_voxel", "0"}}), PointWorld({{}, {{1, 2, 3}}})) == " 0");
+    CHECK(verdicts(removert(variant), PointWorld({{{1, 2, 3}}, {}})) == "0 ");
   }
-}
-
-TEST_CASE("removert: settings that contradict each other are refused") {
-  CHECK_THROWS_AS(removert("rm3", {{"map_voxel", "0.001"}}).make(), ConfigurationError);
-  CHECK_THROWS_AS(removert("rm3", {{"map_voxel", "0"}, {"keyframe_gap", "2"}}).make(),
-                  ConfigurationError);
-  CHECK_THROWS_AS(removert("rm3", {{"map_voxel", "0"}, {"scan_voxel", "0.05"}}).make(),
-                  ConfigurationError);
 }
 
 TEST_CASE("removert: on a street the movers go, the wall stays, and revert mends the road",

@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: MIT
-// The brick-column sweep's first part: which columns and rows of the grid see a brick.
-#if defined(RAYMOVAL_FIRST_HIT_BRICKS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef RAYMOVAL_FIRST_HIT_BRICKS_INL
-#undef RAYMOVAL_FIRST_HIT_BRICKS_INL
-#else
-#define RAYMOVAL_FIRST_HIT_BRICKS_INL
-#endif
-
+// The first part of the sweep (see README.md): which columns and rows of the grid see a brick.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/simd/compiled_sets.h"
+#include "methods/raymoval/kernels/first_hit_sweep.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "methods/raymoval/kernels/first_hit_bricks.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+//
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
-#include "methods/raymoval/kernels/first_hit_sweep.h"
-#include "methods/raymoval/kernels/first_hit_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace raymoval::raymoval_method::sweep {
+namespace raymoval::raymoval_method::sweep::bricks {
 namespace HWY_NAMESPACE {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, kGroup>;
+using Ints = hn::RebindToSigned<Floats>;
+using F = hn::Vec<Floats>;
+
+F number(double value) {
+  return hn::Set(Floats(), static_cast<float>(value));
+}
 
 F atan2_of(F y, F x) {
   const Floats d;
@@ -163,7 +171,9 @@ F nearest_of(const Solid& solid) {
   return hn::Mul(hn::Sqrt(sum), number(1.0 - 1e-6));
 }
 
-void measure_bricks(const Frame& frame, std::size_t begin, std::size_t end) {
+}  // namespace
+
+void measure(const Frame& frame, std::size_t begin, std::size_t end) {
   const Floats d;
   BrickList& bricks = *frame.bricks;
   for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
@@ -181,46 +191,22 @@ void measure_bricks(const Frame& frame, std::size_t begin, std::size_t end) {
   }
 }
 
-/// Calls `visit(column)` for the brick's columns within begin .. end - 1.
-template <class Visit>
-void for_columns(const Frame& frame, std::size_t brick, int begin, int end, Visit&& visit) {
-  const int columns = frame.grid->columns;
-  const int first = frame.bricks->first_column[brick], last = frame.bricks->last_column[brick];
-  if (first >= begin && last < end) {  // As nearly all do.
-    for (int i = first; i <= last; ++i) visit(i - begin);
-    return;
-  }
-  for (int turn = -columns; turn <= columns; turn += columns) {
-    const int to = std::min(last + turn, end - 1);
-    for (int i = std::max(first + turn, begin); i <= to; ++i) visit(i - begin);
-  }
-}
-
-/// Sorts the bricks into the columns they are seen in, nearest first.
-void list_columns(const Frame& frame, int begin, int end, ColumnLists& lists) {
-  const BrickList& bricks = *frame.bricks;
-  auto& starts = lists.starts;
-  lists.begin = begin;
-  lists.end = end;
-  starts.assign(static_cast<std::size_t>(end - begin) + 2, 0);
-  for (const std::uint32_t brick : *frame.order) {
-    for_columns(frame, brick, begin, end,
-                [&](int i) { ++starts[static_cast<std::size_t>(i) + 2]; });
-  }
-  for (std::size_t i = 2; i < starts.size(); ++i) starts[i] += starts[i - 1];
-  if (lists.entries.size() < starts.back()) lists.entries.resize(starts.back());
-  for (const std::uint32_t brick : *frame.order) {
-    const ColumnEntry entry{brick, static_cast<std::uint16_t>(bricks.first_row[brick]),
-                            static_cast<std::uint16_t>(bricks.last_row[brick]),
-                            bricks.nearest[brick]};
-    for_columns(frame, brick, begin, end,
-                [&](int i) { lists.entries[starts[static_cast<std::size_t>(i) + 1]++] = entry; });
-  }
-}
-
-}  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace raymoval::raymoval_method::sweep
+}  // namespace raymoval::raymoval_method::sweep::bricks
 HWY_AFTER_NAMESPACE();
 
+#if HWY_ONCE
+#include "core/simd/instruction_sets.h"
+
+namespace raymoval::raymoval_method::sweep {
+namespace bricks {
+HWY_EXPORT(measure);
+}  // namespace bricks
+
+void measure_bricks(const Frame& frame, std::size_t begin, std::size_t end) {
+  using namespace bricks;
+  RAYMOVAL_BEST_KERNEL(measure)(frame, begin, end);
+}
+
+}  // namespace raymoval::raymoval_method::sweep
 #endif

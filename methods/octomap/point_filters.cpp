@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "methods/octomap/point_filters.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "methods/common/point_tree.h"
 #if RAYMOVAL_PCL
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
@@ -8,9 +15,14 @@
 #include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
 
 #include <memory>
+#endif
 
 namespace raymoval::octomap_method {
+#if RAYMOVAL_PCL
 namespace {
+
+constexpr std::size_t kLeastPoints = 50;  ///< Scans with fewer points have no ground (KTH port).
+constexpr int kMostTries = 50;            ///< PCL's default, which the KTH port leaves.
 
 /// PCL's plane nearly perpendicular to an axis. PCL writes a line to standard error for each sample
 /// on one line; this passes over such a sample in silence.
@@ -35,7 +47,7 @@ class LevelPlane : public pcl::SampleConsensusModelPerpendicularPlane<pcl::Point
 
 Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& parameters) {
   Mask ground(points.size(), 0);
-  if (points.size() < static_cast<std::size_t>(parameters.ground_points)) return ground;
+  if (points.size() < kLeastPoints) return ground;
   const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
   cloud->reserve(points.size());
   for (const octomap::point3d& p : points) cloud->push_back({p.x(), p.y(), p.z()});
@@ -44,8 +56,7 @@ Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& 
   plane->setAxis(Eigen::Vector3f::UnitZ());
   plane->setEpsAngle(parameters.ground_angle);
   pcl::RandomSampleConsensus<pcl::PointXYZ> consensus(plane, parameters.ground_distance);
-  consensus.setMaxIterations(parameters.ground_iterations);
-  consensus.setProbability(parameters.ground_probability);
+  consensus.setMaxIterations(kMostTries);
   if (!consensus.computeModel(0)) return ground;
   pcl::Indices inliers;
   Eigen::VectorXf coefficients, refined;
@@ -57,12 +68,7 @@ Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& 
   return ground;
 }
 
-}  // namespace raymoval::octomap_method
 #else
-#include "core/error.h"
-
-namespace raymoval::octomap_method {
-
 Mask find_ground(const std::vector<octomap::point3d>& /*points*/,
                  const Parameters& /*parameters*/) {
   throw ConfigurationError(
@@ -72,5 +78,35 @@ Mask find_ground(const std::vector<octomap::point3d>& /*points*/,
       "octomap:kth.");
 }
 
-}  // namespace raymoval::octomap_method
 #endif
+
+Mask find_noise(const std::vector<octomap::point3d>& points, const Parameters& parameters,
+                int threads) {
+  const auto neighbours = static_cast<std::size_t>(parameters.noise_neighbours);
+  Mask noise(points.size(), 0);
+  if (points.size() <= neighbours) return noise;
+  const PointTree<octomap::point3d> tree(points);
+  std::vector<double> mean_distance(points.size());
+  parallel_chunks(threads, points.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> index(neighbours + 1);
+    std::vector<float> squared(neighbours + 1);
+    for (std::size_t i = begin; i < end; ++i) {
+      tree.find_nearest(points[i], index, squared);
+      double sum = 0.0;  // The first neighbour is the point itself, or one in the same place.
+      for (std::size_t k = 1; k <= neighbours; ++k) sum += std::sqrt(squared[k]);
+      mean_distance[i] = sum / static_cast<double>(neighbours);
+    }
+  });
+  double sum = 0.0, sum_of_squares = 0.0;
+  for (const double distance : mean_distance) {
+    sum += distance;
+    sum_of_squares += distance * distance;
+  }
+  const auto count = static_cast<double>(points.size());
+  const double variance = std::max(0.0, (sum_of_squares - sum * sum / count) / (count - 1.0));
+  const double limit = sum / count + parameters.noise_sigma * std::sqrt(variance);
+  for (std::size_t i = 0; i < points.size(); ++i) noise[i] = mean_distance[i] > limit ? 1 : 0;
+  return noise;
+}
+
+}  // namespace raymoval::octomap_method
