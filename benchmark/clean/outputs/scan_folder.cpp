@@ -38,8 +38,8 @@ std::optional<fs::path> relative_to(const fs::path& path, const fs::path& root) 
 }
 
 /// All scans of a sequence have one format, and the same fields.
-void check_format(const FrameEntry& frame, const RecordLayout& layout) {
-  const std::vector<std::string> lost = what_is_lost(frame.path, layout);
+void check_format(const fs::path& file, const RecordLayout& layout) {
+  const std::vector<std::string> lost = what_is_lost(file, layout);
   if (lost.empty()) return;
   throw UsageError("--scans cannot write the scans as they are: " + join(lost, " ") +
                    " Write a map with -o, which may have another format.");
@@ -56,11 +56,11 @@ std::vector<std::string> archive_notes(const StoredForm& form) {
 /// Refuses what cannot be written, and says what is left out. An archive is read once for both.
 std::vector<std::string> format_notes(const Sequence& sequence, const FrameEntry& first) {
   if (!cloud_extension(first.path).starts_with(".npz")) {
-    check_format(first, sequence.records->layout(0));
+    check_format(first.path, sequence.records->layout(0));
     return {};
   }
   const PointRecords records = sequence.records->records(0);
-  check_format(first, records.layout);
+  check_format(first.path, records.layout);
   return archive_notes(records.form);
 }
 
@@ -108,12 +108,17 @@ const FileScanSource* stored_files(const Sequence& sequence) {
 
 ScanFolderPlan plan_scan_folder(const Sequence& sequence) {
   const FileScanSource* source = stored_files(sequence);
-  if (source == nullptr || sequence.records == nullptr) {
+  if (sequence.records == nullptr) {
     throw UsageError("--scans writes scans in the format in which they are stored, but those of '" +
                      sequence.name +
                      "' are not stored in files of their own. Write a map with -o.");
   }
   ScanFolderPlan plan;
+  if (source == nullptr) {  // A recording.
+    check_format("scan.pcd", sequence.records->layout(0));
+    plan.own_poses = true;
+    return plan;
+  }
   plan.root = source->frames().front().path.parent_path();
   if (!layout_of(sequence).scan_folder.empty()) {
     plan.scans = plan.root.filename();
@@ -173,13 +178,15 @@ void ScanFolder::write_labels(const fs::path& labels, const std::vector<std::uin
 }
 
 void ScanFolder::add(const CleanedScan& scan) {
-  const FrameEntry& frame = stored_files(sequence_)->frames()[scan.scan.index];
+  const FileScanSource* files = stored_files(sequence_);
+  const FrameEntry* frame = files == nullptr ? nullptr : &files->frames()[scan.scan.index];
   const std::vector<std::uint8_t> keep = kept_rows(scan);
   const PointRecords kept = scan.stored->chosen(keep);
   if (kept.size() == 0) empty_.push_back(scan.scan.name);
-  const fs::path name = plan_.scans / frame.path.filename();
+  const fs::path name =
+      plan_.scans / (frame == nullptr ? fs::path(scan.scan.name + ".pcd") : frame->path.filename());
   put(name, whole_file(name, kept));
-  if (!frame.label_path.empty()) write_labels(frame.label_path, keep);
+  if (frame != nullptr && !frame->label_path.empty()) write_labels(frame->label_path, keep);
   pose_rows_ += pose_row(scan.scan);
 }
 

@@ -30,8 +30,9 @@ struct ScanFolderPlan {
   std::vector<std::string> notes = {};  ///< Whole sentences on what is not written.
 };
 
-/// @throws UsageError naming what cannot be written: a sequence that is not read from files, or a
-///   format that is only read, or that would lose something
+/// Scans of a recording become .pcd files.
+/// @throws UsageError naming what cannot be written: a simulated sequence, or a format that is only
+///   read, or that would lose something
 ScanFolderPlan plan_scan_folder(const Sequence& sequence);
 
 /// The scans of a sequence without the points that were removed or left out: the same names, the

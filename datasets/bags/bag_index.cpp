@@ -1,11 +1,38 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bags/chunks/message_table.h"
+#include "datasets/bags/bag_index.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace raymoval {
+
+void DamageNotes::add(std::string sentence) {
+  const std::lock_guard lock(mutex_);
+  if (std::find(kept_.begin(), kept_.end(), sentence) != kept_.end()) return;
+  if (kept_.size() < kMost) {
+    kept_.push_back(std::move(sentence));
+  } else {
+    ++more_;
+  }
+}
+
+std::vector<std::string> DamageNotes::sentences() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> all = kept_;
+  if (more_ > 0) {
+    all.push_back("Further damage was found in " + counted_text(more_, "place") +
+                  ", not listed here.");
+  }
+  return all;
+}
+
+bool DamageNotes::empty() const {
+  const std::lock_guard lock(mutex_);
+  return kept_.empty();
+}
 
 std::size_t MessageTable::topic(const std::string& name, const std::string& type,
                                 MessageEncoding encoding, const std::string& key) {
@@ -34,13 +61,6 @@ void MessageTable::finish() {
 const MessageTable::Message& MessageTable::at(std::size_t topic, std::size_t index) const {
   if (topic < messages_.size() && index < messages_[topic].size()) return messages_[topic][index];
   throw InternalError("a message of a bag is asked for that does not exist");
-}
-
-std::optional<std::size_t> MessageTable::index_of(std::size_t topic, const Message& message) const {
-  const std::deque<Message>& messages = messages_.at(topic);
-  const auto found = std::lower_bound(messages.begin(), messages.end(), message);
-  if (found == messages.end() || *found != message) return std::nullopt;
-  return static_cast<std::size_t>(found - messages.begin());
 }
 
 std::string ros1_type_name(const std::string& type) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "core/files/descriptor.h"
 
@@ -32,5 +33,8 @@ class BagFile {
   Descriptor file_;
   std::uint64_t size_ = 0;
 };
+
+/// CRC-32 as zlib has it, of `bytes` behind those that gave `before`.
+std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before = 0);
 
 }  // namespace raymoval

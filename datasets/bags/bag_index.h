@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <optional>
+#include <mutex>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -13,6 +13,26 @@
 #include "datasets/bags/bag.h"
 
 namespace raymoval {
+
+/// Sentences on what of a recording could not be read. The first few are kept and the rest are
+/// counted, so that a file with damage everywhere fills no memory. All calls are thread-safe.
+class DamageNotes {
+ public:
+  /// How many sentences are kept.
+  static constexpr std::size_t kMost = 8;
+
+  /// @param sentence what is wrong, with the file and the byte. One that is there already is left
+  ///   out.
+  void add(std::string sentence);
+  /// The sentences in the order in which they came, and one with the number of those left out.
+  [[nodiscard]] std::vector<std::string> sentences() const;
+  [[nodiscard]] bool empty() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> kept_;
+  std::size_t more_ = 0;
+};
 
 /// The index of a recording: when each message of each topic was recorded, and where it stands.
 /// It takes 16 bytes a message.
@@ -38,9 +58,6 @@ class MessageTable {
   [[nodiscard]] const std::vector<BagTopic>& topics() const { return topics_; }
   /// @throws InternalError if there is no such message
   [[nodiscard]] const Message& at(std::size_t topic, std::size_t index) const;
-  /// The number of a message in its topic, after `finish`.
-  [[nodiscard]] std::optional<std::size_t> index_of(std::size_t topic,
-                                                    const Message& message) const;
 
  private:
   using Key = std::tuple<std::string, std::string, MessageEncoding, std::string>;

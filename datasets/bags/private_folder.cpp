@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bags/chunks/private_folder.h"
+#include "datasets/bags/private_folder.h"
 
 #include <cerrno>
 #include <cstdlib>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bags/chunks/bag_file.h"
+#include "datasets/bags/bag_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -50,6 +51,11 @@ std::string BagFile::read(std::uint64_t offset, std::uint64_t size) const {
   throw DataError(place(offset) + ": " + grouped_text(size) +
                   " bytes should follow, but the file " + "has " + grouped_text(size_) +
                   " bytes; it is cut or damaged. Copy it again.");
+}
+
+std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before) {
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace raymoval
