@@ -85,7 +85,6 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
   if (!paths.labels.empty()) outputs_.push_back(std::make_unique<LabelFolder>(paths.labels));
   if (plan) {
     has_own_poses_ = plan->own_poses;
-    notes_.insert(notes_.end(), plan->notes.begin(), plan->notes.end());
     auto scans = std::make_unique<ScanFolder>(paths.scans, sequence, std::move(*plan));
     scans_ = scans.get();
     outputs_.push_back(std::move(scans));

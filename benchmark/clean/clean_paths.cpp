@@ -16,7 +16,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/clouds/file_source.h"
-#include "datasets/clouds/formats.h"
+#include "datasets/clouds/cloud_file.h"
 
 namespace raymoval {
 namespace {

@@ -16,7 +16,7 @@
 #include "core/text.h"
 #include "datasets/bags/private_folder.h"
 #include "datasets/open_sequence.h"
-#include "datasets/world_axes/gravity.h"
+#include "datasets/world_axes/up_direction.h"
 #include "methods/external/external.h"
 
 namespace raymoval {

@@ -16,7 +16,7 @@
 #include "core/text.h"
 #include "datasets/bags/bag.h"
 #include "datasets/bags/messages/point_cloud.h"
-#include "datasets/clouds/record_file.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 

@@ -21,7 +21,7 @@
 #include "core/scan/local_frame.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
-#include "datasets/clouds/formats.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"

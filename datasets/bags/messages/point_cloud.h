@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "datasets/bags/messages/message_reader.h"
-#include "datasets/clouds/format/cloud_bytes.h"
+#include "datasets/clouds/format/cloud_format.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
